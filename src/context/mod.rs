@@ -1,0 +1,1 @@
+//! A current GL context behind one trait: EGL, OSMesa or a window's.

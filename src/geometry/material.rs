@@ -1,0 +1,51 @@
+//! What a surface is made of, in the terms of fixed-function GL and of MTL.
+
+use std::sync::Arc;
+
+/// Colours are linear and as written (no colour management), each channel in [0, 1].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    pub name: String,
+    /// Ka; multiplies the scene's and each light's ambient light.
+    pub ambient: [f32; 3],
+    /// Kd.
+    pub diffuse: [f32; 3],
+    /// Ks; black: the specular term is left out.
+    pub specular: [f32; 3],
+    /// Ns, the specular exponent, in [0, 1000].
+    pub shininess: f32,
+    /// d in [0, 1]; fragments with `opacity * decal alpha * map_d < 0.5` fail the alpha test.
+    pub opacity: f32,
+    /// map_Kd, modulates ambient and diffuse. Its alpha joins the alpha test.
+    pub decal: Option<Arc<Texture>>,
+    /// map_d: its red channel (its alpha where it has one) joins the alpha test.
+    pub alpha: Option<Arc<Texture>>,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: String::from("default"),
+            ambient: [0.8; 3],
+            diffuse: [0.8; 3],
+            specular: [0.0; 3],
+            shininess: 32.0,
+            opacity: 1.0,
+            decal: None,
+            alpha: None,
+        }
+    }
+}
+
+/// A decoded image, RGBA8, rows from the bottom up as GL wants them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The file's path, or a built-in's name.
+    pub name: String,
+    pub width: u32,
+    pub height: u32,
+    /// `4 * width * height` bytes.
+    pub rgba: Vec<u8>,
+    /// Whether any texel's alpha is below 255.
+    pub has_alpha: bool,
+}

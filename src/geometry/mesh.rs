@@ -1,0 +1,46 @@
+//! A triangle mesh, indexed, as GL draws it.
+
+use std::ops::Range;
+
+use super::Material;
+use crate::math::Aabb;
+
+/// An indexed triangle mesh in its own (model) space.
+///
+/// `positions`, `normals` and, where present, `texcoords` have the same length; `indices` holds three
+/// entries a triangle, each below that length. All values are finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Where it comes from: a built-in's name or the file's path as written.
+    pub name: String,
+    pub positions: Vec<[f32; 3]>,
+    /// Of unit length; (0, 0, 1) where a vertex has no triangle of any area.
+    pub normals: Vec<[f32; 3]>,
+    /// (s, t), t upwards as in GL and OBJ.
+    pub texcoords: Option<Vec<[f32; 2]>>,
+    pub indices: Vec<u32>,
+    /// Ranges of `indices` that share a material; together they cover `indices`.
+    pub parts: Vec<Part>,
+    /// What the parts' `material` indexes. Empty for built-in meshes.
+    pub materials: Vec<Material>,
+    pub bounds: Aabb,
+}
+
+/// A run of triangles with one material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The OBJ object's or group's name, or the built-in's.
+    pub name: String,
+    /// Into [`Mesh::indices`]; both ends are multiples of three.
+    pub indices: Range<u32>,
+    /// Into [`Mesh::materials`]; `None`: the scene's object or the default material decides.
+    pub material: Option<usize>,
+    /// Of the vertices that the part's triangles use.
+    pub bounds: Aabb,
+}
+
+impl Mesh {
+    pub fn triangle_count(&self) -> usize {
+        self.indices.len() / 3
+    }
+}

@@ -1,0 +1,7 @@
+//! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals. No GL, no scene.
+
+mod material;
+mod mesh;
+
+pub use material::{Material, Texture};
+pub use mesh::{Mesh, Part};

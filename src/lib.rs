@@ -1,0 +1,5 @@
+//! glumbra: a headless OpenGL reference renderer of shadows and projected light.
+
+pub mod geometry;
+pub mod math;
+pub mod scene;

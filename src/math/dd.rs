@@ -1,0 +1,1 @@
+//! Double-double 4×4 matrices.

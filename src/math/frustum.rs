@@ -1,0 +1,1 @@
+//! Frustum tests of boxes.

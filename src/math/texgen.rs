@@ -1,0 +1,1 @@
+//! Eye-linear texture-coordinate generation.

@@ -1,0 +1,302 @@
+//! A table of a scene file as written, read key by key with types and ranges: whoever reads it names each key once,
+//! and [`Reader::finish`] refuses what nobody asked for, with file, line and the nearest known key.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Where a value was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A line of a file, from 1.
+    File { path: Arc<Path>, line: usize },
+    /// The command line, e.g. `--set light.shadow.size=2048`.
+    CommandLine(Arc<str>),
+    /// Supplied by glumbra.
+    BuiltIn,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { path, line } => write!(f, "{}:{line}", path.display()),
+            Self::CommandLine(text) => write!(f, "{text}"),
+            Self::BuiltIn => write!(f, "built-in scene"),
+        }
+    }
+}
+
+/// What is wrong with a setting, and where it stands.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{origin}: {message}")]
+pub struct SettingsError {
+    pub origin: Origin,
+    pub message: String,
+}
+
+impl SettingsError {
+    pub fn new(origin: &Origin, message: impl Into<String>) -> Self {
+        Self { origin: origin.clone(), message: message.into() }
+    }
+}
+
+/// A value with its place.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    pub value: Value,
+    pub origin: Origin,
+}
+
+#[derive(Clone, Debug)]
+pub enum Value {
+    String(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    Array(Vec<Entry>),
+    Table(Settings),
+}
+
+impl Value {
+    fn kind(&self) -> &'static str {
+        match self {
+            Self::String(_) => "a string",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a number",
+            Self::Boolean(_) => "true or false",
+            Self::Array(_) => "an array",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+/// A table of settings, in the order of its keys in the file.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The dotted name for messages, e.g. `light.shadow`; empty for the file's root.
+    pub path: String,
+    pub origin: Origin,
+    pub entries: Vec<(String, Entry)>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() }
+    }
+}
+
+impl Settings {
+    pub fn get(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|(name, _)| name == key).map(|(_, entry)| entry)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Sets `key`, in place where it is there already.
+    pub fn set(&mut self, key: &str, entry: Entry) {
+        match self.entries.iter_mut().find(|(name, _)| name == key) {
+            Some((_, old)) => *old = entry,
+            None => self.entries.push((key.to_owned(), entry)),
+        }
+    }
+
+    /// Starts reading; every key must be asked for before [`Reader::finish`].
+    pub fn read(&self) -> Reader<'_> {
+        Reader { settings: self, known: Vec::new() }
+    }
+
+    fn key(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+}
+
+/// Reads a [`Settings`] and remembers which keys are known.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    settings: &'a Settings,
+    known: Vec<&'static str>,
+}
+
+type Result<T> = std::result::Result<T, SettingsError>;
+
+impl<'a> Reader<'a> {
+    /// The entry of `key` as written.
+    pub fn entry(&mut self, key: &'static str) -> Option<&'a Entry> {
+        self.known.push(key);
+        self.settings.get(key)
+    }
+
+    /// Where the table stands.
+    pub fn origin(&self) -> &'a Origin {
+        &self.settings.origin
+    }
+
+    /// An error at `key`, or at the table where the key is absent.
+    pub fn error(&self, key: &str, message: impl fmt::Display) -> SettingsError {
+        let origin = self.settings.get(key).map_or(&self.settings.origin, |entry| &entry.origin);
+        SettingsError::new(origin, format!("`{}` {message}", self.settings.key(key)))
+    }
+
+    /// The error of a key that must be there.
+    pub fn missing(&self, key: &str, what: &str) -> SettingsError {
+        SettingsError::new(&self.settings.origin, format!("`{}` is missing: {what}", self.settings.key(key)))
+    }
+
+    fn wrong(&self, key: &str, expected: &str, found: &Value) -> SettingsError {
+        self.error(key, format_args!("must be {expected}, not {}", found.kind()))
+    }
+
+    pub fn string(&mut self, key: &'static str) -> Result<Option<&'a str>> {
+        match self.entry(key).map(|entry| &entry.value) {
+            None => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text)),
+            Some(other) => Err(self.wrong(key, "a string", other)),
+        }
+    }
+
+    pub fn boolean(&mut self, key: &'static str) -> Result<Option<bool>> {
+        match self.entry(key).map(|entry| &entry.value) {
+            None => Ok(None),
+            Some(Value::Boolean(value)) => Ok(Some(*value)),
+            Some(other) => Err(self.wrong(key, "true or false", other)),
+        }
+    }
+
+    pub fn integer(&mut self, key: &'static str, range: RangeInclusive<i64>) -> Result<Option<i64>> {
+        let value = match self.entry(key).map(|entry| &entry.value) {
+            None => return Ok(None),
+            Some(Value::Integer(value)) => *value,
+            Some(other) => return Err(self.wrong(key, "an integer", other)),
+        };
+        if !range.contains(&value) {
+            return Err(self.error(key, format_args!("must be in {}..={}, not {value}", range.start(), range.end())));
+        }
+        Ok(Some(value))
+    }
+
+    /// A finite number in `range`; integers count as numbers.
+    pub fn number(&mut self, key: &'static str, range: RangeInclusive<f64>) -> Result<Option<f64>> {
+        let Some(entry) = self.entry(key) else {
+            return Ok(None);
+        };
+        self.finite(key, entry).and_then(|value| self.within(key, value, &range)).map(Some)
+    }
+
+    /// `N` finite numbers, each in `range`.
+    pub fn numbers<const N: usize>(
+        &mut self,
+        key: &'static str,
+        range: RangeInclusive<f64>,
+    ) -> Result<Option<[f64; N]>> {
+        let Some(entry) = self.entry(key) else {
+            return Ok(None);
+        };
+        let Value::Array(items) = &entry.value else {
+            return Err(self.wrong(key, &format!("an array of {N} numbers"), &entry.value));
+        };
+        if items.len() != N {
+            return Err(self.error(key, format_args!("must have {N} numbers, not {}", items.len())));
+        }
+        let mut out = [0.0; N];
+        for (slot, item) in out.iter_mut().zip(items) {
+            *slot = self.finite(key, item).and_then(|value| self.within(key, value, &range))?;
+        }
+        Ok(Some(out))
+    }
+
+    /// One of the named choices.
+    pub fn choice<T: Copy>(&mut self, key: &'static str, choices: &[(&str, T)]) -> Result<Option<T>> {
+        let Some(text) = self.string(key)? else {
+            return Ok(None);
+        };
+        if let Some((_, value)) = choices.iter().find(|(name, _)| *name == text) {
+            return Ok(Some(*value));
+        }
+        let names = choices.iter().map(|(name, _)| *name);
+        Err(self.error(key, format_args!("cannot be \"{text}\": {}", suggest(text, names))))
+    }
+
+    /// A sub-table.
+    pub fn table(&mut self, key: &'static str) -> Result<Option<&'a Settings>> {
+        match self.entry(key).map(|entry| &entry.value) {
+            None => Ok(None),
+            Some(Value::Table(table)) => Ok(Some(table)),
+            Some(other) => Err(self.wrong(key, "a table", other)),
+        }
+    }
+
+    /// An array of tables (`[[key]]`); empty where absent.
+    pub fn tables(&mut self, key: &'static str) -> Result<Vec<&'a Settings>> {
+        let items = match self.entry(key).map(|entry| &entry.value) {
+            None => return Ok(Vec::new()),
+            Some(Value::Array(items)) => items,
+            Some(other) => {
+                return Err(self.wrong(key, &format!("an array of tables, [[{key}]]"), other));
+            }
+        };
+        items
+            .iter()
+            .map(|item| match &item.value {
+                Value::Table(table) => Ok(table),
+                other => Err(self.wrong(key, &format!("an array of tables, [[{key}]]"), other)),
+            })
+            .collect()
+    }
+
+    /// Refuses keys that nobody asked for.
+    pub fn finish(self) -> Result<()> {
+        for (key, entry) in &self.settings.entries {
+            if !self.known.contains(&key.as_str()) {
+                let hint = suggest(key, self.known.iter().copied());
+                let place = if self.settings.path.is_empty() {
+                    String::from("the scene")
+                } else {
+                    format!("[{}]", self.settings.path)
+                };
+                return Err(SettingsError::new(&entry.origin, format!("unknown key `{key}` in {place}: {hint}")));
+            }
+        }
+        Ok(())
+    }
+
+    fn finite(&self, key: &str, entry: &Entry) -> Result<f64> {
+        let value = match &entry.value {
+            Value::Integer(value) => *value as f64,
+            Value::Float(value) => *value,
+            other => return Err(self.wrong(key, "a number", other)),
+        };
+        if value.is_finite() { Ok(value) } else { Err(self.error(key, format_args!("must be finite, not {value}"))) }
+    }
+
+    fn within(&self, key: &str, value: f64, range: &RangeInclusive<f64>) -> Result<f64> {
+        if range.contains(&value) {
+            return Ok(value);
+        }
+        let (low, high) = (*range.start(), *range.end());
+        Err(match (low.is_finite(), high.is_finite()) {
+            (true, true) => self.error(key, format_args!("must be in [{low}, {high}], not {value}")),
+            (true, false) => self.error(key, format_args!("must be at least {low}, not {value}")),
+            _ => self.error(key, format_args!("must be at most {high}, not {value}")),
+        })
+    }
+}
+
+/// "did you mean …" for a near miss, and the whole list where it is short.
+pub fn suggest<'n>(wrong: &str, names: impl Iterator<Item = &'n str>) -> String {
+    let mut names: Vec<&str> = names.collect();
+    names.sort_unstable();
+    names.dedup();
+    let nearest = names
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(wrong, name), *name))
+        .min()
+        .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
+    let all = names.join(", ");
+    match nearest {
+        Some((_, name)) => format!("did you mean `{name}`? (known: {all})"),
+        None => format!("known: {all}"),
+    }
+}
