@@ -20,6 +20,18 @@ pub struct Material {
     pub decal: Option<Arc<Texture>>,
     /// map_d: its red channel (its alpha where it has one) joins the alpha test.
     pub alpha: Option<Arc<Texture>>,
+    /// Generates the decal's coordinates in place of the mesh's own.
+    pub texgen: Option<ObjectLinear>,
+}
+
+/// glTexGen GL_OBJECT_LINEAR for s and t, and a texture matrix that scales both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObjectLinear {
+    /// Plane of s, in model space.
+    pub s: [f32; 4],
+    /// Plane of t, in model space.
+    pub t: [f32; 4],
+    pub scale: f32,
 }
 
 impl Default for Material {
@@ -33,6 +45,7 @@ impl Default for Material {
             opacity: 1.0,
             decal: None,
             alpha: None,
+            texgen: None,
         }
     }
 }

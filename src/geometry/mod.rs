@@ -3,5 +3,5 @@
 mod material;
 mod mesh;
 
-pub use material::{Material, Texture};
+pub use material::{Material, ObjectLinear, Texture};
 pub use mesh::{Mesh, Part};

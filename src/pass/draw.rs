@@ -1,0 +1,83 @@
+//! What is drawn: ranges of meshes under matrices.
+
+use std::ops::{Deref, Range};
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use super::{Input, Program, Uniform};
+use crate::geometry::Mesh;
+use crate::math::Aabb;
+
+/// A shared mesh; equal when it is the same one.
+#[derive(Clone, Debug)]
+pub struct MeshRef(pub Arc<Mesh>);
+
+impl PartialEq for MeshRef {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Deref for MeshRef {
+    type Target = Mesh;
+
+    fn deref(&self) -> &Mesh {
+        &self.0
+    }
+}
+
+/// Draws that share program, uniforms and inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    pub program: Program,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+    pub draws: Vec<Draw>,
+}
+
+/// One glDrawElements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Draw {
+    /// The object's name, for plans.
+    pub label: String,
+    pub mesh: MeshRef,
+    pub primitive: Primitive,
+    /// Into the mesh's indices.
+    pub indices: Range<u32>,
+    pub order: IndexOrder,
+    /// Of what the range draws, in model space.
+    pub bounds: Aabb,
+    /// `clip_from_model`: every program of ours has this uniform, and the plan culls by it.
+    pub clip_from_model: DMat4,
+    /// Whether the transform mirrors, so that front faces wind clockwise.
+    pub mirrored: bool,
+    /// Beside `clip_from_model`.
+    pub uniforms: Vec<Uniform>,
+}
+
+impl Draw {
+    /// Triangles, or line segments.
+    pub fn primitive_count(&self) -> u64 {
+        let each = match self.primitive {
+            Primitive::Triangles => 3,
+            Primitive::Lines => 2,
+        };
+        u64::from(self.indices.end - self.indices.start) / each
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Primitive {
+    Triangles,
+    Lines,
+}
+
+/// The order in which a mesh's triangles are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum IndexOrder {
+    /// As the file has them.
+    File,
+    /// For the post-transform vertex cache.
+    VertexCache,
+}

@@ -1,0 +1,125 @@
+//! Images that passes draw into and read from, and how they are sampled.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::sync::Arc;
+
+use super::Compare;
+use crate::geometry::Texture;
+
+/// Into [`super::PassList::images`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ImageId(pub usize);
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageDesc {
+    pub label: String,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    pub format: Format,
+    pub storage: Storage,
+}
+
+/// Where an image's texels live, and where they come from.
+#[derive(Clone, Debug)]
+pub enum Storage {
+    /// A texture that passes draw or copy into and sample.
+    Texture,
+    /// A renderbuffer: drawn into, never sampled.
+    Renderbuffer,
+    /// A texture filled from the CPU, with mipmaps.
+    Uploaded(Arc<Texture>),
+}
+
+impl PartialEq for Storage {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Texture, Self::Texture) | (Self::Renderbuffer, Self::Renderbuffer) => true,
+            (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    Rgba8,
+    Rgba32F,
+    Depth(DepthFormat),
+}
+
+impl Format {
+    /// Bytes of a texel as commonly stored; 24-bit depth takes four.
+    pub fn bytes(self) -> u64 {
+        match self {
+            Self::Rgba8 => 4,
+            Self::Rgba32F => 16,
+            Self::Depth(DepthFormat::Depth16) => 2,
+            Self::Depth(_) => 4,
+        }
+    }
+}
+
+/// Sized depth formats [GL 4.6, table 8.13].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DepthFormat {
+    Depth16,
+    Depth24,
+    Depth32,
+    Depth32F,
+}
+
+impl DepthFormat {
+    /// The bits that the format names.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Depth16 => 16,
+            Self::Depth24 => 24,
+            Self::Depth32 | Self::Depth32F => 32,
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rgba8 => "RGBA8",
+            Self::Rgba32F => "RGBA32F",
+            Self::Depth(DepthFormat::Depth16) => "DEPTH_COMPONENT16",
+            Self::Depth(DepthFormat::Depth24) => "DEPTH_COMPONENT24",
+            Self::Depth(DepthFormat::Depth32) => "DEPTH_COMPONENT32",
+            Self::Depth(DepthFormat::Depth32F) => "DEPTH_COMPONENT32F",
+        })
+    }
+}
+
+/// An image bound to a shader's sampler.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// The sampler uniform.
+    pub name: Cow<'static, str>,
+    pub image: ImageId,
+    pub sampler: Sampler,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    pub filter: Filter,
+    pub wrap: Wrap,
+    /// GL_TEXTURE_COMPARE_MODE = GL_COMPARE_REF_TO_TEXTURE with this function; `None`: GL_NONE.
+    pub compare: Option<Compare>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Filter {
+    Nearest,
+    Linear,
+    /// GL_LINEAR_MIPMAP_LINEAR, magnified by GL_LINEAR.
+    Trilinear,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    Repeat,
+    ClampToEdge,
+}

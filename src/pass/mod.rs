@@ -1,0 +1,104 @@
+//! A frame as data: images, passes, draw state, shader variants, draws. Plain values that can be printed, compared and
+//! run by more than one reader. Knows meshes; no scene, no technique, no GL.
+
+mod draw;
+mod image;
+mod program;
+mod state;
+
+pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
+pub use image::{DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
+pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
+pub use state::{Blend, Compare, DrawState, Face, PolygonOffset};
+
+pub(crate) use program::glsl;
+
+/// Everything that a frame's passes refer to, and the passes in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassList {
+    pub images: Vec<ImageDesc>,
+    pub passes: Vec<Pass>,
+}
+
+impl PassList {
+    /// Adds an image and returns its id.
+    pub fn image(&mut self, desc: ImageDesc) -> ImageId {
+        self.images.push(desc);
+        ImageId(self.images.len() - 1)
+    }
+
+    pub fn desc(&self, id: ImageId) -> &ImageDesc {
+        &self.images[id.0]
+    }
+}
+
+/// One step of a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Unique in the list; names the pass in plans, times and errors.
+    pub label: String,
+    pub redraw: Redraw,
+    pub work: Work,
+}
+
+/// Whether a pass may be left out of a frame that would draw the same again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Redraw {
+    /// In every frame.
+    Always,
+    /// In the first frame, and in each that differs in this pass.
+    WhenChanged,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Work {
+    Draw(DrawPass),
+    /// glCopyTexSubImage2D of the whole image, from the framebuffer that has `from` as its depth attachment.
+    CopyDepth {
+        from: ImageId,
+        to: ImageId,
+    },
+}
+
+/// Draws into one target under one draw state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawPass {
+    pub target: Target,
+    /// In pixels, from the target's lower left corner; the whole target.
+    pub viewport: [u32; 2],
+    pub clear: Clear,
+    pub state: DrawState,
+    pub batches: Vec<Batch>,
+}
+
+/// Framebuffer attachments, all of one size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Target {
+    pub color: Option<ImageId>,
+    pub depth: Option<ImageId>,
+}
+
+/// What is cleared before the draws.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Clear {
+    pub color: Option<[f32; 4]>,
+    pub depth: Option<f32>,
+}
+
+impl Pass {
+    /// The images that the pass reads.
+    pub fn reads(&self) -> Vec<ImageId> {
+        match &self.work {
+            Work::Draw(draw) => draw.batches.iter().flat_map(|b| b.inputs.iter().map(|input| input.image)).collect(),
+            Work::CopyDepth { from, .. } => vec![*from],
+        }
+    }
+
+    /// The images that the pass writes.
+    pub fn writes(&self) -> Vec<ImageId> {
+        match &self.work {
+            Work::Draw(draw) => draw.target.color.iter().chain(&draw.target.depth).copied().collect(),
+            Work::CopyDepth { to, .. } => vec![*to],
+        }
+    }
+}
