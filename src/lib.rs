@@ -3,4 +3,6 @@
 pub mod geometry;
 pub mod math;
 pub mod pass;
+pub mod plan;
 pub mod scene;
+pub mod techniques;

@@ -94,6 +94,14 @@ impl Pass {
         }
     }
 
+    /// The most textures that one of its batches binds.
+    pub fn most_inputs(&self) -> usize {
+        match &self.work {
+            Work::Draw(draw) => draw.batches.iter().map(|batch| batch.inputs.len()).max().unwrap_or(0),
+            Work::CopyDepth { .. } => 0,
+        }
+    }
+
     /// The images that the pass writes.
     pub fn writes(&self) -> Vec<ImageId> {
         match &self.work {

@@ -1,0 +1,23 @@
+// GL_ALPHA_TEST with GL_GEQUAL 0.5: holes in surfaces and, in the map, in their shadows.
+in vec2 st;
+
+uniform float opacity;
+#ifdef DECAL_ALPHA
+uniform sampler2D decal_map;
+#endif
+#ifdef ALPHA_MAP
+uniform sampler2D alpha_map;
+#endif
+
+void alpha_test()
+{
+    float alpha = opacity;
+#ifdef DECAL_ALPHA
+    alpha *= texture(decal_map, st).a;
+#endif
+#ifdef ALPHA_MAP
+    alpha *= texture(alpha_map, st).ALPHA_MAP;
+#endif
+    if (alpha < 0.5)
+        discard;
+}

@@ -1,0 +1,12 @@
+// gl_Position of every pass, by the same arithmetic, so that passes with depth EQUAL agree to the bit
+// [GL 4.6 compatibility, A.3 and 11.1.3.11].
+layout(location = 0) in vec3 position;
+
+uniform mat4 clip_from_model;
+
+invariant gl_Position;
+
+void set_position()
+{
+    gl_Position = clip_from_model * vec4(position, 1.0);
+}

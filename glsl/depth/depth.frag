@@ -1,0 +1,6 @@
+void main()
+{
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
+}

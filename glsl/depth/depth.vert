@@ -1,0 +1,7 @@
+void main()
+{
+    set_position();
+#ifdef ALPHA_TEST
+    set_decal();
+#endif
+}

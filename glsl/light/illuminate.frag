@@ -1,0 +1,31 @@
+// What light @ adds [lecture, "Advice for Shadowed Illumination Model"]:
+// diffuse by diffuseShade = dimming + (1 - dimming) shade, specular by shade.
+#ifdef SPOT_IMAGE_@
+uniform sampler2D spot_image_@;
+#endif
+#ifdef DIMMING_@
+uniform float dimming_@;
+#endif
+
+void illuminate_@(Surface surface, inout Lit lit)
+{
+    Lit own = lighting_@(surface);
+    lit.ambient += own.ambient;
+    if (!in_reach_@())
+        return;
+    float shade = shade_@();
+#ifdef DIMMING_@
+    float diffuse_shade = dimming_@ + (1.0 - dimming_@) * shade;
+#else
+    float diffuse_shade = shade;
+#endif
+#ifdef SPOT_IMAGE_@
+    vec3 beam = textureProj(spot_image_@, frustum_coord_@()).rgb;
+#else
+    const vec3 beam = vec3(1.0);
+#endif
+    lit.diffuse += diffuse_shade * beam * own.diffuse;
+#ifdef SPECULAR
+    lit.specular += shade * beam * own.specular;
+#endif
+}

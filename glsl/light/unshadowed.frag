@@ -1,0 +1,4 @@
+float shade_@()
+{
+    return 1.0;
+}

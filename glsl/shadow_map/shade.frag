@@ -1,0 +1,13 @@
+// The hardware's comparison [GL 4.6, 8.23.1]: r/q against the map at (s/q, t/q); 1 lit, 0 shadowed, between them what
+// GL_LINEAR makes of four comparisons.
+uniform sampler2DShadow shadow_map_@;
+
+float shade_@()
+{
+    vec4 coord = light_coord_@;
+#ifdef CLAMP_REFERENCE_@
+    // Fixed-point maps clamp the reference to [0, 1]; floating-point ones leave it to us, or all beyond far goes dark.
+    coord.z = clamp(coord.z, 0.0, coord.w);
+#endif
+    return textureProj(shadow_map_@, coord);
+}

@@ -1,0 +1,57 @@
+#ifdef EYE_POSITION
+in vec3 eye_position;
+#endif
+#ifdef EYE_NORMAL
+in vec3 eye_normal;
+#endif
+#ifdef DECAL
+#ifndef ALPHA_TEST
+in vec2 st;
+#endif
+#ifndef DECAL_ALPHA
+uniform sampler2D decal_map;
+#endif
+#endif
+
+out vec4 fragment;
+
+Surface surface_here()
+{
+    Surface surface = Surface(vec3(0.0), vec3(0.0), vec3(0.0));
+#ifdef EYE_POSITION
+    surface.position = eye_position;
+#ifdef SPECULAR
+    surface.to_viewer = normalize(-eye_position);
+#endif
+#endif
+#ifdef EYE_NORMAL
+    surface.normal = normalize(eye_normal);
+#ifdef TWO_SIDED
+    // The side that is seen, whichever way the file winds it.
+    vec3 towards_viewer = cross(dFdx(eye_position), dFdy(eye_position));
+    if (dot(surface.normal, towards_viewer) < 0.0)
+        surface.normal = -surface.normal;
+#endif
+#endif
+    return surface;
+}
+
+void main()
+{
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
+    Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
+#ifdef ANY_LIGHT
+    Surface surface = surface_here();
+    ILLUMINATE(surface, lit)
+#endif
+    vec3 color = lit.ambient + lit.diffuse;
+#ifdef DECAL
+    color *= texture(decal_map, st).rgb;
+#endif
+#ifdef SPECULAR
+    color += lit.specular;
+#endif
+    fragment = vec4(color, 1.0);
+}

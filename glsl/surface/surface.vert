@@ -1,0 +1,40 @@
+#ifdef EYE_SPACE
+uniform mat4 eye_from_model;
+#endif
+#ifdef NORMALS
+layout(location = 1) in vec3 normal;
+uniform mat3 eye_from_model_normal;
+#endif
+#ifdef EYE_POSITION
+out vec3 eye_position;
+#endif
+#ifdef EYE_NORMAL
+out vec3 eye_normal;
+#endif
+
+void main()
+{
+    set_position();
+#ifdef DECAL_COORDINATES
+    set_decal();
+#endif
+#ifdef EYE_SPACE
+    vec4 eye = eye_from_model * vec4(position, 1.0);
+    TEXGEN(eye)
+#endif
+#ifdef EYE_POSITION
+    eye_position = eye.xyz;
+#endif
+#ifdef EYE_NORMAL
+    eye_normal = eye_from_model_normal * normal;
+#endif
+#ifdef PER_VERTEX
+#ifdef UNLIT
+    Surface surface = Surface(eye.xyz, vec3(0.0), vec3(0.0, 0.0, 1.0));
+#else
+    // GL_LIGHT_MODEL_LOCAL_VIEWER is off, as it is by default.
+    Surface surface = Surface(eye.xyz, normalize(eye_from_model_normal * normal), vec3(0.0, 0.0, 1.0));
+#endif
+    LIGHT_VERTEX(surface)
+#endif
+}

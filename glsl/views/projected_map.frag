@@ -1,0 +1,13 @@
+// The map's depths projected onto the scene [Hardware Shadow Mapping, Fig. 4, right].
+uniform sampler2D depth_map_@;
+
+out vec4 fragment;
+
+void main()
+{
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
+    bool reached = in_reach_@();
+    fragment = reached ? vec4(vec3(textureProj(depth_map_@, light_coord_@.xyw).r), 1.0) : vec4(0.0);
+}

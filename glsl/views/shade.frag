@@ -1,0 +1,11 @@
+// The shadow term alone: shade, and alpha 1 where the light reaches.
+out vec4 fragment;
+
+void main()
+{
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
+    bool reached = in_reach_@();
+    fragment = reached ? vec4(vec3(shade_@()), 1.0) : vec4(0.0);
+}

@@ -1,0 +1,221 @@
+//! From a scene to its passes: each contributing light's own, then the lit pass, then the views.
+
+use super::{Error, Plan, Request, ViewRequest};
+use crate::math::frustum::{self, Overlap};
+use crate::pass::{
+    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage,
+    Target, Work,
+};
+use crate::scene::Scene;
+use crate::techniques::items::items;
+use crate::techniques::surface::{self, Ending, Viewer};
+use crate::techniques::views::{self, View};
+use crate::techniques::{self, Item, LightTerm, LightView, Notes, light};
+
+/// The unpruned plan.
+pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+    let items = items(scene);
+    let mut list = PassList::default();
+    let mut notes = Notes::default();
+    let camera = camera(scene);
+    let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
+    let size = scene.image.size;
+    let format = if request.float_picture { Format::Rgba32F } else { Format::Rgba8 };
+    let target = color_and_depth("picture", size, format, &mut list);
+    let contributing: Vec<LightTerm> = terms.iter().filter(|t| t.contributes).map(|t| t.term.clone()).collect();
+    let mut builder = Builder { scene, items: &items, list: &mut list };
+    let [r, g, b] = scene.image.background;
+    builder.surfaces("lit", target, &camera, &contributing, &Ending::Lit, [r, g, b, 1.0])?;
+    let mut views = Vec::new();
+    for wanted in &request.views {
+        let image = builder.view(wanted, &camera, &terms, target)?;
+        views.push((*wanted, image));
+    }
+    notes.left_out("stencil buffer", "no technique of this scene counts in it");
+    let picture = target.color.unwrap_or(ImageId(0));
+    Ok(Plan { list, picture, views, left_out: notes.left_out, warnings: notes.warnings })
+}
+
+/// The scene's camera as a viewer.
+fn camera(scene: &Scene) -> Viewer {
+    let aspect = f64::from(scene.image.size[0]) / f64::from(scene.image.size[1]);
+    let camera = &scene.camera;
+    Viewer {
+        clip_from_eye: crate::math::spaces::perspective(camera.fov_y_radians, aspect, camera.near, camera.far),
+        eye_from_world: crate::math::spaces::view_from_world(camera.eye, camera.target, camera.up),
+    }
+}
+
+/// A light's term, and whether the picture needs it.
+struct PlannedLight {
+    term: LightTerm,
+    contributes: bool,
+}
+
+/// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
+/// errors do not depend on where the camera looks.
+fn light_terms(
+    scene: &Scene,
+    items: &[Item],
+    camera: &Viewer,
+    request: &Request,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> Result<Vec<PlannedLight>, Error> {
+    let visible = visible(items, camera);
+    let mut planned = Vec::new();
+    for (index, source) in scene.lights.iter().enumerate() {
+        let view = LightView { scene, items, index };
+        let shown = request.views.iter().any(|v| v.view.of_light() && v.light == index);
+        let absent = why_absent(&view, camera, &visible);
+        let mut keys = source.shadow.read();
+        let technique = techniques::chosen(&mut keys)?;
+        let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
+        let term = if absent.is_none() || shown {
+            technique.describe(&view, &mut keys, list, notes)?
+        } else {
+            technique.describe(&view, &mut keys, &mut spare_list, &mut spare_notes)?
+        };
+        keys.finish()?;
+        if let Some(why) = absent {
+            notes.left_out(format!("light {index}"), why);
+        }
+        planned.push(PlannedLight { term, contributes: absent.is_none() });
+    }
+    Ok(planned)
+}
+
+/// The items that the camera may see.
+fn visible<'a>(items: &'a [Item], camera: &Viewer) -> Vec<&'a Item> {
+    let clip_from_world = camera.clip_from_world();
+    let seen =
+        |item: &&Item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside;
+    items.iter().filter(seen).collect()
+}
+
+/// Why a light adds nothing to the picture, if so.
+fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Option<&'static str> {
+    let source = view.light();
+    if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
+        return Some("its colours are black");
+    }
+    if source.ambient != [0.0; 3] {
+        return None; // ambient light is not bound by the cone
+    }
+    let reach = reach(view);
+    let (light_clip, camera_clip) = (reach.clip_from_world(), camera.clip_from_world());
+    let corners = |clip: &glam::DMat4| frustum::corners(&clip.inverse());
+    if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
+        return Some("its cone and the camera's frustum do not meet");
+    }
+    let touched =
+        |item: &&Item| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
+}
+
+/// What the light can light: its cone's pyramid from its very position on. Its near plane bounds casters and its far
+/// plane the map's depths; neither ends the light.
+fn reach(view: &LightView<'_>) -> Viewer {
+    let mut unbounded = view.light().clone();
+    unbounded.near *= 1e-3;
+    unbounded.far *= 1e3;
+    Viewer { clip_from_eye: light::clip_from_light(&unbounded), eye_from_world: light::light_from_world(&unbounded) }
+}
+
+fn color_and_depth(label: &str, size: [u32; 2], format: Format, list: &mut PassList) -> Target {
+    let mut image =
+        |label: String, format| list.image(ImageDesc { label, size, format, storage: Storage::Renderbuffer });
+    Target {
+        color: Some(image(label.to_owned(), format)),
+        depth: Some(image(format!("{label} depth"), Format::Depth(DepthFormat::Depth24))),
+    }
+}
+
+/// Adds passes that draw the scene's surfaces.
+struct Builder<'a> {
+    scene: &'a Scene,
+    items: &'a [Item],
+    list: &'a mut PassList,
+}
+
+impl Builder<'_> {
+    fn surfaces(
+        &mut self,
+        label: &str,
+        target: Target,
+        viewer: &Viewer,
+        terms: &[LightTerm],
+        ending: &Ending,
+        background: [f32; 4],
+    ) -> Result<(), Error> {
+        let batches = surface::batches(self.scene, self.items, viewer, terms, ending, self.list);
+        let batches = batches.ok_or_else(|| self.singular(terms))?;
+        self.push(label, target, batches, background);
+        Ok(())
+    }
+
+    fn push(&mut self, label: &str, target: Target, batches: Vec<Batch>, background: [f32; 4]) {
+        let size = target.color.map_or([1, 1], |color| self.list.desc(color).size);
+        self.list.passes.push(Pass {
+            label: label.to_owned(),
+            redraw: Redraw::Always,
+            work: Work::Draw(DrawPass {
+                target,
+                viewport: size,
+                clear: Clear { color: Some(background), depth: Some(1.0) },
+                state: DrawState::OPAQUE,
+                batches,
+            }),
+        });
+    }
+
+    fn singular(&self, terms: &[LightTerm]) -> Error {
+        let light = terms.first().map_or(0, |term| term.index);
+        let (near, far) = self.scene.lights.get(light).map_or((0.0, 0.0), |l| (l.near, l.far));
+        Error::Singular { light, near, far }
+    }
+
+    /// The image that a requested view ends in.
+    fn view(
+        &mut self,
+        wanted: &ViewRequest,
+        camera: &Viewer,
+        terms: &[PlannedLight],
+        picture: Target,
+    ) -> Result<ImageId, Error> {
+        let name = wanted.view.name();
+        if wanted.view == View::Depth {
+            return Ok(picture.depth.unwrap_or(ImageId(0)));
+        }
+        let Some(PlannedLight { term, .. }) = terms.get(wanted.light) else {
+            return Err(Error::NoSuchLight { view: format!("{name}@{}", wanted.light), count: terms.len() });
+        };
+        if wanted.view.needs_map() && term.map.is_none() {
+            let why = "its technique draws none, or no caster lies in its frustum";
+            return Err(Error::NoMap { view: name, light: wanted.light, why });
+        }
+        let label = format!("view: {name} of light {}", wanted.light);
+        if wanted.view == View::LightView {
+            return self.light_view(&label, wanted.light);
+        }
+        let Some((ending, term)) = views::camera_pass(wanted.view, term) else {
+            return Ok(term.map.unwrap_or(ImageId(0)));
+        };
+        let target = color_and_depth(&label, self.scene.image.size, Format::Rgba32F, self.list);
+        self.surfaces(&label, target, camera, &[term], &ending, [0.0; 4])?;
+        Ok(target.color.unwrap_or(ImageId(0)))
+    }
+
+    /// The scene as a light sees it, unshadowed, in the largest square that fits the picture.
+    fn light_view(&mut self, label: &str, index: usize) -> Result<ImageId, Error> {
+        let source = &self.scene.lights[index];
+        let viewer =
+            Viewer { clip_from_eye: light::clip_from_light(source), eye_from_world: light::light_from_world(source) };
+        let side = self.scene.image.size[0].min(self.scene.image.size[1]);
+        let target = color_and_depth(label, [side; 2], Format::Rgba32F, self.list);
+        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));
+        let [r, g, b] = self.scene.image.background;
+        self.surfaces(label, target, &viewer, &[term], &Ending::Lit, [r, g, b, 1.0])?;
+        Ok(target.color.unwrap_or(ImageId(0)))
+    }
+}

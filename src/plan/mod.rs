@@ -1,0 +1,148 @@
+//! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
+
+mod compose;
+mod print;
+mod prune;
+
+use serde::Serialize;
+
+use crate::pass::{Format, ImageId, PassList};
+use crate::scene::{Scene, SettingsError};
+use crate::techniques::{LeftOut, views::View};
+
+/// What a caller wants of a frame.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Beside the picture itself.
+    pub views: Vec<ViewRequest>,
+    /// The picture in 32-bit float, for exact files.
+    pub float_picture: bool,
+    /// How many frames will be drawn of this scene: what pays off is decided by it.
+    pub frames: u32,
+    /// What the driver can do.
+    pub limits: Limits,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self { views: Vec::new(), float_picture: false, frames: 1, limits: Limits::default() }
+    }
+}
+
+/// What the driver at hand can do; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// The lesser of GL_MAX_TEXTURE_SIZE, GL_MAX_RENDERBUFFER_SIZE and GL_MAX_VIEWPORT_DIMS.
+    pub max_image_size: u32,
+    /// GL_MAX_TEXTURE_IMAGE_UNITS.
+    pub max_inputs: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { max_image_size: 16384, max_inputs: 16 }
+    }
+}
+
+/// One picture beside the main one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ViewRequest {
+    pub view: View,
+    /// Into the scene's lights; 0 for views of no light.
+    pub light: usize,
+}
+
+/// A frame's passes, where its pictures lie, and what it leaves out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub list: PassList,
+    pub picture: ImageId,
+    /// In the request's order.
+    pub views: Vec<(ViewRequest, ImageId)>,
+    pub left_out: Vec<LeftOut>,
+    pub warnings: Vec<String>,
+}
+
+/// Why a scene cannot be planned.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
+    NoSuchLight { view: String, count: usize },
+    #[error("--aov {view}: light {light} has no shadow map ({why})")]
+    NoMap { view: &'static str, light: usize, why: &'static str },
+    #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
+    TooLarge { what: String, size: u32, limit: u32 },
+    #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
+    TooManyInputs { needed: usize, limit: u32 },
+    #[error("light {light}: its frustum's transform has no inverse (near {near}, far {far})")]
+    Singular { light: usize, near: f64, far: f64 },
+}
+
+/// Plans a frame of `scene`.
+///
+/// # Errors
+///
+/// A technique's key with a wrong value, a view of a light or map that is not there, an image beyond the driver's
+/// limits.
+pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+    let mut plan = compose::compose(scene, request)?;
+    prune::prune(&mut plan, request);
+    check_limits(&plan, &request.limits)?;
+    Ok(plan)
+}
+
+fn check_limits(plan: &Plan, limits: &Limits) -> Result<(), Error> {
+    for desc in &plan.list.images {
+        let size = desc.size[0].max(desc.size[1]);
+        if size > limits.max_image_size {
+            return Err(Error::TooLarge { what: desc.label.clone(), size, limit: limits.max_image_size });
+        }
+    }
+    let needed = plan.list.passes.iter().map(|pass| pass.most_inputs()).max().unwrap_or(0);
+    if needed > limits.max_inputs as usize {
+        return Err(Error::TooManyInputs { needed, limit: limits.max_inputs });
+    }
+    Ok(())
+}
+
+/// A plan as `--json` prints it.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    pub passes: Vec<PassSummary>,
+    pub images: Vec<ImageSummary>,
+    pub image_bytes: u64,
+    pub left_out: Vec<LeftOut>,
+    pub warnings: Vec<String>,
+}
+
+/// A pass in words and numbers.
+#[derive(Debug, Serialize)]
+pub struct PassSummary {
+    pub label: String,
+    pub redraw: &'static str,
+    pub target: Vec<String>,
+    pub size: [u32; 2],
+    pub state: Vec<String>,
+    pub shaders: Vec<String>,
+    pub inputs: Vec<String>,
+    pub draws: Vec<String>,
+    pub draw_calls: usize,
+    pub triangles: u64,
+}
+
+/// An image in words and numbers.
+#[derive(Debug, Serialize)]
+pub struct ImageSummary {
+    pub label: String,
+    pub format: String,
+    pub size: [u32; 2],
+    pub bytes: u64,
+}
+
+/// Bytes of all texels, mipmaps included.
+pub(crate) fn image_bytes(format: Format, size: [u32; 2], mipmapped: bool) -> u64 {
+    let base = format.bytes() * u64::from(size[0]) * u64::from(size[1]);
+    if mipmapped { base * 4 / 3 } else { base }
+}

@@ -1,0 +1,193 @@
+//! A plan in words: for `glumbra plan`, and as values for `--json`.
+
+use std::fmt::{self, Display, Write};
+
+use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
+use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Redraw, Storage, Work};
+
+impl Plan {
+    /// The plan as values.
+    pub fn summary(&self) -> Summary {
+        let images: Vec<ImageSummary> = self
+            .list
+            .images
+            .iter()
+            .map(|desc| ImageSummary {
+                label: desc.label.clone(),
+                format: desc.format.to_string(),
+                size: desc.size,
+                bytes: image_bytes(desc.format, desc.size, matches!(desc.storage, Storage::Uploaded(_))),
+            })
+            .collect();
+        Summary {
+            passes: self.list.passes.iter().map(|pass| self.pass_summary(pass)).collect(),
+            image_bytes: images.iter().map(|image| image.bytes).sum(),
+            images,
+            left_out: self.left_out.clone(),
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    fn pass_summary(&self, pass: &Pass) -> PassSummary {
+        let redraw = match pass.redraw {
+            Redraw::Always => "every frame",
+            Redraw::WhenChanged => "once",
+        };
+        let label = pass.label.clone();
+        match &pass.work {
+            Work::CopyDepth { from, to } => PassSummary {
+                label,
+                redraw,
+                target: vec![format!("{} by glCopyTexSubImage2D", self.list.desc(*to).label)],
+                size: self.list.desc(*to).size,
+                state: Vec::new(),
+                shaders: Vec::new(),
+                inputs: vec![self.list.desc(*from).label.clone()],
+                draws: Vec::new(),
+                draw_calls: 0,
+                triangles: 0,
+            },
+            Work::Draw(draw) => self.draw_summary(label, redraw, draw),
+        }
+    }
+
+    fn draw_summary(&self, label: String, redraw: &'static str, pass: &DrawPass) -> PassSummary {
+        let target = pass.target.color.iter().chain(&pass.target.depth).map(|id| {
+            let desc = self.list.desc(*id);
+            format!("{} ({})", desc.label, desc.format)
+        });
+        let mut summary = PassSummary {
+            label,
+            redraw,
+            target: target.collect(),
+            size: pass.viewport,
+            state: state_words(pass),
+            shaders: Vec::new(),
+            inputs: Vec::new(),
+            draws: Vec::new(),
+            draw_calls: 0,
+            triangles: 0,
+        };
+        for batch in &pass.batches {
+            let defines: Vec<&str> =
+                batch.program.defines.iter().map(|(n, _)| n.as_ref()).filter(|n| !n.contains('(')).collect();
+            push_new(&mut summary.shaders, format!("{}[{}]", batch.program.label, defines.join(" ")));
+            for input in &batch.inputs {
+                push_new(&mut summary.inputs, self.input_words(input));
+            }
+            for draw in &batch.draws {
+                let order = if draw.order == IndexOrder::VertexCache { ", vertex-cache order" } else { "" };
+                summary.draws.push(format!(
+                    "{}: {} triangles of {}{order}",
+                    draw.label,
+                    draw.primitive_count(),
+                    draw.mesh.name
+                ));
+                summary.draw_calls += 1;
+                summary.triangles += draw.primitive_count();
+            }
+        }
+        summary
+    }
+
+    fn input_words(&self, input: &Input) -> String {
+        let desc = self.list.desc(input.image);
+        let compare = input.sampler.compare.map_or(String::new(), |c| format!(", compare {}", compare_name(c)));
+        format!("{} = {} ({:?}{compare})", input.name, desc.label, input.sampler.filter)
+    }
+}
+
+fn push_new(list: &mut Vec<String>, text: String) {
+    if !list.contains(&text) {
+        list.push(text);
+    }
+}
+
+fn compare_name(compare: Compare) -> &'static str {
+    match compare {
+        Compare::Less => "LESS",
+        Compare::LessEqual => "LEQUAL",
+        Compare::Equal => "EQUAL",
+        Compare::GreaterEqual => "GEQUAL",
+        Compare::Greater => "GREATER",
+        Compare::Always => "ALWAYS",
+    }
+}
+
+fn state_words(pass: &DrawPass) -> Vec<String> {
+    let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range, blend } = pass.state;
+    let mut words = Vec::new();
+    if let Some([r, g, b, a]) = pass.clear.color {
+        words.push(format!("clear colour ({r}, {g}, {b}, {a})"));
+    }
+    if let Some(depth) = pass.clear.depth {
+        words.push(format!("clear depth {depth}"));
+    }
+    words.push(depth_test.map_or(String::from("no depth test"), |test| format!("depth {}", compare_name(test))));
+    words.push(format!(
+        "write {}",
+        match (color_write, depth_write) {
+            (true, true) => "colour and depth",
+            (true, false) => "colour",
+            (false, true) => "depth",
+            (false, false) => "nothing",
+        }
+    ));
+    if let Some(face) = cull {
+        words.push(format!("cull {face:?}").to_lowercase());
+    }
+    if let Some(offset) = polygon_offset {
+        words.push(format!("polygon offset ({}, {})", offset.factor, offset.units));
+    }
+    if depth_range != [0.0, 1.0] {
+        words.push(format!("depth range ({}, {})", depth_range[0], depth_range[1]));
+    }
+    if let Some(blend) = blend {
+        words.push(format!("blend {blend:?}").to_lowercase());
+    }
+    words
+}
+
+impl Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, pass) in self.passes.iter().enumerate() {
+            let [width, height] = pass.size;
+            writeln!(f, "{}. {} ({})", number + 1, pass.label, pass.redraw)?;
+            let mut line = |name: &str, words: &[String]| -> fmt::Result {
+                if words.is_empty() { Ok(()) } else { writeln!(f, "   {name:<8} {}", words.join(", ")) }
+            };
+            let mut target = pass.target.join(" + ");
+            write!(target, ", {width}x{height}")?;
+            line("target", &[target])?;
+            line("state", &pass.state)?;
+            line("shader", &pass.shaders)?;
+            line("reads", &pass.inputs)?;
+            line("draws", &short(&pass.draws))?;
+            if pass.draw_calls > 1 {
+                line("in all", &[format!("{} triangles in {} draws", pass.triangles, pass.draw_calls)])?;
+            }
+        }
+        writeln!(f, "\nImages: {:.1} MiB", self.image_bytes as f64 / f64::from(1 << 20))?;
+        for image in &self.images {
+            writeln!(f, "   {} {} {}x{}", image.label, image.format, image.size[0], image.size[1])?;
+        }
+        writeln!(f, "\nLeft out:")?;
+        for left_out in &self.left_out {
+            writeln!(f, "   {}: {}", left_out.what, left_out.why)?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "\nwarning: {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The first few of a long list, and how many more there are.
+fn short(list: &[String]) -> Vec<String> {
+    const SHOWN: usize = 12;
+    let mut shown: Vec<String> = list.iter().take(SHOWN).cloned().collect();
+    if list.len() > SHOWN {
+        shown.push(format!("and {} more", list.len() - SHOWN));
+    }
+    shown
+}

@@ -1,0 +1,128 @@
+//! Leaves out of a pass list what its pictures do not show: draws outside a pass's clip volume, passes that nothing
+//! reads, images that no pass uses. Then chooses the index order that pays.
+
+use std::collections::{HashMap, HashSet};
+
+use super::{Plan, Request};
+use crate::math::frustum::{self, Overlap};
+use crate::pass::{DrawPass, ImageId, IndexOrder, Input, Pass, Redraw, Target, Work};
+use crate::techniques::LeftOut;
+
+/// Prunes in place.
+pub fn prune(plan: &mut Plan, request: &Request) {
+    cull_draws(plan);
+    drop_unread_passes(plan);
+    drop_unused_images(plan);
+    choose_index_order(plan, request.frames);
+}
+
+/// Draws whose bounds lie beyond one of the pass's clip planes.
+fn cull_draws(plan: &mut Plan) {
+    let left_out = &mut plan.left_out;
+    for pass in &mut plan.list.passes {
+        let label = pass.label.clone();
+        let Work::Draw(draw_pass) = &mut pass.work else { continue };
+        for batch in &mut draw_pass.batches {
+            batch.draws.retain(|draw| {
+                let seen = frustum::overlap(&draw.clip_from_model, &draw.bounds) != Overlap::Outside;
+                if !seen {
+                    left_out.push(LeftOut {
+                        what: format!("{} in \"{label}\"", draw.label),
+                        why: String::from("outside the pass's frustum"),
+                    });
+                }
+                seen
+            });
+        }
+        draw_pass.batches.retain(|batch| !batch.draws.is_empty());
+    }
+}
+
+/// Passes whose images are neither read later nor asked for, last first.
+fn drop_unread_passes(plan: &mut Plan) {
+    let mut needed: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
+    needed.insert(plan.picture);
+    let mut kept: Vec<Pass> = Vec::new();
+    for pass in std::mem::take(&mut plan.list.passes).into_iter().rev() {
+        if pass.writes().iter().any(|image| needed.contains(image)) {
+            needed.extend(pass.reads());
+            kept.push(pass);
+        } else {
+            plan.left_out.push(LeftOut {
+                what: format!("pass \"{}\"", pass.label),
+                why: String::from("nothing reads what it draws"),
+            });
+        }
+    }
+    kept.reverse();
+    plan.list.passes = kept;
+}
+
+/// Images of no pass, and renumbers the rest.
+fn drop_unused_images(plan: &mut Plan) {
+    let mut used: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
+    used.insert(plan.picture);
+    used.extend(plan.list.passes.iter().flat_map(|pass| pass.reads().into_iter().chain(pass.writes())));
+    let mut renumbered = HashMap::new();
+    let mut kept = Vec::new();
+    for (old, desc) in std::mem::take(&mut plan.list.images).into_iter().enumerate() {
+        if used.contains(&ImageId(old)) {
+            renumbered.insert(ImageId(old), ImageId(kept.len()));
+            kept.push(desc);
+        }
+    }
+    plan.list.images = kept;
+    let new = |id: &mut ImageId| *id = renumbered.get(id).copied().unwrap_or(*id);
+    new(&mut plan.picture);
+    plan.views.iter_mut().for_each(|(_, image)| new(image));
+    for pass in &mut plan.list.passes {
+        match &mut pass.work {
+            Work::CopyDepth { from, to } => {
+                new(from);
+                new(to);
+            }
+            Work::Draw(DrawPass { target: Target { color, depth }, batches, .. }) => {
+                color.iter_mut().chain(depth.iter_mut()).for_each(new);
+                let inputs = batches.iter_mut().flat_map(|batch| batch.inputs.iter_mut());
+                inputs.for_each(|Input { image, .. }| new(image));
+            }
+        }
+    }
+}
+
+/// Sorting a mesh for the vertex cache costs about as much as drawing it this many times; each draw then saves about a
+/// quarter (`ci/bench` prints both).
+const DRAWS_THAT_PAY: u64 = 4;
+
+/// Draws each mesh in cache order where it is drawn often enough to pay for the sorting.
+fn choose_index_order(plan: &mut Plan, frames: u32) {
+    let mut draws: HashMap<*const crate::geometry::Mesh, u64> = HashMap::new();
+    for_each_draw(
+        plan,
+        |pass_frames, draw| {
+            *draws.entry(std::sync::Arc::as_ptr(&draw.mesh.0)).or_default() += pass_frames;
+        },
+        frames,
+    );
+    for_each_draw(
+        plan,
+        |_, draw| {
+            let count = draws.get(&std::sync::Arc::as_ptr(&draw.mesh.0)).copied().unwrap_or(0);
+            let sorted = count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256;
+            draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
+        },
+        frames,
+    );
+}
+
+/// Calls `visit` with the number of frames in which a draw is drawn.
+fn for_each_draw(plan: &mut Plan, mut visit: impl FnMut(u64, &mut crate::pass::Draw), frames: u32) {
+    for pass in &mut plan.list.passes {
+        let drawn = if pass.redraw == Redraw::Always { u64::from(frames) } else { 1 };
+        if let Work::Draw(draw_pass) = &mut pass.work {
+            for draw in draw_pass.batches.iter_mut().flat_map(|batch| batch.draws.iter_mut()) {
+                visit(drawn, draw);
+            }
+        }
+    }
+}

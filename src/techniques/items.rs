@@ -1,0 +1,190 @@
+//! What the scene's objects come to as draws: one item a mesh part and material.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glam::DMat4;
+
+use crate::geometry::{Material, Texture};
+use crate::math::Aabb;
+use crate::pass::{
+    Attribute, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
+    Sampler, Storage, Uniform, Wrap, glsl,
+};
+use crate::scene::Scene;
+
+/// A range of triangles with one material and one transform.
+#[derive(Clone, Debug)]
+pub struct Item {
+    pub label: String,
+    pub mesh: MeshRef,
+    pub indices: std::ops::Range<u32>,
+    /// In model space.
+    pub bounds: Aabb,
+    pub material: Arc<Material>,
+    pub world_from_model: DMat4,
+    pub lit: bool,
+    pub casts_shadow: bool,
+}
+
+/// The scene's items, in its order. Parts of a mesh that share a material and follow one another are one item; what
+/// the alpha test would discard whole is left out.
+pub fn items(scene: &Scene) -> Vec<Item> {
+    let mut materials = Materials::default();
+    let mut items: Vec<Item> = Vec::new();
+    for object in &scene.objects {
+        let mut last_material: Option<Option<usize>> = None;
+        for part in object.mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+            let own = if object.material.is_some() { None } else { part.material };
+            if let (Some(last), Some(item)) = (last_material, items.last_mut())
+                && last == own
+                && item.indices.end == part.indices.start
+            {
+                item.indices.end = part.indices.end;
+                item.bounds = item.bounds.union(part.bounds);
+                continue;
+            }
+            let material = object.material.clone().unwrap_or_else(|| materials.of(&object.mesh, own));
+            last_material = Some(own);
+            items.push(Item {
+                label: object.name.clone(),
+                mesh: MeshRef(object.mesh.clone()),
+                indices: part.indices.clone(),
+                bounds: part.bounds,
+                material,
+                world_from_model: object.world_from_model,
+                lit: object.lit,
+                casts_shadow: object.casts_shadow,
+            });
+        }
+    }
+    items.retain(|item| item.material.opacity >= 0.5);
+    items
+}
+
+/// A mesh's materials, each shared by all its items.
+#[derive(Default)]
+struct Materials {
+    shared: HashMap<(usize, Option<usize>), Arc<Material>>,
+}
+
+impl Materials {
+    fn of(&mut self, mesh: &Arc<crate::geometry::Mesh>, index: Option<usize>) -> Arc<Material> {
+        let key = (Arc::as_ptr(mesh) as usize, index);
+        let find = || index.and_then(|i| mesh.materials.get(i)).cloned().unwrap_or_default();
+        self.shared.entry(key).or_insert_with(|| Arc::new(find())).clone()
+    }
+}
+
+/// Whether front faces wind clockwise under `clip_from_model`. A projection of ours turns right-handed eye space
+/// into left-handed clip space, so its own determinant is negative.
+pub fn mirrors(clip_from_model: &DMat4) -> bool {
+    clip_from_model.determinant() > 0.0
+}
+
+impl Item {
+    /// The draw under `clip_from_world`, with what a pass adds as uniforms.
+    pub fn draw(&self, clip_from_world: &DMat4, uniforms: Vec<Uniform>) -> Draw {
+        Draw {
+            label: self.label.clone(),
+            mesh: self.mesh.clone(),
+            primitive: Primitive::Triangles,
+            indices: self.indices.clone(),
+            order: IndexOrder::File,
+            bounds: self.bounds,
+            clip_from_model: *clip_from_world * self.world_from_model,
+            mirrored: mirrors(&(*clip_from_world * self.world_from_model)),
+            uniforms,
+        }
+    }
+
+    /// Whether some fragments of it may fail the alpha test.
+    pub fn needs_alpha_test(&self) -> bool {
+        let material = &self.material;
+        material.alpha.is_some() || self.decal_alpha()
+    }
+
+    /// Whether its mesh has, or its material makes, texture coordinates.
+    pub fn has_texcoords(&self) -> bool {
+        self.mesh.texcoords.is_some() || self.material.texgen.is_some()
+    }
+
+    /// The decal, where there are coordinates for it.
+    pub fn decal(&self) -> Option<&Arc<Texture>> {
+        self.material.decal.as_ref().filter(|_| self.has_texcoords())
+    }
+
+    fn decal_alpha(&self) -> bool {
+        self.decal().is_some_and(|decal| decal.has_alpha)
+    }
+}
+
+/// The part of a shader variant that decides which fragments exist: shared by depth and lit passes.
+#[derive(Default)]
+pub struct Cutout {
+    pub defines: Vec<(std::borrow::Cow<'static, str>, String)>,
+    pub vertex: Vec<Chunk>,
+    pub fragment: Vec<Chunk>,
+    pub attributes: Vec<Attribute>,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+/// A decal repeats and is filtered by mipmaps.
+pub const DECAL_SAMPLER: Sampler = Sampler { filter: Filter::Trilinear, wrap: Wrap::Repeat, compare: None };
+
+/// The alpha test of `item`, and texture coordinates where it or (with `decal`) the lit pass needs them.
+pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
+    let material = &item.material;
+    let mut out = Cutout::default();
+    let alpha_map = material.alpha.as_ref().filter(|_| item.has_texcoords());
+    let tested = item.needs_alpha_test() && item.has_texcoords();
+    let decal = item.decal().filter(|_| decal);
+    if !tested && decal.is_none() {
+        return out;
+    }
+    out.vertex.push(glsl!("common/decal.vert"));
+    if let Some(texgen) = &material.texgen {
+        out.defines.push(("OBJECT_LINEAR".into(), String::new()));
+        out.uniforms.push(Uniform::new("object_planes", vec![texgen.s.into(), texgen.t.into()]));
+        out.uniforms.push(Uniform::new("texture_scale", texgen.scale));
+    } else {
+        out.attributes.push(Attribute::Texcoord);
+    }
+    if tested {
+        out.defines.push(("ALPHA_TEST".into(), String::new()));
+        out.fragment.push(glsl!("common/alpha_test.frag"));
+        out.uniforms.push(Uniform::new("opacity", material.opacity));
+    }
+    if let Some(texture) = item.decal().filter(|_| item.decal_alpha() || decal.is_some()) {
+        if item.decal_alpha() {
+            out.defines.push(("DECAL_ALPHA".into(), String::new()));
+        }
+        out.inputs.push(upload("decal_map", texture, DECAL_SAMPLER, list));
+    }
+    if let Some(texture) = alpha_map {
+        out.defines.push(("ALPHA_MAP".into(), String::from(if texture.has_alpha { "a" } else { "r" })));
+        out.inputs.push(upload("alpha_map", texture, DECAL_SAMPLER, list));
+    }
+    out
+}
+
+/// Binds a texture of the scene; the same one becomes one image however often it is bound.
+pub fn upload(
+    name: impl Into<std::borrow::Cow<'static, str>>,
+    texture: &Arc<Texture>,
+    sampler: Sampler,
+    list: &mut PassList,
+) -> Input {
+    let storage = Storage::Uploaded(texture.clone());
+    let image = match list.images.iter().position(|desc| desc.storage == storage) {
+        Some(index) => ImageId(index),
+        None => list.image(ImageDesc {
+            label: texture.name.clone(),
+            size: [texture.width, texture.height],
+            format: Format::Rgba8,
+            storage,
+        }),
+    };
+    Input { name: name.into(), image, sampler }
+}

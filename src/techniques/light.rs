@@ -1,0 +1,81 @@
+//! A light as techniques see it, and what they give the lit pass for it.
+
+use glam::{DMat4, Vec4};
+
+use super::Item;
+use crate::math::texgen::{SetUp, Split, scale_bias};
+use crate::pass::{Chunk, ImageId, Input, Uniform};
+use crate::scene::{Light, LightKind, Scene};
+
+/// What a technique may know when it describes its passes for a light.
+#[derive(Clone, Copy, Debug)]
+pub struct LightView<'a> {
+    pub scene: &'a Scene,
+    pub items: &'a [Item],
+    /// Into [`Scene::lights`].
+    pub index: usize,
+}
+
+impl LightView<'_> {
+    pub fn light(&self) -> &Light {
+        &self.scene.lights[self.index]
+    }
+
+    /// `P_light · L⁻¹`.
+    pub fn clip_from_world(&self) -> DMat4 {
+        clip_from_light(self.light()) * light_from_world(self.light())
+    }
+}
+
+/// `P_light`: the square frustum whose full angle the light's cone is.
+pub fn clip_from_light(light: &Light) -> DMat4 {
+    let LightKind::Spot { cone_radians, .. } = light.kind;
+    crate::math::spaces::perspective(cone_radians, 1.0, light.near, light.far)
+}
+
+/// `L⁻¹`.
+pub fn light_from_world(light: &Light) -> DMat4 {
+    crate::math::spaces::view_from_world(light.position, light.target, light.up)
+}
+
+/// How the lit pass asks for a light's shade, and how its texture coordinates are made.
+#[derive(Clone, Debug)]
+pub struct LightTerm {
+    /// Into [`Scene::lights`].
+    pub index: usize,
+    /// Defines `float shade_@()`.
+    pub shade: Chunk,
+    /// Beside what [`super::surface`] adds for every light; names end in the light's index.
+    pub defines: Vec<String>,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+    /// `S`: texture space from the light's clip space.
+    pub texture_from_light_clip: DMat4,
+    pub set_up: SetUp,
+    pub split: Split,
+    /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
+    pub dimming: f32,
+    /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
+    pub frustum_from_map: Option<Vec4>,
+    /// The depth texture, for views of it.
+    pub map: Option<ImageId>,
+}
+
+impl LightTerm {
+    /// A light whose shade `shade` finds, with the documents' ordinary texture coordinates.
+    pub fn new(index: usize, shade: Chunk) -> Self {
+        Self {
+            index,
+            shade,
+            defines: Vec::new(),
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+            texture_from_light_clip: scale_bias(0.5, 0.5),
+            set_up: SetUp::World,
+            split: Split::Planes,
+            dimming: 0.0,
+            frustum_from_map: None,
+            map: None,
+        }
+    }
+}

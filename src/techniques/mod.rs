@@ -1,0 +1,83 @@
+//! Shadow techniques and views, each describing passes as data. Knows scene, pass, geometry and math; no GL.
+//!
+//! # How to add a technique
+//!
+//! 1. A folder here with a type that implements [`Technique`]; its shaders in a folder of the same name under `glsl/`.
+//! 2. Its row in [`TABLE`].
+//! 3. A case folder of the same name under `data/cases/`.
+//!
+//! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
+
+pub mod items;
+pub mod light;
+mod shadow_map;
+pub mod surface;
+mod unshadowed;
+pub mod views;
+
+use crate::pass::PassList;
+use crate::scene::{Reader, SettingsError, suggest};
+pub use items::Item;
+pub use light::{LightTerm, LightView};
+
+/// A way to find out which points a light reaches.
+pub trait Technique: Sync {
+    /// The value of `technique` in `[light.shadow]`.
+    fn name(&self) -> &'static str;
+
+    /// One line for tables and `--help`.
+    fn summary(&self) -> &'static str;
+
+    /// The document and section that it implements.
+    fn source(&self) -> &'static str;
+
+    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
+    /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
+    ///
+    /// # Errors
+    ///
+    /// A key with a wrong value, with its place in the scene file.
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        settings: &mut Reader<'_>,
+        list: &mut PassList,
+        notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError>;
+}
+
+/// Every technique.
+pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap];
+
+/// What was left out and why, and what the reader of a plan should know besides.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Notes {
+    pub left_out: Vec<LeftOut>,
+    pub warnings: Vec<String>,
+}
+
+/// Something that this frame does not draw.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct LeftOut {
+    pub what: String,
+    pub why: String,
+}
+
+impl Notes {
+    pub fn left_out(&mut self, what: impl Into<String>, why: impl Into<String>) {
+        self.left_out.push(LeftOut { what: what.into(), why: why.into() });
+    }
+}
+
+/// The technique that `[light.shadow]` names; an absent table means none.
+///
+/// # Errors
+///
+/// A name that no row of the table has.
+pub fn chosen(settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
+    let name = settings.string("technique")?.unwrap_or("none");
+    TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
+        let names = TABLE.iter().map(|row| row.name());
+        settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names)))
+    })
+}

@@ -1,0 +1,120 @@
+//! The keys of `[light.shadow]` that shadow maps read.
+
+use crate::math::texgen::{SetUp, Split};
+use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
+use crate::scene::{Reader, SettingsError};
+
+/// How the depth texture gets its texels [techniques A2].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// Drawn into directly.
+    Fbo,
+    /// glCopyTexSubImage2D from a framebuffer of the map's size.
+    Copy,
+}
+
+/// Which way depth grows [techniques A4].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// LEQUAL against a map of nearest depths.
+    LessEqual,
+    /// GEQUAL against a map drawn with its depth reversed.
+    GreaterEqual,
+}
+
+/// Whose rules the map is drawn and addressed by [techniques A9].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addressing {
+    OpenGl,
+    /// Pixel centres at integers, rows from the top, depth in integer units.
+    Direct3d,
+}
+
+/// Everything that decides how a map is drawn and compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Texels a side.
+    pub size: u32,
+    pub format: DepthFormat,
+    pub transfer: Transfer,
+    pub filter: Filter,
+    pub order: Order,
+    pub offset: PolygonOffset,
+    pub cull: Option<Face>,
+    pub set_up: SetUp,
+    pub split: Split,
+    /// Scale and bias of r in `S`.
+    pub r_scale: f64,
+    pub r_bias: f64,
+    pub addressing: Addressing,
+    /// Added to r after the projection: in [0, 1] depth for OpenGL addressing, in the map's codes for Direct3D's.
+    pub matrix_bias: f64,
+    pub dimming: f32,
+    pub redraw: Redraw,
+}
+
+/// Reads the keys, each with its default.
+///
+/// # Errors
+///
+/// A value of the wrong type or out of its range, with its place.
+pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
+    let formats = [
+        ("depth16", DepthFormat::Depth16),
+        ("depth24", DepthFormat::Depth24),
+        ("depth32", DepthFormat::Depth32),
+        ("depth32f", DepthFormat::Depth32F),
+    ];
+    let set_ups =
+        [("eye", SetUp::Eye), ("world", SetUp::World), ("light", SetUp::Light), ("identity", SetUp::Identity)];
+    let splits = [("identity", Split::Planes), ("scale-bias", Split::ScaleBias), ("projection", Split::Projection)];
+    let orders = [("lequal", Order::LessEqual), ("gequal", Order::GreaterEqual)];
+    let (r_scale, r_bias) = read_r(keys)?;
+    Ok(Settings {
+        size: keys.integer("size", 1..=16384)?.map_or(1024, |size| size as u32),
+        format: keys.choice("format", &formats)?.unwrap_or(DepthFormat::Depth24),
+        transfer: keys
+            .choice("transfer", &[("fbo", Transfer::Fbo), ("copy", Transfer::Copy)])?
+            .unwrap_or(Transfer::Fbo),
+        filter: keys
+            .choice("filter", &[("linear", Filter::Linear), ("nearest", Filter::Nearest)])?
+            .unwrap_or(Filter::Linear),
+        order: keys.choice("compare", &orders)?.unwrap_or(Order::LessEqual),
+        offset: read_offset(keys)?,
+        cull: keys
+            .choice("cull", &[("none", None), ("back", Some(Face::Back)), ("front", Some(Face::Front))])?
+            .unwrap_or(None),
+        set_up: keys.choice("texgen", &set_ups)?.unwrap_or(SetUp::World),
+        split: keys.choice("texture_matrix", &splits)?.unwrap_or(Split::Planes),
+        r_scale,
+        r_bias,
+        addressing: keys
+            .choice("addressing", &[("opengl", Addressing::OpenGl), ("direct3d", Addressing::Direct3d)])?
+            .unwrap_or(Addressing::OpenGl),
+        matrix_bias: keys.number("matrix_bias", -1e10..=1e10)?.unwrap_or(0.0),
+        dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
+        redraw: keys
+            .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
+            .unwrap_or(Redraw::WhenChanged),
+    })
+}
+
+/// `offset = { factor, units }`; (1.1, 4) where absent, 0 for a key that the table leaves out.
+fn read_offset(keys: &mut Reader<'_>) -> Result<PolygonOffset, SettingsError> {
+    let Some(table) = keys.table("offset")? else { return Ok(PolygonOffset { factor: 1.1, units: 4.0 }) };
+    let mut offset = table.read();
+    let factor = offset.number("factor", -1e6..=1e6)?.unwrap_or(0.0) as f32;
+    let units = offset.number("units", -1e9..=1e9)?.unwrap_or(0.0) as f32;
+    offset.finish()?;
+    Ok(PolygonOffset { factor, units })
+}
+
+/// `r = { scale, bias }`; the document's halves where absent.
+fn read_r(keys: &mut Reader<'_>) -> Result<(f64, f64), SettingsError> {
+    let Some(table) = keys.table("r")? else { return Ok((0.5, 0.5)) };
+    let mut r = table.read();
+    let scale = r.number("scale", -16.0..=16.0)?.unwrap_or(0.5);
+    let bias = r.number("bias", -16.0..=16.0)?.unwrap_or(0.5);
+    r.finish()?;
+    Ok((scale, bias))
+}

@@ -1,0 +1,157 @@
+//! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
+//! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13 f].
+
+mod variant;
+
+use glam::{DMat4, Mat3, Vec3, Vec4};
+
+use super::{Item, LightTerm, light};
+use crate::math::texgen;
+use crate::pass::{Attribute, Batch, Chunk, Filter, Input, PassList, Program, Sampler, Uniform, Wrap};
+use crate::scene::{LightKind, LightShape, Scene};
+pub use variant::Ending;
+
+/// Whose picture the surfaces are drawn for.
+#[derive(Clone, Copy, Debug)]
+pub struct Viewer {
+    pub clip_from_eye: DMat4,
+    pub eye_from_world: DMat4,
+}
+
+impl Viewer {
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.clip_from_eye * self.eye_from_world
+    }
+}
+
+/// The batches that draw `items` as `viewer` sees them, lit by `terms`; `ending` decides what a fragment shows.
+///
+/// `None` where a light's transform has no inverse.
+pub fn batches(
+    scene: &Scene,
+    items: &[Item],
+    viewer: &Viewer,
+    terms: &[LightTerm],
+    ending: &Ending,
+    list: &mut PassList,
+) -> Option<Vec<Batch>> {
+    let clip_from_world = viewer.clip_from_world();
+    let lights: Vec<LightParts> =
+        terms.iter().map(|term| light_parts(scene, viewer, term, ending, list)).collect::<Option<_>>()?;
+    let mut batches: Vec<Batch> = Vec::new();
+    for item in items {
+        let (program, uniforms, inputs) = variant::of(scene, item, &lights, ending, list);
+        let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
+        match batches.iter_mut().find(|b| b.inputs == inputs && b.uniforms == uniforms && b.program == program) {
+            Some(batch) => batch.draws.push(draw),
+            None => batches.push(Batch { program, uniforms, inputs, draws: vec![draw] }),
+        }
+    }
+    Some(batches)
+}
+
+fn draw_uniforms(viewer: &Viewer, item: &Item, program: &Program) -> Vec<Uniform> {
+    let eye_from_model = viewer.eye_from_world * item.world_from_model;
+    let mut uniforms = Vec::new();
+    if program.defines.iter().any(|(name, _)| name == "EYE_SPACE") {
+        uniforms.push(Uniform::new("eye_from_model", eye_from_model.as_mat4()));
+    }
+    if program.attributes.contains(&Attribute::Normal) {
+        let normal = Mat3::from_mat4(eye_from_model.inverse().transpose().as_mat4());
+        uniforms.push(Uniform::new("eye_from_model_normal", normal));
+    }
+    uniforms
+}
+
+/// What one light brings to every variant.
+pub(super) struct LightParts {
+    index: usize,
+    defines: Vec<String>,
+    shade: Chunk,
+    uniforms: Vec<Uniform>,
+    inputs: Vec<Input>,
+    has_specular: bool,
+    has_ambient: bool,
+}
+
+const SPOT_IMAGE_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None };
+
+fn light_parts(
+    scene: &Scene,
+    viewer: &Viewer,
+    term: &LightTerm,
+    ending: &Ending,
+    list: &mut PassList,
+) -> Option<LightParts> {
+    let source = &scene.lights[term.index];
+    let index = term.index;
+    let mut parts = LightParts {
+        index,
+        defines: term.defines.clone(),
+        shade: term.shade.for_light(index),
+        uniforms: term.uniforms.clone(),
+        inputs: term.inputs.clone(),
+        has_specular: source.specular != [0.0; 3],
+        has_ambient: source.ambient != [0.0; 3],
+    };
+    add_texgen(&mut parts, source, viewer, term)?;
+    if matches!(source.kind, LightKind::Spot { shape: LightShape::Cone, .. }) {
+        parts.defines.push(format!("CONE_{index}"));
+    }
+    if let Some(frustum_from_map) = term.frustum_from_map {
+        parts.defines.push(format!("MAP_ADDRESSING_{index}"));
+        parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
+    }
+    if let Ending::Lit = ending {
+        add_lighting(&mut parts, source, viewer, term, list);
+    }
+    Some(parts)
+}
+
+fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Viewer, term: &LightTerm) -> Option<()> {
+    let spaces = texgen::Spaces {
+        texture_from_light_clip: term.texture_from_light_clip,
+        light_clip_from_light: light::clip_from_light(source),
+        light_from_world: light::light_from_world(source),
+        eye_from_world: viewer.eye_from_world,
+    };
+    let generated = texgen::set_up(&spaces, term.set_up, term.split)?;
+    let rows = generated.eye_planes.as_mat4().transpose();
+    let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
+    parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
+    if generated.texture_matrix != DMat4::IDENTITY {
+        parts.defines.push(format!("TEXTURE_MATRIX_{}", parts.index));
+        parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
+    }
+    Some(())
+}
+
+fn add_lighting(
+    parts: &mut LightParts,
+    source: &crate::scene::Light,
+    viewer: &Viewer,
+    term: &LightTerm,
+    list: &mut PassList,
+) {
+    let index = parts.index;
+    let position = viewer.eye_from_world.transform_point3(source.position).as_vec3();
+    parts.uniforms.push(Uniform::of_light("light_position", index, position));
+    parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
+    if parts.has_ambient {
+        parts.defines.push(format!("LIGHT_AMBIENT_{index}"));
+        parts.uniforms.push(Uniform::of_light("light_ambient", index, Vec3::from(source.ambient)));
+    }
+    if source.attenuation != [1.0, 0.0, 0.0] {
+        parts.defines.push(format!("ATTENUATION_{index}"));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation)));
+    }
+    if term.dimming > 0.0 {
+        parts.defines.push(format!("DIMMING_{index}"));
+        parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
+    }
+    if let Some(image) = &source.image {
+        parts.defines.push(format!("SPOT_IMAGE_{index}"));
+        parts.inputs.push(super::items::upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
+    }
+    parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
+}

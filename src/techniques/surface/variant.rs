@@ -1,0 +1,170 @@
+//! The shader variant of one item: what its material and the lights need, and nothing else.
+
+use std::borrow::Cow;
+
+use glam::Vec3;
+
+use super::LightParts;
+use crate::geometry::Material;
+use crate::pass::{Attribute, Chunk, Input, PassList, Program, Uniform, glsl};
+use crate::scene::Scene;
+use crate::techniques::Item;
+use crate::techniques::items::{Cutout, cutout};
+
+/// What a fragment of the surface shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// The illumination formula.
+    Lit,
+    /// A view of one light: its chunk has `main`, and `shade` says whether it calls `shade_@`.
+    View { chunk: Chunk, shade: bool },
+}
+
+/// What an item's picture depends on.
+#[derive(Clone, Copy)]
+struct Needs {
+    specular: bool,
+    normals: bool,
+    per_vertex: bool,
+    ambient: bool,
+}
+
+/// Program, uniforms and inputs for `item`.
+pub fn of(
+    scene: &Scene,
+    item: &Item,
+    lights: &[LightParts],
+    ending: &Ending,
+    list: &mut PassList,
+) -> (Program, Vec<Uniform>, Vec<Input>) {
+    let lit = *ending == Ending::Lit;
+    let cut = if lit || item.needs_alpha_test() { cutout(item, lit, list) } else { Cutout::default() };
+    let needs = Needs {
+        specular: lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular),
+        normals: lit && item.lit && !lights.is_empty(),
+        per_vertex: lit && scene.shading.per_vertex && !lights.is_empty(),
+        ambient: lit && lights.iter().any(|l| l.has_ambient),
+    };
+    let mut inputs = cut.inputs.clone();
+    let mut uniforms = cut.uniforms.clone();
+    for light in lights {
+        inputs.extend(light.inputs.iter().cloned());
+        uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
+    }
+    if lit {
+        uniforms.extend(material_uniforms(scene, &item.material, needs, !lights.is_empty()));
+    }
+    let mut attributes = vec![Attribute::Position];
+    if needs.normals {
+        attributes.push(Attribute::Normal);
+    }
+    attributes.extend(cut.attributes.iter().copied());
+    let program = Program {
+        label: String::from("surface"),
+        defines: defines(item, lights, ending, needs, &cut),
+        vertex: vertex(lights, ending, needs, &cut),
+        fragment: fragment(lights, ending, needs, &cut),
+        attributes,
+    };
+    (program, uniforms, inputs)
+}
+
+fn is_specular(uniform: &Uniform) -> bool {
+    uniform.name.starts_with("light_specular_")
+}
+
+fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light: bool) -> Vec<Uniform> {
+    let ambient = Vec3::from(material.ambient);
+    let mut uniforms = vec![Uniform::new("scene_ambient", Vec3::from(scene.shading.ambient) * ambient)];
+    if needs.ambient {
+        uniforms.push(Uniform::new("material_ambient", ambient));
+    }
+    if any_light {
+        uniforms.push(Uniform::new("material_diffuse", Vec3::from(material.diffuse)));
+    }
+    if needs.specular {
+        uniforms.push(Uniform::new("material_specular", Vec3::from(material.specular)));
+        uniforms.push(Uniform::new("shininess", material.shininess));
+    }
+    uniforms
+}
+
+type Define = (Cow<'static, str>, String);
+
+fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
+    let lit = *ending == Ending::Lit;
+    let decal = lit && item.decal().is_some();
+    let per_fragment = needs.normals && !needs.per_vertex;
+    let flags = [
+        ("ANY_LIGHT", lit && !lights.is_empty()),
+        ("EYE_SPACE", !lights.is_empty()),
+        ("EYE_POSITION", lit && !lights.is_empty() && !needs.per_vertex),
+        ("NORMALS", needs.normals),
+        ("EYE_NORMAL", per_fragment),
+        ("TWO_SIDED", per_fragment),
+        ("UNLIT", lit && !item.lit),
+        ("SPECULAR", needs.specular),
+        ("PER_VERTEX", needs.per_vertex),
+        ("MATERIAL_AMBIENT", needs.ambient),
+        ("DECAL", decal),
+        ("DECAL_COORDINATES", !cut.vertex.is_empty()),
+    ];
+    let mut defines: Vec<Define> = cut.defines.clone();
+    defines.extend(flags.iter().filter(|(_, set)| *set).map(|(name, _)| (Cow::Borrowed(*name), String::new())));
+    for light in lights {
+        defines.extend(light.defines.iter().map(|name| (Cow::Owned(name.clone()), String::new())));
+    }
+    let calls = |call: &str| lights.iter().map(|l| call.replace('@', &l.index.to_string())).collect::<String>();
+    defines.push(("TEXGEN(eye)".into(), calls("texgen_@(eye);")));
+    if needs.per_vertex {
+        defines.push(("LIGHT_VERTEX(surface)".into(), calls("light_vertex_@(surface);")));
+    }
+    if lit {
+        defines.push(("ILLUMINATE(surface, lit)".into(), calls("illuminate_@(surface, lit);")));
+    }
+    defines
+}
+
+fn vertex(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+    let mut chunks = vec![glsl!("common/position.vert")];
+    chunks.extend(cut.vertex.iter().cloned());
+    if *ending == Ending::Lit && needs.per_vertex {
+        chunks.push(glsl!("surface/material.glsl"));
+    }
+    for light in lights {
+        chunks.push(glsl!("light/texgen.vert").for_light(light.index));
+        if needs.per_vertex {
+            chunks.push(glsl!("light/lighting.glsl").for_light(light.index));
+            chunks.push(glsl!("light/per_vertex.vert").for_light(light.index));
+        }
+    }
+    chunks.push(glsl!("surface/surface.vert"));
+    chunks
+}
+
+fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+    let mut chunks = cut.fragment.clone();
+    if let Ending::View { chunk, shade } = ending {
+        for light in lights {
+            chunks.push(glsl!("light/reach.frag").for_light(light.index));
+            if *shade {
+                chunks.push(light.shade.clone());
+            }
+            chunks.push(chunk.for_light(light.index));
+        }
+        return chunks;
+    }
+    chunks.push(glsl!("surface/material.glsl"));
+    for light in lights {
+        chunks.push(glsl!("light/reach.frag").for_light(light.index));
+        chunks.push(light.shade.clone());
+        chunks.push(if needs.per_vertex {
+            glsl!("light/per_vertex.frag").for_light(light.index)
+        } else {
+            glsl!("light/lighting.glsl").for_light(light.index)
+        });
+        chunks.push(glsl!("light/illuminate.frag").for_light(light.index));
+    }
+    chunks.push(glsl!("surface/surface.frag"));
+    chunks
+}

@@ -1,0 +1,31 @@
+//! No shadow: the light reaches all that its cone holds.
+
+use super::{LightTerm, LightView, Notes, Technique};
+use crate::pass::{PassList, glsl};
+use crate::scene::{Reader, SettingsError};
+
+pub struct Unshadowed;
+
+impl Technique for Unshadowed {
+    fn name(&self) -> &'static str {
+        "none"
+    }
+
+    fn summary(&self) -> &'static str {
+        "no shadow: everything in the light's cone is lit"
+    }
+
+    fn source(&self) -> &'static str {
+        "GL 4.6 compatibility, 12.2"
+    }
+
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        _settings: &mut Reader<'_>,
+        _list: &mut PassList,
+        _notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError> {
+        Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag")))
+    }
+}

@@ -1,0 +1,75 @@
+//! Arbitrary output variables: the pictures that show how a shadow comes about [Hardware Shadow Mapping, Fig. 2, 4, 5;
+//! techniques A18]. Each is a row of [`VIEWS`].
+
+use crate::pass::{Filter, Input, Sampler, Wrap, glsl};
+
+use super::LightTerm;
+use super::surface::Ending;
+
+/// What a picture beside the main one shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum View {
+    Shade,
+    Depth,
+    LightDepth,
+    LightView,
+    LightDistance,
+    ProjectedMap,
+}
+
+/// Name, view, whether it shows one light, what it shows.
+pub const VIEWS: &[(&str, View, bool, &str)] = &[
+    (
+        "shade",
+        View::Shade,
+        true,
+        "the shadow term: 1 lit, 0 shadowed, between them the filter's value; transparent where the light does not reach",
+    ),
+    ("depth", View::Depth, false, "the camera's window-space depth"),
+    ("light-depth", View::LightDepth, true, "the shadow map: window-space depth from the light"),
+    ("light-view", View::LightView, true, "the scene as the light sees it, lit and without shadow"),
+    ("light-distance", View::LightDistance, true, "r/q: each sample's planar distance from the light"),
+    ("projected-map", View::ProjectedMap, true, "the shadow map's depths projected onto the scene"),
+];
+
+impl View {
+    /// The name on the command line and in file names.
+    pub fn name(self) -> &'static str {
+        VIEWS.iter().find(|row| row.1 == self).map_or("", |row| row.0)
+    }
+
+    /// Whether it shows one light of the scene.
+    pub fn of_light(self) -> bool {
+        VIEWS.iter().any(|row| row.1 == self && row.2)
+    }
+
+    /// Whether it needs a shadow map.
+    pub fn needs_map(self) -> bool {
+        matches!(self, Self::LightDepth | Self::ProjectedMap)
+    }
+}
+
+/// How a view from the camera ends its fragments, and the light's term with what the view reads. `None` for views that
+/// are no camera pass of their own.
+pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> {
+    let mut term = term.clone();
+    let ending = match view {
+        View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
+        View::LightDistance => {
+            term.inputs.clear();
+            term.uniforms.clear();
+            Ending::View { chunk: glsl!("views/distance.frag"), shade: false }
+        }
+        View::ProjectedMap => {
+            term.uniforms.clear();
+            term.inputs = vec![Input {
+                name: format!("depth_map_{}", term.index).into(),
+                image: term.map?,
+                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None },
+            }];
+            Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
+        }
+        View::Depth | View::LightDepth | View::LightView => return None,
+    };
+    Some((ending, term))
+}
