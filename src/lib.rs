@@ -1,5 +1,6 @@
 //! glumbra: a headless OpenGL reference renderer of shadows and projected light.
 
+pub mod device;
 pub mod geometry;
 pub mod math;
 pub mod pass;

@@ -1,0 +1,45 @@
+//! What can go wrong between a pass list and its pictures.
+
+/// A failure of the driver, or of a pass list against GL's rules.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{label}: GL reports {codes}")]
+    Gl { label: String, codes: String },
+    #[error("the {stage} shader of {program} does not compile:\n{log}\nfiles by number: {files}")]
+    Compile { program: String, stage: &'static str, log: String, files: String },
+    #[error("{program} does not link: {log}")]
+    Link { program: String, log: String },
+    #[error("{pass}: {program} has no uniform or sampler `{name}`")]
+    UnknownUniform { pass: String, program: String, name: String },
+    #[error("{pass}: {program} needs `{name}`, and the pass does not set it")]
+    MissingUniform { pass: String, program: String, name: String },
+    #[error("{pass}: {program} reads the attribute `{name}`, which {mesh} does not have")]
+    MissingAttribute { pass: String, program: String, name: &'static str, mesh: String },
+    #[error("{pass}: the driver cannot draw into {target}: {status}")]
+    Incomplete { pass: String, target: String, status: String },
+    #[error("{pass}: {image} is both read and drawn into (GL 4.6, 9.3.1: the values would be undefined)")]
+    Feedback { pass: String, image: String },
+    #[error("{image}: the driver has no memory for it, or refuses its size or format ({codes})")]
+    Allocation { image: String, codes: String },
+    #[error("GL cannot make {0}")]
+    Create(String),
+}
+
+impl Error {
+    pub(super) fn gl(label: &str, codes: &[u32]) -> Self {
+        Self::Gl { label: label.to_owned(), codes: names(codes) }
+    }
+}
+
+/// GL's names of its error codes.
+pub(super) fn names(codes: &[u32]) -> String {
+    let name = |code: &u32| match *code {
+        glow::INVALID_ENUM => String::from("GL_INVALID_ENUM"),
+        glow::INVALID_VALUE => String::from("GL_INVALID_VALUE"),
+        glow::INVALID_OPERATION => String::from("GL_INVALID_OPERATION"),
+        glow::INVALID_FRAMEBUFFER_OPERATION => String::from("GL_INVALID_FRAMEBUFFER_OPERATION"),
+        glow::OUT_OF_MEMORY => String::from("GL_OUT_OF_MEMORY"),
+        other => format!("0x{other:04X}"),
+    };
+    codes.iter().map(name).collect::<Vec<_>>().join(", ")
+}

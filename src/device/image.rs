@@ -1,0 +1,139 @@
+//! Textures, renderbuffers and samplers.
+
+use std::rc::Rc;
+
+use glow::HasContext;
+
+use super::Error;
+use super::error::names;
+use super::state::compare_code;
+use crate::pass::{DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
+
+/// A texture or renderbuffer, deleted on drop.
+pub struct GpuImage {
+    gl: Rc<glow::Context>,
+    pub name: ImageName,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImageName {
+    Texture(glow::Texture),
+    Renderbuffer(glow::Renderbuffer),
+}
+
+impl ImageName {
+    /// GL's number for it; textures and renderbuffers are told apart by the sign bit.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Texture(texture) => texture.0.get(),
+            Self::Renderbuffer(buffer) => buffer.0.get() | 1 << 31,
+        }
+    }
+}
+
+impl Drop for GpuImage {
+    fn drop(&mut self) {
+        match self.name {
+            ImageName::Texture(texture) => unsafe { self.gl.delete_texture(texture) },
+            ImageName::Renderbuffer(buffer) => unsafe { self.gl.delete_renderbuffer(buffer) },
+        }
+    }
+}
+
+/// GL's internal format, and the format and type of an upload.
+fn codes(format: Format) -> (u32, u32, u32) {
+    match format {
+        Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
+        Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),
+        Format::Depth(depth) => {
+            let internal = match depth {
+                DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
+                DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
+                DepthFormat::Depth32 => glow::DEPTH_COMPONENT32,
+                DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
+            };
+            (internal, glow::DEPTH_COMPONENT, glow::FLOAT)
+        }
+    }
+}
+
+/// Makes the image that `desc` asks for.
+pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Error> {
+    let name = match &desc.storage {
+        Storage::Renderbuffer => create_renderbuffer(gl, desc)?,
+        Storage::Texture => create_texture(gl, desc, None)?,
+        Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba))?,
+    };
+    let image = GpuImage { gl: gl.clone(), name };
+    match unsafe { gl.get_error() } {
+        glow::NO_ERROR => Ok(image),
+        code => Err(Error::Allocation { image: desc.label.clone(), codes: names(&[code]) }),
+    }
+}
+
+fn create_renderbuffer(gl: &glow::Context, desc: &ImageDesc) -> Result<ImageName, Error> {
+    let (internal, _, _) = codes(desc.format);
+    let [width, height] = desc.size.map(|side| side as i32);
+    unsafe {
+        let buffer = gl.create_renderbuffer().map_err(Error::Create)?;
+        gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
+        gl.renderbuffer_storage(glow::RENDERBUFFER, internal, width, height);
+        Ok(ImageName::Renderbuffer(buffer))
+    }
+}
+
+fn create_texture(gl: &glow::Context, desc: &ImageDesc, texels: Option<&[u8]>) -> Result<ImageName, Error> {
+    let (internal, format, kind) = codes(desc.format);
+    let [width, height] = desc.size.map(|side| side as i32);
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::Create)?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        let pixels = glow::PixelUnpackData::Slice(texels);
+        gl.tex_image_2d(glow::TEXTURE_2D, 0, internal as i32, width, height, 0, format, kind, pixels);
+        if texels.is_some() {
+            gl.generate_mipmap(glow::TEXTURE_2D);
+        } else {
+            gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, 0);
+        }
+        gl.bind_texture(glow::TEXTURE_2D, None);
+        Ok(ImageName::Texture(texture))
+    }
+}
+
+/// A sampler object, deleted on drop.
+pub struct GpuSampler {
+    gl: Rc<glow::Context>,
+    pub name: glow::Sampler,
+}
+
+impl Drop for GpuSampler {
+    fn drop(&mut self) {
+        unsafe { self.gl.delete_sampler(self.name) };
+    }
+}
+
+/// Makes a sampler object with every parameter that a [`Sampler`] names.
+pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSampler, Error> {
+    let (min, mag) = match sampler.filter {
+        Filter::Nearest => (glow::NEAREST, glow::NEAREST),
+        Filter::Linear => (glow::LINEAR, glow::LINEAR),
+        Filter::Trilinear => (glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR),
+    };
+    let wrap = match sampler.wrap {
+        Wrap::Repeat => glow::REPEAT,
+        Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
+    };
+    unsafe {
+        let name = gl.create_sampler().map_err(Error::Create)?;
+        gl.sampler_parameter_i32(name, glow::TEXTURE_MIN_FILTER, min as i32);
+        gl.sampler_parameter_i32(name, glow::TEXTURE_MAG_FILTER, mag as i32);
+        gl.sampler_parameter_i32(name, glow::TEXTURE_WRAP_S, wrap as i32);
+        gl.sampler_parameter_i32(name, glow::TEXTURE_WRAP_T, wrap as i32);
+        if let Some(compare) = sampler.compare {
+            gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE as i32);
+            gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_FUNC, compare_code(compare) as i32);
+        }
+        Ok(GpuSampler { gl: gl.clone(), name })
+    }
+}

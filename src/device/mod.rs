@@ -1,0 +1,100 @@
+//! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
+//!
+//! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
+//! its target already holds is left out ([`Redraw::WhenChanged`]).
+
+mod error;
+mod framebuffer;
+mod image;
+mod mesh;
+mod program;
+mod readback;
+mod run;
+mod state;
+mod timer;
+
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glow::HasContext;
+
+use crate::geometry::Mesh;
+use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
+
+pub use error::Error;
+pub use readback::Pixels;
+pub use run::{Measure, PassTime};
+
+/// A GL context's objects, and the passes that they already hold.
+pub struct Device {
+    gl: Rc<glow::Context>,
+    meshes: HashMap<*const Mesh, mesh::GpuMesh>,
+    programs: HashMap<Program, program::GpuProgram>,
+    images: Vec<(ImageDesc, Rc<image::GpuImage>)>,
+    framebuffers: HashMap<(Target, Vec<u32>), framebuffer::Framebuffer>,
+    samplers: HashMap<Sampler, image::GpuSampler>,
+    done: HashMap<String, run::Done>,
+    state: Option<state::Applied>,
+}
+
+impl Device {
+    /// A device on the context that is current on this thread. It must be dropped before the context is.
+    pub fn new(gl: Rc<glow::Context>) -> Self {
+        Self {
+            gl,
+            meshes: HashMap::new(),
+            programs: HashMap::new(),
+            images: Vec::new(),
+            framebuffers: HashMap::new(),
+            samplers: HashMap::new(),
+            done: HashMap::new(),
+            state: None,
+        }
+    }
+
+    /// The largest image side that can be drawn into, and the textures that one fragment shader can read.
+    pub fn limits(&self) -> (u32, u32) {
+        let get = |name| unsafe { self.gl.get_parameter_i32(name) }.max(0) as u32;
+        let mut viewport = [0; 2];
+        unsafe { self.gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
+        let sides = [
+            get(glow::MAX_TEXTURE_SIZE),
+            get(glow::MAX_RENDERBUFFER_SIZE),
+            viewport[0].max(0) as u32,
+            viewport[1].max(0) as u32,
+        ];
+        (sides.into_iter().min().unwrap_or(0), get(glow::MAX_TEXTURE_IMAGE_UNITS))
+    }
+
+    /// Waits until all that was asked of GL is done.
+    pub fn finish(&self) {
+        unsafe { self.gl.finish() };
+    }
+
+    /// Any GL error since the last check, as an error of ours with the pass's label.
+    fn check(&self, label: &str) -> Result<(), Error> {
+        let mut codes = Vec::new();
+        // A lost context reports errors for ever: stop after a few.
+        while codes.len() < 8 {
+            match unsafe { self.gl.get_error() } {
+                glow::NO_ERROR => break,
+                code => codes.push(code),
+            }
+        }
+        if codes.is_empty() { Ok(()) } else { Err(Error::gl(label, &codes)) }
+    }
+}
+
+/// What a vertex array of a mesh binds.
+type MeshUse = (Vec<Attribute>, IndexOrder);
+
+/// The key of a mesh's GL objects; the mesh is kept alive beside it.
+fn mesh_key(mesh: &Arc<Mesh>) -> *const Mesh {
+    Arc::as_ptr(mesh)
+}
+
+/// Whether `pass` with the same objects was the last to draw into its target.
+fn unchanged(done: Option<&run::Done>, pass: &Pass, objects: &[u32]) -> bool {
+    done.is_some_and(|done| done.pass == *pass && done.objects == objects)
+}

@@ -1,0 +1,87 @@
+//! From images of GL to pixels of ours.
+
+use glow::HasContext;
+
+use super::{Device, Error};
+use crate::pass::{Format, ImageId, PassList, Target};
+
+/// An image's texels, rows from the top down.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Red, green, blue, alpha.
+    Rgba8 { size: [u32; 2], data: Vec<u8> },
+    /// Red, green, blue, alpha.
+    RgbaF32 { size: [u32; 2], data: Vec<f32> },
+    /// Window-space depth in [0, 1], one number a texel.
+    Depth { size: [u32; 2], data: Vec<f32> },
+}
+
+impl Pixels {
+    /// Width and height.
+    pub fn size(&self) -> [u32; 2] {
+        match self {
+            Self::Rgba8 { size, .. } | Self::RgbaF32 { size, .. } | Self::Depth { size, .. } => *size,
+        }
+    }
+}
+
+impl Device {
+    /// Reads an image of the list that was run last. Waits until it is drawn.
+    ///
+    /// # Errors
+    ///
+    /// GL errors, and images that the driver cannot read.
+    pub fn read(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
+        let desc = list.desc(image);
+        let label = format!("reading {}", desc.label);
+        let is_depth = matches!(desc.format, Format::Depth(_));
+        let target = if is_depth {
+            Target { color: None, depth: Some(image) }
+        } else {
+            Target { color: Some(image), depth: None }
+        };
+        self.bind_target(list, &label, target)?;
+        let [width, height] = desc.size;
+        let count = width as usize * height as usize;
+        let pixels = match desc.format {
+            Format::Rgba8 => {
+                let mut data = vec![0; 4 * count];
+                self.read_into(desc.size, glow::RGBA, glow::UNSIGNED_BYTE, &mut data);
+                flip_rows(&mut data, 4 * width as usize);
+                Pixels::Rgba8 { size: desc.size, data }
+            }
+            Format::Rgba32F => {
+                let mut data = vec![0.0_f32; 4 * count];
+                self.read_into(desc.size, glow::RGBA, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
+                flip_rows(&mut data, 4 * width as usize);
+                Pixels::RgbaF32 { size: desc.size, data }
+            }
+            Format::Depth(_) => {
+                let mut data = vec![0.0_f32; count];
+                self.read_into(desc.size, glow::DEPTH_COMPONENT, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
+                flip_rows(&mut data, width as usize);
+                Pixels::Depth { size: desc.size, data }
+            }
+        };
+        self.check(&label)?;
+        Ok(pixels)
+    }
+
+    fn read_into(&self, size: [u32; 2], format: u32, kind: u32, bytes: &mut [u8]) {
+        let [width, height] = size.map(|side| side as i32);
+        unsafe {
+            self.gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
+            let target = glow::PixelPackData::Slice(Some(bytes));
+            self.gl.read_pixels(0, 0, width, height, format, kind, target);
+        }
+    }
+}
+
+/// GL's first row is the lowest.
+fn flip_rows<T>(data: &mut [T], row: usize) {
+    let rows = data.len() / row.max(1);
+    for low in 0..rows / 2 {
+        let (top, bottom) = data.split_at_mut((rows - 1 - low) * row);
+        top[low * row..][..row].swap_with_slice(&mut bottom[..row]);
+    }
+}

@@ -1,0 +1,260 @@
+//! Runs a pass list: first everything it needs is made and checked, then each pass is drawn in order.
+
+use std::rc::Rc;
+use std::time::Instant;
+
+use glow::HasContext;
+
+use super::image::{self, ImageName};
+use super::state::{apply, set_mirrored};
+use super::timer::Timer;
+use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
+use crate::pass::{Batch, Draw, DrawPass, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work};
+
+/// Whether and how passes are timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Not at all.
+    No,
+    /// Each pass by the wall clock with glFinish behind it, and by GL_TIME_ELAPSED where the driver has it. Waiting
+    /// after each pass makes the frame as a whole slower.
+    Passes,
+}
+
+/// The time of one pass in one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassTime {
+    pub label: String,
+    /// From its first call to the return of glFinish, in milliseconds.
+    pub wall_ms: f64,
+    /// GL_TIME_ELAPSED in milliseconds, where the driver counts it.
+    pub gpu_ms: Option<f64>,
+}
+
+/// A pass that a target already holds.
+pub struct Done {
+    pub pass: Pass,
+    /// GL's numbers of the images it read and wrote.
+    pub objects: Vec<u32>,
+}
+
+impl Device {
+    /// Draws the list's passes; returns the times of those that were drawn, if they were to be measured.
+    ///
+    /// # Errors
+    ///
+    /// A shader that does not compile, a uniform that is missing or unknown, an image that cannot be had, a target
+    /// that cannot be drawn into, and any GL error, each with the pass's label.
+    pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
+        self.prepare(list)?;
+        let mut times = Vec::new();
+        for pass in &list.passes {
+            let objects = self.objects(list, pass);
+            if pass.redraw == Redraw::WhenChanged && unchanged(self.done.get(&pass.label), pass, &objects) {
+                continue;
+            }
+            times.extend(self.timed(list, pass, measure)?);
+            if pass.redraw == Redraw::WhenChanged {
+                self.done.insert(pass.label.clone(), Done { pass: pass.clone(), objects });
+            }
+        }
+        Ok(times)
+    }
+
+    fn timed(&mut self, list: &PassList, pass: &Pass, measure: Measure) -> Result<Option<PassTime>, Error> {
+        if measure == Measure::No {
+            self.draw_pass(list, pass)?;
+            return Ok(None);
+        }
+        self.finish();
+        let timer = Timer::start(&self.gl);
+        let start = Instant::now();
+        self.draw_pass(list, pass)?;
+        let ended = timer.map(Timer::end);
+        self.finish();
+        let wall_ms = start.elapsed().as_secs_f64() * 1e3;
+        let gpu_ms = ended.and_then(|timer| timer.milliseconds());
+        Ok(Some(PassTime { label: pass.label.clone(), wall_ms, gpu_ms }))
+    }
+
+    fn draw_pass(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
+        match &pass.work {
+            Work::Draw(draw) => self.draw(list, &pass.label, draw)?,
+            Work::CopyDepth { from, to } => self.copy_depth(list, &pass.label, *from, *to)?,
+        }
+        self.check(&pass.label)
+    }
+
+    /// Makes images, programs and vertex arrays, and lets go of images and meshes that the list no longer uses.
+    fn prepare(&mut self, list: &PassList) -> Result<(), Error> {
+        self.make_images(list)?;
+        self.meshes.retain(|_, mesh| !mesh.is_orphan());
+        for pass in &list.passes {
+            let Work::Draw(draw_pass) = &pass.work else { continue };
+            for batch in &draw_pass.batches {
+                self.make_program(&pass.label, batch)?;
+                for draw in &batch.draws {
+                    self.make_array(&pass.label, batch, draw)?;
+                }
+                for input in &batch.inputs {
+                    if !self.samplers.contains_key(&input.sampler) {
+                        let sampler = image::create_sampler(&self.gl, input.sampler)?;
+                        self.samplers.insert(input.sampler, sampler);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
+        let old = std::mem::take(&mut self.images);
+        let old_count = old.len();
+        let mut old: Vec<_> = old.into_iter().map(Some).collect();
+        for desc in &list.images {
+            let found = old.iter_mut().find(|slot| slot.as_ref().is_some_and(|(have, _)| have == desc));
+            let image = match found.and_then(Option::take) {
+                Some((_, image)) => image,
+                None => Rc::new(image::create(&self.gl, desc)?),
+            };
+            self.images.push((desc.clone(), image));
+        }
+        if old.iter().any(Option::is_some) || old_count != self.images.len() {
+            // Framebuffers of images that are gone; the rest are made again when they are drawn into.
+            self.framebuffers.clear();
+        }
+        Ok(())
+    }
+
+    fn make_program(&mut self, pass: &str, batch: &Batch) -> Result<(), Error> {
+        if !self.programs.contains_key(&batch.program) {
+            let linked = program::create(&self.gl, &batch.program)?;
+            linked.check(pass, batch)?;
+            self.programs.insert(batch.program.clone(), linked);
+        }
+        Ok(())
+    }
+
+    fn make_array(&mut self, pass: &str, batch: &Batch, draw: &Draw) -> Result<(), Error> {
+        let wanted = (batch.program.attributes.clone(), draw.order);
+        let gl = &self.gl;
+        let gpu = self.meshes.entry(mesh_key(&draw.mesh.0)).or_insert_with(|| mesh::GpuMesh::new(gl, &draw.mesh.0));
+        gpu.prepare(&wanted)?.map_err(|attribute| Error::MissingAttribute {
+            pass: pass.to_owned(),
+            program: batch.program.label.clone(),
+            name: attribute.name(),
+            mesh: draw.mesh.name.clone(),
+        })
+    }
+
+    pub(super) fn gpu_image(&self, id: ImageId) -> ImageName {
+        self.images[id.0].1.name
+    }
+
+    fn objects(&self, list: &PassList, pass: &Pass) -> Vec<u32> {
+        debug_assert_eq!(list.images.len(), self.images.len());
+        let images = pass.reads().into_iter().chain(pass.writes());
+        images.map(|id| self.gpu_image(id).number()).collect()
+    }
+
+    /// Binds the target's framebuffer for drawing and reading.
+    pub(super) fn bind_target(&mut self, list: &PassList, label: &str, target: Target) -> Result<(), Error> {
+        let name = |id: Option<ImageId>| id.map(|id| self.gpu_image(id));
+        let (color, depth) = (name(target.color), name(target.depth));
+        let key = (target, color.iter().chain(&depth).map(|image| image.number()).collect());
+        if let Some(framebuffer) = self.framebuffers.get(&key) {
+            unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer.name)) };
+            return Ok(());
+        }
+        let describe = || {
+            let labels = target.color.iter().chain(&target.depth).map(|id| list.desc(*id));
+            let labels = labels.map(|desc| format!("{} ({})", desc.label, desc.format));
+            (label.to_owned(), labels.collect::<Vec<_>>().join(" + "))
+        };
+        let framebuffer = framebuffer::create(&self.gl, color, depth, describe)?;
+        self.framebuffers.insert(key, framebuffer);
+        Ok(())
+    }
+
+    fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
+        check_feedback(list, label, pass)?;
+        self.bind_target(list, label, pass.target)?;
+        let [width, height] = pass.viewport.map(|side| side as i32);
+        unsafe { self.gl.viewport(0, 0, width, height) };
+        apply(&self.gl, &pass.state, &mut self.state);
+        self.clear(pass);
+        for batch in &pass.batches {
+            self.draw_batch(batch);
+        }
+        unsafe { self.gl.bind_vertex_array(None) };
+        Ok(())
+    }
+
+    /// Clears through the pass's write masks, which must be open for what is cleared.
+    fn clear(&self, pass: &DrawPass) {
+        unsafe {
+            if let Some(color) = pass.clear.color {
+                self.gl.clear_buffer_f32_slice(glow::COLOR, 0, &color);
+            }
+            if let Some(depth) = pass.clear.depth {
+                self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
+            }
+        }
+    }
+
+    fn draw_batch(&mut self, batch: &Batch) {
+        let Some(program) = self.programs.get(&batch.program) else { return };
+        unsafe { self.gl.use_program(Some(program.name)) };
+        for (unit, input) in (0..).zip(&batch.inputs) {
+            let ImageName::Texture(texture) = self.gpu_image(input.image) else { continue };
+            let sampler = self.samplers.get(&input.sampler).map(|sampler| sampler.name);
+            unsafe {
+                self.gl.active_texture(glow::TEXTURE0 + unit);
+                self.gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+                self.gl.bind_sampler(unit, sampler);
+                self.gl.uniform_1_i32(program.sampler(&input.name), unit as i32);
+            }
+        }
+        batch.uniforms.iter().for_each(|uniform| program.set(uniform));
+        for draw in &batch.draws {
+            let clip_from_model = UniformValue::Mat4(draw.clip_from_model.as_mat4());
+            program.set_value("clip_from_model", &clip_from_model);
+            draw.uniforms.iter().for_each(|uniform| program.set(uniform));
+            set_mirrored(&self.gl, draw.mirrored, &mut self.state);
+            let wanted = (batch.program.attributes.clone(), draw.order);
+            let array = self.meshes.get(&mesh_key(&draw.mesh.0)).and_then(|mesh| mesh.array(&wanted));
+            let mode = match draw.primitive {
+                Primitive::Triangles => glow::TRIANGLES,
+                Primitive::Lines => glow::LINES,
+            };
+            let count = draw.indices.end - draw.indices.start;
+            unsafe {
+                self.gl.bind_vertex_array(array);
+                self.gl.draw_elements(mode, count as i32, glow::UNSIGNED_INT, 4 * draw.indices.start as i32);
+            }
+        }
+    }
+
+    fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
+        let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
+        self.bind_target(list, label, Target { color: None, depth: Some(from) })?;
+        let [width, height] = list.desc(to).size.map(|side| side as i32);
+        unsafe {
+            self.gl.active_texture(glow::TEXTURE0);
+            self.gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+            self.gl.copy_tex_sub_image_2d(glow::TEXTURE_2D, 0, 0, 0, 0, 0, width, height);
+            self.gl.bind_texture(glow::TEXTURE_2D, None);
+        }
+        Ok(())
+    }
+}
+
+/// An image that a pass both samples and draws into has undefined values.
+fn check_feedback(list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
+    let attached = [pass.target.color, pass.target.depth];
+    let mut inputs = pass.batches.iter().flat_map(|batch| batch.inputs.iter());
+    match inputs.find(|input| attached.contains(&Some(input.image))) {
+        Some(input) => Err(Error::Feedback { pass: label.to_owned(), image: list.desc(input.image).label.clone() }),
+        None => Ok(()),
+    }
+}
