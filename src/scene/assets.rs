@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use super::Error;
 use super::settings::{Origin, SettingsError, suggest};
-use super::stub as geometry;
-use crate::geometry::{Mesh, Texture};
+use crate::geometry::{self, Mesh, Texture};
 
 /// Meshes and textures loaded so far.
 #[derive(Default)]
@@ -45,6 +44,11 @@ impl Assets {
         let mesh = Arc::new(mesh);
         self.meshes.insert(key, mesh.clone());
         Ok(mesh)
+    }
+
+    /// Lets a model be found by `name` too, for paths that are no text.
+    pub fn also_known_as(&mut self, name: &str, mesh: &Arc<Mesh>) {
+        self.meshes.insert(canonical(Path::new(name)), mesh.clone());
     }
 
     /// A picture file named from `origin`.

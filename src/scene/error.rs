@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use super::settings::{Origin, SettingsError};
-use super::stub as geometry;
+use crate::geometry;
 
 /// Why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]

@@ -11,7 +11,6 @@ mod print;
 mod ranges;
 mod resolve;
 mod settings;
-mod stub;
 mod supply;
 mod views;
 
@@ -72,6 +71,7 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
 fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
+    assets.also_known_as(&name, &model);
     let mut first = framing(&name, &model.bounds, 1.0);
     overrides::apply(&mut first, overrides)?;
 

@@ -84,17 +84,24 @@ impl Stage {
         let [near, _] = frame::depth_range(&points, &camera, self.radius);
         points.extend(self.floor_corners());
         let [_, far] = frame::depth_range(&points, &camera, self.radius);
-        // Half the model's least depth leaves the floor that the picture's lower edge shows.
+        let near = near.min(0.5 * self.nearest_floor(&camera));
         table(
             "camera",
             vec![
                 ("eye", vector(eye)),
                 ("target", vector(target)),
                 ("fov_y", number(frame::FOV_Y_DEGREES)),
-                ("near", number(rounded(0.5 * near, 0.1 * near))),
+                ("near", number(rounded(near, self.radius))),
                 ("far", number(rounded(far, self.radius))),
             ],
         )
+    }
+
+    /// The depth at which the picture's lower edge meets the floor.
+    fn nearest_floor(&self, camera: &Camera) -> f64 {
+        let down = (camera.eye - camera.target).normalize().y;
+        let tan = (0.5 * camera.fov_y_radians).tan();
+        (camera.eye.y - self.floor_y) / (down + tan * (1.0 - down * down).sqrt())
     }
 
     fn light(&self) -> Entry {
@@ -127,7 +134,7 @@ impl Stage {
         let forward = (self.center - self.light).normalize();
         let depths = self.bounds.corners().map(|corner| forward.dot(corner - self.light));
         let height = self.light.y - self.floor_y;
-        let (down, across) = (-forward.y, forward.y.mul_add(-forward.y, 1.0).sqrt());
+        let (down, across) = (-forward.y, (1.0 - forward.y * forward.y).sqrt());
         let tan = (0.5 * CONE_DEGREES).to_radians().tan();
         let near = depths.into_iter().fold(height / (down + tan * across), f64::min);
         let far = depths.into_iter().fold(height / (down - tan * across), f64::max);
@@ -210,4 +217,101 @@ fn root(entries: Vec<(&str, Entry)>) -> Settings {
 fn settings(path: &str, entries: Vec<(&str, Entry)>) -> Settings {
     let entries = entries.into_iter().map(|(key, entry)| (key.to_owned(), entry)).collect();
     Settings { path: path.to_owned(), origin: Origin::BuiltIn, entries }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::assets::Assets;
+    use super::super::{Scene, resolve};
+    use super::*;
+
+    /// The supplied scene, with a box in the place of the model that has the same bounds.
+    fn scene(min: DVec3, max: DVec3, aspect: f64) -> Scene {
+        let bounds = Aabb { min, max };
+        let mut root = framing("box", &bounds, aspect);
+        let half = (0.5 * (max - min)).max(DVec3::splat(1e-15));
+        if let Some((_, Entry { value: Value::Array(objects), .. })) =
+            root.entries.iter_mut().find(|(key, _)| key == "object")
+            && let Value::Table(model) = &mut objects[0].value
+        {
+            model.set("translate", vector(bounds.center()));
+            model.set("scale", vector(half));
+        }
+        let scene = resolve::scene(&root, &mut Assets::default()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.lights.len(), 1);
+        scene
+    }
+
+    #[test]
+    fn model_and_shadow_are_in_view_and_in_the_light() {
+        let shapes =
+            [[1.0, 1.0, 1.0], [0.1, 1.0, 0.1], [1.0, 0.1, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 0.0]];
+        for place in [DVec3::ZERO, DVec3::new(1e4, -1e4, 1e4)] {
+            for size in [1e-3, 1.0, 37.0, 1e3, 1e9] {
+                for (shape, aspect) in shapes.into_iter().flat_map(|shape| [(shape, 1.0), (shape, 2.5), (shape, 0.4)]) {
+                    let extent = DVec3::from_array(shape) * size;
+                    check_view(place, place + extent, aspect);
+                }
+            }
+        }
+    }
+
+    fn check_view(min: DVec3, max: DVec3, aspect: f64) {
+        let scene = scene(min, max, aspect);
+        let (light, camera) = (&scene.lights[0], &scene.camera);
+        let what = format!("{min} to {max}, aspect {aspect}: {camera:?}");
+        let radius = frame::working_radius(&Aabb { min, max });
+        let floor = scene.objects[1].world_bounds().min.y;
+        let mut spread = Aabb::EMPTY;
+        let clip_from_world = camera.clip_from_view(aspect) * camera.view_from_world();
+        let light_from_world = light.clip_from_view() * light.view_from_world();
+        for corner in (Aabb { min, max }).corners() {
+            let along = corner - light.position;
+            let shadow = light.position + along * ((floor - light.position.y) / along.y);
+            for point in [corner, shadow] {
+                let seen = clip_from_world.project_point3(point);
+                assert!(seen.abs().max_element() < 1.0, "{what}: {point} is seen at {seen}");
+                let lit = light_from_world.project_point3(point);
+                assert!(lit.truncate().length() < 1.0 && lit.z.abs() < 1.0, "{what}: {point} is lit at {lit}");
+                spread = spread.including(seen);
+            }
+        }
+        let extent = (spread.max - spread.min).truncate();
+        assert!(extent.max_element() > 1.5, "{what}: fills only {extent}");
+        assert!(floor <= min.y + 1e-3 * radius, "{what}: floor at {floor}");
+    }
+
+    #[test]
+    fn the_planes_hold_the_floor_that_is_seen() {
+        let scene = scene(DVec3::splat(-1.0), DVec3::ONE, 1.0);
+        let floor = scene.objects[1].world_bounds();
+        for (clip_from_world, from) in [
+            (scene.camera.clip_from_view(1.0) * scene.camera.view_from_world(), scene.camera.eye),
+            (scene.lights[0].clip_from_view() * scene.lights[0].view_from_world(), scene.lights[0].position),
+        ] {
+            let world_from_clip = clip_from_world.inverse();
+            for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (0.0, -1.0), (0.0, 0.0)] {
+                let ray = world_from_clip.project_point3(DVec3::new(x, y, 1.0)) - from;
+                let hit = from + ray * ((floor.min.y - from.y) / ray.y);
+                let depth = clip_from_world.project_point3(hit).z;
+                assert!(depth.abs() < 1.0, "({x}, {y}) from {from} meets the floor at {hit}, depth {depth}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let bounds = Aabb { min: DVec3::new(-0.3, f64::from(0.1_f32), -0.4), max: DVec3::new(0.7, 1.9, 0.6) };
+        let toml = framing("a \"b\".obj", &bounds, 1.0).to_toml();
+        assert!(toml.contains("translate = [0.2, 0.1, 0.1]"), "{toml}");
+        assert!(toml.contains(r#"mesh = "a \"b\".obj""#), "{toml}");
+        let long = |word: &&str| {
+            word.trim_matches(['[', ']', ',']).len() > 7 && word.contains('.') && !word.contains(['"', 'l'])
+        };
+        assert_eq!(toml.split_whitespace().find(long), None, "{toml}");
+        for (value, size, expected) in [(1234.5678, 900.0, 1234.6), (-0.00012, 1.0, 0.0), (1.23456e-4, 1e-3, 1.235e-4)]
+        {
+            assert_eq!(rounded(value, size), expected);
+        }
+    }
 }
