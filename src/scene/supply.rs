@@ -309,8 +309,7 @@ mod tests {
             word.trim_matches(['[', ']', ',']).len() > 7 && word.contains('.') && !word.contains(['"', 'l'])
         };
         assert_eq!(toml.split_whitespace().find(long), None, "{toml}");
-        for (value, size, expected) in [(1234.5678, 900.0, 1234.6), (-0.00012, 1.0, 0.0), (1.23456e-4, 1e-3, 1.235e-4)]
-        {
+        for (value, size, expected) in [(1234.5678, 900.0, 1234.6), (-0.00012, 1.0, 0.0), (1.23456e-4, 1e-3, 1.23e-4)] {
             assert_eq!(rounded(value, size), expected);
         }
     }
