@@ -16,7 +16,7 @@ const QUAD: &str = "[[object]]\nmesh = \"quad\"\n";
 const ROWS: &[(&str, &str, usize, &str)] = &[
     ("empty file", "", 1, "`object` is missing: a scene needs at least one [[object]]"),
     ("no objects", "[image]\nsize = [4, 4]\n", 1, "`object` is missing"),
-    ("syntax", "[camera]\neye = [1, 2\n[image]\n", 3, "eye"),
+    ("syntax", "[camera]\neye = [1, 2\n[image]\n", 3, "missing comma between array elements"),
     ("no value", "{QUAD}lit =\n", 3, "lit ="),
     ("unterminated string", "{QUAD}name = \"x\n", 3, "name = \"x"),
     ("duplicate key", "{QUAD}lit = true\nlit = false\n", 4, "duplicate key"),
@@ -130,7 +130,7 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
         "deep",
         "a = [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
         1,
-        "recursion limit",
+        "max recursion depth",
     ),
 ];
 
