@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use glam::Vec3;
+
 use super::Material;
 use crate::math::Aabb;
 
@@ -42,5 +44,19 @@ pub struct Part {
 impl Mesh {
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
+    }
+
+    /// Sets the bounds of the parts and of the whole from the vertices that the triangles use.
+    pub(super) fn update_bounds(&mut self) {
+        for part in &mut self.parts {
+            let indices = &self.indices[part.indices.start as usize..part.indices.end as usize];
+            let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+            for index in indices {
+                let position = Vec3::from_array(self.positions[*index as usize]);
+                (min, max) = (min.min(position), max.max(position));
+            }
+            part.bounds = Aabb { min: min.as_dvec3(), max: max.as_dvec3() };
+        }
+        self.bounds = self.parts.iter().map(|part| part.bounds).fold(Aabb::EMPTY, Aabb::union);
     }
 }

@@ -1,7 +1,20 @@
 //! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals. No GL, no scene.
 
+mod cache;
+mod error;
 mod material;
 mod mesh;
+mod mtl;
+mod normals;
+mod obj;
+mod primitives;
+mod text;
+mod texture;
+pub mod topology;
 
+pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Texture};
 pub use mesh::{Mesh, Part};
+pub use obj::{CREASE_DEGREES, load_obj};
+pub use primitives::{PRIMITIVES, primitive};
+pub use texture::load_texture;

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::techniques::items::items;
 use crate::techniques::surface::{self, Ending, Viewer};
 use crate::techniques::views::{self, View};
-use crate::techniques::{self, Item, LightTerm, LightView, Notes, light};
+use crate::techniques::{self, Item, LightTerm, LightView, Notes};
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
@@ -38,11 +38,9 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 
 /// The scene's camera as a viewer.
 fn camera(scene: &Scene) -> Viewer {
-    let aspect = f64::from(scene.image.size[0]) / f64::from(scene.image.size[1]);
-    let camera = &scene.camera;
     Viewer {
-        clip_from_eye: crate::math::spaces::perspective(camera.fov_y_radians, aspect, camera.near, camera.far),
-        eye_from_world: crate::math::spaces::view_from_world(camera.eye, camera.target, camera.up),
+        clip_from_eye: scene.camera.clip_from_view(scene.aspect()),
+        eye_from_world: scene.camera.view_from_world(),
     }
 }
 
@@ -119,7 +117,7 @@ fn reach(view: &LightView<'_>) -> Viewer {
     let mut unbounded = view.light().clone();
     unbounded.near *= 1e-3;
     unbounded.far *= 1e3;
-    Viewer { clip_from_eye: light::clip_from_light(&unbounded), eye_from_world: light::light_from_world(&unbounded) }
+    Viewer { clip_from_eye: unbounded.clip_from_view(), eye_from_world: unbounded.view_from_world() }
 }
 
 fn color_and_depth(label: &str, size: [u32; 2], format: Format, list: &mut PassList) -> Target {
@@ -210,7 +208,7 @@ impl Builder<'_> {
     fn light_view(&mut self, label: &str, index: usize) -> Result<ImageId, Error> {
         let source = &self.scene.lights[index];
         let viewer =
-            Viewer { clip_from_eye: light::clip_from_light(source), eye_from_world: light::light_from_world(source) };
+            Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
         let side = self.scene.image.size[0].min(self.scene.image.size[1]);
         let target = color_and_depth(label, [side; 2], Format::Rgba32F, self.list);
         let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));

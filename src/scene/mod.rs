@@ -1,8 +1,100 @@
 //! From a file to a resolved [`Scene`]: TOML or OBJ in, plain values out. Errors carry file and line, unknown keys
 //! are refused. Knows geometry and math; no technique and no GL.
 
+mod assets;
+mod error;
+mod frame;
 mod model;
+mod overrides;
+mod parse;
+mod print;
+mod ranges;
+mod resolve;
 mod settings;
+mod supply;
+mod views;
 
+use std::fs;
+use std::path::Path;
+
+pub use error::Error;
 pub use model::{Camera, Image, Light, LightKind, LightShape, Object, Scene, Shading};
+pub use ranges::{LARGEST, SMALLEST};
+pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
+pub use supply::framing;
+
+use assets::{Assets, has_extension};
+
+/// No scene file is longer, in bytes.
+const LONGEST_FILE: u64 = 4 << 20;
+
+/// A scene and what its reader should know of it.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    pub scene: Scene,
+    /// One line each, with the place that it is about.
+    pub warnings: Vec<String>,
+}
+
+/// Loads a scene (.toml) or a model (.obj) with a scene supplied around it. `overrides` are the texts of `--set`,
+/// `a.b.c=value`, applied in order.
+pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Error> {
+    let mut assets = Assets::default();
+    let root = settings_of(path, overrides, &mut assets)?;
+    let scene = resolve::scene(&root, &mut assets)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
+/// The scene as [`load`] reads it, before it is resolved: for [`Settings::to_toml`].
+pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
+    settings_of(path, overrides, &mut Assets::default())
+}
+
+fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
+    if path.is_dir() {
+        return Err(Error::Folder { path: path.to_owned() });
+    }
+    if has_extension(path, "obj") {
+        return around_model(path, overrides, assets);
+    }
+    if !has_extension(path, "toml") {
+        return Err(Error::UnknownKind { path: path.to_owned() });
+    }
+    let mut root = parse::document(path, &read_text(path)?)?;
+    overrides::apply(&mut root, overrides)?;
+    Ok(root)
+}
+
+/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is done
+/// again for what they make of it.
+fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
+    let model = assets.model(path)?;
+    let name = path.to_string_lossy();
+    assets.also_known_as(&name, &model);
+    let mut first = framing(&name, &model.bounds, 1.0);
+    overrides::apply(&mut first, overrides)?;
+
+    let mut reader = first.read();
+    let aspect = resolve::image(reader.table("image")?)?.aspect();
+    let bounds = match reader.tables("object")?.first() {
+        Some(object) => resolve::object::read(object, assets)?.world_bounds(),
+        None => model.bounds,
+    };
+    let mut root = framing(&name, &bounds, aspect);
+    overrides::apply(&mut root, overrides)?;
+    Ok(root)
+}
+
+fn read_text(path: &Path) -> Result<String, Error> {
+    let unreadable = |reason| Error::Read { path: path.to_owned(), reason };
+    let bytes = fs::metadata(path).map_err(unreadable)?.len();
+    if bytes > LONGEST_FILE {
+        return Err(Error::TooLong { path: path.to_owned(), bytes, limit: LONGEST_FILE });
+    }
+    String::from_utf8(fs::read(path).map_err(unreadable)?).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+        Error::NotUtf8 { path: path.to_owned(), line }
+    })
+}

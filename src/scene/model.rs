@@ -65,7 +65,7 @@ pub struct Light {
     pub attenuation: [f32; 3],
     /// The spot image, projected through the light's frustum; modulates diffuse and specular.
     pub image: Option<Arc<Texture>>,
-    /// The line of the light's table, for errors.
+    /// As written, or `light 0` by its place in the file.
     pub name: String,
     /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.
     pub shadow: Settings,

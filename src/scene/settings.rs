@@ -59,7 +59,7 @@ pub enum Value {
 }
 
 impl Value {
-    fn kind(&self) -> &'static str {
+    pub(super) fn kind(&self) -> &'static str {
         match self {
             Self::String(_) => "a string",
             Self::Integer(_) => "an integer",
@@ -108,7 +108,8 @@ impl Settings {
         Reader { settings: self, known: Vec::new() }
     }
 
-    fn key(&self, key: &str) -> String {
+    /// The dotted name of one of the table's keys, for messages.
+    pub(super) fn key(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 }
@@ -277,10 +278,22 @@ impl<'a> Reader<'a> {
         }
         let (low, high) = (*range.start(), *range.end());
         Err(match (low.is_finite(), high.is_finite()) {
-            (true, true) => self.error(key, format_args!("must be in [{low}, {high}], not {value}")),
-            (true, false) => self.error(key, format_args!("must be at least {low}, not {value}")),
-            _ => self.error(key, format_args!("must be at most {high}, not {value}")),
+            (true, true) => {
+                self.error(key, format_args!("must be in [{}, {}], not {}", Plain(low), Plain(high), Plain(value)))
+            }
+            (true, false) => self.error(key, format_args!("must be at least {}, not {}", Plain(low), Plain(value))),
+            _ => self.error(key, format_args!("must be at most {}, not {}", Plain(high), Plain(value))),
         })
+    }
+}
+
+/// A number as a person would write it: 1e18, not eighteen zeros.
+pub(super) struct Plain(pub f64);
+
+impl fmt::Display for Plain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size != 0.0 && !(1e-4..1e7).contains(&size) { write!(f, "{:e}", self.0) } else { write!(f, "{}", self.0) }
     }
 }
 
@@ -289,9 +302,11 @@ pub fn suggest<'n>(wrong: &str, names: impl Iterator<Item = &'n str>) -> String 
     let mut names: Vec<&str> = names.collect();
     names.sort_unstable();
     names.dedup();
+    // A name cut short, or one with too much, is nearer than any misspelling.
+    let begins = |name: &str| wrong.len() > 1 && (name.starts_with(wrong) || wrong.starts_with(name));
     let nearest = names
         .iter()
-        .map(|name| (strsim::damerau_levenshtein(wrong, name), *name))
+        .map(|name| (if begins(name) { 0 } else { strsim::damerau_levenshtein(wrong, name) }, *name))
         .min()
         .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
     let all = names.join(", ");

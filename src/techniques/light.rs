@@ -5,7 +5,7 @@ use glam::{DMat4, Vec4};
 use super::Item;
 use crate::math::texgen::{SetUp, Split, scale_bias};
 use crate::pass::{Chunk, ImageId, Input, Uniform};
-use crate::scene::{Light, LightKind, Scene};
+use crate::scene::{Light, Scene};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -23,19 +23,8 @@ impl LightView<'_> {
 
     /// `P_light · L⁻¹`.
     pub fn clip_from_world(&self) -> DMat4 {
-        clip_from_light(self.light()) * light_from_world(self.light())
+        self.light().clip_from_view() * self.light().view_from_world()
     }
-}
-
-/// `P_light`: the square frustum whose full angle the light's cone is.
-pub fn clip_from_light(light: &Light) -> DMat4 {
-    let LightKind::Spot { cone_radians, .. } = light.kind;
-    crate::math::spaces::perspective(cone_radians, 1.0, light.near, light.far)
-}
-
-/// `L⁻¹`.
-pub fn light_from_world(light: &Light) -> DMat4 {
-    crate::math::spaces::view_from_world(light.position, light.target, light.up)
 }
 
 /// How the lit pass asks for a light's shade, and how its texture coordinates are made.

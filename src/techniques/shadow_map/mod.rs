@@ -70,7 +70,7 @@ fn casters<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
 /// A caster that the light's near plane cuts casts no shadow from what is cut off: say so.
 fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
     let light = view.light();
-    let light_from_model = super::light::light_from_world(light) * item.world_from_model;
+    let light_from_model = light.view_from_world() * item.world_from_model;
     let nearest = item.bounds.corners().map(|corner| -light_from_model.transform_point3(corner).z);
     let nearest = nearest.into_iter().fold(f64::INFINITY, f64::min);
     if nearest > 0.0 && nearest < light.near {

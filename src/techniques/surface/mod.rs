@@ -5,7 +5,7 @@ mod variant;
 
 use glam::{DMat4, Mat3, Vec3, Vec4};
 
-use super::{Item, LightTerm, light};
+use super::{Item, LightTerm};
 use crate::math::texgen;
 use crate::pass::{Attribute, Batch, Chunk, Filter, Input, PassList, Program, Sampler, Uniform, Wrap};
 use crate::scene::{LightKind, LightShape, Scene};
@@ -111,8 +111,8 @@ fn light_parts(
 fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Viewer, term: &LightTerm) -> Option<()> {
     let spaces = texgen::Spaces {
         texture_from_light_clip: term.texture_from_light_clip,
-        light_clip_from_light: light::clip_from_light(source),
-        light_from_world: light::light_from_world(source),
+        light_clip_from_light: source.clip_from_view(),
+        light_from_world: source.view_from_world(),
         eye_from_world: viewer.eye_from_world,
     };
     let generated = texgen::set_up(&spaces, term.set_up, term.split)?;

@@ -1,0 +1,51 @@
+//! What can go wrong with a file of geometry, and what is merely odd. Every message opens with `file:line`.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why a mesh or a texture cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read { path: PathBuf, source: std::io::Error },
+    #[error("{}: is a directory, not a file", path.display())]
+    Directory { path: PathBuf },
+    #[error("{}:{line}: is not text: byte 0x{byte:02x}", path.display())]
+    NotText { path: PathBuf, line: usize, byte: u8 },
+    #[error("{}:{line}: {what}", path.display())]
+    Malformed { path: PathBuf, line: usize, what: String },
+    #[error("{}: has no faces", path.display())]
+    NoFaces { path: PathBuf },
+    #[error("{}: has more than {} {what}", path.display(), u32::MAX)]
+    TooLarge { path: PathBuf, what: &'static str },
+    #[error("{}: is not a picture that can be read: {source}", path.display())]
+    Picture { path: PathBuf, source: image::ImageError },
+    #[error("{}: is {width}x{height}; a texture has 1 to {limit} texels a side", path.display())]
+    PictureSize { path: PathBuf, width: u32, height: u32, limit: u32 },
+    #[error("{}:{line}: {statement}: {source}", path.display())]
+    Map { path: PathBuf, line: usize, statement: &'static str, source: Box<Error> },
+}
+
+impl Error {
+    pub(super) fn malformed(path: &Path, line: usize, what: impl Into<String>) -> Self {
+        Self::Malformed { path: path.to_owned(), line, what: what.into() }
+    }
+}
+
+/// Something odd in a file that does not keep it from being used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    pub path: PathBuf,
+    /// Counted from 1; 0: the file as a whole.
+    pub line: usize,
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            0 => write!(f, "{}: {}", self.path.display(), self.message),
+            line => write!(f, "{}:{line}: {}", self.path.display(), self.message),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! OBJ files: the text is scanned for mistakes ([`scan`]), written anew where tobj would misread it ([`rewrite`]),
+//! parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks ([`super::normals`]).
+//! Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons only.
+
+mod polygon;
+mod rewrite;
+pub(super) mod scan;
+
+use std::cell::Cell;
+use std::collections::HashSet;
+use std::path::Path;
+
+use super::mtl::{self, Library};
+use super::{Error, Mesh, Part, Warning, normals, text};
+use crate::math::Aabb;
+use scan::{Scan, scan};
+
+/// The angle in degrees between two triangles beyond which their common edge stays sharp, where normals are missing.
+pub const CREASE_DEGREES: f64 = 60.0;
+
+/// Reads the OBJ file at `path`, its material libraries and their textures.
+///
+/// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
+/// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. A library that does not exist and a material
+/// that no library has are warnings; a texture that cannot be had is an error.
+pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
+    let bytes = text::read(path)?;
+    let text = text::decode(&bytes, path)?;
+    let scan = scan(&text, path)?;
+    if u32::try_from(scan.positions.max(text.len())).is_err() {
+        return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
+    }
+    let mut warnings = Vec::new();
+    let library = load_libraries(&scan, path, &mut warnings)?;
+    let models = parse(&text, &scan, &library).map_err(|error| {
+        // The scan has refused all that tobj refuses; should it not, the file is still named.
+        Error::malformed(path, 0, error.to_string())
+    })?;
+    let mut mesh = join(models, path)?;
+    let repaired = normals::complete(&mut mesh, CREASE_DEGREES.to_radians());
+    if repaired > 0 {
+        let message = format!("{repaired} normals have no length or are not finite; made from the triangles");
+        warnings.push(Warning { path: path.to_owned(), line: 0, message });
+    }
+    mesh.materials = library.load_materials(&mut warnings)?;
+    mesh.update_bounds();
+    Ok((mesh, warnings))
+}
+
+/// Reads what the `mtllib` statements name, and warns of `usemtl` names that none of them has.
+fn load_libraries(scan: &Scan, path: &Path, warnings: &mut Vec<Warning>) -> Result<Library, Error> {
+    let mut library = Library::default();
+    let mut read = HashSet::new();
+    for (line, written) in &scan.libraries {
+        for name in mtl::find_libraries(path, written) {
+            match name {
+                Ok(found) if !read.insert(found.clone()) => {}
+                Ok(found) => library.read(&found)?,
+                Err(name) => {
+                    let message = format!("there is no material library '{name}'");
+                    warnings.push(Warning { path: path.to_owned(), line: *line, message });
+                }
+            }
+        }
+    }
+    let mut unknown = HashSet::new();
+    for (line, name) in &scan.uses {
+        let name = if name.is_empty() { rewrite::UNNAMED } else { name.as_str() };
+        // Where no library could be read, that has been said, or none was asked for.
+        if !library.is_empty() && !library.has(name) && unknown.insert(name) {
+            let message = format!("no material is named '{name}'; the default stands in");
+            warnings.push(Warning { path: path.to_owned(), line: *line, message });
+        }
+    }
+    Ok(library)
+}
+
+/// The text's models as tobj reads them: single-indexed, polygons kept.
+fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>, tobj::LoadError> {
+    let options =
+        tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+    let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
+    let mut reader = rewritten.as_deref().unwrap_or(text).as_bytes();
+    // All libraries are one to tobj, at its first `mtllib`.
+    let asked = Cell::new(false);
+    let materials = |_: &Path| match asked.replace(true) {
+        false => library.parse(),
+        true => tobj::load_mtl_buf(&mut &b""[..]),
+    };
+    tobj::load_obj_buf(&mut reader, &options, materials).map(|(models, _)| models)
+}
+
+/// One mesh of all models, each a part; its normals may be missing or wrong.
+fn join(models: Vec<tobj::Model>, path: &Path) -> Result<Mesh, Error> {
+    let mut mesh = Mesh { name: path.display().to_string(), ..Mesh::default() };
+    let has_texcoords = models.iter().any(|model| !model.mesh.texcoords.is_empty());
+    let mut texcoords = Vec::new();
+    for model in models.into_iter().filter(|model| !model.mesh.indices.is_empty()) {
+        let tobj::Mesh { positions, normals, texcoords: st, indices, face_arities, material_id, .. } = model.mesh;
+        let first = mesh.positions.len();
+        let start = index_u32(mesh.indices.len(), path)?;
+        mesh.positions.extend_from_slice(positions.as_chunks::<3>().0);
+        let end = mesh.positions.len();
+        mesh.normals.extend_from_slice(normals.as_chunks::<3>().0);
+        mesh.normals.resize(end, [0.0; 3]);
+        if has_texcoords {
+            texcoords.extend_from_slice(st.as_chunks::<2>().0);
+            texcoords.resize(end, [0.0; 2]);
+        }
+        let offset = index_u32(first, path)?;
+        let indices: Vec<u32> = indices.into_iter().map(|index| index + offset).collect();
+        append_triangles(&mut mesh, indices, &face_arities);
+        let stop = index_u32(mesh.indices.len(), path)?;
+        let name = if model.name == "unnamed_object" { String::new() } else { model.name };
+        mesh.parts.push(Part { name, indices: start..stop, material: material_id, bounds: Aabb::EMPTY });
+    }
+    mesh.texcoords = has_texcoords.then_some(texcoords);
+    Ok(mesh)
+}
+
+/// Appends the faces `indices`, of `arities` corners each; none given: all have three.
+fn append_triangles(mesh: &mut Mesh, indices: Vec<u32>, arities: &[u32]) {
+    if arities.is_empty() {
+        if mesh.indices.is_empty() {
+            mesh.indices = indices;
+        } else {
+            mesh.indices.extend_from_slice(&indices);
+        }
+        return;
+    }
+    let mut rest = &indices[..];
+    for arity in arities {
+        let (face, after) = rest.split_at((*arity as usize).min(rest.len()));
+        polygon::triangulate(face, &mesh.positions, &mut |triangle| mesh.indices.extend_from_slice(&triangle));
+        rest = after;
+    }
+}
+
+fn index_u32(index: usize, path: &Path) -> Result<u32, Error> {
+    u32::try_from(index).map_err(|_| Error::TooLarge { path: path.to_owned(), what: "indices" })
+}
+
+#[cfg(test)]
+mod tests;

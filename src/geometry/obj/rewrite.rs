@@ -1,0 +1,111 @@
+//! Writes an OBJ text anew so that tobj reads it right: libraries and vertices first, one statement a line, every
+//! number counted from the start, no lines, points, colours or short texture coordinates. Where only some corners
+//! have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a missing one.
+
+use std::fmt::Write as _;
+
+use super::super::text::logical_lines;
+use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
+
+/// The name of a material that is named by nothing.
+pub(super) const UNNAMED: &str = "unnamed";
+
+/// `text`, which [`super::scan::scan`] has found right.
+pub(super) fn rewrite(text: &str, scan: &Scan) -> String {
+    let mut rewriter = Rewriter {
+        vertices: String::with_capacity(text.len()),
+        faces: String::with_capacity(text.len() / 2),
+        counts: Counts::default(),
+        first_texcoord: usize::from(scan.mixed_texcoords),
+        first_normal: usize::from(scan.mixed_normals),
+    };
+    if !scan.libraries.is_empty() {
+        rewriter.vertices.push_str("mtllib all\n");
+    }
+    if scan.mixed_texcoords {
+        rewriter.vertices.push_str("vt 0 0\n");
+    }
+    if scan.mixed_normals {
+        rewriter.vertices.push_str("vn 0 0 0\n");
+    }
+    for line in logical_lines(text) {
+        rewriter.add_line(&line.text);
+    }
+    rewriter.vertices + &rewriter.faces
+}
+
+struct Rewriter {
+    vertices: String,
+    faces: String,
+    counts: Counts,
+    /// How many texture coordinates (normals) stand before the file's own.
+    first_texcoord: usize,
+    first_normal: usize,
+}
+
+impl Rewriter {
+    fn add_line(&mut self, line: &str) {
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("v") => {
+                self.counts.v += 1;
+                let words: Vec<_> = words.collect();
+                let kept = if words.len() == 4 { 4 } else { 3 };
+                self.add_vertex("v", words.into_iter().take(kept));
+            }
+            Some("vt") => {
+                self.counts.vt += 1;
+                self.add_vertex("vt", words.chain(["0"]).take(2));
+            }
+            Some("vn") => {
+                self.counts.vn += 1;
+                self.add_vertex("vn", words.take(3));
+            }
+            Some("f") => self.add_face(words),
+            Some(keyword @ ("o" | "g")) => self.add_name(keyword, statement_value(line, keyword)),
+            Some("usemtl") => match statement_value(line, "usemtl") {
+                "" => self.add_name("usemtl", UNNAMED),
+                name => self.add_name("usemtl", name),
+            },
+            _ => {}
+        }
+    }
+
+    fn add_vertex<'a>(&mut self, keyword: &str, words: impl Iterator<Item = &'a str>) {
+        self.vertices.push_str(keyword);
+        for word in words {
+            self.vertices.push(' ');
+            self.vertices.push_str(word);
+        }
+        self.vertices.push('\n');
+    }
+
+    fn add_face<'a>(&mut self, words: impl Iterator<Item = &'a str>) {
+        self.faces.push('f');
+        for word in words.take_while(|word| !word.starts_with('#')) {
+            if let Ok(corner) = read_corner(word, self.counts) {
+                self.add_corner(corner);
+            }
+        }
+        self.faces.push('\n');
+    }
+
+    fn add_corner(&mut self, corner: Corner) {
+        // Where a shift is in use, a missing number becomes 1, the row of zeros; else it stays missing.
+        let shift = |index: Option<usize>, shift| match index {
+            Some(index) => Some(index + shift),
+            None => (shift > 0).then_some(1),
+        };
+        // Writing to a String cannot fail.
+        let _ = match (shift(corner.vt, self.first_texcoord), shift(corner.vn, self.first_normal)) {
+            (None, None) => write!(self.faces, " {}", corner.v),
+            (Some(vt), None) => write!(self.faces, " {}/{vt}", corner.v),
+            (None, Some(vn)) => write!(self.faces, " {}//{vn}", corner.v),
+            (Some(vt), Some(vn)) => write!(self.faces, " {}/{vt}/{vn}", corner.v),
+        };
+    }
+
+    fn add_name(&mut self, keyword: &str, name: &str) {
+        let _ = writeln!(self.faces, "{keyword} {name}");
+    }
+}

@@ -1,0 +1,307 @@
+//! One cheap pass over an OBJ text before tobj sees it: refuses what is wrong with its line, and notes what tobj
+//! would misread (see [`super::rewrite`]). Allocates nothing a line.
+
+use std::path::Path;
+
+use super::super::Error;
+use super::super::text::logical_lines;
+
+/// What the text holds.
+#[derive(Debug, Default)]
+pub(super) struct Scan {
+    /// `mtllib` statements: line, and what is written.
+    pub libraries: Vec<(usize, String)>,
+    /// `usemtl` statements whose name differs from the one before: line and name.
+    pub uses: Vec<(usize, String)>,
+    pub faces: usize,
+    pub positions: usize,
+    /// Whether tobj would misread the text as it is.
+    pub needs_rewrite: bool,
+    /// Some corners name a texture coordinate (a normal), others do not.
+    pub mixed_texcoords: bool,
+    pub mixed_normals: bool,
+}
+
+/// Numbers of a kind so far, or in all.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub v: usize,
+    pub vt: usize,
+    pub vn: usize,
+}
+
+/// A corner of a face: what it names, counted from 1; `None`: left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Corner {
+    pub v: usize,
+    pub vt: Option<usize>,
+    pub vn: Option<usize>,
+}
+
+/// The largest numbers that faces name, of those that had not been read by then, with their lines.
+struct Forward {
+    line: usize,
+    corner: Corner,
+}
+
+struct Scanner {
+    scan: Scan,
+    counts: Counts,
+    forward: Vec<Forward>,
+    corners: usize,
+    corners_with_texcoord: usize,
+    corners_with_normal: usize,
+}
+
+/// What is wrong with a line.
+type Wrong = String;
+
+/// Reads `text`, the file at `path`.
+pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
+    let mut scanner = Scanner {
+        scan: Scan::default(),
+        counts: Counts::default(),
+        forward: Vec::new(),
+        corners: 0,
+        corners_with_texcoord: 0,
+        corners_with_normal: 0,
+    };
+    for line in logical_lines(text) {
+        scanner.scan.needs_rewrite |= matches!(line.text, std::borrow::Cow::Owned(_));
+        scanner.read_line(line.number, &line.text).map_err(|what| Error::malformed(path, line.number, what))?;
+    }
+    scanner.finish(path)
+}
+
+impl Scanner {
+    fn read_line(&mut self, number: usize, line: &str) -> Result<(), Wrong> {
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("v") => self.read_position(words),
+            Some("f") => self.read_face(number, words),
+            Some("vt") => self.read_texcoord(words),
+            Some("vn") => self.read_normal(words),
+            // tobj takes a line of three points for a triangle.
+            Some("l") => {
+                self.scan.needs_rewrite = true;
+                Ok(())
+            }
+            Some(keyword @ ("o" | "g")) => {
+                self.note_odd_spacing(line, keyword);
+                Ok(())
+            }
+            Some("usemtl") => {
+                self.note_odd_spacing(line, "usemtl");
+                self.use_material(number, statement_value(line, "usemtl"));
+                Ok(())
+            }
+            Some("mtllib") => {
+                self.note_odd_spacing(line, "mtllib");
+                // tobj knows a material only after its library.
+                self.scan.needs_rewrite |= !self.scan.uses.is_empty();
+                self.scan.libraries.push((number, statement_value(line, "mtllib").to_owned()));
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// tobj takes a name from behind the first space of the line.
+    fn note_odd_spacing(&mut self, line: &str, keyword: &str) {
+        let plain = line.strip_prefix(keyword).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
+        self.scan.needs_rewrite |= !plain;
+    }
+
+    fn use_material(&mut self, number: usize, name: &str) {
+        self.scan.needs_rewrite |= name.is_empty();
+        if self.scan.uses.last().is_none_or(|(_, last)| last != name) {
+            self.scan.uses.push((number, name.to_owned()));
+        }
+    }
+
+    fn read_position<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
+        let (mut count, mut xyz, mut weight) = (0, [""; 3], "");
+        for word in words {
+            match count {
+                0..3 => {
+                    check_coordinate("v", word)?;
+                    xyz[count] = word;
+                }
+                3 => weight = word,
+                _ => {}
+            }
+            count += 1;
+        }
+        match count {
+            0..3 => return Err(format!("v has {count} of 3 coordinates")),
+            4 => check_weight(weight, xyz)?,
+            3 => {}
+            // Colours, which tobj takes only as exactly three numbers.
+            _ => self.scan.needs_rewrite = true,
+        }
+        self.counts.v += 1;
+        Ok(())
+    }
+
+    fn read_texcoord<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
+        let mut count = 0;
+        for word in words.take(2) {
+            check_coordinate("vt", word)?;
+            count += 1;
+        }
+        match count {
+            0 => return Err(String::from("vt has no coordinate")),
+            1 => self.scan.needs_rewrite = true,
+            _ => {}
+        }
+        self.counts.vt += 1;
+        Ok(())
+    }
+
+    /// Normals that are not finite are repaired later; what is not a number at all is refused.
+    fn read_normal<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
+        let mut count = 0;
+        for word in words.take(3) {
+            if !is_plain_number(word) && word.parse::<f32>().is_err() {
+                return Err(format!("vn: '{}' is not a number", shorten(word)));
+            }
+            count += 1;
+        }
+        if count < 3 {
+            return Err(format!("vn has {count} of 3 coordinates"));
+        }
+        self.counts.vn += 1;
+        Ok(())
+    }
+
+    fn read_face<'a>(&mut self, line: usize, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
+        let mut count = 0;
+        for word in words {
+            if word.starts_with('#') {
+                self.scan.needs_rewrite = true;
+                break;
+            }
+            let corner = read_corner(word, self.counts)?;
+            self.note_corner(line, corner);
+            count += 1;
+        }
+        if count < 3 {
+            return Err(format!("a face of {count} vertices; it takes 3"));
+        }
+        self.scan.faces += 1;
+        Ok(())
+    }
+
+    fn note_corner(&mut self, line: usize, corner: Corner) {
+        self.corners += 1;
+        self.corners_with_texcoord += usize::from(corner.vt.is_some());
+        self.corners_with_normal += usize::from(corner.vn.is_some());
+        let ahead = corner.v > self.counts.v
+            || corner.vt.is_some_and(|vt| vt > self.counts.vt)
+            || corner.vn.is_some_and(|vn| vn > self.counts.vn);
+        if ahead {
+            self.forward.push(Forward { line, corner });
+        }
+    }
+
+    /// Judges the faces that named vertices before they were read, now that all are.
+    fn finish(self, path: &Path) -> Result<Scan, Error> {
+        let Self { mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal } = self;
+        for Forward { line, corner } in &forward {
+            let named = [
+                ("vertex", Some(corner.v), counts.v),
+                ("texture coordinate", corner.vt, counts.vt),
+                ("normal", corner.vn, counts.vn),
+            ];
+            for (kind, index, count) in named {
+                if let Some(index) = index.filter(|index| *index > count) {
+                    let what = format!("the face names {kind} {index}, but the file has {count}");
+                    return Err(Error::malformed(path, *line, what));
+                }
+            }
+        }
+        if scan.faces == 0 {
+            return Err(Error::NoFaces { path: path.to_owned() });
+        }
+        scan.positions = counts.v;
+        scan.mixed_texcoords = !(corners_with_texcoord == 0 || corners_with_texcoord == corners);
+        scan.mixed_normals = !(corners_with_normal == 0 || corners_with_normal == corners);
+        scan.needs_rewrite |= !forward.is_empty() || scan.mixed_texcoords || scan.mixed_normals;
+        Ok(scan)
+    }
+}
+
+/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last one read.
+pub(super) fn read_corner(word: &str, counts: Counts) -> Result<Corner, Wrong> {
+    let mut parts = word.split('/');
+    let v = read_index(parts.next().unwrap_or_default(), "vertex", counts.v, word)?;
+    let vt = read_index(parts.next().unwrap_or_default(), "texture coordinate", counts.vt, word)?;
+    let vn = read_index(parts.next().unwrap_or_default(), "normal", counts.vn, word)?;
+    match v {
+        Some(v) if parts.next().is_none() => Ok(Corner { v, vt, vn }),
+        _ => Err(format!("'{}' is not a corner of a face", shorten(word))),
+    }
+}
+
+fn read_index(digits: &str, kind: &str, count: usize, word: &str) -> Result<Option<usize>, Wrong> {
+    if digits.is_empty() {
+        return Ok(None);
+    }
+    let index: i64 = digits.parse().map_err(|_| format!("'{}' is not a corner of a face", shorten(word)))?;
+    match index {
+        0 => Err(format!("the face names {kind} 0; they count from 1")),
+        1.. => Ok(usize::try_from(index).ok()),
+        _ => match usize::try_from(index.unsigned_abs()).ok().and_then(|back| count.checked_sub(back)) {
+            Some(at) => Ok(Some(at + 1)),
+            None => Err(format!("the face names {kind} {index}, but {count} stand before it")),
+        },
+    }
+}
+
+/// Refuses what is no number, and no finite one as f32.
+fn check_coordinate(statement: &str, word: &str) -> Result<(), Wrong> {
+    if is_plain_number(word) {
+        return Ok(());
+    }
+    match word.parse::<f32>() {
+        Ok(value) if value.is_finite() => Ok(()),
+        Ok(_) => Err(format!("{statement}: '{}' is not finite as a 32-bit float", shorten(word))),
+        Err(_) => Err(format!("{statement}: '{}' is not a number", shorten(word))),
+    }
+}
+
+/// tobj divides by the fourth number of a position.
+fn check_weight(weight: &str, xyz: [&str; 3]) -> Result<(), Wrong> {
+    check_coordinate("v", weight)?;
+    let value = |word: &str| word.parse::<f32>().unwrap_or(f32::NAN);
+    let weight = value(weight);
+    if xyz.iter().all(|word| (value(word) / weight).is_finite()) {
+        return Ok(());
+    }
+    Err(format!("v: the weight {weight} leaves no finite position"))
+}
+
+/// Whether `word` is a sign, digits and a point, and so few that the value must be finite.
+fn is_plain_number(word: &str) -> bool {
+    let digits = word.as_bytes();
+    let digits = match digits {
+        [b'+' | b'-', rest @ ..] => rest,
+        _ => digits,
+    };
+    let points = digits.iter().filter(|byte| **byte == b'.').count();
+    let plain = digits.iter().all(|byte| byte.is_ascii_digit() || *byte == b'.');
+    plain && points <= 1 && digits.len() > points && digits.len() <= 30
+}
+
+/// What follows the keyword of a statement, to the line's end.
+pub(super) fn statement_value<'a>(line: &'a str, keyword: &str) -> &'a str {
+    line.trim().strip_prefix(keyword).unwrap_or_default().trim()
+}
+
+/// `word`, cut where it would drown the message.
+pub(in super::super) fn shorten(word: &str) -> String {
+    match word.char_indices().nth(40) {
+        Some((end, _)) => format!("{}...", &word[..end]),
+        None => word.to_owned(),
+    }
+}

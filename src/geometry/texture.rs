@@ -1,0 +1,107 @@
+//! Pictures from files, as textures: RGBA8, rows from the bottom up. Knows nothing of materials.
+
+use std::path::{Path, PathBuf};
+
+use image::{ImageReader, Limits};
+
+use super::{Error, Texture, text};
+
+/// The most texels a side; what every GL 3 driver of today takes.
+const LIMIT: u32 = 16384;
+
+/// Reads a PNG, JPEG, BMP or TGA, told by its first bytes, else by its name's ending.
+pub fn load_texture(path: &Path) -> Result<Texture, Error> {
+    let picture_error = |source| Error::Picture { path: path.to_owned(), source };
+    let bytes = text::read(path)?;
+    let mut reader = ImageReader::new(std::io::Cursor::new(&bytes));
+    if let Ok(format) = image::ImageFormat::from_path(path) {
+        reader.set_format(format);
+    }
+    let reader = reader.with_guessed_format().map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    let format = reader.format();
+    // The size is asked for first: a small file may claim a picture that no memory holds.
+    let (width, height) = reader.into_dimensions().map_err(picture_error)?;
+    if !(1..=LIMIT).contains(&width) || !(1..=LIMIT).contains(&height) {
+        return Err(Error::PictureSize { path: path.to_owned(), width, height, limit: LIMIT });
+    }
+    let mut reader = ImageReader::new(std::io::Cursor::new(&bytes));
+    if let Some(format) = format {
+        reader.set_format(format);
+    }
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(16 * u64::from(width) * u64::from(height) + (64 << 20));
+    reader.limits(limits);
+    let rgba = reader.decode().map_err(picture_error)?.flipv().into_rgba8().into_raw();
+    let has_alpha = rgba.chunks_exact(4).any(|texel| texel[3] != 255);
+    Ok(Texture { name: path.display().to_string(), width, height, rgba, has_alpha })
+}
+
+/// Where the file `written` in a material library in `folder` lies: backslashes are taken for slashes where the
+/// name as written does not exist, and upper for lower case; then the bare file name is tried in `folder`.
+/// `None`: nowhere.
+pub(super) fn find_file(folder: &Path, written: &str) -> Option<PathBuf> {
+    let slashed = written.replace('\\', "/");
+    let bare = slashed.rsplit('/').next().unwrap_or_default();
+    let as_written = folder.join(written);
+    let with_slashes = folder.join(&slashed);
+    [as_written, with_slashes]
+        .into_iter()
+        .find(|path| path.is_file())
+        .or_else(|| find_in_any_case(folder, &slashed))
+        .or_else(|| {
+            let beside = folder.join(bare);
+            if beside.is_file() { Some(beside) } else { find_in_any_case(folder, bare) }
+        })
+}
+
+/// Walks `relative` down from `folder`, each step by name without regard to case.
+fn find_in_any_case(folder: &Path, relative: &str) -> Option<PathBuf> {
+    let mut found = folder.to_owned();
+    for step in relative.split('/').filter(|step| !step.is_empty() && *step != ".") {
+        let exact = found.join(step);
+        if exact.exists() {
+            found = exact;
+            continue;
+        }
+        let listed = if found.as_os_str().is_empty() { Path::new(".") } else { &found };
+        let mut names: Vec<_> =
+            std::fs::read_dir(listed).ok()?.filter_map(|entry| Some(entry.ok()?.file_name())).collect();
+        names.sort();
+        let wanted = step.to_lowercase();
+        let name = names.into_iter().find(|name| name.to_string_lossy().to_lowercase() == wanted)?;
+        found = found.join(name);
+    }
+    found.is_file().then_some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_from_the_bottom_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("two.png");
+        let mut picture = image::RgbaImage::new(1, 2);
+        picture.put_pixel(0, 0, image::Rgba([10, 0, 0, 255]));
+        picture.put_pixel(0, 1, image::Rgba([20, 0, 0, 200]));
+        picture.save(&path).unwrap();
+        let texture = load_texture(&path).unwrap();
+        assert_eq!((texture.width, texture.height, texture.has_alpha), (1, 2, true));
+        assert_eq!(texture.rgba, [20, 0, 0, 200, 10, 0, 0, 255]);
+    }
+
+    #[test]
+    fn names_are_found_with_backslashes_and_in_any_case() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("Maps")).unwrap();
+        std::fs::write(folder.path().join("Maps/Wood.PNG"), []).unwrap();
+        std::fs::write(folder.path().join("Bare.png"), []).unwrap();
+        let find = |written| find_file(folder.path(), written);
+        let wood = Some(folder.path().join("Maps/Wood.PNG"));
+        assert_eq!(find("Maps/Wood.PNG"), wood);
+        assert_eq!(find(r".\maps\wood.png"), wood);
+        assert_eq!(find(r"C:\work\textures\bare.png"), Some(folder.path().join("Bare.png")));
+        assert_eq!(find("stone.png"), None);
+    }
+}

@@ -1,0 +1,94 @@
+//! The files that a scene names: each is loaded once however often it is used, and what its loader warned of is kept.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Error;
+use super::settings::{Origin, SettingsError, suggest};
+use crate::geometry::{self, Mesh, Texture};
+
+/// Meshes and textures loaded so far.
+#[derive(Default)]
+pub(super) struct Assets {
+    /// By built-in name, or by the file's canonical path.
+    meshes: HashMap<PathBuf, Arc<Mesh>>,
+    textures: HashMap<PathBuf, Arc<Texture>>,
+    /// Of the loaders and of the scene, each once.
+    pub warnings: Vec<String>,
+}
+
+impl Assets {
+    /// A built-in mesh, or one of a file named from `origin`.
+    pub fn mesh(&mut self, name: &str, origin: &Origin) -> Result<Arc<Mesh>, Error> {
+        if let Some(mesh) = self.primitive(name) {
+            return Ok(mesh);
+        }
+        let path = file(name, origin);
+        if !has_extension(&path, "obj") {
+            let hint = suggest(name, geometry::PRIMITIVES.iter().copied());
+            let message = format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj");
+            return Err(SettingsError::new(origin, message).into());
+        }
+        self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
+    }
+
+    /// An OBJ file.
+    pub fn model(&mut self, path: &Path) -> Result<Arc<Mesh>, geometry::Error> {
+        let key = canonical(path);
+        if let Some(mesh) = self.meshes.get(&key) {
+            return Ok(mesh.clone());
+        }
+        let (mesh, warnings) = geometry::load_obj(path)?;
+        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        let mesh = Arc::new(mesh);
+        self.meshes.insert(key, mesh.clone());
+        Ok(mesh)
+    }
+
+    /// Lets a model be found by `name` too, for paths that are no text.
+    pub fn also_known_as(&mut self, name: &str, mesh: &Arc<Mesh>) {
+        self.meshes.insert(canonical(Path::new(name)), mesh.clone());
+    }
+
+    /// A picture file named from `origin`.
+    pub fn texture(&mut self, name: &str, origin: &Origin) -> Result<Arc<Texture>, Error> {
+        let path = file(name, origin);
+        let key = canonical(&path);
+        if let Some(texture) = self.textures.get(&key) {
+            return Ok(texture.clone());
+        }
+        let texture =
+            geometry::load_texture(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })?;
+        let texture = Arc::new(texture);
+        self.textures.insert(key, texture.clone());
+        Ok(texture)
+    }
+
+    fn primitive(&mut self, name: &str) -> Option<Arc<Mesh>> {
+        if let Some(mesh) = self.meshes.get(Path::new(name)) {
+            return Some(mesh.clone());
+        }
+        let mesh = Arc::new(geometry::primitive(name)?);
+        self.meshes.insert(PathBuf::from(name), mesh.clone());
+        Some(mesh)
+    }
+}
+
+/// A file's name is relative to the scene file that names it; on the command line, to the current folder.
+fn file(name: &str, origin: &Origin) -> PathBuf {
+    match origin {
+        Origin::File { path, .. } => path.parent().unwrap_or(Path::new("")).join(name),
+        Origin::CommandLine(_) | Origin::BuiltIn => PathBuf::from(name),
+    }
+}
+
+/// What tells files apart; absolute, so never a built-in's name.
+fn canonical(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| Path::new("/").join(path))
+}
+
+/// Whether `path` ends in `.extension`, in whatever case.
+pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
+}

@@ -1,0 +1,43 @@
+//! What can go wrong between a file's name and a resolved scene. Every message stands alone: it names the file, the
+//! line where there is one, and what would be right.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::settings::{Origin, SettingsError};
+use crate::geometry;
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{path}: cannot be read: {reason}", path = .path.display())]
+    Read { path: PathBuf, reason: io::Error },
+
+    #[error("{path}: is a folder; name a scene (.toml) or a model (.obj)", path = .path.display())]
+    Folder { path: PathBuf },
+
+    #[error("{path}: has {bytes} bytes; a scene file may have {limit}", path = .path.display())]
+    TooLong { path: PathBuf, bytes: u64, limit: u64 },
+
+    #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj", path = .path.display())]
+    UnknownKind { path: PathBuf },
+
+    #[error("{path}:{line}: is not UTF-8 text", path = .path.display())]
+    NotUtf8 { path: PathBuf, line: usize },
+
+    /// TOML's grammar, with the offending line as written.
+    #[error("{origin}: {message}\n  {text}")]
+    Syntax { origin: Origin, message: String, text: String },
+
+    /// A value that cannot be, a key that nobody knows.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+
+    /// A mesh or texture that the scene names.
+    #[error("{origin}: {source}")]
+    Asset { origin: Origin, source: geometry::Error },
+
+    /// The model that stands for a whole scene.
+    #[error(transparent)]
+    Model(#[from] geometry::Error),
+}

@@ -1,0 +1,99 @@
+//! [`Settings`] to a [`Scene`]: what keys a scene has, what they may hold, and what stands in where they are absent.
+
+mod camera;
+mod light;
+mod material;
+pub(super) mod object;
+
+use super::assets::Assets;
+use super::settings::{Plain, Reader, Settings, SettingsError};
+use super::{Error, Image, Scene, Shading};
+
+/// The most lights of a scene.
+pub const MAX_LIGHTS: usize = 8;
+
+/// The longest side of a picture, in pixels.
+pub const MAX_IMAGE_SIDE: i64 = 16384;
+
+pub(super) const DEFAULT_SIZE: [u32; 2] = [512, 512];
+pub(super) const DEFAULT_BACKGROUND: [f32; 3] = [0.30, 0.40, 0.60];
+
+/// GL_LIGHT_MODEL_AMBIENT's initial value.
+const DEFAULT_AMBIENT: [f32; 3] = [0.2; 3];
+
+/// Resolves a scene's root table. Cheap checks come first, so that a wrong key does not wait for a large mesh.
+pub(super) fn scene(root: &Settings, assets: &mut Assets) -> Result<Scene, Error> {
+    let mut reader = root.read();
+    let image = image(reader.table("image")?)?;
+    let shading = shading(reader.table("shading")?)?;
+    let camera = camera::read(reader.table("camera")?)?;
+    let lights = reader.tables("light")?;
+    let objects = reader.tables("object")?;
+    check_counts(&reader, lights.len(), objects.len())?;
+    reader.finish()?;
+
+    let lights =
+        lights.iter().enumerate().map(|(i, table)| light::read(table, i, assets)).collect::<Result<Vec<_>, _>>()?;
+    let objects = objects.iter().map(|table| object::read(table, assets)).collect::<Result<Vec<_>, _>>()?;
+    if lights.is_empty() {
+        assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
+    }
+    let camera = camera.complete(&objects, image.aspect())?;
+    Ok(Scene { image, camera, shading, lights, objects })
+}
+
+/// `[image]`.
+pub(super) fn image(table: Option<&Settings>) -> Result<Image, SettingsError> {
+    let mut image = Image { size: DEFAULT_SIZE, background: DEFAULT_BACKGROUND };
+    let Some(table) = table else {
+        return Ok(image);
+    };
+    let mut reader = table.read();
+    if let Some(size) = size(&mut reader)? {
+        image.size = size;
+    }
+    if let Some(background) = reader.colour("background", 1.0)? {
+        image.background = background;
+    }
+    reader.finish()?;
+    Ok(image)
+}
+
+fn size(reader: &mut Reader<'_>) -> Result<Option<[u32; 2]>, SettingsError> {
+    let Some(size) = reader.numbers::<2>("size", f64::MIN..=f64::MAX)? else {
+        return Ok(None);
+    };
+    let allowed = |side: f64| side.fract() == 0.0 && (1.0..=MAX_IMAGE_SIDE as f64).contains(&side);
+    if !size.into_iter().all(allowed) {
+        let [width, height] = size.map(Plain);
+        let message = format!("must be two whole numbers in 1..={MAX_IMAGE_SIDE}, not [{width}, {height}]");
+        return Err(reader.error("size", message));
+    }
+    Ok(Some(size.map(|side| side as u32)))
+}
+
+fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
+    let mut shading = Shading { ambient: DEFAULT_AMBIENT, per_vertex: false };
+    let Some(table) = table else {
+        return Ok(shading);
+    };
+    let mut reader = table.read();
+    if let Some(ambient) = reader.colour("ambient", 1.0)? {
+        shading.ambient = ambient;
+    }
+    if let Some(per_vertex) = reader.choice("lighting", &[("per-fragment", false), ("per-vertex", true)])? {
+        shading.per_vertex = per_vertex;
+    }
+    reader.finish()?;
+    Ok(shading)
+}
+
+fn check_counts(reader: &Reader<'_>, lights: usize, objects: usize) -> Result<(), SettingsError> {
+    if objects == 0 {
+        return Err(reader.missing("object", "a scene needs at least one [[object]]"));
+    }
+    if lights > MAX_LIGHTS {
+        return Err(reader.error("light", format_args!("may stand {MAX_LIGHTS} times at most, not {lights}")));
+    }
+    Ok(())
+}

@@ -1,0 +1,218 @@
+//! Scenes that load: each value as the file says, and what stands in where the file is silent.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3, dvec3};
+use glumbra::scene::{self, Error, LightKind, LightShape, Loaded, Origin, Scene, Value};
+
+const EXAMPLE: &str = include_str!("../data/scenes/example.toml");
+
+/// A tetrahedron from (0, 0, 0) to (1, 2, 1).
+const MODEL: &str = "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 2 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("model.obj"), MODEL).unwrap();
+    folder
+}
+
+fn load(text: &str, overrides: &[&str]) -> Result<Loaded, Error> {
+    let folder = folder();
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, text).unwrap();
+    load_file(&path, overrides)
+}
+
+fn load_file(path: &Path, overrides: &[&str]) -> Result<Loaded, Error> {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    scene::load(path, &overrides)
+}
+
+fn scene_of(text: &str, overrides: &[&str]) -> Scene {
+    load(text, overrides).unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+#[test]
+fn the_example_has_every_value_as_written() {
+    let loaded = load(EXAMPLE, &[]).unwrap();
+    assert_eq!(loaded.warnings, [""; 0]);
+    let scene = loaded.scene;
+    assert_eq!(scene.image.size, [512, 512]);
+    assert_eq!(scene.image.background, [0.3, 0.4, 0.6]);
+    assert_eq!((scene.shading.ambient, scene.shading.per_vertex), ([0.2; 3], false));
+
+    let camera = &scene.camera;
+    assert_eq!((camera.eye, camera.target, camera.up), (dvec3(3.0, 2.5, 4.0), dvec3(0.0, 0.6, 0.0), DVec3::Y));
+    assert_eq!((camera.fov_y_radians, camera.near, camera.far), (40.0_f64.to_radians(), 0.1, 50.0));
+
+    let [light] = scene.lights.as_slice() else { panic!("one light") };
+    assert_eq!((light.position, light.target, light.up), (dvec3(2.0, 4.0, 3.0), dvec3(0.0, 0.5, 0.0), DVec3::Y));
+    assert_eq!(light.kind, LightKind::Spot { cone_radians: 60.0_f64.to_radians(), shape: LightShape::Cone });
+    assert_eq!((light.near, light.far, light.name.as_str()), (0.5, 20.0, "light 0"));
+    assert_eq!((light.ambient, light.diffuse, light.specular), ([0.0; 3], [1.0; 3], [1.0; 3]));
+    assert_eq!(light.attenuation, [1.0, 0.0, 0.0]);
+    assert!(light.image.is_none());
+    assert_eq!(light.shadow.path, "light.shadow");
+    assert!(matches!(light.shadow.origin, Origin::File { line: 19, .. }), "{:?}", light.shadow.origin);
+    let keys: Vec<&str> = light.shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
+    assert_eq!(keys, ["technique", "size", "format", "transfer", "filter", "compare", "offset", "texgen"]);
+
+    let [floor, model] = scene.objects.as_slice() else { panic!("two objects") };
+    assert_eq!((floor.name.as_str(), model.name.as_str()), ("quad", "model.obj"));
+    assert_eq!(floor.world_from_model, DMat4::from_scale(dvec3(4.0, 1.0, 4.0)));
+    let material = floor.material.as_ref().unwrap();
+    assert_eq!((material.diffuse, material.ambient, material.specular), ([0.7; 3], [0.7; 3], [0.0; 3]));
+    assert_eq!(model.world_from_model, DMat4::IDENTITY);
+    assert!(model.material.is_none() && model.lit && model.casts_shadow);
+    assert_eq!((model.world_bounds().min, model.world_bounds().max), (DVec3::ZERO, dvec3(1.0, 2.0, 1.0)));
+}
+
+#[test]
+fn overrides_reach_file_and_missing_tables() {
+    let scene = scene_of(EXAMPLE, &["light.shadow.transfer=copy", "shading.lighting=per-vertex", "object.1.scale=-2"]);
+    assert!(scene.shading.per_vertex);
+    let transfer = scene.lights[0].shadow.get("transfer").unwrap();
+    assert!(matches!(&transfer.value, Value::String(text) if text == "copy"));
+    assert_eq!(transfer.origin.to_string(), "--set light.shadow.transfer=copy");
+    assert_eq!(scene.objects[1].world_from_model, DMat4::from_scale(DVec3::splat(-2.0)));
+
+    for (text, expected) in [
+        ("light.cone=200", "--set light.cone=200: `light.cone` must be above 1"),
+        ("camera.fow_y=5", "--set camera.fow_y=5: unknown key `fow_y` in [camera]: did you mean `fov_y`?"),
+        ("imag.size=5", "--set imag.size=5: unknown key `imag` in the scene: did you mean `image`?"),
+        ("object.material.decal=none.png", "--set object.material.decal=none.png: none.png: "),
+    ] {
+        let error = load(EXAMPLE, &[text]).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{error}");
+    }
+}
+
+#[test]
+fn a_file_is_loaded_once_however_it_is_named() {
+    let text = "[[object]]\nmesh = \"model.obj\"\n[[object]]\nmesh = \"./model.obj\"\n\
+                [[object]]\nmesh = \"box\"\n[[object]]\nmesh = \"box\"\n";
+    let objects = scene_of(text, &[]).objects;
+    assert!(Arc::ptr_eq(&objects[0].mesh, &objects[1].mesh));
+    assert!(Arc::ptr_eq(&objects[2].mesh, &objects[3].mesh));
+    assert!(!Arc::ptr_eq(&objects[0].mesh, &objects[2].mesh));
+}
+
+#[test]
+fn placement_scales_then_rotates_in_order_then_translates() {
+    let text = "[[object]]\nmesh = \"box\"\nscale = [2, 1, -1]\ntranslate = [10, 20, 30]\n\
+                rotate = [{ axis = [0, 0, 3], angle = 90 }, { axis = [1, 0, 0], angle = 450 }]\n";
+    let world_from_model = scene_of(text, &[]).objects[0].world_from_model;
+    // x: scaled to 2, turned about z to +y, turned about x to +z.
+    for (model, world) in
+        [(DVec3::X, dvec3(10.0, 20.0, 32.0)), (DVec3::Y, dvec3(9.0, 20.0, 30.0)), (DVec3::Z, dvec3(10.0, 21.0, 30.0))]
+    {
+        let found = world_from_model.transform_point3(model);
+        assert!(found.distance(world) < 1e-12, "{model} to {found}, not {world}");
+    }
+}
+
+#[test]
+fn colours_have_shorthands() {
+    let light = "[[light]]\nposition = [0, 3, 0]\ntarget = [0, 0, 0]\ncone = 50\nnear = 1\nfar = 9\n";
+    let text = format!(
+        "{light}color = [3, 2, 1]\nspecular = [0, 0, 0]\nshape = \"frustum\"\nname = \"key\"\n\
+         [[object]]\nmesh = \"box\"\nname = \"crate\"\nlit = false\ncasts_shadow = false\n\
+         material = {{ diffuse = [1, 0, 0], ambient = [0, 1, 0], opacity = 0.5, shininess = 10 }}\n"
+    );
+    let scene = scene_of(&text, &[]);
+    let light = &scene.lights[0];
+    assert_eq!((light.diffuse, light.specular, light.name.as_str()), ([3.0, 2.0, 1.0], [0.0; 3], "key"));
+    assert!(matches!(light.kind, LightKind::Spot { shape: LightShape::Frustum, .. }));
+    assert!(light.shadow.is_empty() && matches!(light.shadow.origin, Origin::File { line: 1, .. }));
+    // Straight down: up is -z, which keeps +x to the right.
+    assert_eq!(light.up, DVec3::NEG_Z);
+    let right = light.view_from_world().transform_vector3(DVec3::X);
+    assert!(right.distance(DVec3::X) < 1e-12);
+    let object = &scene.objects[0];
+    let material = object.material.as_ref().unwrap();
+    assert_eq!((material.diffuse, material.ambient), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+    assert_eq!((material.opacity, material.shininess), (0.5, 10.0));
+    assert!(!object.lit && !object.casts_shadow && object.name == "crate");
+}
+
+#[test]
+fn a_scene_without_camera_is_framed() {
+    let text = "[[object]]\nmesh = \"box\"\ntranslate = [100, 0, 0]\n[[object]]\nmesh = \"box\"\nscale = 0.1\n";
+    for overrides in
+        [&[][..], &["camera.fov_y=90"], &["image.size=[900, 100]"], &["camera.target=[50, 0, 0]", "camera.fov_y=70"]]
+    {
+        let loaded = load(text, overrides).unwrap();
+        assert!(loaded.warnings[0].contains("no [[light]]"), "{:?}", loaded.warnings);
+        let scene = loaded.scene;
+        let clip_from_world = scene.camera.clip_from_view(scene.aspect()) * scene.camera.view_from_world();
+        for corner in scene.objects.iter().flat_map(|object| object.world_bounds().corners()) {
+            let seen = clip_from_world.project_point3(corner);
+            assert!(seen.abs().max_element() < 1.0, "{overrides:?}: {corner} is seen at {seen}");
+        }
+    }
+}
+
+#[test]
+fn lights_and_cameras_look_where_they_should() {
+    let scene = scene_of(EXAMPLE, &["image.size=[200, 100]"]);
+    assert_eq!(scene.aspect(), 2.0);
+    let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-9, "{a} is not {b}");
+    let light = &scene.lights[0];
+    let forward = (light.target - light.position).normalize();
+    let clip_from_world = light.clip_from_view() * light.view_from_world();
+    near(clip_from_world.project_point3(light.position + forward * 0.5), dvec3(0.0, 0.0, -1.0));
+    near(clip_from_world.project_point3(light.position + forward * 20.0), dvec3(0.0, 0.0, 1.0));
+    // 30 degrees off the axis is the frustum's side.
+    let side = forward.cross(DVec3::Y).normalize();
+    let off = light.position + forward * (3.0_f64.sqrt() * 0.5) + side * 0.5;
+    assert!((clip_from_world.project_point3(off).x - 1.0).abs() < 1e-12);
+    let camera = &scene.camera;
+    let clip_from_world = camera.clip_from_view(2.0) * camera.view_from_world();
+    let ahead = (camera.target - camera.eye).normalize();
+    near(clip_from_world.project_point3(camera.eye + ahead * 50.0), dvec3(0.0, 0.0, 1.0));
+}
+
+#[test]
+fn a_bare_model_gets_floor_light_and_camera() {
+    let folder = folder();
+    let path = folder.path().join("model.obj");
+    let scene = load_file(&path, &[]).unwrap().scene;
+    assert_eq!((scene.objects.len(), scene.lights.len()), (2, 1));
+    let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=-90}"];
+    let turned = load_file(&path, &overrides).unwrap().scene;
+    assert!((turned.camera.fov_y_radians - 50.0_f64.to_radians()).abs() < 1e-12);
+    assert!(matches!(turned.lights[0].shadow.get("size").unwrap().value, Value::Integer(2048)));
+    // Turned, the model reaches down to -1, hence the floor.
+    let floor = turned.objects[1].world_bounds().max.y;
+    assert!((floor + 1.0).abs() < 1e-6, "{floor}");
+}
+
+#[test]
+fn a_supplied_scene_printed_and_saved_is_the_same_scene() {
+    let folder = folder();
+    let path = folder.path().join("model.obj");
+    let toml = scene::settings(&path, &["image.size=[300, 200]".into()]).unwrap().to_toml();
+    let saved = folder.path().join("saved.toml");
+    fs::write(&saved, &toml).unwrap();
+    let (direct, saved) =
+        (load_file(&path, &["image.size=[300, 200]"]).unwrap().scene, load_file(&saved, &[]).unwrap().scene);
+    assert_eq!((&direct.image, &direct.camera), (&saved.image, &saved.camera), "{toml}");
+    assert_eq!(direct.lights[0].kind, saved.lights[0].kind);
+    assert_eq!(direct.lights[0].position, saved.lights[0].position);
+    assert_eq!(direct.objects[1].world_from_model, saved.objects[1].world_from_model);
+}
+
+#[test]
+fn what_is_in_the_data_folder_loads() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes");
+    let mut paths: Vec<PathBuf> = fs::read_dir(scenes).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| !path.ends_with("example.toml"));
+    paths.sort();
+    assert!(!paths.is_empty());
+    for path in paths {
+        let loaded = load_file(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(loaded.warnings, [""; 0], "{}", path.display());
+    }
+}
