@@ -1,5 +1,8 @@
 //! glumbra: a headless OpenGL reference renderer of shadows and projected light.
 
+pub mod cli;
+pub mod context;
+pub mod device;
 pub mod geometry;
 pub mod math;
 pub mod scene;
