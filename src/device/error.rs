@@ -3,8 +3,8 @@
 /// A failure of the driver, or of a pass list against GL's rules.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    #[error("{label}: GL reports {codes}")]
-    Gl { label: String, codes: String },
+    #[error(transparent)]
+    Gl(#[from] super::debug::GlError),
     #[error("the {stage} shader of {program} does not compile:\n{log}\nfiles by number: {files}")]
     Compile { program: String, stage: &'static str, log: String, files: String },
     #[error("{program} does not link: {log}")]
@@ -23,23 +23,4 @@ pub enum Error {
     Allocation { image: String, codes: String },
     #[error("GL cannot make {0}")]
     Create(String),
-}
-
-impl Error {
-    pub(super) fn gl(label: &str, codes: &[u32]) -> Self {
-        Self::Gl { label: label.to_owned(), codes: names(codes) }
-    }
-}
-
-/// GL's names of its error codes.
-pub(super) fn names(codes: &[u32]) -> String {
-    let name = |code: &u32| match *code {
-        glow::INVALID_ENUM => String::from("GL_INVALID_ENUM"),
-        glow::INVALID_VALUE => String::from("GL_INVALID_VALUE"),
-        glow::INVALID_OPERATION => String::from("GL_INVALID_OPERATION"),
-        glow::INVALID_FRAMEBUFFER_OPERATION => String::from("GL_INVALID_FRAMEBUFFER_OPERATION"),
-        glow::OUT_OF_MEMORY => String::from("GL_OUT_OF_MEMORY"),
-        other => format!("0x{other:04X}"),
-    };
-    codes.iter().map(name).collect::<Vec<_>>().join(", ")
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use glow::HasContext;
 
 use super::Error;
-use super::error::names;
+use super::debug::error_name;
 use super::state::compare_code;
 use crate::pass::{DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
@@ -49,7 +49,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
                 DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
-                DepthFormat::Depth32 => glow::DEPTH_COMPONENT32,
+                DepthFormat::Depth32 => super::probe::DEPTH_COMPONENT32,
                 DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)
@@ -67,7 +67,7 @@ pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Erro
     let image = GpuImage { gl: gl.clone(), name };
     match unsafe { gl.get_error() } {
         glow::NO_ERROR => Ok(image),
-        code => Err(Error::Allocation { image: desc.label.clone(), codes: names(&[code]) }),
+        code => Err(Error::Allocation { image: desc.label.clone(), codes: error_name(code) }),
     }
 }
 

@@ -3,15 +3,17 @@
 //! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
 //! its target already holds is left out ([`Redraw::WhenChanged`]).
 
+pub mod debug;
 mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+pub mod probe;
 mod program;
+mod queries;
 mod readback;
 mod run;
 mod state;
-mod timer;
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -19,8 +21,9 @@ use std::sync::Arc;
 
 use glow::HasContext;
 
+use crate::context::Context;
 use crate::geometry::Mesh;
-use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
+use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
 pub use readback::Pixels;
@@ -36,13 +39,15 @@ pub struct Device {
     samplers: HashMap<Sampler, image::GpuSampler>,
     done: HashMap<String, run::Done>,
     state: Option<state::Applied>,
+    debug: debug::Debug,
+    timer: Option<queries::Timer>,
 }
 
 impl Device {
-    /// A device on the context that is current on this thread. It must be dropped before the context is.
-    pub fn new(gl: Rc<glow::Context>) -> Self {
+    /// A device on `context`, which is current on this thread. It must be dropped before the context is.
+    pub fn new(context: &dyn Context) -> Self {
         Self {
-            gl,
+            gl: context.gl().clone(),
             meshes: HashMap::new(),
             programs: HashMap::new(),
             images: Vec::new(),
@@ -50,6 +55,8 @@ impl Device {
             samplers: HashMap::new(),
             done: HashMap::new(),
             state: None,
+            debug: debug::Debug::new(context),
+            timer: queries::Timer::new(context),
         }
     }
 
@@ -72,17 +79,26 @@ impl Device {
         unsafe { self.gl.finish() };
     }
 
+    /// What the driver makes of a depth format, measured; `None` for a format that is not measured.
+    ///
+    /// # Errors
+    ///
+    /// A driver that cannot even measure.
+    pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
+        self.state = None;
+        let name = format.to_string();
+        let known = probe::FORMATS.iter().find(|known| known.name == name);
+        known.map(|known| probe::depth_format(&self.gl, known)).transpose()
+    }
+
+    /// Forgets which passes their targets hold, so that the next run draws them all.
+    pub fn forget(&mut self) {
+        self.done.clear();
+    }
+
     /// Any GL error since the last check, as an error of ours with the pass's label.
     fn check(&self, label: &str) -> Result<(), Error> {
-        let mut codes = Vec::new();
-        // A lost context reports errors for ever: stop after a few.
-        while codes.len() < 8 {
-            match unsafe { self.gl.get_error() } {
-                glow::NO_ERROR => break,
-                code => codes.push(code),
-            }
-        }
-        if codes.is_empty() { Ok(()) } else { Err(Error::gl(label, &codes)) }
+        Ok(self.debug.check(label)?)
     }
 }
 

@@ -7,7 +7,6 @@ use glow::HasContext;
 
 use super::image::{self, ImageName};
 use super::state::{apply, set_mirrored};
-use super::timer::Timer;
 use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
 use crate::pass::{Batch, Draw, DrawPass, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work};
 
@@ -67,13 +66,18 @@ impl Device {
             return Ok(None);
         }
         self.finish();
-        let timer = Timer::start(&self.gl);
         let start = Instant::now();
-        self.draw_pass(list, pass)?;
-        let ended = timer.map(Timer::end);
+        if let Some(timer) = &mut self.timer {
+            timer.begin();
+        }
+        let drawn = self.draw_pass(list, pass);
+        if let Some(timer) = &mut self.timer {
+            timer.end();
+        }
+        drawn?;
         self.finish();
         let wall_ms = start.elapsed().as_secs_f64() * 1e3;
-        let gpu_ms = ended.and_then(|timer| timer.milliseconds());
+        let gpu_ms = self.timer.as_mut().and_then(|timer| timer.wait()).map(|time| time.as_secs_f64() * 1e3);
         Ok(Some(PassTime { label: pass.label.clone(), wall_ms, gpu_ms }))
     }
 

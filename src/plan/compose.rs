@@ -207,8 +207,7 @@ impl Builder<'_> {
     /// The scene as a light sees it, unshadowed, in the largest square that fits the picture.
     fn light_view(&mut self, label: &str, index: usize) -> Result<ImageId, Error> {
         let source = &self.scene.lights[index];
-        let viewer =
-            Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
+        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
         let side = self.scene.image.size[0].min(self.scene.image.size[1]);
         let target = color_and_depth(label, [side; 2], Format::Rgba32F, self.list);
         let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));

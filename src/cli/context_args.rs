@@ -1,0 +1,43 @@
+//! `--context` and `--device`, the same in every subcommand that draws.
+
+use clap::{Args, ValueEnum};
+
+use crate::context::{Choice, ContextRequest, Profile};
+
+/// Which GL context to draw with; to be flattened into a subcommand's arguments.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Context")]
+pub struct ContextArgs {
+    /// Who makes the OpenGL context
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Auto)]
+    context: Kind,
+    /// The EGL device to draw on, by its number in `glumbra info`
+    #[arg(long, value_name = "N")]
+    device: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Kind {
+    /// EGL, then OSMesa, then a hidden window where there is a display
+    Auto,
+    /// EGL: surfaceless, then a device, then a pbuffer
+    Egl,
+    /// Mesa's off-screen library
+    #[value(name = "osmesa")]
+    OsMesa,
+    /// A hidden window on X11 or Wayland
+    Window,
+}
+
+impl ContextArgs {
+    /// The request for these arguments. Debug builds ask for a debug context.
+    pub fn request(&self, profile: Profile) -> ContextRequest {
+        let choice = match self.context {
+            Kind::Auto => Choice::Auto,
+            Kind::Egl => Choice::Egl,
+            Kind::OsMesa => Choice::OsMesa,
+            Kind::Window => Choice::Window,
+        };
+        ContextRequest { choice, device: self.device, profile, debug: cfg!(debug_assertions) }
+    }
+}

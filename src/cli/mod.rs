@@ -1,0 +1,80 @@
+//! The command line: one file a subcommand; arguments in, calls out, no logic.
+
+mod context_args;
+mod info;
+mod plan;
+mod render;
+mod scene_args;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use context_args::ContextArgs;
+
+use crate::context;
+use crate::device::probe;
+
+/// A headless OpenGL reference renderer of shadows and projected light.
+#[derive(Debug, Parser)]
+#[command(name = "glumbra", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Prints the context, its driver and limits, and what was measured of its depth formats.
+    Info(info::InfoArgs),
+    Plan(plan::PlanArgs),
+    Render(render::RenderArgs),
+}
+
+/// Why a subcommand failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Context(#[from] context::Error),
+    #[error(transparent)]
+    Probe(#[from] probe::Error),
+    #[error(transparent)]
+    Scene(#[from] crate::scene::Error),
+    #[error(transparent)]
+    Plan(#[from] crate::plan::Error),
+    #[error(transparent)]
+    Frame(#[from] crate::frame::Error),
+    #[error(transparent)]
+    File(#[from] crate::output::Error),
+    #[error("standard output: {0}")]
+    Output(#[from] std::io::Error),
+    #[error("JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// Runs the command with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+pub fn run() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // A reader that has seen enough (`glumbra info | head`) is no error.
+        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Pretty JSON and a line's end on standard output.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    serde_json::to_writer_pretty(&mut out, value)?;
+    writeln!(out)?;
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! `glumbra plan`: the passes of a frame in words, without drawing it.
+
+use clap::Args;
+
+use super::Error;
+use super::scene_args::{SceneArgs, parse_view};
+use crate::plan::{self, Request, ViewRequest};
+use crate::scene;
+
+/// Prints the passes that a scene needs, and what is left out and why.
+#[derive(Debug, Args)]
+#[command(after_help = "No OpenGL is needed: a plan is data.")]
+pub struct PlanArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// Also plans this view, as `glumbra render --aov` would draw it
+    #[arg(long, value_name = "NAME", value_parser = parse_view)]
+    aov: Vec<ViewRequest>,
+
+    /// Plans for this many frames
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+
+    /// Prints JSON
+    #[arg(long)]
+    json: bool,
+
+    /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from
+    #[arg(long, conflicts_with = "json")]
+    print_scene: bool,
+}
+
+/// Plans and prints.
+pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    if arguments.print_scene {
+        let settings = scene::settings(&arguments.scene.scene, &arguments.scene.overrides())?;
+        out.write_all(settings.to_toml().as_bytes())?;
+        return Ok(());
+    }
+    let loaded = arguments.scene.load()?;
+    let request = Request { views: arguments.aov.clone(), frames: arguments.frames, ..Request::default() };
+    let summary = plan::make(&loaded.scene, &request)?.summary();
+    if arguments.json {
+        drop(out);
+        return super::print_json(&summary);
+    }
+    write!(out, "{summary}")?;
+    Ok(())
+}

@@ -1,0 +1,171 @@
+//! `glumbra render`: a scene to a picture, and the views beside it.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::scene_args::{SceneArgs, parse_view};
+use super::{ContextArgs, Error};
+use crate::context::{self, Profile};
+use crate::frame::{Renderer, Times};
+use crate::output::{self, Output};
+use crate::plan::{Request, Summary, ViewRequest};
+
+/// Renders a scene or a model to a picture.
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// The picture's file: .png, or .exr or .npy with exact 32-bit values; by default the scene's name with .png, here
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Also writes this view beside the picture (out.png: out.NAME.png); NAME@LIGHT for another light than the first
+    #[arg(long, value_name = "NAME", value_parser = parse_view)]
+    aov: Vec<ViewRequest>,
+
+    /// Prints passes, times, bytes and what was left out as JSON
+    #[arg(long)]
+    json: bool,
+
+    /// Draws this many frames (and times each, for --json)
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+const HELP: &str = "\
+Views for --aov:
+  shade           the shadow term: white lit, black shadowed, transparent where the light does not reach
+  depth           the camera's window-space depth
+  light-depth     the shadow map
+  light-view      the scene as the light sees it
+  light-distance  r/q, each sample's planar distance from the light
+  projected-map   the shadow map projected onto the scene
+  (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
+
+Examples:
+  glumbra render data/scenes/main.toml -o statue.png
+  glumbra render model.obj -o model.png --size 800x600 --set camera.fov_y=30
+  glumbra render scene.toml -o out.exr --aov shade --aov light-depth
+  glumbra render scene.toml --set light.shadow.filter=nearest --set light.shadow.size=256
+  glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report {
+    scene: PathBuf,
+    files: Vec<PathBuf>,
+    context: String,
+    renderer: String,
+    #[serde(flatten)]
+    plan: Summary,
+    times: TimesReport,
+}
+
+#[derive(Serialize)]
+struct TimesReport {
+    /// Loading the scene.
+    load_ms: f64,
+    /// Each frame, waited for; the first one uploads and compiles.
+    frames_ms: Vec<f64>,
+    /// The median of the frames after the first, or the only one.
+    frame_median_ms: f64,
+    /// One more frame with every pass drawn anew and waited for.
+    passes: Vec<PassReport>,
+}
+
+#[derive(Serialize)]
+struct PassReport {
+    label: String,
+    wall_ms: f64,
+    gpu_ms: Option<f64>,
+}
+
+/// Renders.
+pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
+    let path = arguments.output.clone().unwrap_or_else(|| default_output(&arguments.scene.scene));
+    let format = output::check_path(&path)?;
+    let start = Instant::now();
+    let loaded = arguments.scene.load()?;
+    let load_ms = start.elapsed().as_secs_f64() * 1e3;
+    let request = Request {
+        views: arguments.aov.clone(),
+        float_picture: format.is_exact(),
+        frames: arguments.frames,
+        ..Request::default()
+    };
+    // A scene that cannot be planned needs no context to be refused.
+    crate::plan::make(&loaded.scene, &request)?;
+    let context = context::open(&arguments.context.request(Profile::Core33))?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let plan = renderer.plan(&loaded.scene, &request)?;
+    for warning in &plan.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let progress = progress(arguments.frames);
+    let times = renderer.draw_timed(&plan, arguments.frames, arguments.json, || progress.inc(1))?;
+    progress.finish_and_clear();
+    let frame = renderer.read(&plan)?;
+    let names = arguments.aov.iter().map(|wanted| output::beside(&path, &view_name(wanted)));
+    let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
+    let views = arguments.aov.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
+    let pictures = [(&frame.picture, None)].into_iter().chain(views);
+    let outputs: Vec<Output<'_>> =
+        files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
+    output::write_all(&outputs)?;
+    if arguments.json {
+        let info = context.describe();
+        let report = Report {
+            scene: arguments.scene.scene.clone(),
+            files,
+            context: context.road().to_owned(),
+            renderer: format!("{}, {}", info.renderer, info.version),
+            plan: plan.summary(),
+            times: report_times(load_ms, times),
+        };
+        super::print_json(&report)?;
+    }
+    Ok(())
+}
+
+fn default_output(scene: &Path) -> PathBuf {
+    Path::new(scene.file_stem().unwrap_or(scene.as_os_str())).with_extension("png")
+}
+
+fn view_name(wanted: &ViewRequest) -> String {
+    let name = wanted.view.name();
+    if wanted.light == 0 { name.to_owned() } else { format!("{name}.{}", wanted.light) }
+}
+
+/// A bar on a terminal when there is time to look at it.
+fn progress(frames: u32) -> ProgressBar {
+    if frames < 10 {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(u64::from(frames));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos}/{len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn report_times(load_ms: f64, times: Times) -> TimesReport {
+    let steady = if times.frames_ms.len() > 1 { &times.frames_ms[1..] } else { &times.frames_ms[..] };
+    let mut sorted = steady.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let frame_median_ms = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    let passes = times.passes.into_iter().map(|pass| PassReport {
+        label: pass.label,
+        wall_ms: pass.wall_ms,
+        gpu_ms: pass.gpu_ms,
+    });
+    TimesReport { load_ms, frames_ms: times.frames_ms, frame_median_ms, passes: passes.collect() }
+}

@@ -1,0 +1,60 @@
+//! What every subcommand that draws takes: a scene and what to change in it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Error;
+use crate::plan::ViewRequest;
+use crate::scene::{self, Loaded};
+use crate::techniques::views::VIEWS;
+
+/// The scene, and changes to it.
+#[derive(Clone, Debug, Args)]
+pub struct SceneArgs {
+    /// A scene (.toml), or a model (.obj) around which a floor, a spotlight and a camera are supplied
+    pub scene: PathBuf,
+
+    /// The picture's size in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+
+    /// Changes a key of the scene, e.g. light.shadow.size=2048 (every light) or light.0.cone=45 (the first)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl SceneArgs {
+    /// The overrides in order, `--size` first.
+    pub fn overrides(&self) -> Vec<String> {
+        let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
+        size.into_iter().chain(self.set.iter().cloned()).collect()
+    }
+
+    /// Loads the scene and prints its warnings.
+    pub fn load(&self) -> Result<Loaded, Error> {
+        let loaded = scene::load(&self.scene, &self.overrides())?;
+        for warning in &loaded.warnings {
+            eprintln!("warning: {warning}");
+        }
+        Ok(loaded)
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let (width, height) = text.split_once(['x', 'X']).ok_or("write it as 640x480")?;
+    let side = |text: &str| text.trim().parse().map_err(|_| format!("'{text}' is no number of pixels"));
+    Ok([side(width)?, side(height)?])
+}
+
+/// Reads `NAME` or `NAME@LIGHT`.
+pub fn parse_view(text: &str) -> Result<ViewRequest, String> {
+    let (name, light) = match text.split_once('@') {
+        Some((name, light)) => (name, light.parse().map_err(|_| format!("'{light}' is no number of a light"))?),
+        None => (text, 0),
+    };
+    match VIEWS.iter().find(|row| row.0 == name) {
+        Some(row) => Ok(ViewRequest { view: row.1, light }),
+        None => Err(scene::suggest(name, VIEWS.iter().map(|row| row.0))),
+    }
+}

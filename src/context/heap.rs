@@ -1,0 +1,20 @@
+//! Keeps the heap between frames. llvmpipe frees and takes large blocks every frame; glibc gives each back to the
+//! system at once and pays for its pages anew. Where the allocator is another one, there is nothing to do.
+
+/// Tells glibc to keep what is freed, once a process. To be called before the driver starts.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub(super) fn keep() {
+    use std::sync::Once;
+
+    const MIB: i32 = 1 << 20;
+    static ONCE: Once = Once::new();
+    // SAFETY: mallopt takes two integers and may be called at any time; it reports failure by 0, which costs only speed.
+    ONCE.call_once(|| unsafe {
+        libc::mallopt(libc::M_TRIM_THRESHOLD, 1024 * MIB);
+        libc::mallopt(libc::M_MMAP_THRESHOLD, 1024 * MIB);
+        libc::mallopt(libc::M_TOP_PAD, 64 * MIB);
+    });
+}
+
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub(super) fn keep() {}

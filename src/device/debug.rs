@@ -1,0 +1,75 @@
+//! Turns GL errors into errors of ours, with the label of the pass that made them: by KHR_debug where the context
+//! reports, by glGetError elsewhere.
+
+use std::rc::Rc;
+
+use glow::HasContext;
+
+use crate::context::{Context, DebugLog};
+
+/// What GL found wrong with the calls since the last check.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{label}: {}", messages.join("; "))]
+pub struct GlError {
+    /// The pass, or the step outside of one.
+    pub label: String,
+    /// The driver's words in a debug context, else the errors' names. Never empty.
+    pub messages: Vec<String>,
+}
+
+/// Asks one context for its errors.
+#[derive(Clone, Debug)]
+pub struct Debug {
+    gl: Rc<glow::Context>,
+    log: Option<DebugLog>,
+}
+
+/// glGetError keeps one flag a kind of error; a context that is lost reports the same one without end.
+const MOST_FLAGS: usize = 8;
+
+impl Debug {
+    pub fn new(context: &dyn Context) -> Self {
+        Self { gl: context.gl().clone(), log: context.debug_log().cloned() }
+    }
+
+    /// Whether errors come with the driver's words, and at the call that made them.
+    pub fn is_verbose(&self) -> bool {
+        self.log.is_some()
+    }
+
+    /// Fails if a GL call since the last check was in error, and names `label` as where. The context must be current.
+    pub fn check(&self, label: &str) -> Result<(), GlError> {
+        let flags = self.take_flags();
+        let reported = self.log.as_ref().map(DebugLog::take).unwrap_or_default();
+        let mut messages: Vec<String> =
+            reported.into_iter().filter(|message| message.is_error()).map(|message| message.text).collect();
+        if messages.is_empty() {
+            messages = flags;
+        }
+        if messages.is_empty() { Ok(()) } else { Err(GlError { label: label.to_owned(), messages }) }
+    }
+
+    fn take_flags(&self) -> Vec<String> {
+        // SAFETY: reads and clears the context's error flags.
+        let next = || match unsafe { self.gl.get_error() } {
+            glow::NO_ERROR => None,
+            code => Some(error_name(code)),
+        };
+        std::iter::from_fn(next).take(MOST_FLAGS).collect()
+    }
+}
+
+/// GL's name of an error code.
+pub(super) fn error_name(code: u32) -> String {
+    match code {
+        glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
+        glow::INVALID_VALUE => "GL_INVALID_VALUE".to_owned(),
+        glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
+        glow::STACK_OVERFLOW => "GL_STACK_OVERFLOW".to_owned(),
+        glow::STACK_UNDERFLOW => "GL_STACK_UNDERFLOW".to_owned(),
+        glow::OUT_OF_MEMORY => "GL_OUT_OF_MEMORY".to_owned(),
+        glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
+        glow::CONTEXT_LOST => "GL_CONTEXT_LOST".to_owned(),
+        _ => format!("GL error {code:#06x}"),
+    }
+}

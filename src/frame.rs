@@ -1,0 +1,127 @@
+//! The loop: plan a scene, run the passes on the device, read the pictures back.
+
+use std::time::Instant;
+
+use crate::context::Context;
+use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
+use crate::pass::{DepthFormat, Format};
+use crate::plan::{self, Limits, Plan, Request};
+use crate::scene::Scene;
+
+/// Why a frame could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Plan(#[from] plan::Error),
+    #[error(transparent)]
+    Device(#[from] device::Error),
+    #[error(transparent)]
+    Probe(#[from] probe::Error),
+}
+
+/// Draws scenes on one context.
+pub struct Renderer {
+    device: Device,
+    limits: Limits,
+}
+
+/// A planned scene's pictures.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    pub picture: Pixels,
+    /// In the request's order.
+    pub views: Vec<Pixels>,
+}
+
+/// How long frames took.
+#[derive(Clone, Debug, Default)]
+pub struct Times {
+    /// Each frame from its first call to the return of glFinish, in milliseconds. The first one uploads and compiles.
+    pub frames_ms: Vec<f64>,
+    /// The passes of one more frame, drawn anew and each waited for.
+    pub passes: Vec<PassTime>,
+}
+
+impl Renderer {
+    /// A renderer on `context`, which is current on this thread and stays so.
+    pub fn new(context: &dyn Context) -> Self {
+        let device = Device::new(context);
+        let (max_image_size, max_inputs) = device.limits();
+        Self { device, limits: Limits { max_image_size, max_inputs } }
+    }
+
+    /// Plans `scene` within the driver's limits.
+    ///
+    /// # Errors
+    ///
+    /// See [`plan::make`].
+    pub fn plan(&mut self, scene: &Scene, request: &Request) -> Result<Plan, Error> {
+        let mut plan = plan::make(scene, &Request { limits: self.limits, ..request.clone() })?;
+        self.warn_of_depth32(&mut plan)?;
+        Ok(plan)
+    }
+
+    /// Draws one frame of a plan; waits for nothing.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::run`].
+    pub fn draw(&mut self, plan: &Plan) -> Result<(), Error> {
+        self.device.run(&plan.list, Measure::No)?;
+        Ok(())
+    }
+
+    /// Draws `count` frames and times each. With `passes`, one more frame is drawn with each of its passes timed.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::run`].
+    pub fn draw_timed(
+        &mut self,
+        plan: &Plan,
+        count: u32,
+        passes: bool,
+        mut tick: impl FnMut(),
+    ) -> Result<Times, Error> {
+        let mut times = Times::default();
+        for _ in 0..count {
+            let start = Instant::now();
+            self.draw(plan)?;
+            self.device.finish();
+            times.frames_ms.push(start.elapsed().as_secs_f64() * 1e3);
+            tick();
+        }
+        if passes {
+            self.device.forget();
+            times.passes = self.device.run(&plan.list, Measure::Passes)?;
+        }
+        Ok(times)
+    }
+
+    /// Reads the pictures of the plan that was drawn last.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::read`].
+    pub fn read(&mut self, plan: &Plan) -> Result<Frame, Error> {
+        let picture = self.device.read(&plan.list, plan.picture)?;
+        let views = plan.views.iter().map(|(_, image)| self.device.read(&plan.list, *image));
+        let views = views.collect::<Result<_, _>>()?;
+        Ok(Frame { picture, views })
+    }
+
+    /// The device, for what only it can do.
+    pub fn device(&mut self) -> &mut Device {
+        &mut self.device
+    }
+
+    /// DEPTH_COMPONENT32 is optional: says what this driver makes of it.
+    fn warn_of_depth32(&mut self, plan: &mut Plan) -> Result<(), Error> {
+        let depth32 = Format::Depth(DepthFormat::Depth32);
+        if plan.list.images.iter().any(|desc| desc.format == depth32) {
+            let facts = self.device.depth_facts(depth32)?;
+            plan.warnings.extend(facts.map(|facts| facts.in_words()));
+        }
+        Ok(())
+    }
+}

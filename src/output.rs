@@ -1,0 +1,254 @@
+//! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
+//! renamed when it is whole.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+use crate::device::Pixels;
+use crate::techniques::views::View;
+
+/// Why a file could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{path}: cannot be written: {reason}", path = .path.display())]
+    Write { path: PathBuf, reason: String },
+    #[error("{path}: the folder {folder} does not exist", path = .path.display(), folder = .folder.display())]
+    NoFolder { path: PathBuf, folder: PathBuf },
+    #[error("{path}: is a folder; name a file that ends in .png, .exr or .npy", path = .path.display())]
+    Folder { path: PathBuf },
+    #[error("{path}: cannot tell the format: end it in .png, .exr or .npy", path = .path.display())]
+    UnknownFormat { path: PathBuf },
+}
+
+/// A file format, by its extension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    Png,
+    Exr,
+    Npy,
+}
+
+impl FileFormat {
+    /// Whether the format holds exact 32-bit values.
+    pub fn is_exact(self) -> bool {
+        self != Self::Png
+    }
+}
+
+/// The format that `path` asks for, once it is known that a file of that name can be made there.
+///
+/// # Errors
+///
+/// Another extension, a folder of that name, or no folder to put it in.
+pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
+    if path.is_dir() {
+        return Err(Error::Folder { path: path.to_owned() });
+    }
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let format = match extension.as_deref() {
+        Some("png") => FileFormat::Png,
+        Some("exr") => FileFormat::Exr,
+        Some("npy") => FileFormat::Npy,
+        _ => return Err(Error::UnknownFormat { path: path.to_owned() }),
+    };
+    match path.parent() {
+        Some(folder) if folder != Path::new("") && !folder.is_dir() => {
+            Err(Error::NoFolder { path: path.to_owned(), folder: folder.to_owned() })
+        }
+        _ => Ok(format),
+    }
+}
+
+/// `a/x.png` and `shade` make `a/x.shade.png`.
+pub fn beside(path: &Path, name: &str) -> PathBuf {
+    let mut file = path.file_stem().unwrap_or_default().to_owned();
+    file.push(".");
+    file.push(name);
+    if let Some(extension) = path.extension() {
+        file.push(".");
+        file.push(extension);
+    }
+    path.with_file_name(file)
+}
+
+/// A picture with its place and meaning.
+#[derive(Clone, Copy, Debug)]
+pub struct Output<'a> {
+    pub path: &'a Path,
+    pub pixels: &'a Pixels,
+    /// `None`: the main picture.
+    pub view: Option<View>,
+}
+
+/// Writes all of `outputs`, or none: each beside its name, then all renamed.
+///
+/// # Errors
+///
+/// The first file that could not be written; what was written beside is removed.
+pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
+    let mut written: Vec<(PathBuf, &Path)> = Vec::new();
+    let mut result = Ok(());
+    for output in outputs {
+        let temporary = temporary(output.path);
+        result = write(output, &temporary).map_err(|error| failed(output.path, &error));
+        written.push((temporary, output.path));
+        if result.is_err() {
+            break;
+        }
+    }
+    for (temporary, path) in &written {
+        if result.is_ok() {
+            result = fs::rename(temporary, path).map_err(|error| failed(path, &error));
+        }
+        if result.is_err() {
+            // Best effort: the error that counts is the one above.
+            let _ = fs::remove_file(temporary);
+        }
+    }
+    result
+}
+
+fn failed(path: &Path, error: &io::Error) -> Error {
+    Error::Write { path: path.to_owned(), reason: error.to_string() }
+}
+
+/// Unique to this process and name, in the same folder, so that the rename is one step.
+fn temporary(path: &Path) -> PathBuf {
+    let mut name = std::ffi::OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}.tmp", std::process::id()));
+    path.with_file_name(name)
+}
+
+fn write(output: &Output<'_>, path: &Path) -> io::Result<()> {
+    let mut file = BufWriter::new(fs::File::create(path)?);
+    match check_path(output.path).map_err(io::Error::other)? {
+        FileFormat::Png => write_png(output, &mut file)?,
+        FileFormat::Exr => write_exr(output, &mut file)?,
+        FileFormat::Npy => write_npy(output, &mut file)?,
+    }
+    file.flush()
+}
+
+fn write_png(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
+    let [width, height] = output.pixels.size();
+    let (bytes, color) = png_bytes(output);
+    PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Up)
+        .write_image(&bytes, width, height, color)
+        .map_err(io::Error::other)
+}
+
+/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their
+/// greatest so that a person sees them (the other formats have them as they are).
+fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
+    match (output.pixels, output.view) {
+        (Pixels::Rgba8 { data, .. }, _) => {
+            (data.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect(), ExtendedColorType::Rgb8)
+        }
+        (Pixels::Depth { data, .. }, _) => {
+            let stretch = Stretch::over(data.iter().copied().filter(|depth| *depth < 1.0));
+            let gray = data.iter().flat_map(|depth| to_u16(stretch.apply(*depth)).to_ne_bytes());
+            (gray.collect(), ExtendedColorType::L16)
+        }
+        (Pixels::RgbaF32 { data, .. }, Some(View::Shade)) => {
+            (data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[3])]).collect(), ExtendedColorType::La8)
+        }
+        (Pixels::RgbaF32 { data, .. }, Some(View::LightDistance | View::ProjectedMap)) => {
+            let pixels = || data.chunks_exact(4);
+            let stretch = Stretch::over(pixels().filter(|p| p[3] > 0.0).map(|p| p[0]));
+            let gray = pixels().flat_map(|p| [to_u16(stretch.apply(p[0])), to_u16(p[3])]);
+            (gray.flat_map(u16::to_ne_bytes).collect(), ExtendedColorType::La16)
+        }
+        (Pixels::RgbaF32 { data, .. }, _) => (
+            data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[1]), to_u8(p[2])]).collect(),
+            ExtendedColorType::Rgb8,
+        ),
+    }
+}
+
+/// Rounds as GL does (GL 4.6, 2.3.5.2).
+fn to_u8(value: f32) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+fn to_u16(value: f32) -> u16 {
+    (value.clamp(0.0, 1.0) * 65535.0).round() as u16
+}
+
+/// Maps the least of some values to 0.1, so that it differs from black, and the greatest to 0.9.
+struct Stretch {
+    least: f32,
+    span: f32,
+}
+
+impl Stretch {
+    fn over(values: impl Iterator<Item = f32>) -> Self {
+        let (least, greatest) =
+            values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        Self { least, span: (greatest - least).max(f32::MIN_POSITIVE) }
+    }
+
+    fn apply(&self, value: f32) -> f32 {
+        if !self.least.is_finite() || value >= 1.0 {
+            return 1.0;
+        }
+        0.1 + 0.8 * (value - self.least) / self.span
+    }
+}
+
+/// The channels that a view has, by EXR's names, and the number of floats between pixels.
+fn channels(output: &Output<'_>) -> (&'static [(&'static str, usize)], usize) {
+    match (output.pixels, output.view) {
+        (Pixels::Depth { .. }, _) => (&[("Z", 0)], 1),
+        (_, Some(View::Shade)) => (&[("Y", 0), ("A", 3)], 4),
+        (_, Some(View::LightDistance | View::ProjectedMap)) => (&[("Z", 0), ("A", 3)], 4),
+        _ => (&[("R", 0), ("G", 1), ("B", 2)], 4),
+    }
+}
+
+/// One plane of floats a channel.
+fn planes(output: &Output<'_>) -> Vec<(&'static str, Vec<f32>)> {
+    let (channels, stride) = channels(output);
+    let plane = |offset: usize| match output.pixels {
+        Pixels::Rgba8 { data, .. } => data[offset..].iter().step_by(stride).map(|v| f32::from(*v) / 255.0).collect(),
+        Pixels::RgbaF32 { data, .. } | Pixels::Depth { data, .. } => {
+            data[offset..].iter().step_by(stride).copied().collect()
+        }
+    };
+    channels.iter().map(|(name, offset)| (*name, plane(*offset))).collect()
+}
+
+fn write_exr(output: &Output<'_>, file: &mut (impl Write + io::Seek)) -> io::Result<()> {
+    use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage};
+    let [width, height] = output.pixels.size();
+    let channels = planes(output).into_iter().map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane)));
+    let layer = Layer::new(
+        (width as usize, height as usize),
+        LayerAttributes::named(output.view.map_or("picture", View::name)),
+        Encoding::SMALL_FAST_LOSSLESS,
+        AnyChannels::sort(channels.collect()),
+    );
+    Image::from_layer(layer).write().non_parallel().to_buffered(file).map_err(io::Error::other)
+}
+
+/// Shape (height, width), or (height, width, channels) for several.
+fn write_npy(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
+    use npyz::WriterBuilder;
+    let [width, height] = output.pixels.size().map(u64::from);
+    let planes = planes(output);
+    let mut shape = vec![height, width];
+    if planes.len() > 1 {
+        shape.push(planes.len() as u64);
+    }
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
+    for pixel in 0..(width * height) as usize {
+        for (_, plane) in &planes {
+            writer.push(&plane[pixel])?;
+        }
+    }
+    writer.finish()
+}
