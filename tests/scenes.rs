@@ -55,7 +55,7 @@ fn the_example_has_every_value_as_written() {
     assert_eq!(light.attenuation, [1.0, 0.0, 0.0]);
     assert!(light.image.is_none());
     assert_eq!(light.shadow.path, "light.shadow");
-    assert!(matches!(light.shadow.origin, Origin::File { line: 19, .. }), "{:?}", light.shadow.origin);
+    assert!(matches!(light.shadow.origin, Origin::File { line: 20, .. }), "{:?}", light.shadow.origin);
     let keys: Vec<&str> = light.shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
     assert_eq!(keys, ["technique", "size", "format", "transfer", "filter", "compare", "offset", "texgen"]);
 
@@ -180,7 +180,7 @@ fn a_bare_model_gets_floor_light_and_camera() {
     let path = folder.path().join("model.obj");
     let scene = load_file(&path, &[]).unwrap().scene;
     assert_eq!((scene.objects.len(), scene.lights.len()), (2, 1));
-    let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=-90}"];
+    let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=90}"];
     let turned = load_file(&path, &overrides).unwrap().scene;
     assert!((turned.camera.fov_y_radians - 50.0_f64.to_radians()).abs() < 1e-12);
     assert!(matches!(turned.lights[0].shadow.get("size").unwrap().value, Value::Integer(2048)));
