@@ -1,19 +1,20 @@
 //! A seated cat on a round plinth: smoothly joined solids, chiselled by noise, as an uneven mesh like that of a scan.
 
 use glam::{DVec3, dvec3};
+use rayon::prelude::*;
 
 use crate::noise::{hash, noise};
 use crate::tetrahedra::{Lattice, polygonise};
 
-/// Lattice points a unit of length, which decides the number of triangles.
-const STEP: f64 = 0.0238;
+/// Between lattice points, in the solids' units; it decides the number of triangles.
+const STEP: f64 = 0.0233;
 /// From the solids' units to the model's, in which the cat is 1.6 high.
 const SCALE: f64 = 1.6 / 1.492;
 
 /// The statue's vertices and triangles, standing on y = 0.
 pub fn sculpt() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (mut positions, triangles) = polygonise(&sample());
-    for _ in 0..2 {
+    for _ in 0..3 {
         relax(&mut positions, &triangles);
     }
     let lowest = positions.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
@@ -35,7 +36,7 @@ fn sample() -> Lattice {
             }
         }
     }
-    let values = points.iter().map(|point| field(*point)).collect();
+    let values = points.par_iter().map(|point| field(*point)).collect();
     Lattice { size, points, values }
 }
 
@@ -57,18 +58,19 @@ fn relax(positions: &mut [DVec3], triangles: &[[u32; 3]]) {
             sums[a].1 += 1.0;
         }
     }
-    for (position, (sum, count)) in positions.iter_mut().zip(sums) {
+    positions.par_iter_mut().zip(sums).for_each(|(position, (sum, count))| {
         let moved = (*position + sum / f64::max(count, 1.0)) * 0.5;
-        let slope = gradient(moved);
-        let back = slope * (field(moved) / slope.length_squared().max(0.25));
-        *position = moved - back.clamp_length_max(0.3 * STEP);
-    }
+        let (value, slope) = field_and_gradient(moved);
+        let back = slope * (value / slope.length_squared().max(0.25));
+        *position = moved - back.clamp_length_max(0.5 * STEP);
+    });
 }
 
-fn gradient(p: DVec3) -> DVec3 {
+fn field_and_gradient(p: DVec3) -> (f64, DVec3) {
     const H: f64 = 1e-4;
-    let along = |axis: DVec3| (field(p + axis * H) - field(p - axis * H)) / (2.0 * H);
-    dvec3(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
+    let value = field(p);
+    let along = |axis: DVec3| (field(p + axis * H) - value) / H;
+    (value, dvec3(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)))
 }
 
 /// About the signed distance to the statue, negative inside.
@@ -79,7 +81,7 @@ fn field(p: DVec3) -> f64 {
     let grain = noise(p * 70.0, 8);
     let face = smoothstep(1.0, 1.12, p.y);
     let carved = cat + 0.0035 * (1.0 - 0.8 * face) * strokes + 0.0009 * grain;
-    smooth_union(carved, plinth(p) + 0.0008 * grain, 0.012)
+    smooth_union(carved, plinth(p) + 0.0008 * grain, 0.04)
 }
 
 fn plinth(p: DVec3) -> f64 {
@@ -103,12 +105,12 @@ fn cat(p: DVec3) -> f64 {
     d = smooth_union(d, cone(p, dvec3(0.0, 0.50, -0.08), 0.22, dvec3(0.0, 0.94, 0.06), 0.135), 0.12);
     d = smooth_union(d, ellipsoid(p, dvec3(0.0, 0.80, 0.09), dvec3(0.155, 0.21, 0.14)), 0.08);
     let thigh = ellipsoid(m, dvec3(0.20, 0.35, -0.05), dvec3(0.11, 0.21, 0.23));
-    d = smooth_union(d, thigh, 0.035);
+    d = smooth_union(d, thigh, 0.06);
     let shoulder = cone(m, dvec3(0.11, 0.76, 0.08), 0.085, dvec3(0.095, 0.50, 0.20), 0.066);
     let foreleg = cone(m, dvec3(0.095, 0.50, 0.20), 0.066, dvec3(0.088, 0.21, 0.265), 0.047);
-    d = smooth_union(d, smooth_union(shoulder, foreleg, 0.03), 0.04);
-    d = smooth_union(d, paws(m), 0.025);
-    d = smooth_union(d, tail(p), 0.02);
+    d = smooth_union(d, smooth_union(shoulder, foreleg, 0.03), 0.06);
+    d = smooth_union(d, paws(m), 0.04);
+    d = smooth_union(d, tail(p), 0.04);
     let head = head(turn_head(p));
     smooth_union(d, head, 0.05)
 }
@@ -140,7 +142,7 @@ fn tail(p: DVec3) -> f64 {
     ];
     KNOTS.windows(2).fold(f64::INFINITY, |d, ends| {
         let [(a, ra), (b, rb)] = [ends[0], ends[1]];
-        smooth_union(d, cone(p, a.into(), ra, b.into(), rb), 0.04)
+        smooth_union(d, cone(p, a.into(), ra, b.into(), rb), 0.008)
     })
 }
 
@@ -160,8 +162,8 @@ fn head(p: DVec3) -> f64 {
     d = smooth_union(d, cone(p, dvec3(0.0, 1.275, 0.235), 0.035, dvec3(0.0, 1.19, 0.312), 0.024), 0.04);
     d = smooth_union(d, ellipsoid(m, dvec3(0.075, 1.272, 0.235), dvec3(0.055, 0.02, 0.03)), 0.03);
     // Eyes: a hollow, and the ball in it.
-    d = smooth_difference(d, ellipsoid(m, dvec3(0.078, 1.222, 0.292), dvec3(0.044, 0.031, 0.04)), 0.012);
-    d = d.min(ellipsoid(m, dvec3(0.076, 1.222, 0.258), dvec3(0.034, 0.028, 0.026)));
+    d = smooth_difference(d, ellipsoid(m, dvec3(0.078, 1.222, 0.292), dvec3(0.046, 0.032, 0.04)), 0.025);
+    d = smooth_union(d, ellipsoid(m, dvec3(0.076, 1.222, 0.258), dvec3(0.034, 0.028, 0.026)), 0.008);
     let mut muzzle = ellipsoid(m, dvec3(0.038, 1.128, 0.29), dvec3(0.05, 0.041, 0.05));
     muzzle = smooth_union(muzzle, ellipsoid(p, dvec3(0.0, 1.088, 0.268), dvec3(0.035, 0.028, 0.036)), 0.012);
     d = smooth_union(d, muzzle, 0.025);
@@ -172,8 +174,8 @@ fn head(p: DVec3) -> f64 {
 fn ears(d: f64, m: DVec3) -> f64 {
     // Flattened along z, hollow in front.
     let flat = |p: DVec3| dvec3(p.x, p.y, (p.z - 0.105) * 1.7);
-    let ear = cone(flat(m), dvec3(0.105, 1.30, 0.0), 0.078, dvec3(0.152, 1.478, -0.01), 0.014);
-    let hollow = cone(flat(m), dvec3(0.105, 1.31, 0.088), 0.058, dvec3(0.148, 1.45, 0.048), 0.006);
+    let ear = cone(flat(m), dvec3(0.105, 1.30, 0.0), 0.078, dvec3(0.150, 1.465, -0.01), 0.027);
+    let hollow = cone(flat(m), dvec3(0.105, 1.31, 0.088), 0.054, dvec3(0.140, 1.40, 0.062), 0.010);
     let ear = smooth_difference(ear, hollow, 0.014);
     smooth_union(d, ear, 0.025)
 }

@@ -53,8 +53,8 @@ fn floor_color(place: DVec2) -> DVec3 {
         Stone::Joint => (dvec3(0.20, 0.18, 0.16), 0.25),
         Stone::Slate => (dvec3(0.27, 0.29, 0.33), 0.30),
         Stone::Cream => (dvec3(0.86, 0.80, 0.68), 0.12),
-        Stone::Rust => (dvec3(0.62, 0.33, 0.21), 0.25),
-        Stone::Green => (dvec3(0.35, 0.44, 0.36), 0.28),
+        Stone::Rust => (dvec3(0.58, 0.36, 0.26), 0.22),
+        Stone::Green => (dvec3(0.37, 0.45, 0.38), 0.24),
     };
     // Each piece is cut from another place of the block.
     let block = hash(number, 0, 0, 20);
@@ -71,6 +71,7 @@ fn stone_at(q: DVec2) -> (Stone, i64) {
     // The side of the square that the place is nearest to.
     let side = if a.x > a.y { i64::from(q.x > 0.0) } else { 2 + i64::from(q.y > 0.0) };
     let joint = |distance: f64| distance.abs() < JOINT;
+    let slanted_joint = |distance: f64| distance * distance < 2.0 * JOINT * JOINT;
     // Two squares, one on its corner, make the star; a slab in its middle.
     let lozenge = a.x + a.y;
     if edge > 1.0 - JOINT || joint(edge - 0.84) {
@@ -85,18 +86,12 @@ fn stone_at(q: DVec2) -> (Stone, i64) {
         } else {
             (Stone::Slate, 5 + side)
         }
-    } else if joint(lozenge - 0.84) && edge > 0.44 || joint(edge - 0.50) && lozenge > 0.70 {
+    } else if joint(edge - 0.50) || slanted_joint(lozenge - 0.84) || slanted_joint(lozenge - 0.34) {
         (Stone::Joint, 0)
-    } else if lozenge < 0.32 {
+    } else if lozenge < 0.34 {
         (Stone::Slate, 9)
-    } else if joint(lozenge - 0.34) {
-        (Stone::Joint, 0)
     } else if edge < 0.50 && lozenge < 0.84 {
-        if joint(q.x) && a.y > 0.17 || joint(q.y) && a.x > 0.17 {
-            (Stone::Joint, 0)
-        } else {
-            (Stone::Rust, 10 + quarter)
-        }
+        if joint(q.x) || joint(q.y) { (Stone::Joint, 0) } else { (Stone::Rust, 10 + quarter) }
     } else if edge < 0.50 {
         (Stone::Green, 14 + quarter)
     } else if lozenge < 0.84 {
@@ -115,7 +110,7 @@ fn marble(place: DVec2, depth: f64) -> f64 {
     let clouds = 0.6 * at(8, 21) + 0.3 * at(16, 22) + 0.2 * at(48, 23);
     let vein = (at(6, 24) + 0.5 * at(12, 25) + 0.25 * at(24, 26)).abs();
     let grain = at(256, 27);
-    0.7 * clouds - 1.2 * (1.0 - vein / 0.06).max(0.0) + 0.35 * grain
+    0.7 * clouds + 0.9 * (1.0 - vein / 0.05).max(0.0) + 0.35 * grain
 }
 
 fn spot_color(place: DVec2) -> DVec3 {
