@@ -190,6 +190,27 @@ fn a_bare_model_gets_floor_light_and_camera() {
 }
 
 #[test]
+fn models_of_any_size_anywhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.obj");
+    for (size, at) in [(1e-12, 0.0), (1e-3, 0.0), (1.0, 1e4), (1e3, -1e6), (1e12, 0.0)] {
+        let vertex = |x: f64, y: f64, z: f64| format!("v {} {} {}\n", x * size + at, y * size + at, z * size + at);
+        let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.5, 1.0, 0.5]];
+        let vertices: String = vertices.map(|[x, y, z]| vertex(x, y, z)).concat();
+        fs::write(&path, format!("{vertices}f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n")).unwrap();
+        let scene = load_file(&path, &[]).unwrap_or_else(|error| panic!("{size} at {at}: {error}")).scene;
+        let clip_from_world = scene.camera.clip_from_view(1.0) * scene.camera.view_from_world();
+        for corner in scene.objects[0].world_bounds().corners() {
+            let seen = clip_from_world.project_point3(corner);
+            assert!(seen.abs().max_element() < 1.0, "{size} at {at}: {corner} is seen at {seen}");
+        }
+    }
+    fs::write(&path, "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n").unwrap();
+    let error = load_file(&path, &[]).unwrap_err().to_string();
+    assert!(error.contains("reaches out to") || error.contains("model.obj"), "{error}");
+}
+
+#[test]
 fn a_supplied_scene_printed_and_saved_is_the_same_scene() {
     let folder = folder();
     let path = folder.path().join("model.obj");
