@@ -55,7 +55,7 @@ fn the_example_has_every_value_as_written() {
     assert_eq!(light.attenuation, [1.0, 0.0, 0.0]);
     assert!(light.image.is_none());
     assert_eq!(light.shadow.path, "light.shadow");
-    assert!(matches!(light.shadow.origin, Origin::File { line: 19, .. }), "{:?}", light.shadow.origin);
+    assert!(matches!(light.shadow.origin, Origin::File { line: 20, .. }), "{:?}", light.shadow.origin);
     let keys: Vec<&str> = light.shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
     assert_eq!(keys, ["technique", "size", "format", "transfer", "filter", "compare", "offset", "texgen"]);
 
@@ -180,13 +180,34 @@ fn a_bare_model_gets_floor_light_and_camera() {
     let path = folder.path().join("model.obj");
     let scene = load_file(&path, &[]).unwrap().scene;
     assert_eq!((scene.objects.len(), scene.lights.len()), (2, 1));
-    let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=-90}"];
+    let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=90}"];
     let turned = load_file(&path, &overrides).unwrap().scene;
     assert!((turned.camera.fov_y_radians - 50.0_f64.to_radians()).abs() < 1e-12);
     assert!(matches!(turned.lights[0].shadow.get("size").unwrap().value, Value::Integer(2048)));
     // Turned, the model reaches down to -1, hence the floor.
     let floor = turned.objects[1].world_bounds().max.y;
     assert!((floor + 1.0).abs() < 1e-6, "{floor}");
+}
+
+#[test]
+fn models_of_any_size_anywhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.obj");
+    for (size, at) in [(1e-12, 0.0), (1e-3, 0.0), (1.0, 1e4), (1e3, -1e6), (1e12, 0.0)] {
+        let vertex = |x: f64, y: f64, z: f64| format!("v {} {} {}\n", x * size + at, y * size + at, z * size + at);
+        let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.5, 1.0, 0.5]];
+        let vertices: String = vertices.map(|[x, y, z]| vertex(x, y, z)).concat();
+        fs::write(&path, format!("{vertices}f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n")).unwrap();
+        let scene = load_file(&path, &[]).unwrap_or_else(|error| panic!("{size} at {at}: {error}")).scene;
+        let clip_from_world = scene.camera.clip_from_view(1.0) * scene.camera.view_from_world();
+        for corner in scene.objects[0].world_bounds().corners() {
+            let seen = clip_from_world.project_point3(corner);
+            assert!(seen.abs().max_element() < 1.0, "{size} at {at}: {corner} is seen at {seen}");
+        }
+    }
+    fs::write(&path, "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n").unwrap();
+    let error = load_file(&path, &[]).unwrap_err().to_string();
+    assert!(error.contains("reaches out to") || error.contains("model.obj"), "{error}");
 }
 
 #[test]

@@ -84,6 +84,8 @@ impl Smoother {
         let vertices = mesh.positions.len();
         let mut fan = Fan::default();
         let mut split: HashMap<(u32, [u32; 3]), u32> = HashMap::new();
+        // Corners with their new vertices; put in place at the end, as the indices are still read.
+        let mut moved = Vec::new();
         for span in self.starts.windows(2) {
             let corners = &self.corners[span[0] as usize..span[1] as usize];
             if !corners.iter().any(|corner| lacking[mesh.indices[*corner as usize] as usize]) {
@@ -101,9 +103,12 @@ impl Smoother {
                 } else if current != *normal {
                     let key = (vertex, normal.map(f32::to_bits));
                     let new = *split.entry(key).or_insert_with(|| push_copy(mesh, vertex, *normal));
-                    mesh.indices[*corner as usize] = new;
+                    moved.push((*corner, new));
                 }
             }
+        }
+        for (corner, vertex) in moved {
+            mesh.indices[corner as usize] = vertex;
         }
         // Vertices that no triangle uses.
         for normal in &mut mesh.normals[..vertices] {

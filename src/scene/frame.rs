@@ -6,7 +6,7 @@ use super::Camera;
 use crate::math::{Aabb, spaces};
 
 /// The part of the picture's half height and half width that framed points may reach.
-const MARGIN: f64 = 0.88;
+const MARGIN: f64 = 0.82;
 
 /// The far plane of a supplied camera is at most this many times as far as the near plane.
 const DEPTH_RATIO: f64 = 1e3;
@@ -15,7 +15,7 @@ const DEPTH_RATIO: f64 = 1e3;
 pub(super) const FOV_Y_DEGREES: f64 = 40.0;
 
 /// From what is looked at to a pleasant three-quarter view: from the front, the right and a little above.
-pub(super) const THREE_QUARTER: DVec3 = DVec3::new(0.55, 0.42, 0.8);
+pub(super) const THREE_QUARTER: DVec3 = DVec3::new(0.55, 0.52, 0.8);
 
 /// The radius to work with: never zero, and not below what f32 resolves at the box's place.
 pub(super) fn working_radius(bounds: &Aabb) -> f64 {
@@ -48,6 +48,12 @@ pub(super) fn fit(points: &[DVec3], toward_eye: DVec3, fov_y_radians: f64, aspec
     // The target: straight ahead, at the depth of the middle, which is one radius before the view's origin.
     let ahead = DVec3::new(eye.x, eye.y, (-radius).min(eye.z - 0.1 * radius));
     (eye_world, world_from_view.transform_point3(ahead))
+}
+
+/// How far from its middle a sphere of `radius` is held by the picture.
+pub(super) fn sphere_distance(radius: f64, fov_y_radians: f64, aspect: f64) -> f64 {
+    let tan = (0.5 * fov_y_radians).tan() * MARGIN * aspect.min(1.0);
+    radius / tan.atan().sin()
 }
 
 /// Near and far planes around `points` as `camera` sees them (its own planes are not read).

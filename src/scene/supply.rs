@@ -11,7 +11,7 @@ use crate::math::Aabb;
 
 /// From the model to the light: from the left, above. Across the camera's view, so that the shadow falls beside the
 /// model and not behind it.
-const TOWARD_LIGHT: DVec3 = DVec3::new(-0.62, 1.05, 0.36);
+const TOWARD_LIGHT: DVec3 = DVec3::new(-0.5, 1.3, 0.65);
 
 /// The light's distance from the model's middle, in radii; its cone; half the floor's side, in radii.
 const LIGHT_RADII: f64 = 4.0;

@@ -53,12 +53,15 @@ impl Written {
         if let (Some(eye), Some(target)) = (self.eye, self.target) {
             return (eye, target);
         }
-        let (framed, ahead) = frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius);
+        let reach = |target: DVec3| corners.iter().map(|corner| corner.distance(target)).fold(radius, f64::max);
         match (self.eye, self.target) {
             (Some(eye), _) if eye == bounds.center() => (eye, eye - frame::THREE_QUARTER * radius),
             (Some(eye), _) => (eye, bounds.center()),
-            (None, Some(target)) => (target + (framed - ahead), target),
-            (None, None) => (framed, ahead),
+            (None, Some(target)) => {
+                let distance = frame::sphere_distance(reach(target), self.fov_y_radians, aspect);
+                (target + frame::THREE_QUARTER.normalize() * distance, target)
+            }
+            (None, None) => frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius),
         }
     }
 }
