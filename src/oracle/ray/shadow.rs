@@ -30,14 +30,12 @@ impl Tracer<'_> {
         // A corner's error tilts the plane by error over the triangle's least height.
         let tilt = seen.error * (2.0 + to_light.length() / seen.triangle.least_height());
         let mut reason = (height.abs() <= tilt).then_some(Reason::GrazingLight);
-        if height < 0.0 && seen.triangle.placed.casts_shadow {
-            // The light stands behind the visible side: the surface itself is in the way.
-            return (false, reason);
-        }
-        let (lit, found) = self.trace_to_light(seen);
+        let (is_clear, found) = self.trace_to_light(seen);
+        // Where the light stands behind the visible side, the surface itself is in the way.
+        let lit = is_clear && !(height < 0.0 && seen.triangle.placed.casts_shadow);
         doubt(&mut reason, found);
         // What something else surely shades stays dark, whichever way the surface is turned.
-        let reason = if !lit && found.is_none() { None } else { reason };
+        let reason = if !is_clear && found.is_none() { None } else { reason };
         (lit, reason)
     }
 
@@ -89,13 +87,14 @@ impl Tracer<'_> {
         if meeting.surely_inside && is_between && alpha.surely_opaque() {
             return Verdict::Blocks;
         }
-        let reason = if near_edge && self.folds_inside(beam, triangle, error) {
+        let is_fold = near_edge && self.folds_inside(beam, triangle, error);
+        let reason = if is_fold {
             Some(Reason::ShadowEdge)
         } else {
             self.doubt_depth(&meeting, seen, triangle)
                 .or((!alpha.surely_opaque() && meeting.at_base != Side::Beyond).then_some(Reason::AlphaTest))
         };
-        let own = meeting.at_base == Side::Near && seen.triangle.touches(triangle);
+        let own = !is_fold && meeting.at_base == Side::Near && seen.triangle.touches(triangle);
         let is_crossed = meeting.center.is_some_and(|at| beam.start < at && at < 1.0);
         Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
     }

@@ -253,7 +253,16 @@ fn place(object: &Object, solid: usize) -> Result<Placed, Error> {
     };
     let reach = object.mesh.positions.iter().fold(0.0, farthest);
     let cutouts = find_cutouts(object);
-    Ok(Placed { solid, casts_shadow: object.casts_shadow, world_from_model, model_from_world, shrink, reach, cutouts })
+    Ok(Placed {
+        solid,
+        casts_shadow: object.casts_shadow,
+        world_from_model,
+        model_from_world,
+        shrink,
+        reach,
+        has_cutouts: cutouts.iter().any(Option::is_some),
+        cutouts,
+    })
 }
 
 fn find_cutouts(object: &Object) -> Vec<Option<Cutout>> {
