@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Texture};
-use glumbra::oracle::ray::{Answer, Error, Options, Reason, Truth, trace};
+use glumbra::oracle::ray::{Answer, Error, Options, Pixel, Reason, Truth, trace};
 use glumbra::scene::{Light, Object, Scene};
 
 use crate::scenes::*;
@@ -116,7 +116,11 @@ fn no_light_leaks_into_closed_bodies_and_no_sight_out() {
         for position in [DVec3::new(0.0, 7.0, 0.0), DVec3::new(6.0, 0.0, 0.0), DVec3::new(3.0, 4.0, 5.0)] {
             let truth = inside(&body, eye, light(position, eye));
             assert!(truth.pixels.iter().all(|pixel| pixel.hit.is_some()), "sight leaks");
-            assert!(truth.pixels.iter().all(|pixel| pixel.lit_at_center != Some(true)), "light leaks");
+            // A point exactly on an edge behind which the body turns away is dark on one side alone: never sure.
+            let is_dark = |pixel: &Pixel| {
+                pixel.lit_at_center != Some(true) || pixel.answer == Answer::Ambiguous(Reason::ShadowEdge)
+            };
+            assert!(truth.pixels.iter().all(is_dark), "light leaks");
         }
         let mut lamp = light(eye - DVec3::X * 0.25, eye);
         lamp.near = 1e-4;
