@@ -3,4 +3,5 @@
 pub mod geometry;
 pub mod math;
 pub mod oracle;
+pub mod report;
 pub mod scene;
