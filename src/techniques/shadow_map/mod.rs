@@ -67,16 +67,17 @@ fn casters<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
     casters
 }
 
-/// A caster that the light's near plane cuts casts no shadow from what is cut off: say so.
+/// A caster between the light and its near plane casts no shadow from what is cut off: say so.
 fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
-    let light = view.light();
-    let light_from_model = light.view_from_world() * item.world_from_model;
-    let nearest = item.bounds.corners().map(|corner| -light_from_model.transform_point3(corner).z);
-    let nearest = nearest.into_iter().fold(f64::INFINITY, f64::min);
-    if nearest > 0.0 && nearest < light.near {
+    let mut cut_off = view.light().clone();
+    (cut_off.near, cut_off.far) = (1e-3 * cut_off.near, cut_off.near);
+    let clip_from_model = cut_off.clip_from_view() * cut_off.view_from_world() * item.world_from_model;
+    if frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside {
         notes.warnings.push(format!(
-            "{} comes within {nearest:.4} of light {}, nearer than its near plane at {}: what lies before that plane casts no shadow",
-            item.label, view.index, light.near
+            "{} may come nearer to light {} than its near plane at {}: what lies before that plane casts no shadow",
+            item.label,
+            view.index,
+            view.light().near
         ));
     }
 }

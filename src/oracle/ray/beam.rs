@@ -1,0 +1,226 @@
+//! A beam: every segment from a fixed apex (the eye or the light) to the points that a sample may mean. Which
+//! triangles stop all of it, none of it, or perhaps a part.
+//!
+//! The base is a parallelogram `base ± spread[0] ± spread[1]` grown by a ball of radius `error`; corners of other
+//! triangles may be off by `error` of their own. As the base point moves, the number of times that its segment crosses
+//! the scene's surfaces changes only where the segment sweeps over an open edge or a fold as seen from the apex, or
+//! where the base itself (or the near end) passes through a surface. So it is enough to look for those events inside
+//! the beam: without one, the centre ray speaks for all.
+
+use glam::DVec3;
+
+/// Where a line crosses a triangle, if it does.
+///
+/// Watertight after Woop, Benthin and Wald (JCGT 2013), in f64: corners relative to the origin are sheared so that the
+/// ray is the z axis; each edge's sign is then computed from that edge's two corners alone, and two triangles that
+/// share it get exactly opposite signs. Zero counts as inside for both. Returns t with the crossing at
+/// `origin + t * direction`; negative behind the origin.
+pub(super) fn crossing(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> Option<f64> {
+    let size = direction.abs();
+    let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };
+    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+    let (shear_x, shear_y) = (direction[x] / direction[z], direction[y] / direction[z]);
+    let sheared = corners.map(|corner| {
+        let local = corner - origin;
+        [local[x] - shear_x * local[z], local[y] - shear_y * local[z], local[z]]
+    });
+    let [a, b, c] = sheared;
+    let edge = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
+    let (u, v, w) = (edge(b, c), edge(c, a), edge(a, b));
+    let is_inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let area = u + v + w;
+    if !is_inside || area == 0.0 {
+        return None;
+    }
+    Some((u * a[2] + v * b[2] + w * c[2]) / area / direction[z])
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beam {
+    pub apex: DVec3,
+    pub base: DVec3,
+    /// How the base moves, one vector a direction of the sample.
+    pub spread: [DVec3; 2],
+    /// How the base moves on its own surface: equal to `spread` for shadow rays; for primary rays the spread lies in
+    /// the image plane and this on the surface seen.
+    pub surface_spread: [DVec3; 2],
+    /// Radius of the ball around each base point.
+    pub error: f64,
+    /// The same against surfaces that may lie at the base's own depth; not below `error`.
+    pub depth_error: f64,
+    /// The fraction of the way from apex to base before which nothing counts; in [0, 1).
+    pub start: f64,
+}
+
+/// Of three, where one end of the beam decides: surely, or within the error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Before,
+    Near,
+    Beyond,
+}
+
+/// How a beam and a triangle meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// The fraction at which the centre segment's line crosses the triangle; `None` where it misses it.
+    pub center: Option<f64>,
+    /// Whether all of the beam's lines pass within all three edges.
+    pub surely_inside: bool,
+    /// The crossing against the base.
+    pub at_base: Side,
+    /// The crossing against the start.
+    pub at_start: Side,
+}
+
+impl Beam {
+    /// The largest distance from the centre segment that belongs to the beam, for corners off by `error`.
+    pub fn radius(&self, error: f64) -> f64 {
+        self.spread[0].length() + self.spread[1].length() + self.error + error
+    }
+
+    /// `None`: no line of the beam meets the triangle within its edges.
+    pub fn meet(&self, corners: &[DVec3; 3], error: f64) -> Option<Meeting> {
+        let axis = self.base - self.apex;
+        let local = corners.map(|corner| corner - self.apex);
+        // The nearest corner has the longest lever on the beam's base; behind the apex there is none.
+        let least = local.map(|corner| corner.dot(axis)).into_iter().fold(f64::MAX, f64::min) / axis.length_squared();
+        let lever = if least > 0.0 { least.recip() } else { f64::INFINITY };
+        let mut surely_inside = true;
+        for k in 0..3 {
+            match self.beside(local[k], local[(k + 1) % 3], local[(k + 2) % 3], error * lever) {
+                Side::Before => return None,
+                Side::Near => surely_inside = false,
+                Side::Beyond => {}
+            }
+        }
+        let center = crossing(self.apex, axis, corners);
+        let (at_base, at_start) = self.depth(corners, error);
+        Some(Meeting { center, surely_inside, at_base, at_start })
+    }
+
+    /// On which side of the plane through apex and edge the whole base lies: `Beyond`: on the third corner's.
+    fn beside(&self, from: DVec3, to: DVec3, third: DVec3, error_at_base: f64) -> Side {
+        let normal = from.cross(to).normalize_or_zero();
+        let inward = normal.dot(third);
+        let slack = self.reach_along(normal, &self.spread) + self.error + error_at_base;
+        let value = normal.dot(self.base - self.apex) * inward.signum();
+        if !slack.is_finite() || inward == 0.0 || value.abs() <= slack {
+            Side::Near
+        } else if value > 0.0 {
+            Side::Beyond
+        } else {
+            Side::Before
+        }
+    }
+
+    fn reach_along(&self, normal: DVec3, spread: &[DVec3; 2]) -> f64 {
+        normal.dot(spread[0]).abs() + normal.dot(spread[1]).abs()
+    }
+
+    /// The triangle's plane against both ends. Where the crossing lies inside the triangle, its plane is off by no more
+    /// than its corners are, so that no lever enters.
+    fn depth(&self, corners: &[DVec3; 3], error: f64) -> (Side, Side) {
+        let [a, b, c] = *corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let axis = self.base - self.apex;
+        let at_apex = normal.dot(self.apex - a);
+        let side = |value: f64, slack: f64| {
+            let signed = value * at_apex.signum();
+            if at_apex == 0.0 || value.abs() <= slack {
+                Side::Near
+            } else if signed > 0.0 {
+                // The end lies on the apex's side: the plane is farther away than this end.
+                Side::Beyond
+            } else {
+                Side::Before
+            }
+        };
+        let moved = self.reach_along(normal, &self.spread).max(self.reach_along(normal, &self.surface_spread));
+        let at_base = side(at_apex + normal.dot(axis), moved + self.depth_error + 2.0 * error);
+        let at_start = side(at_apex + self.start * normal.dot(axis), self.start * (moved + self.error) + 2.0 * error);
+        (at_base, at_start)
+    }
+
+    /// Whether the edge comes so near that a segment of the beam may sweep over it before its base.
+    pub fn passes_edge(&self, from: DVec3, to: DVec3, error: f64) -> bool {
+        let axis = self.base - self.apex;
+        let longer = (self.surface_spread[0].length() + self.surface_spread[1].length()) / axis.length();
+        let (fraction, distance) = closest(self.apex, axis, self.start, 1.0 + longer, from, to);
+        // The taper between here and the true closest point of the cone is of second order; 1 % holds it.
+        let width = fraction * self.radius(0.0) * 1.01 + error;
+        if distance > width {
+            return false;
+        }
+        let normal = (from - self.apex).cross(to - self.apex).normalize_or_zero();
+        let slack = fraction * (self.reach_along(normal, &self.spread) + self.error) * 1.01 + error;
+        normal.dot(axis).abs() * fraction <= slack
+    }
+
+    /// Whether the surface ends or folds over at this edge as seen from the apex: `across` is the far corner of the
+    /// triangle on the other side, `third` that of this one. An edge that cannot be told is taken for a fold.
+    pub fn is_fold(&self, edge: [DVec3; 2], third: DVec3, across: Option<DVec3>, error: f64) -> bool {
+        let Some(across) = across else { return true };
+        let [from, to] = edge.map(|corner| corner - self.apex);
+        let cross = from.cross(to);
+        // How wide the edge looks from the apex; a corner's error turns the plane by error over this.
+        let wide = cross.length() / from.length().min(to.length());
+        let normal = cross.normalize_or_zero();
+        let signed = |corner: DVec3| {
+            let local = corner - self.apex - from;
+            let value = normal.dot(local);
+            let slack = error * (2.0 + local.length() / wide);
+            if value.abs() > slack { value.signum() } else { 0.0 }
+        };
+        signed(third) * signed(across) != -1.0
+    }
+}
+
+/// The closest points of a ray's piece [start, end] and of an edge: the ray's parameter, and their distance.
+fn closest(origin: DVec3, axis: DVec3, start: f64, end: f64, from: DVec3, to: DVec3) -> (f64, f64) {
+    let (edge, offset) = (to - from, origin - from);
+    let (aa, ee, ae) = (axis.length_squared(), edge.length_squared(), axis.dot(edge));
+    let (ao, eo) = (axis.dot(offset), edge.dot(offset));
+    let determinant = aa * ee - ae * ae;
+    let on_axis = if determinant > 0.0 { (ae * eo - ao * ee) / determinant } else { start };
+    let mut s = on_axis.clamp(start, end);
+    let mut u = if ee > 0.0 { (ae * s + eo) / ee } else { 0.0 };
+    if !(0.0..=1.0).contains(&u) {
+        u = u.clamp(0.0, 1.0);
+        s = ((u * ae - ao) / aa).clamp(start, end);
+    }
+    (s, (offset + s * axis - u * edge).length())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossing_takes_shared_edges_and_corners_for_both_sides() {
+        let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::new(0.3, 0.7, 0.1), DVec3::new(0.2, -0.9, -0.1)];
+        let origin = DVec3::new(0.3, 0.1, 5.0);
+        for target in [a, b, a.lerp(b, 0.3), a.lerp(b, 1.0 / 7.0)] {
+            let direction = target - origin;
+            let hits = [[a, b, c], [b, a, d]].map(|corners| crossing(origin, direction, &corners));
+            assert!(hits.iter().flatten().any(|t| (t - 1.0).abs() < 1e-12), "{target}: {hits:?}");
+        }
+    }
+
+    #[test]
+    fn a_plain_edge_is_no_fold_and_a_ridge_is_one() {
+        let beam = Beam {
+            apex: DVec3::Z * 5.0,
+            base: DVec3::ZERO,
+            spread: [DVec3::ZERO; 2],
+            surface_spread: [DVec3::ZERO; 2],
+            error: 1e-9,
+            depth_error: 1e-9,
+            start: 0.0,
+        };
+        let edge = [DVec3::ZERO, DVec3::Y];
+        assert!(!beam.is_fold(edge, DVec3::X, Some(-DVec3::X), 1e-9));
+        assert!(beam.is_fold(edge, DVec3::X, Some(DVec3::new(0.5, 0.0, -1.0)), 1e-9));
+        assert!(beam.is_fold(edge, DVec3::X, None, 1e-9));
+    }
+}

@@ -1,0 +1,165 @@
+//! The alpha test: `opacity * decal alpha * map_d < 0.5` lets light and sight through. Exact bounds of the product
+//! over a small box of texture coordinates, so that an answer near the level is known to be near it.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::geometry::{Material, Texture};
+
+/// GL filters RGBA8 with weights of at least 8 bits and rounds nothing else: 1/256 of the texels' range a direction.
+const FILTER_ERROR: f64 = 2.0 / 256.0;
+/// A box over more texels a side than this is not looked at: its alpha counts as unknown.
+const MOST_CELLS: f64 = 16.0;
+
+/// The least and the greatest alpha over a box, and the alpha in its middle; each in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Alpha {
+    pub least: f64,
+    pub most: f64,
+    pub middle: f64,
+}
+
+impl Alpha {
+    pub const OPAQUE: Self = Self { least: 1.0, most: 1.0, middle: 1.0 };
+
+    pub fn surely_opaque(self) -> bool {
+        self.least >= 0.5
+    }
+
+    pub fn surely_clear(self) -> bool {
+        self.most < 0.5
+    }
+
+    /// GL's rule at the middle.
+    pub fn passes_test(self) -> bool {
+        self.middle >= 0.5
+    }
+
+    fn times(self, other: Self) -> Self {
+        Self { least: self.least * other.least, most: self.most * other.most, middle: self.middle * other.middle }
+    }
+}
+
+/// A material's alpha test.
+pub(super) struct Cutout {
+    opacity: f64,
+    /// A texture and the channel of it that counts.
+    textures: Vec<(Arc<Texture>, usize)>,
+}
+
+impl Cutout {
+    /// `None`: no fragment of this material can fail the test. Textures need `has_texcoords`.
+    pub fn new(material: &Material, has_texcoords: bool) -> Option<Self> {
+        let mut textures = Vec::new();
+        if let Some(decal) = material.decal.as_ref().filter(|decal| has_texcoords && decal.has_alpha) {
+            textures.push((decal.clone(), 3));
+        }
+        if let Some(alpha) = material.alpha.as_ref().filter(|_| has_texcoords) {
+            textures.push((alpha.clone(), if alpha.has_alpha { 3 } else { 0 }));
+        }
+        textures.retain(|(texture, _)| is_whole(texture));
+        let opacity = f64::from(material.opacity);
+        (opacity < 0.5 || !textures.is_empty()).then_some(Self { opacity, textures })
+    }
+
+    /// Over the box of texture coordinates `middle ± reach`.
+    pub fn alpha(&self, middle: DVec2, reach: DVec2) -> Alpha {
+        let opacity = Alpha { least: self.opacity, most: self.opacity, middle: self.opacity };
+        self.textures
+            .iter()
+            .fold(opacity, |alpha, (texture, channel)| alpha.times(bound_lookup(texture, *channel, middle, reach)))
+    }
+}
+
+fn is_whole(texture: &Texture) -> bool {
+    let texels = texture.width as usize * texture.height as usize;
+    texels > 0 && texture.rgba.len() == 4 * texels
+}
+
+/// Between texel centres the filtered value is bilinear, so over a box its extremes lie at the corners of the pieces
+/// that the texel grid cuts the box into: looking there is exact.
+fn bound_lookup(texture: &Texture, channel: usize, middle: DVec2, reach: DVec2) -> Alpha {
+    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
+    let (low, high) = ((middle - reach) * size - 0.5, (middle + reach) * size - 0.5);
+    let unknown = Alpha { least: 0.0, most: 1.0, middle: 0.0 };
+    if !(middle.is_finite() && low.is_finite() && high.is_finite()) {
+        return unknown;
+    }
+    let at_middle = lookup(texture, channel, middle * size - 0.5);
+    if (high - low).max_element() > MOST_CELLS {
+        return Alpha { middle: at_middle, ..unknown };
+    }
+    let (mut least, mut most) = (at_middle, at_middle);
+    for y in stops(low.y, high.y) {
+        for x in stops(low.x, high.x) {
+            let value = lookup(texture, channel, DVec2::new(x, y));
+            (least, most) = (least.min(value), most.max(value));
+        }
+    }
+    Alpha { least: (least - FILTER_ERROR).max(0.0), most: (most + FILTER_ERROR).min(1.0), middle: at_middle }
+}
+
+/// Both ends and each whole number between them.
+fn stops(low: f64, high: f64) -> impl Iterator<Item = f64> {
+    let between = (high.floor() - low.ceil() + 1.0).max(0.0) as u32;
+    [low, high].into_iter().chain((0..between).map(move |i| low.ceil() + f64::from(i)))
+}
+
+/// GL's LINEAR with REPEAT; `texel` in texels, whole numbers at the centres.
+fn lookup(texture: &Texture, channel: usize, texel: DVec2) -> f64 {
+    let corner = texel.floor();
+    let weight = texel - corner;
+    let wrap = |value: f64, size: u32| value.rem_euclid(f64::from(size)) as usize % size as usize;
+    let fetch = |dx: f64, dy: f64| {
+        let x = wrap(corner.x + dx, texture.width);
+        let y = wrap(corner.y + dy, texture.height);
+        let byte = texture.rgba.get(4 * (y * texture.width as usize + x) + channel).copied();
+        f64::from(byte.unwrap_or(0)) / 255.0
+    };
+    let bottom = fetch(0.0, 0.0) * (1.0 - weight.x) + fetch(1.0, 0.0) * weight.x;
+    let top = fetch(0.0, 1.0) * (1.0 - weight.x) + fetch(1.0, 1.0) * weight.x;
+    bottom * (1.0 - weight.y) + top * weight.y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checker() -> Texture {
+        let rgba = [0u8, 255, 255, 0].iter().flat_map(|&a| [255, 255, 255, a]).collect();
+        Texture { name: String::from("checker"), width: 2, height: 2, rgba, has_alpha: true }
+    }
+
+    #[test]
+    fn lookup_at_centers_edges_and_wrapped() {
+        let texture = checker();
+        for (s, t, expected) in
+            [(0.25, 0.25, 0.0), (0.75, 0.25, 1.0), (0.5, 0.25, 0.5), (0.0, 0.25, 0.5), (1.75, -0.75, 1.0)]
+        {
+            let value = lookup(&texture, 3, DVec2::new(s, t) * 2.0 - 0.5);
+            assert!((value - expected).abs() < 1e-12, "({s}, {t}): {value}");
+        }
+    }
+
+    #[test]
+    fn bounds_hold_every_value_of_the_box() {
+        let texture = checker();
+        let (middle, reach) = (DVec2::new(0.4, 0.6), DVec2::new(0.3, 0.2));
+        let bound = bound_lookup(&texture, 3, middle, reach);
+        for i in 0..=100 {
+            for j in 0..=100 {
+                let at = middle + reach * (DVec2::new(f64::from(i), f64::from(j)) / 50.0 - 1.0);
+                let value = lookup(&texture, 3, at * 2.0 - 0.5);
+                assert!(bound.least <= value && value <= bound.most);
+            }
+        }
+    }
+
+    #[test]
+    fn plain_materials_have_no_test_and_faint_ones_always_fail() {
+        assert!(Cutout::new(&Material::default(), true).is_none());
+        let faint = Cutout::new(&Material { opacity: 0.4, ..Material::default() }, false);
+        assert!(faint.is_some_and(|cutout| cutout.alpha(DVec2::ZERO, DVec2::ZERO).surely_clear()));
+    }
+}

@@ -1,0 +1,207 @@
+//! Exact visibility by ray casting in f64, from the scene alone: the truth that shadows are measured against.
+//!
+//! It must not know techniques, light matrices, texture-coordinate generation or GL. It shares no formula with them:
+//! camera and light are places, directions and angles ([`camera`], [`light`]).
+//!
+//! # What it answers
+//! A ray through each pixel's centre finds the nearest surface between the camera's near and far planes; a second asks
+//! whether anything lies between that point and the light. Triangles cast from both sides; the alpha test cuts holes
+//! for sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose
+//! visible side is turned away from the light is in its own shadow. The light lights what its shape holds: a point
+//! outside the cone (or the square frustum), nearer than its near plane or beyond its far plane along its axis is
+//! [`Answer::OutsideCone`]; a blocker nearer than the near plane does not cast.
+//!
+//! # When it does not answer
+//! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off
+//! by the rounding of f32 transforms (see [`Options`]). [`beam`] says what can change within that, and why looking for
+//! silhouettes, ends and holes inside the beam finds every such change: no sampling is involved, and nothing depends on
+//! the scene's size. No epsilon hides a contact: the visible triangle is left out by its number; another triangle of
+//! the same surface that touches the point counts only by its folds; any other surface within the error of the point
+//! makes it [`Reason::Contact`].
+
+mod beam;
+mod camera;
+mod cutout;
+mod light;
+mod primary;
+mod shadow;
+mod solid;
+mod truth;
+mod world;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::scene::Scene;
+use beam::Beam;
+use camera::Eye;
+use cutout::Alpha;
+use light::Lamp;
+use primary::Seen;
+pub use truth::{Answer, Hit, Pixel, Reason, Truth};
+use world::{Triangle, World};
+
+/// How much doubt is granted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL asks for 4 at least.
+    pub subpixel_bits: u32,
+    /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates that meet in it: its distance from
+    /// its object's origin, and the origin's from eye and light. A row of a 4×4 product makes four.
+    pub position_roundings: f64,
+    /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth.
+    pub most_ambiguous: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { subpixel_bits: 8, position_roundings: 4.0, most_ambiguous: 0.03 }
+    }
+}
+
+/// Why there is no truth.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    #[error("the scene has {count} lights, there is no light {index}")]
+    NoLight { index: usize, count: usize },
+    #[error("the camera or the light stands in no usable place")]
+    View,
+    #[error("object `{name}`: its transform has no inverse")]
+    Transform { name: String },
+    #[error("mesh `{name}`: {what}")]
+    Mesh { name: String, what: String },
+    #[error(
+        "the oracle is of two minds on {percent:.2} % of the drawn pixels, above {most_percent} % ({reasons}): \
+         no truth to measure against"
+    )]
+    TooAmbiguous { percent: f64, most_percent: f64, reasons: String },
+}
+
+/// Asks for each pixel of the scene's image whether light number `light` reaches it.
+pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
+    let tracer = Tracer::new(scene, light, options)?;
+    let [width, height] = scene.image.size;
+    let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
+    let pixels = rows.map(|(x, y)| tracer.answer(x, y)).collect();
+    let truth = Truth { width, height, pixels };
+    if truth.ambiguous_share() > options.most_ambiguous {
+        let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));
+        return Err(Error::TooAmbiguous {
+            percent: 100.0 * truth.ambiguous_share(),
+            most_percent: 100.0 * options.most_ambiguous,
+            reasons: reasons.collect::<Vec<_>>().join(", "),
+        });
+    }
+    Ok(truth)
+}
+
+/// All that a pixel's question needs.
+struct Tracer<'a> {
+    world: World<'a>,
+    eye: Eye,
+    lamp: Lamp,
+    /// In pixels.
+    subpixel: f64,
+    /// [`Options::position_roundings`] times 2⁻²⁴.
+    rounding: f64,
+    /// Each object's error of position at its farthest vertex, in world units.
+    errors: Vec<f64>,
+    largest_error: f64,
+}
+
+impl<'a> Tracer<'a> {
+    fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
+        let missing = || Error::NoLight { index: light, count: scene.lights.len() };
+        let lamp = Lamp::new(scene.lights.get(light).ok_or_else(missing)?);
+        let eye = Eye::new(scene);
+        if !(eye.is_finite() && lamp.is_finite()) {
+            return Err(Error::View);
+        }
+        let world = World::new(scene)?;
+        let rounding = options.position_roundings * 0.5 * f64::from(f32::EPSILON);
+        let subpixel = (-f64::from(options.subpixel_bits)).exp2();
+        let mut tracer = Self { world, eye, lamp, subpixel, rounding, errors: Vec::new(), largest_error: 0.0 };
+        tracer.errors =
+            tracer.world.placed.iter().map(|placed| tracer.error_of(placed.origin(), placed.reach)).collect();
+        tracer.largest_error = tracer.errors.iter().copied().fold(0.0, f64::max);
+        Ok(tracer)
+    }
+
+    /// Of a point at `reach` from its object's origin. The last term is the rounding of this computation itself.
+    fn error_of(&self, origin: DVec3, reach: f64) -> f64 {
+        let met = reach + origin.distance(self.eye.position) + origin.distance(self.lamp.position);
+        self.rounding * met + 64.0 * f64::EPSILON * (origin.abs().max_element() + met)
+    }
+
+    fn position_error(&self, triangle: &Triangle<'_>, position: DVec3) -> f64 {
+        let origin = triangle.placed.origin();
+        self.error_of(origin, position.distance(origin))
+    }
+
+    fn answer(&self, x: u32, y: u32) -> Pixel {
+        let (seen, doubtful_view) = self.look(x, y);
+        let Some(seen) = seen else {
+            let answer = doubtful_view.map_or(Answer::Background, Answer::Ambiguous);
+            return Pixel { answer, lit_at_center: None, hit: None };
+        };
+        let is_held = self.lamp.holds(seen.position, &seen.spread, seen.error);
+        let is_held_at_center = self.lamp.holds_exactly(seen.position);
+        let (lit, doubtful_light) = if is_held_at_center { self.light_reaches(&seen) } else { (false, None) };
+        let answer = match (doubtful_view, is_held, doubtful_light) {
+            (Some(reason), _, _) | (None, Err(reason), _) => Answer::Ambiguous(reason),
+            (None, Ok(false), _) => Answer::OutsideCone,
+            (None, Ok(true), Some(reason)) => Answer::Ambiguous(reason),
+            (None, Ok(true), None) if lit => Answer::Lit,
+            (None, Ok(true), None) => Answer::Shadowed,
+        };
+        Pixel { answer, lit_at_center: is_held_at_center.then_some(lit), hit: Some(self.describe(&seen)) }
+    }
+
+    fn describe(&self, seen: &Seen<'_>) -> Hit {
+        let to_light = self.lamp.position - seen.position;
+        Hit {
+            object: seen.triangle.object,
+            triangle: seen.triangle.index,
+            distance: seen.position.distance(self.eye.position),
+            position: seen.position,
+            normal: seen.normal,
+            cos_light: seen.normal.dot(to_light.normalize_or_zero()),
+            pixel_size: (seen.spread[0].length() + seen.spread[1].length()) / self.subpixel,
+            in_light: self.lamp.in_frustum(seen.position),
+        }
+    }
+
+    fn passes_any_edge(&self, beam: &Beam, triangle: &Triangle<'_>, error: f64) -> bool {
+        let [a, b, c] = triangle.corners;
+        [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| beam.passes_edge(from, to, error))
+    }
+
+    /// Whether the surface ends or folds over, as seen from the beam's apex, at an edge inside the beam.
+    fn folds_inside(&self, beam: &Beam, triangle: &Triangle<'_>, error: f64) -> bool {
+        (0..3).any(|k| {
+            let [from, to, third] = [0, 1, 2].map(|i| triangle.corners[(k + i) % 3]);
+            beam.passes_edge(from, to, error) && beam.is_fold([from, to], third, triangle.across(k), error)
+        })
+    }
+
+    /// The triangle's alpha over all points in which the beam crosses its plane.
+    fn alpha_in(&self, beam: &Beam, triangle: &Triangle<'_>) -> Alpha {
+        if !triangle.has_cutout() {
+            return Alpha::OPAQUE;
+        }
+        let normal = triangle.normal();
+        let above = normal.dot(triangle.corners[0] - beam.apex);
+        let cross = |base: DVec3| {
+            let way = base - beam.apex;
+            beam.apex + way * (above / normal.dot(way))
+        };
+        let [a, b] = beam.spread;
+        let around = [a + b, a - b, b - a, -a - b].map(|offset| cross(beam.base + offset));
+        triangle.alpha(cross(beam.base), &around)
+    }
+}
+
+/// Keeps the first reason.
+fn doubt(reason: &mut Option<Reason>, found: Option<Reason>) {
+    *reason = reason.or(found);
+}

@@ -1,0 +1,111 @@
+//! Whether a seen point has light, and whether all points that the sample may mean agree.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+
+use super::beam::{Beam, Meeting, Side};
+use super::primary::Seen;
+use super::truth::Reason;
+use super::world::{Segment, Triangle};
+use super::{Tracer, doubt};
+
+/// What one triangle does to a shadow ray.
+enum Verdict {
+    /// It stops the whole beam.
+    Blocks,
+    /// It stops the centre ray (or not), for the stated reason perhaps not the rest.
+    Perhaps {
+        center: bool,
+        reason: Option<Reason>,
+    },
+    Passes,
+}
+
+impl Tracer<'_> {
+    /// Whether the light reaches the centre point, and what makes that doubtful.
+    pub fn light_reaches(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
+        let to_light = self.lamp.position - seen.position;
+        let height = seen.normal.dot(to_light);
+        // A corner's error tilts the plane by error over the triangle's least height.
+        let tilt = seen.error * (2.0 + to_light.length() / seen.triangle.least_height());
+        let mut reason = (height.abs() <= tilt).then_some(Reason::GrazingLight);
+        let (is_clear, found) = self.trace_to_light(seen);
+        // Where the light stands behind the visible side, the surface itself is in the way.
+        let lit = is_clear && !(height < 0.0 && seen.triangle.placed.casts_shadow);
+        doubt(&mut reason, found);
+        // What something else surely shades stays dark, whichever way the surface is turned.
+        let reason = if !is_clear && found.is_none() { None } else { reason };
+        (lit, reason)
+    }
+
+    fn trace_to_light(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
+        let beam = Beam {
+            apex: self.lamp.position,
+            base: seen.position,
+            spread: seen.spread,
+            surface_spread: seen.spread,
+            error: seen.error,
+            depth_error: seen.error,
+            start: (self.lamp.near / self.lamp.depth(seen.position)).clamp(0.0, 1.0),
+        };
+        let direction: DVec3 = beam.base - beam.apex;
+        let radius = beam.radius(self.largest_error);
+        let segment =
+            Segment { origin: beam.apex, direction, start: beam.start, end: 1.0 + radius / direction.length() };
+        let (mut lit, mut reason) = (true, None);
+        self.world.visit(&segment, radius, |triangle| match self.judge_shadow(&beam, seen, triangle) {
+            Verdict::Blocks => {
+                (lit, reason) = (false, None);
+                ControlFlow::Break(())
+            }
+            Verdict::Perhaps { center, reason: found } => {
+                lit &= !center;
+                doubt(&mut reason, found);
+                ControlFlow::Continue(())
+            }
+            Verdict::Passes => ControlFlow::Continue(()),
+        });
+        (lit, reason)
+    }
+
+    fn judge_shadow(&self, beam: &Beam, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Verdict {
+        if !triangle.placed.casts_shadow || triangle.is(&seen.triangle) || triangle.is_degenerate() {
+            return Verdict::Passes;
+        }
+        let error = self.errors[triangle.object as usize];
+        let Some(meeting) = beam.meet(&triangle.corners, error) else { return Verdict::Passes };
+        let near_edge = !meeting.surely_inside && self.passes_any_edge(beam, triangle, error);
+        if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {
+            return Verdict::Passes;
+        }
+        let alpha = self.alpha_in(beam, triangle);
+        if alpha.surely_clear() {
+            return Verdict::Passes;
+        }
+        let is_between = meeting.at_base == Side::Before && meeting.at_start == Side::Beyond;
+        if meeting.surely_inside && is_between && alpha.surely_opaque() {
+            return Verdict::Blocks;
+        }
+        let is_fold = near_edge && self.folds_inside(beam, triangle, error);
+        let reason = if is_fold {
+            Some(Reason::ShadowEdge)
+        } else {
+            self.doubt_depth(&meeting, seen, triangle)
+                .or((!alpha.surely_opaque() && meeting.at_base != Side::Beyond).then_some(Reason::AlphaTest))
+        };
+        let own = !is_fold && meeting.at_base == Side::Near && seen.triangle.touches(triangle);
+        let is_crossed = meeting.center.is_some_and(|at| beam.start < at && at < 1.0);
+        Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
+    }
+
+    /// Whether the triangle may cut the beam off at one of its ends. A triangle that shares a corner with the visible
+    /// one is the same surface: within the error of the point, and without a fold between, it cannot be in the way.
+    fn doubt_depth(&self, meeting: &Meeting, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<Reason> {
+        match (meeting.at_base, meeting.at_start) {
+            (Side::Near, _) if !seen.triangle.touches(triangle) => Some(Reason::Contact),
+            (Side::Before | Side::Near, Side::Near) => Some(Reason::ClipPlane),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Errors against run time: how far a rendered shade is from the oracle's truth. Knows answers and pictures; no scene,
+//! no technique, no GL.
+
+mod band;
+mod edges;
+pub mod metrics;

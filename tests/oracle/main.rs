@@ -1,0 +1,5 @@
+//! The ray oracle against shadows known in closed form, and against itself where the answer must not change.
+
+mod closed_form;
+mod robust;
+mod scenes;
