@@ -27,9 +27,10 @@ Surface surface_here()
 #ifdef EYE_NORMAL
     surface.normal = normalize(eye_normal);
 #ifdef TWO_SIDED
-    // The side that is seen, whichever way the file winds it.
-    vec3 towards_viewer = cross(dFdx(eye_position), dFdy(eye_position));
-    if (dot(surface.normal, towards_viewer) < 0.0)
+    // Seen from behind, whichever way the file winds it: both the normal and, so that smooth silhouettes and slivers
+    // keep theirs, the facet say so.
+    vec3 facet = cross(dFdx(eye_position), dFdy(eye_position)); // towards the viewer
+    if (dot(surface.normal, eye_position) > 0.0 && dot(surface.normal, facet) < 0.0)
         surface.normal = -surface.normal;
 #endif
 #endif

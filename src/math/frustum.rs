@@ -30,7 +30,22 @@ pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
         }
         inside &= within == 8;
     }
-    if inside { Overlap::Inside } else { Overlap::Partial }
+    match inside {
+        true => Overlap::Inside,
+        false if beyond_a_face(clip_from_box, bounds) => Overlap::Outside,
+        false => Overlap::Partial,
+    }
+}
+
+/// Whether the whole clip volume lies beyond one face of the box: what the clip planes alone do not see of large boxes.
+fn beyond_a_face(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
+    let box_from_clip = clip_from_box.inverse();
+    let volume = Aabb::from_points(corners(&box_from_clip));
+    if !(volume.min.is_finite() && volume.max.is_finite()) {
+        return false;
+    }
+    let slack = DVec3::splat(2.0_f64.powi(-20) * (volume.radius() + bounds.radius()));
+    (volume.min - slack).cmpgt(bounds.max).any() || (volume.max + slack).cmplt(bounds.min).any()
 }
 
 /// The distance of a clip-space point from plane `index` (left, right, bottom, top, near, far), positive inside.
@@ -87,6 +102,8 @@ mod tests {
             (DVec3::new(20.0, 0.0, -5.0), 1.0, Overlap::Outside),
             (DVec3::new(5.0, 0.0, -5.0), 1.0, Overlap::Partial),
             (DVec3::ZERO, 100.0, Overlap::Partial),
+            // Large, and past an edge of the frustum: no clip plane has all of its corners beyond.
+            (DVec3::new(0.0, -111.0, 0.0), 100.0, Overlap::Outside),
         ] {
             assert_eq!(overlap(&clip, &cube_at(center, half)), expected, "{center} {half}");
         }
