@@ -4,6 +4,7 @@ mod context_args;
 mod info;
 mod plan;
 mod render;
+pub mod sample;
 mod scene_args;
 
 use std::process::ExitCode;
@@ -45,6 +46,8 @@ pub enum Error {
     #[error(transparent)]
     Frame(#[from] crate::frame::Error),
     #[error(transparent)]
+    Viewer(#[from] crate::viewer::Error),
+    #[error(transparent)]
     File(#[from] crate::output::Error),
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
@@ -59,6 +62,10 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
     };
+    exit_code(result)
+}
+
+fn exit_code(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         // A reader that has seen enough (`glumbra info | head`) is no error.

@@ -20,18 +20,7 @@ impl Device {
         let [width, height] = [0, 1].map(|axis| size[axis].min(window[axis]) as i32);
         unsafe {
             self.gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, None);
-            self.gl.blit_framebuffer(
-                0,
-                0,
-                width,
-                height,
-                0,
-                0,
-                width,
-                height,
-                glow::COLOR_BUFFER_BIT,
-                glow::NEAREST,
-            );
+            self.gl.blit_framebuffer(0, 0, width, height, 0, 0, width, height, glow::COLOR_BUFFER_BIT, glow::NEAREST);
         }
         self.check(LABEL)
     }
