@@ -46,12 +46,12 @@ struct Arguments {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
 
-    #[command(flatten)]
-    tweaks: TweakArgs,
-
     /// Changes a key of the scene, e.g. light.shadow.size=2048
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+
+    #[command(flatten)]
+    tweaks: TweakArgs,
 
     #[command(flatten)]
     context: ContextArgs,

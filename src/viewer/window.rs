@@ -13,7 +13,7 @@ use winit::window::WindowId;
 
 use super::{Error, Reaction, State, help, keys};
 use crate::context::window::{self, WindowContext};
-use crate::context::{Choice, ContextRequest, Profile};
+use crate::context::{self, Choice, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 
@@ -39,7 +39,7 @@ pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
     if !window::display_is_named() {
         return Err(Error::NoDisplay);
     }
-    let events = window::event_loop().map_err(|error| Error::Open(error.to_string()))?;
+    let events = window::event_loop().map_err(cannot_open)?;
     events.set_control_flow(ControlFlow::Wait);
     let mut app = App { state, shown, live: None, mouse: Mouse::default(), captured: None, failed: None };
     let ended = events.run_app(&mut app);
@@ -80,8 +80,8 @@ impl App {
             profile: Profile::Core33,
             debug: cfg!(debug_assertions),
         };
-        let context = WindowContext::open(event_loop, &self.title(), self.state.size(), &request)
-            .map_err(|error| Error::Open(error.to_string()))?;
+        let context =
+            WindowContext::open(event_loop, &self.title(), self.state.size(), &request).map_err(cannot_open)?;
         let renderer = Renderer::new(&context);
         Ok(Live { renderer, context })
     }
@@ -213,6 +213,16 @@ impl ApplicationHandler for App {
         // While the event loop still has its display.
         self.live = None;
     }
+}
+
+/// Why there is no window, without the place in winit's sources where that was noticed.
+fn cannot_open(error: context::Error) -> Error {
+    let text = match error {
+        context::Error::Present(text) => text,
+        other => other.to_string(),
+    };
+    let answer = text.strip_prefix("os error at ").and_then(|rest| rest.split_once(": ")).map(|(_, answer)| answer);
+    Error::Open(answer.unwrap_or(&text).to_owned())
 }
 
 /// The name that [`keys`] has for a key.
