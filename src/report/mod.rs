@@ -3,4 +3,6 @@
 
 mod band;
 mod edges;
+pub mod grid;
 pub mod metrics;
+pub mod results;
