@@ -5,6 +5,7 @@ mod info;
 mod plan;
 mod render;
 mod scene_args;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -29,6 +30,7 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Tune(tune::TuneArgs),
 }
 
 /// Why a subcommand failed.
@@ -46,6 +48,8 @@ pub enum Error {
     Frame(#[from] crate::frame::Error),
     #[error(transparent)]
     File(#[from] crate::output::Error),
+    #[error(transparent)]
+    Tune(#[from] crate::report::tune::Error),
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error("JSON: {0}")]
@@ -58,6 +62,7 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

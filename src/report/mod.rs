@@ -6,3 +6,5 @@ mod edges;
 pub mod grid;
 pub mod metrics;
 pub mod results;
+pub mod run;
+pub mod tune;
