@@ -90,9 +90,9 @@ fn pick_one(case: &Case, pick: &Pick) -> Result<(), String> {
         let pixel = pick_pixel(&drawn, pick)?;
         let found = drawn.picture.pixel(pixel);
         let right = pick.class.is_none_or(|class| class_of(found) == Some(class))
-            && pick.shade.is_none_or(|shade| {
-                found[1] > 0.0 && (f64::from(found[0]) - shade).abs() <= pick.within / 255.0
-            });
+            && pick
+                .shade
+                .is_none_or(|shade| found[1] > 0.0 && (f64::from(found[0]) - shade).abs() <= pick.within / 255.0);
         if !right {
             let wanted = pick.class.map_or_else(|| format!("{:?}", pick.shade), |class| format!("{class:?}"));
             let message = format!("pixel {pixel:?} is {}, not {wanted}: {}", in_words(found), pick.why);
@@ -185,10 +185,7 @@ fn cone(case: &Case, cone: &Cone) -> Result<(), String> {
     let towards = DVec3::from_array(cone.towards).normalize();
     let end = formula::reach_end(light, start, towards)?;
     let margin = PIXELS * formula::pixel_length(&drawn.scene, start + end * towards, towards)?;
-    let wanted = [
-        (start + (end - margin) * towards, Class::Lit),
-        (start + (end + margin) * towards, Class::Outside),
-    ];
+    let wanted = [(start + (end - margin) * towards, Class::Lit), (start + (end + margin) * towards, Class::Outside)];
     points(case, &drawn, &wanted, &cone.why)
 }
 

@@ -27,7 +27,10 @@ pub fn check(actual: &Picture, folder: &Path, golden: &Golden) -> Result<(), (St
     }
     if !path.is_file() {
         let name = path.display();
-        return Err((format!("{name}: there is no golden (ci/bless makes it, once the picture is known to be right)"), None));
+        return Err((
+            format!("{name}: there is no golden (ci/bless makes it, once the picture is known to be right)"),
+            None,
+        ));
     }
     let expected = Picture::read_png(&path).map_err(|error| (error, None))?;
     compare::compare(actual, &expected, &tolerance(folder, golden))
