@@ -6,6 +6,7 @@ mod plan;
 mod render;
 pub mod sample;
 mod scene_args;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -30,6 +31,7 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Tune(tune::TuneArgs),
 }
 
 /// Why a subcommand failed.
@@ -49,6 +51,8 @@ pub enum Error {
     Viewer(#[from] crate::viewer::Error),
     #[error(transparent)]
     File(#[from] crate::output::Error),
+    #[error(transparent)]
+    Tune(#[from] crate::report::tune::Error),
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error("JSON: {0}")]
@@ -61,6 +65,7 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
     };
     exit_code(result)
 }

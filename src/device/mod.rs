@@ -1,7 +1,7 @@
 //! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
 //!
 //! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
-//! its target already holds is left out ([`Redraw::WhenChanged`]).
+//! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 pub mod debug;
 mod error;
@@ -11,7 +11,7 @@ mod mesh;
 mod present;
 pub mod probe;
 mod program;
-mod queries;
+pub mod queries;
 mod readback;
 mod run;
 mod state;

@@ -70,6 +70,17 @@ pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
 }
 
+/// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
+pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
+    let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
+    let text = format!("{{ {inside} }}");
+    let entry = parse::value("light.shadow", &text, &origin)?;
+    match entry.map(|entry| entry.value) {
+        Some(Value::Table(table)) => Ok(table),
+        _ => Err(Error::Settings(SettingsError::new(&origin, "this is no inline table"))),
+    }
+}
+
 fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
     if path.is_dir() {
         return Err(Error::Folder { path: path.to_owned() });

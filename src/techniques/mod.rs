@@ -32,6 +32,9 @@ pub trait Technique: Sync {
     /// The document and section that it implements.
     fn source(&self) -> &'static str;
 
+    /// What a report varies, and how.
+    fn axes(&self) -> &'static [Axis];
+
     /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
     /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
     ///
@@ -47,6 +50,16 @@ pub trait Technique: Sync {
     ) -> Result<LightTerm, SettingsError>;
 }
 
+/// A key of `[light.shadow]` that a report varies.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    pub key: &'static str,
+    /// In TOML.
+    pub values: &'static [&'static str],
+    /// The fewer values of a quick report.
+    pub quick: &'static [&'static str],
+}
+
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap];
 
@@ -58,7 +71,7 @@ pub struct Notes {
 }
 
 /// Something that this frame does not draw.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct LeftOut {
     pub what: String,
     pub why: String,

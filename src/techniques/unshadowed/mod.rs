@@ -1,6 +1,6 @@
 //! No shadow: the light reaches all that its cone holds.
 
-use super::{LightTerm, LightView, Notes, Technique};
+use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::{PassList, glsl};
 use crate::scene::{Reader, SettingsError};
 
@@ -17,6 +17,10 @@ impl Technique for Unshadowed {
 
     fn source(&self) -> &'static str {
         "GL 4.6 compatibility, 12.2"
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        &[]
     }
 
     fn describe(

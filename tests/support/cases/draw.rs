@@ -1,0 +1,95 @@
+//! Draws a case's scene with the product: load, plan, run, read back.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use glumbra::context::{self, Choice, ContextRequest, Profile};
+use glumbra::frame::Renderer;
+use glumbra::plan::{Request, ViewRequest};
+use glumbra::scene::{self, Scene};
+use glumbra::techniques::views::View;
+
+use super::picture::Picture;
+
+/// What is wanted of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// RGB in 8 bits, as a PNG has it.
+    Picture,
+    /// RGB in 32-bit float.
+    FloatPicture,
+    /// A view of this light.
+    View(View, usize),
+}
+
+/// A picture with the scene that it shows, and what the plan said.
+pub struct Drawn {
+    pub scene: Scene,
+    pub picture: Picture,
+    /// `what: why` of all that was left out.
+    pub left_out: Vec<String>,
+    pub warnings: Vec<String>,
+}
+
+struct Gpu {
+    renderer: Renderer,
+    driver: String,
+}
+
+thread_local! {
+    static GPU: RefCell<Option<Result<Gpu, String>>> = const { RefCell::new(None) };
+}
+
+fn open() -> Result<Gpu, String> {
+    let request =
+        ContextRequest { choice: Choice::Auto, device: None, profile: Profile::Core33, debug: cfg!(debug_assertions) };
+    let context = context::open(&request).map_err(|error| error.to_string())?;
+    let info = context.describe();
+    let driver = format!("{}, OpenGL {}", info.renderer, info.version);
+    let renderer = Renderer::new(context.as_ref());
+    // Kept until the process ends: the renderer's objects must not outlive it.
+    Box::leak(context);
+    Ok(Gpu { renderer, driver })
+}
+
+fn with_gpu<T>(act: impl FnOnce(&mut Gpu) -> Result<T, String>) -> Result<T, String> {
+    GPU.with_borrow_mut(|gpu| match gpu.get_or_insert_with(open) {
+        Ok(gpu) => act(gpu),
+        Err(error) => Err(error.clone()),
+    })
+}
+
+/// GL_RENDERER and GL_VERSION, or why there is no context.
+pub fn driver() -> String {
+    with_gpu(|gpu| Ok(gpu.driver.clone())).unwrap_or_else(|error| error)
+}
+
+/// Draws `frames` frames of `scene` with `set` applied, and reads what is wanted from the last. Every pass is drawn
+/// anew, so that no comparison meets the very same texels twice.
+///
+/// # Errors
+///
+/// Any error of the product, as its user would read it.
+pub fn draw(scene: &Path, set: &[String], frames: u32, wanted: Wanted) -> Result<Drawn, String> {
+    let loaded = scene::load(scene, set).map_err(|error| error.to_string())?;
+    let views = match wanted {
+        Wanted::View(view, light) => vec![ViewRequest { view, light }],
+        Wanted::Picture | Wanted::FloatPicture => Vec::new(),
+    };
+    let request = Request { views, float_picture: wanted == Wanted::FloatPicture, frames, ..Request::default() };
+    with_gpu(|gpu| {
+        gpu.renderer.device().forget();
+        let plan = gpu.renderer.plan(&loaded.scene, &request).map_err(|error| error.to_string())?;
+        for _ in 0..frames {
+            gpu.renderer.draw(&plan).map_err(|error| error.to_string())?;
+        }
+        let frame = gpu.renderer.read(&plan).map_err(|error| error.to_string())?;
+        let shown = frame.views.first().unwrap_or(&frame.picture);
+        Ok(Drawn {
+            picture: Picture::of(shown, matches!(wanted, Wanted::View(View::Shade, _))),
+            scene: loaded.scene,
+            left_out: plan.left_out.iter().map(|left| format!("{}: {}", left.what, left.why)).collect(),
+            warnings: loaded.warnings.into_iter().chain(plan.warnings).collect(),
+        })
+    })
+}
