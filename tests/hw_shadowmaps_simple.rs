@@ -273,6 +273,7 @@ fn wrong_uses_are_told() {
         (&["--mode", "eye"], 2, "camera"),
         (&["--headless", "-o", "x.jpg"], 1, ".png"),
         (&["--headless", "-o", "x.png", "--r-scale", "99"], 1, "light.shadow.r.scale"),
+        (&["--headless", "-o", "x.png", "--mode", "camera", "--r-bias", "-99"], 1, "light.shadow.r.bias"),
         (&["--headless", "-o", "x.png", "--set", "light.frustum=on"], 1, "hidden"),
         (&["--headless", "-o", "x.png", "--size", "0x4"], 1, "image.size"),
     ] {

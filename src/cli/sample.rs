@@ -12,6 +12,7 @@ use crate::context::{self, Choice, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output::{self, Output};
+use crate::plan::Request;
 use crate::scene::{self, Embedded, Scene};
 use crate::viewer::{self, Mode, Shown, State};
 
@@ -115,12 +116,14 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     for warning in &loaded.warnings {
         eprintln!("warning: {warning}");
     }
+    // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
+    crate::plan::make(&loaded.scene, &Request::default())?;
     let mode = Mode::from(arguments.mode);
-    if let Some(path) = &arguments.output {
-        return write(path, &draw(&loaded.scene, mode, path, arguments)?);
-    }
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
     crate::plan::make(&scene, &request)?;
+    if let Some(path) = &arguments.output {
+        return write(path, &draw(&scene, request, path, arguments)?);
+    }
     let shown = Shown { title: sample.name.to_owned(), capture: arguments.capture.is_some() };
     let captured = viewer::run(State::new(loaded.scene, mode), shown)?;
     match (&arguments.capture, captured) {
@@ -130,13 +133,11 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
 }
 
 /// One picture without a window.
-fn draw(scene: &Scene, mode: Mode, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
-    let (scene, mut request) = mode.frame(scene, scene.image.size);
+fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
     request.float_picture = output::check_path(path)?.is_exact();
-    crate::plan::make(&scene, &request)?;
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     let mut renderer = Renderer::new(context.as_ref());
-    let plan = renderer.plan(&scene, &request)?;
+    let plan = renderer.plan(scene, &request)?;
     renderer.draw(&plan)?;
     Ok(renderer.read(&plan)?.picture)
 }

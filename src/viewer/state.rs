@@ -8,7 +8,7 @@ use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
 use crate::plan::{Request, Subject};
-use crate::scene::{Entry, Origin, Scene, Value};
+use crate::scene::Scene;
 
 /// The sample's display modes [techniques E].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,12 +46,8 @@ impl Mode {
         scene.image.size = size;
         let mut request = Request::default();
         match self {
-            Self::Camera => {
-                for light in &mut scene.lights {
-                    let none = Value::String(String::from("none"));
-                    light.shadow.set("technique", Entry { value: none, origin: Origin::BuiltIn });
-                }
-            }
+            // An empty table is one without a technique.
+            Self::Camera => scene.lights.iter_mut().for_each(|light| light.shadow.entries.clear()),
             Self::Shadowed => {}
             Self::Light => request.subject = Subject::Light(0),
         }
