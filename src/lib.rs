@@ -38,3 +38,4 @@ pub mod plan;
 pub mod report;
 pub mod scene;
 pub mod techniques;
+pub mod viewer;

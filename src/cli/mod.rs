@@ -4,6 +4,7 @@ mod context_args;
 mod info;
 mod plan;
 mod render;
+pub mod sample;
 mod scene_args;
 mod tune;
 
@@ -47,6 +48,8 @@ pub enum Error {
     #[error(transparent)]
     Frame(#[from] crate::frame::Error),
     #[error(transparent)]
+    Viewer(#[from] crate::viewer::Error),
+    #[error(transparent)]
     File(#[from] crate::output::Error),
     #[error(transparent)]
     Tune(#[from] crate::report::tune::Error),
@@ -64,6 +67,10 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
     };
+    exit_code(result)
+}
+
+fn exit_code(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         // A reader that has seen enough (`glumbra info | head`) is no error.

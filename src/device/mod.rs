@@ -8,6 +8,7 @@ mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+mod present;
 pub mod probe;
 mod program;
 pub mod queries;

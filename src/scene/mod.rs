@@ -37,6 +37,25 @@ pub struct Loaded {
     pub warnings: Vec<String>,
 }
 
+/// A scene file and the pictures that it names, compiled into a program. Its meshes are built in.
+#[derive(Clone, Copy, Debug)]
+pub struct Embedded {
+    /// The file's name, for messages.
+    pub path: &'static str,
+    pub text: &'static str,
+    /// Each with the name that the file has for it.
+    pub pictures: &'static [(&'static str, &'static [u8])],
+}
+
+/// Loads a scene that is part of the program; otherwise as [`load`].
+pub fn load_embedded(embedded: &Embedded, overrides: &[String]) -> Result<Loaded, Error> {
+    let mut assets = Assets::with_pictures(embedded.pictures);
+    let mut root = parse::document(Path::new(embedded.path), embedded.text)?;
+    overrides::apply(&mut root, overrides)?;
+    let scene = resolve::scene(&root, &mut assets)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
 /// Loads a scene (.toml) or a model (.obj) with a scene supplied around it. `overrides` are the texts of `--set`,
 /// `a.b.c=value`, applied in order.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Error> {

@@ -105,7 +105,7 @@ impl Settings {
 
     /// Starts reading; every key must be asked for before [`Reader::finish`].
     pub fn read(&self) -> Reader<'_> {
-        Reader { settings: self, known: Vec::new() }
+        Reader { settings: self, known: Vec::new(), rest_is_known: false }
     }
 
     /// The dotted name of one of the table's keys, for messages.
@@ -119,6 +119,7 @@ impl Settings {
 pub struct Reader<'a> {
     settings: &'a Settings,
     known: Vec<&'static str>,
+    rest_is_known: bool,
 }
 
 type Result<T> = std::result::Result<T, SettingsError>;
@@ -247,8 +248,16 @@ impl<'a> Reader<'a> {
             .collect()
     }
 
+    /// Lets every further key stand: they belong to something that is switched off.
+    pub fn accept_rest(&mut self) {
+        self.rest_is_known = true;
+    }
+
     /// Refuses keys that nobody asked for.
     pub fn finish(self) -> Result<()> {
+        if self.rest_is_known {
+            return Ok(());
+        }
         for (key, entry) in &self.settings.entries {
             if !self.known.contains(&key.as_str()) {
                 let hint = suggest(key, self.known.iter().copied());

@@ -26,10 +26,13 @@ impl Technique for Unshadowed {
     fn describe(
         &self,
         view: &LightView<'_>,
-        _settings: &mut Reader<'_>,
+        settings: &mut Reader<'_>,
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
+        // `technique = "none"` switches shadows off in a scene that is set up for them: the keys of the technique
+        // that is not there stay.
+        settings.accept_rest();
         Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag")))
     }
 }
