@@ -1,5 +1,6 @@
 //! Runs a pass list: first everything it needs is made and checked, then each pass is drawn in order.
 
+use std::collections::HashSet;
 use std::rc::Rc;
 use std::time::Instant;
 
@@ -138,19 +139,22 @@ impl Device {
     }
 
     fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
-        let old = std::mem::take(&mut self.images);
-        let old_count = old.len();
-        let mut old: Vec<_> = old.into_iter().map(Some).collect();
+        let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
+        let mut kept = HashSet::new();
         for desc in &list.images {
             let found = old.iter_mut().find(|slot| slot.as_ref().is_some_and(|(have, _)| have == desc));
             let image = match found.and_then(Option::take) {
-                Some((_, image)) => image,
+                Some((_, image)) => {
+                    kept.insert(image.name.number());
+                    image
+                }
                 None => Rc::new(image::create(&self.gl, desc)?),
             };
             self.images.push((desc.clone(), image));
         }
-        if old.iter().any(Option::is_some) || old_count != self.images.len() {
-            // Framebuffers of images that are gone; the rest are made again when they are drawn into.
+        if old.iter().any(Option::is_some) || kept.len() != self.images.len() {
+            // GL may give the numbers of deleted images to new ones: forget what was known of them.
+            self.done.retain(|_, done| done.objects.iter().all(|number| kept.contains(number)));
             self.framebuffers.clear();
         }
         Ok(())
