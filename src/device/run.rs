@@ -51,8 +51,6 @@ impl Device {
     /// that cannot be drawn into, and any GL error, each with the pass's label.
     pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
         self.prepare(list)?;
-        // The images of a pass that is gone may be gone too, and GL gives their names to others.
-        self.done.retain(|label, _| list.passes.iter().any(|pass| pass.label == *label));
         let mut times = Vec::new();
         for pass in &list.passes {
             let objects = self.objects(list, pass);

@@ -13,7 +13,7 @@ use crate::math::Aabb;
 /// entries a triangle, each below that length. All values are finite.
 ///
 /// A guide, which is drawn as lines, is a mesh too: its `indices` then hold two entries a segment, and only
-/// [`crate::pass::Draw::primitive`] tells. Nothing that loads or resolves a scene makes such a mesh.
+/// the draw that uses it tells. Nothing that loads or resolves a scene makes such a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Where it comes from: a built-in's name or the file's path as written.
