@@ -35,6 +35,13 @@ pub trait Technique: Sync {
     /// What a report varies, and how.
     fn axes(&self) -> &'static [Axis];
 
+    /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
+    ///
+    /// # Errors
+    ///
+    /// A key with a wrong value, with its place in the scene file.
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError>;
+
     /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
     /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
     ///

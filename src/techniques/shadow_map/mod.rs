@@ -34,6 +34,10 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(settings).map(|_| ())
+    }
+
     fn describe(
         &self,
         view: &LightView<'_>,
