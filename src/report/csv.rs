@@ -59,12 +59,11 @@ fn measured_columns(measured: Option<&Measured>) -> Vec<(String, String)> {
     for (name, value) in left_out_columns(measured) {
         push(name.to_owned(), value);
     }
-    for (name, spread) in [
-        ("redrawn", measured.map(|m| &m.frame_redrawn)),
-        ("kept", measured.map(|m| &m.frame_kept)),
-    ] {
-        let part = |what: &str, of: fn(&Spread) -> f64| (format!("{name}_ms_{what}"), spread.map(|s| of(s).to_string()));
-        for (name, value) in [part("median", |s| s.median), part("least", |s| s.least), part("greatest", |s| s.greatest)]
+    for (name, spread) in [("redrawn", measured.map(|m| &m.frame_redrawn)), ("kept", measured.map(|m| &m.frame_kept))] {
+        let part =
+            |what: &str, of: fn(&Spread) -> f64| (format!("{name}_ms_{what}"), spread.map(|s| of(s).to_string()));
+        for (name, value) in
+            [part("median", |s| s.median), part("least", |s| s.least), part("greatest", |s| s.greatest)]
         {
             push(name, value);
         }
@@ -197,7 +196,9 @@ mod tests {
                 assert_eq!(&line[column(&format!("setting.{key}"))], value);
             }
             match &row.outcome {
-                Outcome::Failed(why) => assert_eq!((&line[column("failure")], ""), (why, &*line[column("wrong_percent")])),
+                Outcome::Failed(why) => {
+                    assert_eq!((&line[column("failure")], ""), (why, &*line[column("wrong_percent")]))
+                }
                 Outcome::Measured(measured) => {
                     assert_eq!(line[column("wrong_percent")].parse(), Ok(measured.wrong_percent()));
                     assert_eq!(line[column("redrawn_ms_median")].parse(), Ok(measured.frame_redrawn.median));
@@ -208,7 +209,8 @@ mod tests {
 
     #[test]
     fn quotes_only_where_needed() {
-        let cases = [("a", "a"), ("a,b", "\"a,b\""), ("say \"x\"", "\"say \"\"x\"\"\""), ("a\nb", "\"a\nb\""), ("", "")];
+        let cases =
+            [("a", "a"), ("a,b", "\"a,b\""), ("say \"x\"", "\"say \"\"x\"\"\""), ("a\nb", "\"a\nb\""), ("", "")];
         for (cell, text) in cases {
             assert_eq!(quoted(cell), text);
         }

@@ -211,12 +211,9 @@ fn check_scene(first: &Path, known: &SceneReport, second: &Path, other: &SceneRe
     ];
     match checks.into_iter().find(|(_, is_equal)| !is_equal) {
         None => Ok(()),
-        Some((what, _)) => Err(Error::Differ {
-            first: first.to_owned(),
-            second: second.to_owned(),
-            scene: other.path.clone(),
-            what,
-        }),
+        Some((what, _)) => {
+            Err(Error::Differ { first: first.to_owned(), second: second.to_owned(), scene: other.path.clone(), what })
+        }
     }
 }
 

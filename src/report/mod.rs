@@ -6,7 +6,7 @@ pub mod csv;
 pub mod difference;
 mod edges;
 pub mod grid;
-//pub mod html;
+pub mod html;
 pub mod merge;
 pub mod metrics;
 mod numbers;
@@ -14,4 +14,4 @@ pub mod plots;
 pub mod results;
 #[cfg(test)]
 mod samples;
-//pub mod write;
+pub mod write;

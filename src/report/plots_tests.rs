@@ -20,9 +20,18 @@ fn texts(svg: &str) -> Vec<String> {
 fn a_plot_names_scene_driver_machine_units_and_techniques() {
     let svg = time_plot(|_| ()).unwrap();
     let all = texts(&svg).join("\n");
-    for word in
-        ["main.toml", "llvmpipe", "Mesa 22.3.6", "2 cores", "in ms", "in %", "shadow-map", "variance", "Pareto", "as written"]
-    {
+    for word in [
+        "main.toml",
+        "llvmpipe",
+        "Mesa 22.3.6",
+        "2 cores",
+        "in ms",
+        "in %",
+        "shadow-map",
+        "variance",
+        "Pareto",
+        "as written",
+    ] {
         assert!(all.contains(word), "{word} is not in:\n{all}");
     }
     assert!(!svg.contains("<CPU>"), "what the system says is not escaped");

@@ -121,7 +121,8 @@ fn metrics(wrong: f64, size: u32) -> Metrics {
         inside_percent: 0.9 * percent,
         outside_percent: 0.1 * percent,
     };
-    let edges = EdgeDistance { edges: 4200, mean_pixels: 0.4 * wrong, p95_pixels: 1.5 * wrong, max_pixels: 7.0 * wrong };
+    let edges =
+        EdgeDistance { edges: 4200, mean_pixels: 0.4 * wrong, p95_pixels: 1.5 * wrong, max_pixels: 7.0 * wrong };
     let all = Errors {
         compared: 198_000,
         compared_in_band: 6_000,

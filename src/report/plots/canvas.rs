@@ -7,9 +7,9 @@ use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKe
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axis::Axis;
 use super::super::numbers::plain;
 use super::Error;
+use super::axis::Axis;
 
 pub(super) const SIZE: (u32, u32) = (900, 560);
 const LEGEND_LEFT: i32 = 708;
@@ -84,11 +84,7 @@ fn write_titles(root: &Root<'_>, words: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-fn draw_axes<'a>(
-    root: &Root<'a>,
-    words: &Words<'_>,
-    [x, y]: [&Axis; 2],
-) -> Result<Chart<'a>, Error> {
+fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&Axis; 2]) -> Result<Chart<'a>, Error> {
     let coordinates = |axis: &Axis| {
         axis.range.clone().log_scale().with_key_points(axis.ticks.clone()).with_light_points(axis.minor.iter().copied())
     };
@@ -130,7 +126,8 @@ impl Canvas<'_> {
     pub fn marker(&self, at: Place, marker: Marker) -> Result<(), Error> {
         let color = COLORS[marker.kind % COLORS.len()];
         let fill = color.mix(marker.opacity).filled();
-        let outline = if marker.is_outlined { BLACK.stroke_width(2) } else { color.mix(marker.opacity).stroke_width(1) };
+        let outline =
+            if marker.is_outlined { BLACK.stroke_width(2) } else { color.mix(marker.opacity).stroke_width(1) };
         let r = marker.radius;
         let shape = |corners: &[Place]| corners.iter().map(|(x, y)| (at.0 + x, at.1 + y)).collect::<Vec<_>>();
         let corners = match marker.kind % 4 {
