@@ -4,6 +4,7 @@ mod context_args;
 mod info;
 mod plan;
 mod render;
+mod report;
 pub mod sample;
 mod scene_args;
 mod tune;
@@ -31,6 +32,7 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Report(report::ReportArgs),
     Tune(tune::TuneArgs),
 }
 
@@ -53,6 +55,20 @@ pub enum Error {
     File(#[from] crate::output::Error),
     #[error(transparent)]
     Tune(#[from] crate::report::tune::Error),
+    #[error(transparent)]
+    Grid(#[from] crate::report::grid::Error),
+    #[error(transparent)]
+    Report(#[from] crate::report::run::Error),
+    #[error(transparent)]
+    Journal(#[from] crate::report::journal::Error),
+    #[error(transparent)]
+    Pictures(#[from] crate::report::pictures::Error),
+    #[error(transparent)]
+    Merge(#[from] crate::report::merge::Error),
+    #[error(transparent)]
+    ReportFiles(#[from] crate::report::write::Error),
+    #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
+    Interrupted { folder: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error("JSON: {0}")]
@@ -65,6 +81,7 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
     };
     exit_code(result)
@@ -89,4 +106,13 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     serde_json::to_writer_pretty(&mut out, value)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// A spinner with a message, for work without a known length.
+fn spinner(template: &str) -> indicatif::ProgressBar {
+    let bar = indicatif::ProgressBar::new_spinner();
+    if let Ok(style) = indicatif::ProgressStyle::with_template(&format!("{{spinner}} {template}")) {
+        bar.set_style(style);
+    }
+    bar
 }

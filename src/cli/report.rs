@@ -150,12 +150,14 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
         version: VERSION,
         complete: false,
         machine: run::machine(&options)?,
+        notes: Vec::new(),
+        asked_scenes: sweeps.len(),
         scenes: sweeps.iter().map(|sweep| sweep.report.clone()).collect(),
     };
     write::make_folder(&folder)?;
     let stop = stop_on_interrupt();
     let journal = measure(arguments, &folder, &sweeps, &options, &stop, &mut report)?;
-    report.complete = report.scenes.iter().all(|scene| scene.rows.len() == scene.grid_rows);
+    report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
     let pictures = draw_pictures(&sweeps, &report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
@@ -248,11 +250,12 @@ fn measure(
     Ok(journal)
 }
 
-fn draw_pictures(sweeps: &[Sweep], report: &Report, options: &Options, goals: &Goals) -> Result<Vec<Pictures>, Error> {
+fn draw_pictures(sweeps: &[Sweep], report: &Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());
-    let drawn = sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| pictures::of(sweep, scene, goals, &mut renderer));
-    Ok(drawn.collect::<Result<_, _>>()?)
+    let drawn =
+        sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| pictures::of(sweep, scene, goals, &mut renderer));
+    Ok(Pictures { scenes: drawn.collect::<Result<_, _>>()? })
 }
 
 fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
@@ -261,7 +264,7 @@ fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let report = merge::merge(parts)?;
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
     write::make_folder(&arguments.output)?;
-    write::write_all(&arguments.output, &report, &[], &goals)?;
+    write::write_all(&arguments.output, &report, &Pictures::default(), &goals)?;
     println!("{}", arguments.output.join("report.html").display());
     Ok(())
 }

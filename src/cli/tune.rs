@@ -1,7 +1,6 @@
 //! `glumbra tune`: which offset, which map size.
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::scene_args::SceneArgs;
 use super::{ContextArgs, Error};
@@ -65,10 +64,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     };
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     let mut renderer = Renderer::new(context.as_ref());
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} offsets seen, {elapsed}: {msg}") {
-        bar.set_style(style);
-    }
+    let bar = super::spinner("{pos} offsets seen, {elapsed}: {msg}");
     let tuned = tune::tune(&scene, &options, &mut renderer, |point| {
         bar.inc(1);
         bar.set_message(line(point));

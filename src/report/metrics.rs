@@ -134,7 +134,8 @@ pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics
     })
 }
 
-fn is_lit(shade: f32) -> bool {
+/// Where a shade becomes shadow.
+pub(super) fn is_lit(shade: f32) -> bool {
     shade >= 0.5
 }
 

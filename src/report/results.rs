@@ -14,6 +14,11 @@ pub struct Report {
     /// Whether every row of the grid is there.
     pub complete: bool,
     pub machine: Machine,
+    /// What a reader should know besides: what was joined, what went wrong.
+    #[serde(default)]
+    pub notes: Vec<String>,
+    /// Scenes asked for, of which [`Self::scenes`] may be a part.
+    pub asked_scenes: usize,
     pub scenes: Vec<SceneReport>,
 }
 
@@ -136,6 +141,13 @@ pub struct PassCost {
     pub fragments: Option<u64>,
 }
 
+impl Report {
+    /// Whether every row of every scene asked for is there.
+    pub fn has_all_rows(&self) -> bool {
+        self.scenes.len() == self.asked_scenes && self.scenes.iter().all(|scene| scene.rows.len() == scene.grid_rows)
+    }
+}
+
 impl Row {
     /// What was measured, if it was.
     pub fn measured(&self) -> Option<&Measured> {
@@ -143,6 +155,12 @@ impl Row {
             Outcome::Measured(measured) => Some(measured),
             Outcome::Failed(_) => None,
         }
+    }
+
+    /// `key = value, …`, without the technique.
+    pub fn settings_text(&self) -> String {
+        let keys = self.settings.iter().map(|(key, value)| format!("{key} = {value}"));
+        keys.collect::<Vec<_>>().join(", ")
     }
 
     /// `[light.shadow]` as a scene would have it.
@@ -158,6 +176,8 @@ impl SceneReport {
     pub fn pareto(&self) -> Vec<&Row> {
         let mut rows: Vec<(&Row, &Measured)> =
             self.rows.iter().filter_map(|row| row.measured().map(|measured| (row, measured))).collect();
+        // A picture of which no pixel could be compared is not right, only unjudged.
+        rows.retain(|(_, measured)| measured.metrics.all.compared > 0);
         rows.sort_by(|(_, a), (_, b)| {
             a.frame_redrawn
                 .median
