@@ -23,6 +23,10 @@ const PIXELS: f64 = 1.5;
 ///
 /// The first check that fails, with what it measured and where the pictures are; a case without checks.
 pub fn run(case: &Case) -> Result<(), String> {
+    all_checks(case).map_err(|error| format!("{}\n  {error}", case.checks.asks))
+}
+
+fn all_checks(case: &Case) -> Result<(), String> {
     let checks = &case.checks;
     if checks.is_empty() {
         return Err(String::from("the case has no checks"));
@@ -41,7 +45,7 @@ pub fn run(case: &Case) -> Result<(), String> {
     checks.sum.iter().try_for_each(|each| sum(case, each))?;
     if let Some(wanted) = &checks.golden {
         let actual = draw(case, &[], Wanted::Picture)?.picture;
-        golden::check(&actual, &case.folder, wanted)
+        golden::check(&actual, &case.folder, wanted, golden::blessing())
             .map_err(|(error, expected)| failure(case, error, &actual, expected.as_ref()))?;
     }
     Ok(())
@@ -90,9 +94,9 @@ fn pick_one(case: &Case, pick: &Pick) -> Result<(), String> {
         let pixel = pick_pixel(&drawn, pick)?;
         let found = drawn.picture.pixel(pixel);
         let right = pick.class.is_none_or(|class| class_of(found) == Some(class))
-            && pick.shade.is_none_or(|shade| {
-                found[1] > 0.0 && (f64::from(found[0]) - shade).abs() <= pick.within / 255.0
-            });
+            && pick
+                .shade
+                .is_none_or(|shade| found[1] > 0.0 && (f64::from(found[0]) - shade).abs() <= pick.within / 255.0);
         if !right {
             let wanted = pick.class.map_or_else(|| format!("{:?}", pick.shade), |class| format!("{class:?}"));
             let message = format!("pixel {pixel:?} is {}, not {wanted}: {}", in_words(found), pick.why);
@@ -185,10 +189,7 @@ fn cone(case: &Case, cone: &Cone) -> Result<(), String> {
     let towards = DVec3::from_array(cone.towards).normalize();
     let end = formula::reach_end(light, start, towards)?;
     let margin = PIXELS * formula::pixel_length(&drawn.scene, start + end * towards, towards)?;
-    let wanted = [
-        (start + (end - margin) * towards, Class::Lit),
-        (start + (end + margin) * towards, Class::Outside),
-    ];
+    let wanted = [(start + (end - margin) * towards, Class::Lit), (start + (end + margin) * towards, Class::Outside)];
     points(case, &drawn, &wanted, &cone.why)
 }
 

@@ -31,8 +31,10 @@ pub struct Drawn {
     pub warnings: Vec<String>,
 }
 
+/// One thread's renderer, kept until the process ends: a context must outlive its objects, and drivers differ in what
+/// they bear when a thread ends.
 struct Gpu {
-    renderer: Renderer,
+    renderer: &'static mut Renderer,
     driver: String,
 }
 
@@ -46,8 +48,7 @@ fn open() -> Result<Gpu, String> {
     let context = context::open(&request).map_err(|error| error.to_string())?;
     let info = context.describe();
     let driver = format!("{}, OpenGL {}", info.renderer, info.version);
-    let renderer = Renderer::new(context.as_ref());
-    // Kept until the process ends: the renderer's objects must not outlive it.
+    let renderer = Box::leak(Box::new(Renderer::new(context.as_ref())));
     Box::leak(context);
     Ok(Gpu { renderer, driver })
 }
