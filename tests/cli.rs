@@ -440,6 +440,30 @@ fn exact_values_are_right() {
     assert!(map.iter().all(|depth| (0.0..=1.0).contains(depth)));
 }
 
+/// A map of n bits holds multiples of 1 / (2^n - 1), and not of a coarser format's.
+#[test]
+fn maps_hold_the_codes_of_their_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let off_grid = |values: &[f32], bits: i32| {
+        let most = 2.0_f64.powi(bits) - 1.0;
+        // An f32 near 1 is 2^-25 off at most.
+        let off = |v: &&f32| (f64::from(**v) * most - (f64::from(**v) * most).round()).abs() > 2.0_f64.powi(bits - 24);
+        values.iter().filter(off).count()
+    };
+    let map = |format: &str| {
+        let set = format!("light.shadow.format={format}");
+        render(folder.path(), &["-o", "x.npy", "--aov", "light-depth", "--set", &set]);
+        read_npy(&folder.path().join("x.light-depth.npy")).1
+    };
+    let (map16, map24, map32f) = (map("depth16"), map("depth24"), map("depth32f"));
+    assert_eq!(off_grid(&map16, 16), 0);
+    assert!(off_grid(&map24, 16) > map24.len() / 2);
+    for (a, b) in map32f.iter().zip(&map16) {
+        assert!((a - b).abs() < 2e-4, "{a} {b}"); // the offset is eight codes of 16 bits
+    }
+    assert!(map32f.iter().zip(&map24).any(|(a, b)| a != b));
+}
+
 #[test]
 fn json_has_passes_times_bytes_and_what_was_left_out() {
     let folder = tempfile::tempdir().unwrap();

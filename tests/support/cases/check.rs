@@ -8,7 +8,7 @@ use glumbra::techniques::views::View;
 
 use super::compare::{self, Tolerance};
 use super::draw::{self, Drawn, Wanted};
-use super::file::{Case, Class, Cone, Count, Edge, Of, Pick, Same, Sum};
+use super::file::{After, Case, Class, Cone, Count, Edge, Of, Pick, Same, Sum};
 use super::formula;
 use super::golden;
 use super::picture::Picture;
@@ -42,6 +42,7 @@ fn all_checks(case: &Case) -> Result<(), String> {
     checks.cone.iter().try_for_each(|each| cone(case, each))?;
     checks.count.iter().try_for_each(|each| count(case, each))?;
     checks.same.iter().try_for_each(|each| same(case, each))?;
+    checks.after.iter().try_for_each(|each| after(case, each))?;
     checks.sum.iter().try_for_each(|each| sum(case, each))?;
     if let Some(wanted) = &checks.golden {
         let actual = draw(case, &[], Wanted::Picture)?.picture;
@@ -243,6 +244,24 @@ fn same(case: &Case, same: &Same) -> Result<(), String> {
                     return Err(failure(case, message, &actual, Some(&expected)));
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+fn after(case: &Case, after: &After) -> Result<(), String> {
+    if after.of.is_empty() || after.firsts.is_empty() {
+        return Err(format!("`after` compares nothing ({})", after.why));
+    }
+    for of in &after.of {
+        let wanted = wanted_of(*of, 0);
+        let expected = draw(case, &[], wanted)?.picture;
+        for first in &after.firsts {
+            let actual = draw::draw_after(&case.scene(), &all(case, first), &case.checks.set, wanted)?.picture;
+            compare::compare(&actual, &expected, &Tolerance::EXACT).map_err(|error| {
+                let message = format!("{of:?} after {first:?}: {error} ({})", after.why);
+                failure(case, message, &actual, Some(&expected))
+            })?;
         }
     }
     Ok(())
