@@ -4,7 +4,9 @@ mod context_args;
 mod info;
 mod plan;
 mod render;
+pub mod sample;
 mod scene_args;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -29,6 +31,7 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Tune(tune::TuneArgs),
 }
 
 /// Why a subcommand failed.
@@ -45,7 +48,11 @@ pub enum Error {
     #[error(transparent)]
     Frame(#[from] crate::frame::Error),
     #[error(transparent)]
+    Viewer(#[from] crate::viewer::Error),
+    #[error(transparent)]
     File(#[from] crate::output::Error),
+    #[error(transparent)]
+    Tune(#[from] crate::report::tune::Error),
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error("JSON: {0}")]
@@ -58,7 +65,12 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
     };
+    exit_code(result)
+}
+
+fn exit_code(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         // A reader that has seen enough (`glumbra info | head`) is no error.

@@ -13,6 +13,8 @@ use crate::techniques::{LeftOut, views::View};
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]
 pub struct Request {
+    /// Whose eyes the picture is drawn for.
+    pub subject: Subject,
     /// Beside the picture itself.
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
@@ -25,8 +27,20 @@ pub struct Request {
 
 impl Default for Request {
     fn default() -> Self {
-        Self { views: Vec::new(), float_picture: false, frames: 1, limits: Limits::default() }
+        Self { subject: Subject::Camera, views: Vec::new(), float_picture: false, frames: 1, limits: Limits::default() }
     }
+}
+
+/// Who sees the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// The scene's camera; the whole picture.
+    #[default]
+    Camera,
+    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture,
+    /// in its lower left corner. A shadow map that is copied from the window's own depth buffer has that size
+    /// [techniques E].
+    Light(usize),
 }
 
 /// What the driver at hand can do; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
-use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Redraw, Storage, Work};
+use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Storage, Work};
 
 impl Plan {
     /// The plan as values.
@@ -78,13 +78,16 @@ impl Plan {
             for draw in &batch.draws {
                 let order = if draw.order == IndexOrder::VertexCache { ", vertex-cache order" } else { "" };
                 summary.draws.push(format!(
-                    "{}: {} triangles of {}{order}",
+                    "{}: {} {} of {}{order}",
                     draw.label,
                     draw.primitive_count(),
+                    if draw.primitive == Primitive::Lines { "lines" } else { "triangles" },
                     draw.mesh.name
                 ));
                 summary.draw_calls += 1;
-                summary.triangles += draw.primitive_count();
+                if draw.primitive == Primitive::Triangles {
+                    summary.triangles += draw.primitive_count();
+                }
             }
         }
         summary

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Plan, Request};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{DrawPass, ImageId, IndexOrder, Input, Pass, Redraw, Target, Work};
+use crate::pass::{DrawPass, ImageId, IndexOrder, Input, Pass, Primitive, Redraw, Target, Work};
 use crate::techniques::LeftOut;
 
 /// Prunes in place.
@@ -108,7 +108,8 @@ fn choose_index_order(plan: &mut Plan, frames: u32) {
         plan,
         |_, draw| {
             let count = draws.get(&std::sync::Arc::as_ptr(&draw.mesh.0)).copied().unwrap_or(0);
-            let sorted = count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256;
+            let triangles = draw.primitive == Primitive::Triangles && draw.mesh.triangle_count() >= 256;
+            let sorted = count >= DRAWS_THAT_PAY && triangles;
             draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
         },
         frames,

@@ -3,4 +3,8 @@
 
 mod band;
 mod edges;
+pub mod grid;
 pub mod metrics;
+pub mod results;
+pub mod run;
+pub mod tune;

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3, Vec4};
 
 use self::settings::{Addressing, Order, Settings, Transfer};
 use super::items::cutout;
-use super::{Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
@@ -28,6 +28,14 @@ impl Technique for ShadowMap {
 
     fn source(&self) -> &'static str {
         "Hardware Shadow Mapping; techniques A1-A10, A12"
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        settings::AXES
+    }
+
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(settings).map(|_| ())
     }
 
     fn describe(
