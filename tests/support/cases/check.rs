@@ -8,7 +8,7 @@ use glumbra::techniques::views::View;
 
 use super::compare::{self, Tolerance};
 use super::draw::{self, Drawn, Wanted};
-use super::file::{Case, Class, Cone, Count, Edge, Of, Pick, Same, Sum};
+use super::file::{After, Case, Class, Cone, Count, Edge, Of, Pick, Same, Sum};
 use super::formula;
 use super::golden;
 use super::picture::Picture;
@@ -23,6 +23,10 @@ const PIXELS: f64 = 1.5;
 ///
 /// The first check that fails, with what it measured and where the pictures are; a case without checks.
 pub fn run(case: &Case) -> Result<(), String> {
+    all_checks(case).map_err(|error| format!("{}\n  {error}", case.checks.asks))
+}
+
+fn all_checks(case: &Case) -> Result<(), String> {
     let checks = &case.checks;
     if checks.is_empty() {
         return Err(String::from("the case has no checks"));
@@ -38,10 +42,11 @@ pub fn run(case: &Case) -> Result<(), String> {
     checks.cone.iter().try_for_each(|each| cone(case, each))?;
     checks.count.iter().try_for_each(|each| count(case, each))?;
     checks.same.iter().try_for_each(|each| same(case, each))?;
+    checks.after.iter().try_for_each(|each| after(case, each))?;
     checks.sum.iter().try_for_each(|each| sum(case, each))?;
     if let Some(wanted) = &checks.golden {
         let actual = draw(case, &[], Wanted::Picture)?.picture;
-        golden::check(&actual, &case.folder, wanted)
+        golden::check(&actual, &case.folder, wanted, golden::blessing())
             .map_err(|(error, expected)| failure(case, error, &actual, expected.as_ref()))?;
     }
     Ok(())
@@ -239,6 +244,24 @@ fn same(case: &Case, same: &Same) -> Result<(), String> {
                     return Err(failure(case, message, &actual, Some(&expected)));
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+fn after(case: &Case, after: &After) -> Result<(), String> {
+    if after.of.is_empty() || after.firsts.is_empty() {
+        return Err(format!("`after` compares nothing ({})", after.why));
+    }
+    for of in &after.of {
+        let wanted = wanted_of(*of, 0);
+        let expected = draw(case, &[], wanted)?.picture;
+        for first in &after.firsts {
+            let actual = draw::draw_after(&case.scene(), &all(case, first), &case.checks.set, wanted)?.picture;
+            compare::compare(&actual, &expected, &Tolerance::EXACT).map_err(|error| {
+                let message = format!("{of:?} after {first:?}: {error} ({})", after.why);
+                failure(case, message, &actual, Some(&expected))
+            })?;
         }
     }
     Ok(())

@@ -57,6 +57,8 @@ pub struct Checks {
     #[serde(default)]
     pub same: Vec<Same>,
     #[serde(default)]
+    pub after: Vec<After>,
+    #[serde(default)]
     pub sum: Vec<Sum>,
     pub golden: Option<Golden>,
 }
@@ -214,6 +216,16 @@ fn one_frame() -> u32 {
     1
 }
 
+/// A renderer that has drawn other set-ups just before must draw the case's own as a new one does, to the bit.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct After {
+    pub of: Vec<Of>,
+    /// What is drawn before.
+    pub firsts: Vec<Vec<String>>,
+    pub why: String,
+}
+
 /// Float pictures that add up: the case's own = the sum of `plus` less the sum of `minus`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -239,6 +251,8 @@ impl Checks {
     pub fn is_empty(&self) -> bool {
         let lists = self.pick.len() + self.edge.len() + self.cone.len() + self.count.len() + self.same.len();
         let words = [&self.fails_with, &self.warns, &self.leaves_out];
-        lists + self.sum.len() == 0 && self.golden.is_none() && words.iter().all(|text| text.is_none())
+        lists + self.after.len() + self.sum.len() == 0
+            && self.golden.is_none()
+            && words.iter().all(|text| text.is_none())
     }
 }

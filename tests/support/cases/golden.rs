@@ -9,21 +9,24 @@ use super::draw;
 use super::file::Golden;
 use super::picture::Picture;
 
-/// Set by `ci/bless`.
-const BLESS: &str = "GLUMBRA_BLESS";
+/// The driver that drew the golden beside it, one line.
+const DRIVER_FILE: &str = "golden.driver";
 
-/// The driver that drew the goldens of a folder of cases, one line.
-const DRIVER_FILE: &str = "driver.txt";
+/// Whether `ci/bless` asks for goldens.
+pub fn blessing() -> bool {
+    std::env::var_os("GLUMBRA_BLESS").is_some_and(|value| value == "1")
+}
 
 /// Holds `actual` against `golden.png` in `folder`.
 ///
 /// # Errors
 ///
-/// A golden that is missing, unreadable, of another size or too different, and every golden that is being blessed.
-pub fn check(actual: &Picture, folder: &Path, golden: &Golden) -> Result<(), (String, Option<Picture>)> {
+/// A golden that is missing, unreadable, of another size or too different, and with `bless` every golden: it is drawn
+/// anew.
+pub fn check(actual: &Picture, folder: &Path, golden: &Golden, bless: bool) -> Result<(), (String, Option<Picture>)> {
     let path = folder.join("golden.png");
-    if std::env::var_os(BLESS).is_some_and(|value| value == "1") {
-        return Err((bless(actual, folder, &path), None));
+    if bless {
+        return Err((write(actual, folder, &path), None));
     }
     if !path.is_file() {
         let name = path.display();
@@ -41,21 +44,16 @@ pub fn check(actual: &Picture, folder: &Path, golden: &Golden) -> Result<(), (St
 /// On the driver of the goldens, the case's own. On another one edges of triangles and shadows fall differently in a
 /// few pixels, so the maximum cannot hold there, and the mean and the share are what a pixel-wide rim amounts to.
 fn tolerance(folder: &Path, golden: &Golden) -> Tolerance {
-    let recorded = fs::read_to_string(driver_file(folder)).unwrap_or_default();
-    if recorded.trim() == draw::driver() || recorded.is_empty() {
+    let recorded = fs::read_to_string(folder.join(DRIVER_FILE)).unwrap_or_default();
+    if recorded.trim() == draw::driver() {
         return Tolerance { max: golden.max / 255.0, mean: golden.mean / 255.0, share: 1.0 };
     }
     Tolerance { max: 1.0, mean: golden.mean.max(0.75) / 255.0, share: 1.0 }
 }
 
-fn driver_file(folder: &Path) -> std::path::PathBuf {
-    let cases = folder.parent().and_then(Path::parent).unwrap_or(folder);
-    cases.join(DRIVER_FILE)
-}
-
-fn bless(actual: &Picture, folder: &Path, path: &Path) -> String {
+fn write(actual: &Picture, folder: &Path, path: &Path) -> String {
     let written = actual.write_png(path).and_then(|()| {
-        let file = driver_file(folder);
+        let file = folder.join(DRIVER_FILE);
         fs::write(&file, draw::driver() + "\n").map_err(|error| format!("{}: {error}", file.display()))
     });
     match written {
