@@ -32,6 +32,12 @@ pub struct Arguments {
     frames: usize,
     #[arg(long, value_enum, default_value_t = Redraw::Always)]
     redraw: Redraw,
+    /// Another model than the dense one: a scan whose file order is its own
+    #[arg(long, value_name = "OBJ")]
+    model: Option<std::path::PathBuf>,
+    /// The child's scene, with the model that is drawn
+    #[arg(long, hide = true, value_name = "TOML")]
+    file: Option<std::path::PathBuf>,
     /// Where the child writes its picture
     #[arg(short, long)]
     output: Option<std::path::PathBuf>,
@@ -51,6 +57,8 @@ pub enum Scene {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Who {
     Floor,
+    /// The floor with its triangles in vertex-cache order and its heap kept: what a hand-tuned program reaches.
+    Tuned,
     Glumbra,
     /// The floor's context, one clear, one pixel read.
     Clear,

@@ -86,10 +86,15 @@ type Vertex = [f32; 6];
 
 impl Floor {
     /// Loads the model, opens a context and uploads.
-    pub fn new(scene: Scene) -> Result<Self> {
+    ///
+    /// `tuned`: the triangles in vertex-cache order, and the heap kept.
+    pub fn new(scene: Scene, model: &Path, tuned: bool) -> Result<Self> {
         let numbers = numbers(scene);
-        let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/meshes/dense.obj");
-        let (mesh, _) = glumbra::geometry::load_obj(&model)?;
+        let (mut mesh, _) = glumbra::geometry::load_obj(model)?;
+        if tuned {
+            mesh = mesh.cache_optimized();
+            floor_gl::keep_heap();
+        }
         let mut vertices: Vec<Vertex> =
             mesh.positions.iter().zip(&mesh.normals).map(|([x, y, z], [a, b, c])| [*x, *y, *z, *a, *b, *c]).collect();
         let mut indices = mesh.indices;

@@ -37,6 +37,16 @@ pub fn open() -> Result<glow::Context> {
     Ok(gl)
 }
 
+/// As glumbra's own: what is freed stays with the process.
+pub fn keep_heap() {
+    // SAFETY: mallopt takes two integers and may be called at any time.
+    unsafe {
+        libc::mallopt(libc::M_TRIM_THRESHOLD, 1 << 30);
+        libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 30);
+        libc::mallopt(libc::M_TOP_PAD, 64 << 20);
+    }
+}
+
 /// A linked program.
 pub struct Program {
     pub name: glow::Program,

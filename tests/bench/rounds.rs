@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use super::child::{Sample, scene_file};
+use super::child::{Sample, model_file, scene_file};
 use super::table::{Row, print};
 use super::{Arguments, Redraw, Result, Scene, Who, pictures};
 
@@ -13,6 +13,7 @@ use super::{Arguments, Redraw, Result, Scene, Who, pictures};
 struct Round {
     floor: Sample,
     floor_once: Sample,
+    tuned: Sample,
     glumbra: Sample,
     glumbra_once: Sample,
     /// One frame and a PNG: start of the process to its end, in milliseconds.
@@ -40,7 +41,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     std::fs::create_dir_all(&folder)?;
     let scenes = arguments.scene.map_or(vec![Scene::S1, Scene::S2], |scene| vec![scene]);
     let result = scenes.into_iter().try_for_each(|scene| {
-        let bench = Bench { scene, quick: arguments.quick, folder: folder.clone() };
+        let bench = Bench {
+            scene,
+            quick: arguments.quick,
+            folder: folder.clone(),
+            model: model_file(arguments).canonicalize()?,
+        };
+        bench.write_scene()?;
         bench.run(rounds)
     });
     std::fs::remove_dir_all(&folder)?;
@@ -51,6 +58,7 @@ struct Bench {
     scene: Scene,
     quick: bool,
     folder: PathBuf,
+    model: PathBuf,
 }
 
 impl Bench {
@@ -75,6 +83,7 @@ impl Bench {
         let mut steps: Vec<fn(&Self, &mut Round) -> Result<()>> = vec![
             |bench, round| Ok(round.floor = bench.frames_of(Who::Floor, Redraw::Always)?),
             |bench, round| Ok(round.glumbra = bench.frames_of(Who::Glumbra, Redraw::Always)?),
+            |bench, round| Ok(round.tuned = bench.frames_of(Who::Tuned, Redraw::Always)?),
             |bench, round| Ok(round.floor_once = bench.frames_of(Who::Floor, Redraw::Once)?),
             |bench, round| Ok(round.glumbra_once = bench.frames_of(Who::Glumbra, Redraw::Once)?),
             |bench, round| Ok((round.floor_start, round.floor_start_kib) = bench.start(Who::Floor)?),
@@ -92,7 +101,7 @@ impl Bench {
     fn frames(&self) -> usize {
         match (self.scene, self.quick) {
             (Scene::S1, false) => 60,
-            (Scene::S2, false) => 7,
+            (Scene::S2, false) => 5,
             (Scene::S1, true) => 10,
             (Scene::S2, true) => 3,
         }
@@ -116,7 +125,7 @@ impl Bench {
     /// One frame and a PNG by the command, as a user types it.
     fn start_of_command(&self) -> Result<f64> {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glumbra"));
-        command.arg("render").arg(scene_file(self.scene)).arg("-o").arg(self.folder.join("command.png"));
+        command.arg("render").arg(self.folder.join("scene.toml")).arg("-o").arg(self.folder.join("command.png"));
         Ok(timed(command)?.0)
     }
 
@@ -124,11 +133,21 @@ impl Bench {
         let mut command = Command::new(std::env::current_exe()?);
         let who = match who {
             Who::Floor => "floor",
+            Who::Tuned => "tuned",
             Who::Glumbra => "glumbra",
             Who::Clear => "clear",
         };
         command.args(["--child", who, "--scene", if self.scene == Scene::S1 { "s1" } else { "s2" }]);
+        command.arg("--model").arg(&self.model).arg("--file").arg(self.folder.join("scene.toml"));
         Ok(command)
+    }
+
+    /// The scene's file with the model's place in it.
+    fn write_scene(&self) -> Result<()> {
+        let text = std::fs::read_to_string(scene_file(self.scene))?;
+        let model = format!("{:?}", self.model.to_str().ok_or("the model's path is no text")?);
+        let text = text.replace("\"../meshes/dense.obj\"", &model);
+        Ok(std::fs::write(self.folder.join("scene.toml"), text)?)
     }
 
     fn picture(&self, who: Who) -> PathBuf {
@@ -163,6 +182,9 @@ fn rows(rounds: &[Round]) -> Vec<Row> {
         row("depth pass", "ms", None, &|r| (r.floor.depth_ms, r.glumbra.depth_ms)),
         row("lit pass", "ms", None, &|r| (r.floor.lit_ms, r.glumbra.lit_ms)),
         row("frame, map redrawn", "ms", Some(Expected::REDRAWN), &|r| (r.floor.frame_ms, r.glumbra.frame_ms)),
+        row("frame, map redrawn, processor time", "ms", None, &|r| (r.floor.cpu_ms, r.glumbra.cpu_ms)),
+        row("frame, map redrawn, hand-tuned floor", "ms", None, &|r| (r.floor.frame_ms, r.tuned.frame_ms)),
+        row("the same, processor time", "ms", None, &|r| (r.floor.cpu_ms, r.tuned.cpu_ms)),
         row("frame, map drawn once (floor: redrawn)", "ms", Some(Expected::ONCE), &|r| {
             (r.floor.frame_ms, r.glumbra_once.frame_ms)
         }),
