@@ -64,8 +64,10 @@ fn light_terms(
     let visible = visible(items, camera);
     let mut planned = Vec::new();
     for (index, source) in scene.lights.iter().enumerate() {
-        let view = LightView { scene, items, index };
-        let shown = request.views.iter().any(|v| v.view.of_light() && v.light == index);
+        let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
+        let shown = request.views.iter().any(|v| of_this(&v));
+        let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
+        let view = LightView { scene, items, index, shown_whole };
         let absent = why_absent(&view, camera, &visible);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&mut keys)?;

@@ -14,6 +14,8 @@ pub struct LightView<'a> {
     pub items: &'a [Item],
     /// Into [`Scene::lights`].
     pub index: usize,
+    /// Whether a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
+    pub shown_whole: bool,
 }
 
 impl LightView<'_> {

@@ -13,6 +13,7 @@ pub mod items;
 pub mod light;
 mod shadow_map;
 pub mod surface;
+mod unseen;
 mod unshadowed;
 pub mod views;
 

@@ -6,6 +6,7 @@ use glam::{DMat4, DVec3, Vec4};
 
 use self::settings::{Addressing, Order, Settings, Transfer};
 use super::items::cutout;
+use super::unseen::Unseen;
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
@@ -46,9 +47,12 @@ impl Technique for ShadowMap {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let casters = casters(view, notes);
+        let casters = casters(view, &settings, notes);
         if casters.is_empty() {
-            notes.left_out(format!("the map of light {}", view.index), "no caster lies in the light's frustum");
+            notes.left_out(
+                format!("the map of light {}", view.index),
+                "no caster in the light's frustum shadows what is seen",
+            );
             let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"));
             term.dimming = settings.dimming;
             return Ok(term);
@@ -58,8 +62,9 @@ impl Technique for ShadowMap {
     }
 }
 
-/// The items that can stand in the light's way inside its frustum.
-fn casters<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
+/// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
+fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+    let unseen = (!view.shown_whole).then(|| Unseen::new(view, settings.size));
     let clip_from_world = view.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
@@ -67,6 +72,11 @@ fn casters<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
             notes.left_out(format!("{} in the map of light {}", item.label, view.index), "casts_shadow = false");
         } else if frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) == Overlap::Outside {
             notes.left_out(format!("{} in the map of light {}", item.label, view.index), "outside the light's frustum");
+        } else if unseen.as_ref().is_some_and(|unseen| unseen.shadow_of(item)) {
+            notes.left_out(
+                format!("{} in the map of light {}", item.label, view.index),
+                "the camera sees nothing that it shadows",
+            );
         } else {
             warn_of_near(view, item, notes);
             casters.push(item);

@@ -1,0 +1,84 @@
+//! Casters whose shadow the camera cannot see: conservative, from bounding boxes.
+//!
+//! What a box shadows are the points c + t (c - L) with c in the box, t >= 0 and L the light's position. Once all eight
+//! corners have crossed one face of the scene's bounds, nothing is left to be shadowed; up to there, the hull of the
+//! corners and of where they then are holds the shadow. Where that hull, grown by what a filter can reach, lies beyond
+//! one of the camera's planes, no visible point looks the caster up.
+
+use glam::{DMat4, DVec3, DVec4};
+
+use super::{Item, LightView};
+use crate::math::Aabb;
+use crate::scene::LightKind;
+
+/// How far from its own place a lookup reaches: a linear filter's neighbour, Direct3D's half texel and rounding, in
+/// texels.
+const REACH_TEXELS: f64 = 4.0;
+
+/// Tells which casters of one light matter to the picture.
+pub struct Unseen {
+    scene_bounds: Aabb,
+    light: DVec3,
+    /// World space; the normals, of unit length, point inwards.
+    camera_planes: [DVec4; 6],
+    /// What [`REACH_TEXELS`] measure at a distance of 1 from the light.
+    reach_at_one: f64,
+}
+
+impl Unseen {
+    /// For a map of `texels` a side.
+    pub fn new(view: &LightView<'_>, texels: u32) -> Self {
+        let camera = &view.scene.camera;
+        let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+        let LightKind::Spot { cone_radians, .. } = view.light().kind;
+        Self {
+            scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
+            light: view.light().position,
+            camera_planes: planes(&clip_from_world),
+            reach_at_one: REACH_TEXELS * 2.0 * (0.5 * cone_radians).tan() / f64::from(texels),
+        }
+    }
+
+    /// Whether `item` and all that it can shadow lie outside the camera's frustum.
+    pub fn shadow_of(&self, item: &Item) -> bool {
+        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+        let Some(end) = self.end_of_shadow(&corners) else { return false };
+        let ends = corners.map(|corner| corner + end * (corner - self.light));
+        self.camera_planes.iter().any(|plane| {
+            corners.iter().chain(&ends).all(|point| {
+                let reach = self.reach_at_one * point.distance(self.light);
+                // The slack of 2^-20 covers the driver's f32 transforms.
+                let slack = 2.0_f64.powi(-20) * (point.abs().max_element() + plane.w.abs());
+                plane.dot(point.extend(1.0)) < -reach - slack
+            })
+        })
+    }
+
+    /// The least t by which all corners have crossed some face of the scene's bounds; `None` if there is none.
+    fn end_of_shadow(&self, corners: &[DVec3; 8]) -> Option<f64> {
+        let time = |corner: &DVec3, axis: usize, bound: f64, sign: f64| {
+            let speed = sign * (corner[axis] - self.light[axis]);
+            (speed > 0.0).then(|| (sign * (bound - corner[axis]) / speed).max(0.0))
+        };
+        let faces = (0..3)
+            .flat_map(|axis| [(axis, self.scene_bounds.max[axis], 1.0), (axis, self.scene_bounds.min[axis], -1.0)]);
+        let ends = faces.filter_map(|(axis, bound, sign)| {
+            corners
+                .iter()
+                .map(|corner| time(corner, axis, bound, sign))
+                .try_fold(0.0, |end: f64, t| t.map(|t| end.max(t)))
+        });
+        ends.min_by(f64::total_cmp).filter(|end| end.is_finite())
+    }
+}
+
+fn world_bounds(item: &Item) -> Aabb {
+    Aabb::from_points(item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)))
+}
+
+/// The clip volume's planes in world space, `dot(plane, (x, y, z, 1)) >= 0` inside.
+fn planes(clip_from_world: &DMat4) -> [DVec4; 6] {
+    let rows = clip_from_world.transpose();
+    let (x, y, z, w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
+    [w + x, w - x, w + y, w - y, w + z, w - z].map(|plane| plane / plane.truncate().length())
+}

@@ -1,0 +1,90 @@
+//! glumbra against the floor: the same scene by the fewest GL calls, in processes taken in turn (issue "How fast").
+//! Prints medians of same-round ratios; absolute times hold on no other machine. `ci/bench` builds and runs it.
+
+mod child;
+mod floor;
+mod floor_gl;
+mod pictures;
+mod rounds;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+
+/// Draws scenes by glumbra and by the floor, in turn, and prints ratios.
+#[derive(Clone, Debug, Parser)]
+pub struct Arguments {
+    /// Rounds; each starts every process once
+    #[arg(long, default_value_t = 10)]
+    rounds: usize,
+    /// 3 rounds of few frames: shows that it runs, not how fast
+    #[arg(long)]
+    quick: bool,
+    /// This scene only
+    #[arg(long, value_enum)]
+    scene: Option<Scene>,
+    /// Draws in this process and prints one line of JSON (the bench starts itself with it)
+    #[arg(long, value_enum)]
+    child: Option<Who>,
+    /// The child's frames that are timed
+    #[arg(long, default_value_t = 1)]
+    frames: usize,
+    #[arg(long, value_enum, default_value_t = Redraw::Always)]
+    redraw: Redraw,
+    /// Another model than the dense one: a scan whose file order is its own
+    #[arg(long, value_name = "OBJ")]
+    model: Option<std::path::PathBuf>,
+    /// The child's scene, with the model that is drawn
+    #[arg(long, hide = true, value_name = "TOML")]
+    file: Option<std::path::PathBuf>,
+    /// Where the child writes its picture
+    #[arg(short, long)]
+    output: Option<std::path::PathBuf>,
+    /// Cargo passes it to every bench
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+/// Which scene: one dense model, or a hundred of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Scene {
+    S1,
+    S2,
+}
+
+/// Who draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Who {
+    Floor,
+    /// The floor with its triangles in vertex-cache order and its heap kept: what a hand-tuned program reaches.
+    Tuned,
+    Glumbra,
+    /// The floor's context, one clear, one pixel read.
+    Clear,
+}
+
+/// In which frames the map is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Redraw {
+    Always,
+    Once,
+}
+
+/// Whatever went wrong, in words.
+pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.child {
+        Some(who) => child::run(who, &arguments),
+        None => rounds::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

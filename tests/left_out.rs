@@ -1,0 +1,62 @@
+//! What the plan leaves out changes no pixel: each scene is drawn with its casters culled by what the camera sees and,
+//! because a view of the map asks for all of it, with none culled.
+
+use std::fmt::Write as _;
+
+use glumbra::context::{self, ContextRequest};
+use glumbra::frame::Renderer;
+use glumbra::plan::{Plan, Request, ViewRequest};
+use glumbra::scene::{self, Scene};
+use glumbra::techniques::views::View;
+
+/// A field of boxes and spheres on a floor, wider than the camera and the light see.
+fn field(eye: [f64; 3], light: [f64; 3], cone: f64, shadow: &str) -> Scene {
+    let mut text = format!(
+        "[image]\nsize = [192, 128]\n[camera]\neye = {eye:?}\ntarget = [0.0, 0.0, 0.0]\nfov_y = 40.0\nnear = 0.2\nfar = 60.0\n\
+         [[light]]\nkind = \"spot\"\nposition = {light:?}\ntarget = [0.0, 0.0, 0.0]\ncone = {cone:?}\nnear = 0.5\nfar = 80.0\n\
+         [light.shadow]\ntechnique = \"shadow-map\"\n{shadow}\n\
+         [[object]]\nmesh = \"quad\"\nscale = [20.0, 1.0, 20.0]\n"
+    );
+    for k in 0..49 {
+        let (mesh, x, z) = (["box", "sphere"][k % 2], 3.0 * ((k % 7) as f64 - 3.0), 3.0 * ((k / 7) as f64 - 3.0));
+        let _ = writeln!(text, "[[object]]\nmesh = \"{mesh}\"\nscale = 0.5\ntranslate = [{x:?}, 0.6, {z:?}]");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("field.toml");
+    std::fs::write(&path, text).unwrap();
+    scene::load(&path, &[]).unwrap().scene
+}
+
+fn unseen(plan: &Plan) -> usize {
+    plan.left_out.iter().filter(|left| left.why == "the camera sees nothing that it shadows").count()
+}
+
+#[test]
+fn casters_whose_shadow_is_unseen_change_no_pixel() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let eyes = [[6.0, 5.0, 8.0], [0.5, 3.0, 6.0], [-14.0, 2.0, 0.3], [2.0, 12.0, -3.0]];
+    let lights = [[6.0, 14.0, 4.0], [-16.0, 3.0, 2.0], [0.1, 20.0, 0.0]];
+    let shadows =
+        ["size = 256", "size = 64\nfilter = \"nearest\"", "size = 128\naddressing = \"direct3d\"", "size = 32"];
+    let (mut all_unseen, mut number) = (0, 0);
+    for eye in eyes {
+        for light in lights {
+            for cone in [50.0, 120.0] {
+                let scene = field(eye, light, cone, shadows[number % shadows.len()]);
+                number += 1;
+                let culled = renderer.plan(&scene, &Request::default()).unwrap();
+                renderer.draw(&culled).unwrap();
+                let picture = renderer.read(&culled).unwrap().picture;
+                let views = vec![ViewRequest { view: View::LightDepth, light: 0 }];
+                let whole = renderer.plan(&scene, &Request { views, ..Request::default() }).unwrap();
+                assert_eq!(unseen(&whole), 0);
+                renderer.draw(&whole).unwrap();
+                let equal = renderer.read(&whole).unwrap().picture == picture;
+                assert!(equal, "eye {eye:?}, light {light:?}, cone {cone}: {} casters left out", unseen(&culled));
+                all_unseen += unseen(&culled);
+            }
+        }
+    }
+    assert!(all_unseen > 100, "only {all_unseen} casters were left out: the test shows nothing");
+}
