@@ -203,7 +203,7 @@ impl SceneReport {
     /// The least wrong row whose redrawn frame takes at most `milliseconds`.
     pub fn best_within(&self, milliseconds: f64) -> Option<&Row> {
         let within = |row: &&Row| row.measured().is_some_and(|m| m.frame_redrawn.median <= milliseconds);
-        self.pareto().into_iter().filter(within).next_back()
+        self.pareto().into_iter().rfind(within)
     }
 }
 
