@@ -92,10 +92,11 @@ fn error_columns(errors: Option<&Errors>) -> Vec<(String, Option<String>)> {
         column("leak_outside_band_percent", |e| e.leak.outside_percent),
         column("rmse", |e| e.rmse),
     ];
-    let directions: [(&str, fn(&Errors) -> Option<EdgeDistance>); 2] =
-        [("rendered_to_true", |e| e.rendered_to_true), ("true_to_rendered", |e| e.true_to_rendered)];
-    for (name, of) in directions {
-        let distance = errors.and_then(of);
+    let directions = [
+        ("rendered_to_true", errors.and_then(|errors| errors.rendered_to_true)),
+        ("true_to_rendered", errors.and_then(|errors| errors.true_to_rendered)),
+    ];
+    for (name, distance) in directions {
         let part = |what: &str, of: fn(&EdgeDistance) -> f64| {
             (format!("{name}_{what}"), distance.as_ref().map(|distance| of(distance).to_string()))
         };

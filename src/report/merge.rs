@@ -127,20 +127,20 @@ pub fn merge(parts: Vec<(PathBuf, Report)>) -> Result<Report, Error> {
 }
 
 fn check_driver(paths: [&PathBuf; 2], first: &Machine, second: &Machine) -> Result<(), Error> {
-    let fields: [(&'static str, fn(&Machine) -> &String); 4] = [
-        ("renderer", |m| &m.renderer),
-        ("GL version", |m| &m.gl_version),
-        ("kind of context", |m| &m.road),
-        ("glumbra", |m| &m.glumbra),
+    let fields = [
+        ("renderer", &first.renderer, &second.renderer),
+        ("GL version", &first.gl_version, &second.gl_version),
+        ("kind of context", &first.road, &second.road),
+        ("glumbra", &first.glumbra, &second.glumbra),
     ];
-    match fields.into_iter().find(|(_, of)| of(first) != of(second)) {
+    match fields.into_iter().find(|(_, first, second)| first != second) {
         None => Ok(()),
-        Some((what, of)) => Err(Error::Driver {
+        Some((what, first_value, second_value)) => Err(Error::Driver {
             first: paths[0].clone(),
             second: paths[1].clone(),
             what,
-            first_value: of(first).clone(),
-            second_value: of(second).clone(),
+            first_value: first_value.clone(),
+            second_value: second_value.clone(),
         }),
     }
 }

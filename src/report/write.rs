@@ -134,6 +134,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["plots", "report.json"]);
     }
 
+    #[cfg(unix)]
     #[test]
     fn a_full_disk_is_told() {
         let full = Path::new("/dev/full");
@@ -155,26 +156,19 @@ mod tests {
         assert_eq!((a.as_str(), b.as_str()), ("1-x_y-k.svg", "2-x_y-k.svg"));
     }
 
-    /// To look at: `GLUMBRA_SAMPLE=/tmp/x cargo test --lib a_sample`.
+    /// Leaves a page to look at: `GLUMBRA_SAMPLE=/tmp/x cargo test --lib pictures_are_written`.
     #[test]
-    fn a_sample() {
-        if let Some(folder) = std::env::var_os("GLUMBRA_SAMPLE") {
-            let gradient = image::RgbImage::from_fn(512, 512, |x, y| image::Rgb([x as u8, y as u8, 90]));
-            let png = super::super::difference::to_png(&gradient).unwrap();
-            let difference = super::super::html::DifferencePicture {
-                row: 5,
-                caption: "shadow-map, size = 256, filter = \"linear\"".to_owned(),
-                png: png.clone(),
-            };
-            let scene = super::super::html::ScenePictures {
-                picture: Some(png.clone()),
-                truth: Some(png),
-                differences: vec![difference],
-            };
-            let goals = Goals { wrong_percent: 0.3, milliseconds: 10.0 };
-            let mut report = samples::report();
-            report.machine.jobs = 2;
-            write_all(Path::new(&folder), &report, &Pictures { scenes: vec![scene] }, &goals).unwrap();
-        }
+    fn pictures_are_written_into_the_page() {
+        use super::super::difference::to_png;
+        use super::super::html::{DifferencePicture, ScenePictures};
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = std::env::var_os("GLUMBRA_SAMPLE").map_or(temporary.path().to_owned(), PathBuf::from);
+        let png = to_png(&image::RgbImage::from_fn(512, 512, |x, y| image::Rgb([x as u8, y as u8, 90]))).unwrap();
+        let difference = DifferencePicture { row: 5, caption: "size = 256".to_owned(), png: png.clone() };
+        let scene = ScenePictures { picture: Some(png.clone()), truth: Some(png), differences: vec![difference] };
+        let goals = Goals { wrong_percent: 0.3, milliseconds: 10.0 };
+        write_all(&folder, &samples::report(), &Pictures { scenes: vec![scene] }, &goals).unwrap();
+        let page = fs::read_to_string(folder.join("report.html")).unwrap();
+        assert_eq!(page.matches("data:image/png;base64,iVBOR").count(), 3);
     }
 }

@@ -19,6 +19,7 @@ pub(super) struct Column {
 /// The groups in order, each with what its columns have in common.
 pub(super) const GROUPS: [(&str, &str); 6] = [
     ("wrong pixels, %", "Shares of the pixels compared. False shadow and leak add up to all."),
+    ("time, ms", "Median of several runs, from the first call to the end of glFinish, unless said otherwise."),
     (
         "facing, %",
         "The same over surfaces whose visible side faces the light only: on the others shading leaves no light, so \
@@ -30,7 +31,6 @@ pub(super) const GROUPS: [(&str, &str); 6] = [
          from any true one; a lost shadow has true edges far from any drawn one.",
     ),
     ("shade", "Of the shade as it is, not only above or below one half."),
-    ("time, ms", "Median of several runs, from the first call to the end of glFinish, unless said otherwise."),
     ("price", "What a frame with everything drawn takes."),
 ];
 
@@ -92,46 +92,46 @@ pub(super) const COLUMNS: [Column; 27] = [
         "Light where shadow belongs, outside the band: an offset too large, a caster lost.",
         |m| compared(m, |e| e.leak.outside_percent),
     ),
-    column(1, "facing: all", 3, "All that is wrong on surfaces that face the light.", |m| {
+    column(1, "redrawn", 3, "A frame that draws everything, the maps among it.", |m| Some(m.frame_redrawn.median)),
+    column(1, "redrawn: least", 3, "The fastest of its runs.", |m| Some(m.frame_redrawn.least)),
+    column(1, "redrawn: most", 3, "The slowest of its runs.", |m| Some(m.frame_redrawn.greatest)),
+    column(1, "kept", 3, "A frame that keeps the maps that a static scene's first frame drew.", |m| {
+        Some(m.frame_kept.median)
+    }),
+    column(2, "facing: all", 3, "All that is wrong on surfaces that face the light.", |m| {
         facing(m, |e| e.wrong_percent)
     }),
-    column(1, "facing: false shadow out", 3, "Acne on surfaces that face the light.", |m| {
+    column(2, "facing: false shadow out", 3, "Acne on surfaces that face the light.", |m| {
         facing(m, |e| e.false_shadow.outside_percent)
     }),
-    column(1, "facing: leak", 3, "Leaks on surfaces that face the light, inside the band and outside.", |m| {
+    column(2, "facing: leak", 3, "Leaks on surfaces that face the light, inside the band and outside.", |m| {
         facing(m, |e| e.leak_percent)
     }),
-    column(2, "drawn to true: mean", 2, "From each edge in the picture to the nearest true one, on average.", |m| {
+    column(3, "drawn to true: mean", 2, "From each edge in the picture to the nearest true one, on average.", |m| {
         edge(all(m).rendered_to_true, |d| d.mean_pixels)
     }),
-    column(2, "drawn to true: 95 %", 2, "95 % of the edges in the picture are no farther from a true one.", |m| {
+    column(3, "drawn to true: 95 %", 2, "95 % of the edges in the picture are no farther from a true one.", |m| {
         edge(all(m).rendered_to_true, |d| d.p95_pixels)
     }),
-    column(2, "drawn to true: most", 2, "The edge in the picture that is farthest from any true one.", |m| {
+    column(3, "drawn to true: most", 2, "The edge in the picture that is farthest from any true one.", |m| {
         edge(all(m).rendered_to_true, |d| d.max_pixels)
     }),
-    column(2, "true to drawn: mean", 2, "From each true edge to the nearest in the picture, on average.", |m| {
+    column(3, "true to drawn: mean", 2, "From each true edge to the nearest in the picture, on average.", |m| {
         edge(all(m).true_to_rendered, |d| d.mean_pixels)
     }),
-    column(2, "true to drawn: 95 %", 2, "95 % of the true edges are no farther from one in the picture.", |m| {
+    column(3, "true to drawn: 95 %", 2, "95 % of the true edges are no farther from one in the picture.", |m| {
         edge(all(m).true_to_rendered, |d| d.p95_pixels)
     }),
-    column(2, "true to drawn: most", 2, "The true edge that is farthest from any in the picture.", |m| {
+    column(3, "true to drawn: most", 2, "The true edge that is farthest from any in the picture.", |m| {
         edge(all(m).true_to_rendered, |d| d.max_pixels)
     }),
     column(
-        3,
+        4,
         "RMSE",
         4,
         "Root of the mean squared difference of the shade from 0 or 1: the measure for filtered shade.",
         |m| compared(m, |e| e.rmse),
     ),
-    column(4, "redrawn", 3, "A frame that draws everything, the maps among it.", |m| Some(m.frame_redrawn.median)),
-    column(4, "redrawn: least", 3, "The fastest of its runs.", |m| Some(m.frame_redrawn.least)),
-    column(4, "redrawn: most", 3, "The slowest of its runs.", |m| Some(m.frame_redrawn.greatest)),
-    column(4, "kept", 3, "A frame that keeps the maps that a static scene's first frame drew.", |m| {
-        Some(m.frame_kept.median)
-    }),
     column(5, "images, KiB", 1, "Memory of the plan's images: maps, buffers, textures.", |m| {
         Some(m.image_bytes as f64 / 1024.0)
     }),

@@ -77,30 +77,24 @@ fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
     }
 }
 
-/// The band is of the row's own map, so that rows may differ.
+/// A row's band may be of its own map's size.
 fn band_text(scene: &SceneReport) -> String {
-    let mut bands: Vec<Band> = Vec::new();
-    for measured in scene.rows.iter().filter_map(Row::measured) {
-        if !bands.contains(&measured.metrics.band) {
-            bands.push(measured.metrics.band);
-        }
-    }
-    let one =
+    let bands = || scene.rows.iter().filter_map(Row::measured).map(|measured| measured.metrics.band);
+    let by_area = |band: &Band| u64::from(band.map_size[0]) * u64::from(band.map_size[1]);
+    let Some((least, greatest)) = bands().min_by_key(by_area).zip(bands().max_by_key(by_area)) else {
+        return String::new();
+    };
+    let map =
         |band: &Band| format!("{} texels of a {} × {} map", plain(band.texels), band.map_size[0], band.map_size[1]);
-    match bands.as_slice() {
-        [] => String::new(),
-        bands => format!(
-            "<p>The band around true shadow edges: {}.</p>\n",
-            escape(&bands.iter().map(one).collect::<Vec<_>>().join("; "))
-        ),
-    }
+    let range = if least == greatest { map(&least) } else { format!("from {} to {}", map(&greatest), map(&least)) };
+    format!("<p>The band reaches {range} away from true shadow edges.</p>\n")
 }
 
 fn marks(scene: &SceneReport, goals: &Goals) -> Marks {
     let mut marks = Marks::new();
     let mut mark = |row: Option<&Row>, why| {
         if let Some(row) = row {
-            marks.entry(row.index).or_insert_with(Vec::new).push(why);
+            marks.entry(row.index).or_default().push(why);
         }
     };
     mark(scene.rows.iter().find(|row| row.index == 0), "as written");

@@ -50,10 +50,13 @@ fn push_row(text: &mut String, row: &Row, number: usize, marks: &[&str]) {
         text,
         format_args!(
             "<tr id=\"s{number}r{index}\"{class}><td>{index}</td><td>{chips}</td><td>{technique}</td>\
-             <td class=\"settings\"><code>{settings}</code>{failure}</td><td>{passes}</td>",
+             <td class=\"settings\">{settings}{failure}</td><td>{passes}</td>",
             index = row.index,
             technique = escape(&row.technique),
-            settings = escape(&row.settings_text()),
+            settings = match escape(&row.settings_text()).as_str() {
+                "" => "–".to_owned(),
+                settings => format!("<code>{settings}</code>"),
+            },
             passes = row.measured().map(folded_passes).unwrap_or_default(),
         ),
     );

@@ -161,7 +161,7 @@ impl Canvas<'_> {
         for dash in dashes {
             self.root.draw(&PathElement::new(dash.to_vec(), FAINT.stroke_width(1))).map_err(failed)?;
         }
-        self.text("no wrong pixel", (ends[1].0 - 6, ends[1].1 - 3), 12, Pos::new(HPos::Right, VPos::Bottom))
+        self.text("no wrong pixel", (ends[0].0 + 8, ends[0].1 - 4), 12, Pos::new(HPos::Left, VPos::Bottom))
     }
 
     /// Below and left of a point: on a front nothing lies there.

@@ -68,7 +68,8 @@ impl<'a> Points<'a> {
 
     fn techniques_legend(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
         canvas.legend_heading("Technique")?;
-        for (kind, name) in self.techniques.iter().enumerate() {
+        let has_points = |kind: usize| self.points.iter().any(|point| point.technique == kind);
+        for (kind, name) in self.techniques.iter().enumerate().filter(|(kind, _)| has_points(*kind)) {
             let marker = Marker { kind, radius: 5, opacity: 0.8, is_outlined: false };
             canvas.legend_row(name, |canvas, at| canvas.marker(at, marker))?;
         }
