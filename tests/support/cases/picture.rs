@@ -63,7 +63,7 @@ impl Picture {
             return None;
         }
         let data = self.data.iter().zip(&other.data).map(|(a, b)| (a - b).abs() * 255.0 / 16.0);
-        Some(Self { data: data.collect(), ..self.clone() }).map(Self::opaque)
+        Some(Self { data: data.collect(), ..self.clone() }.opaque())
     }
 
     /// A shade view without its alpha, so that differences of either are seen.
