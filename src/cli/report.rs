@@ -159,7 +159,7 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     let journal = measure(arguments, &folder, &sweeps, &options, &stop, &mut report)?;
     report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
-    let pictures = draw_pictures(&sweeps, &report, &options, &goals)?;
+    let pictures = draw_pictures(&sweeps, &mut report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Interrupted { folder });
@@ -250,12 +250,16 @@ fn measure(
     Ok(journal)
 }
 
-fn draw_pictures(sweeps: &[Sweep], report: &Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
+/// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
+fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());
-    let drawn =
-        sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| pictures::of(sweep, scene, goals, &mut renderer));
-    Ok(Pictures { scenes: drawn.collect::<Result<_, _>>()? })
+    let mut pictures = Pictures::default();
+    for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
+        scene.saved = Some(sweep.saved(options, &mut renderer)?);
+        pictures.scenes.push(pictures::of(sweep, scene, goals, &mut renderer)?);
+    }
+    Ok(pictures)
 }
 
 fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {

@@ -33,7 +33,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     leak: f64,
 
-    /// Pixels in 100,000 that may stay falsely dark (slivers steeper than their neighbours need large offsets)
+    /// Pixels in 100,000 that may stay falsely dark (slivers steeper than their neighbours need large offsets); 2 always may
     #[arg(long, value_name = "COUNT", default_value_t = 1.0)]
     spare: f64,
 

@@ -67,8 +67,11 @@ fn light_terms(
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
         let shown = request.views.iter().any(|v| of_this(&v));
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
-        let view = LightView { scene, items, index, shown_whole };
-        let absent = why_absent(&view, camera, &visible);
+        // What is out of the camera's sight may be in another viewer's.
+        let shown_whole = shown_whole || request.subject != Subject::Camera;
+        let keep_all = request.keep_all;
+        let view = LightView { scene, items, index, shown_whole, keep_all };
+        let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());

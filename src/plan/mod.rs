@@ -21,13 +21,23 @@ pub struct Request {
     pub float_picture: bool,
     /// How many frames will be drawn of this scene: what pays off is decided by it.
     pub frames: u32,
+    /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
+    /// objects out of sight, colour buffers of depth passes, maps that are there already.
+    pub keep_all: bool,
     /// What the driver can do.
     pub limits: Limits,
 }
 
 impl Default for Request {
     fn default() -> Self {
-        Self { subject: Subject::Camera, views: Vec::new(), float_picture: false, frames: 1, limits: Limits::default() }
+        Self {
+            subject: Subject::Camera,
+            views: Vec::new(),
+            float_picture: false,
+            frames: 1,
+            keep_all: false,
+            limits: Limits::default(),
+        }
     }
 }
 

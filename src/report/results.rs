@@ -52,10 +52,33 @@ pub struct SceneReport {
     pub size: [u32; 2],
     pub triangles: u64,
     pub truth: TruthSummary,
+    /// What the plan leaves out of the scene as written, and what that saves.
+    #[serde(default)]
+    pub saved: Option<Saved>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.
     pub grid_rows: usize,
     /// By their place in the grid.
     pub rows: Vec<Row>,
+}
+
+/// The scene as written, with everything drawn against what its plan leaves out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Saved {
+    /// Whether both drew the same picture, to the bit. If not, nothing here counts.
+    pub same_pixels: bool,
+    pub whole: Cost,
+    /// A frame that keeps what a static scene's first frame drew.
+    pub pruned: Cost,
+    pub left_out: Vec<crate::techniques::LeftOut>,
+}
+
+/// A frame's price.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    pub frame: Spread,
+    pub image_bytes: u64,
+    pub draw_calls: usize,
+    pub triangles: u64,
 }
 
 /// What the oracle said.

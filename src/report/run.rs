@@ -7,7 +7,9 @@ use std::time::Instant;
 
 use super::grid::Setting;
 use super::metrics::{self, Band, Metrics, ShadeImage};
-use super::results::{Machine, Measured, Outcome, PassCost, Row, SceneReport, Spread, TruthSummary, VERSION};
+use super::results::{
+    Cost, Machine, Measured, Outcome, PassCost, Row, Saved, SceneReport, Spread, TruthSummary, VERSION,
+};
 use crate::context::{self, ContextRequest};
 use crate::device::{Measure, PassTime, Pixels};
 use crate::frame::{self, Renderer};
@@ -80,6 +82,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &[Setting], options: &Op
         size: scene.image.size,
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),
         truth: summarise(&truth, trace_ms),
+        saved: None,
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
@@ -183,6 +186,31 @@ impl Sweep {
             Err(why) => Outcome::Failed(why),
         };
         Row { outcome, ..row.clone() }
+    }
+
+    /// Draws the scene as written with and without what its plan leaves out, and compares pixels, time and bytes.
+    ///
+    /// # Errors
+    ///
+    /// What the plan or the device says.
+    pub fn saved(&self, options: &Options, renderer: &mut Renderer) -> Result<Saved, frame::Error> {
+        let mut cost = |keep_all| {
+            let plan = renderer.plan(&self.scene, &Request { frames: 100, keep_all, ..Request::default() })?;
+            renderer.draw(&plan)?;
+            let picture = renderer.read(&plan)?.picture;
+            let frames = renderer.draw_timed(&plan, options.runs.max(1) as u32, false, || ())?.frames_ms;
+            let summary = plan.summary();
+            let cost = Cost {
+                frame: Spread::of(&frames),
+                image_bytes: summary.image_bytes,
+                draw_calls: summary.passes.iter().map(|pass| pass.draw_calls).sum(),
+                triangles: summary.passes.iter().map(|pass| pass.triangles).sum(),
+            };
+            Ok::<_, frame::Error>((picture, cost, summary.left_out))
+        };
+        let (whole_picture, whole, _) = cost(true)?;
+        let (picture, pruned, left_out) = cost(false)?;
+        Ok(Saved { same_pixels: picture == whole_picture, whole, pruned, left_out })
     }
 
     /// The scene with a row's settings.

@@ -52,6 +52,7 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
             ambiguous_percent: 1.0,
             trace_ms: 1_834.2,
         },
+        saved: None,
         grid_rows: rows.len(),
         rows,
     }

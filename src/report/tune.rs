@@ -34,7 +34,7 @@ pub struct Options {
     pub sizes: Vec<u32>,
     /// The most leak in percent of the pixels compared that the smallest map may have.
     pub leak_percent: f64,
-    /// The most pixels in 100,000 that face the light, lie beyond the edge band and may be falsely dark.
+    /// The most pixels in 100,000 that face the light, lie beyond the edge band and may be falsely dark; two always may.
     pub false_per_100_000: f64,
     /// The edge band's half width in texels.
     pub band_texels: f64,
@@ -165,13 +165,23 @@ impl Search<'_> {
             false_shadow_percent,
             leak_percent: all.leak_percent,
             wrong_percent: all.wrong_percent,
-            clean: 1e3 * false_shadow_percent <= self.options.false_per_100_000,
+            clean: facing.false_shadow.outside as f64 <= self.spare(facing.compared),
         };
         self.curve.push(point);
         (self.tick)(&point);
         Ok(point)
     }
 }
+
+impl Search<'_> {
+    /// The pixels that may stay falsely dark: single ones at the band's rim are no acne, however small the picture.
+    fn spare(&self, compared: usize) -> f64 {
+        (1e-5 * self.options.false_per_100_000 * compared as f64).max(SPARE_PIXELS)
+    }
+}
+
+/// See [`Search::spare`].
+const SPARE_PIXELS: f64 = 2.0;
 
 fn units_of(exponent: i32) -> f64 {
     if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }

@@ -4,7 +4,7 @@ use super::super::difference::LEGEND;
 use super::super::metrics::Band;
 use super::super::numbers::{bytes, grouped, plain};
 use super::super::plots;
-use super::super::results::{Machine, Measured, Row, SceneReport};
+use super::super::results::{Cost, Machine, Measured, Row, SceneReport};
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
 use super::{Goals, ScenePictures};
@@ -38,12 +38,42 @@ pub(super) fn section(
     text += &figures(scene, pictures);
     text += "<h3>The settings to take</h3>\n<div class=\"cards\">\n";
     text += &cards(scene, number, goals);
-    text += "</div>\n<h3>Error against time</h3>\n";
+    text += "</div>\n";
+    text += &saved_text(scene);
+    text += "<h3>Error against time</h3>\n";
     text += &plot(plots::error_against_time(scene, machine), "There is no row to plot.");
     text += &plot(plots::error_against_map_size(scene, machine), "");
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
     text += &table::table(scene, number, &marks(scene, goals));
     text + "</section>\n"
+}
+
+/// What the plan of the scene as written leaves out, and what that saves.
+fn saved_text(scene: &SceneReport) -> String {
+    let Some(saved) = &scene.saved else { return String::new() };
+    if !saved.same_pixels {
+        return "<p class=\"note\">Drawing what the plan leaves out changed the picture: that is a bug, and no saving is \
+                claimed.</p>\n"
+            .to_owned();
+    }
+    let cost = |cost: &Cost| {
+        format!(
+            "{} ms, {} MiB, {} triangles in {} draws",
+            plain(cost.frame.median),
+            plain(cost.image_bytes as f64 / f64::from(1 << 20)),
+            grouped(cost.triangles),
+            cost.draw_calls
+        )
+    };
+    let items = saved.left_out.iter().map(|left| format!("<li>{}: {}</li>\n", escape(&left.what), escape(&left.why)));
+    format!(
+        "<h3>What is left out</h3>\n<p>A frame of the scene as written that draws everything: {}. What the plan keeps, with \
+         the same pixels to the bit, once the maps are there: {}.</p>\n<details><summary>{} things left out</summary><ul>\n{}</ul></details>\n",
+        cost(&saved.whole),
+        cost(&saved.pruned),
+        saved.left_out.len(),
+        items.collect::<String>()
+    )
 }
 
 fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
