@@ -137,6 +137,8 @@ pub struct Summary {
     pub passes: Vec<PassSummary>,
     pub images: Vec<ImageSummary>,
     pub image_bytes: u64,
+    /// Vertex and index buffers: each attribute and index order of each mesh that a draw reads, once.
+    pub buffer_bytes: u64,
     pub left_out: Vec<LeftOut>,
     pub warnings: Vec<String>,
 }

@@ -70,6 +70,7 @@ fn measured_columns(measured: Option<&Measured>) -> Vec<(String, String)> {
         push(format!("{name}_runs"), spread.map(|s| s.runs.to_string()));
     }
     push("image_bytes".to_owned(), measured.map(|m| m.image_bytes.to_string()));
+    push("buffer_bytes".to_owned(), measured.map(|m| m.buffer_bytes.to_string()));
     push("triangles".to_owned(), measured.map(|m| m.triangles.to_string()));
     push("draw_calls".to_owned(), measured.map(|m| m.draw_calls.to_string()));
     push("fragments".to_owned(), measured.and_then(total_fragments).map(|count| count.to_string()));

@@ -124,6 +124,9 @@ pub struct Measured {
     pub passes: Vec<PassCost>,
     /// Images of the plan: maps, buffers, textures.
     pub image_bytes: u64,
+    /// Vertex and index buffers.
+    #[serde(default)]
+    pub buffer_bytes: u64,
     /// Draws and triangles of a frame with everything drawn.
     pub draw_calls: usize,
     pub triangles: u64,

@@ -252,6 +252,7 @@ fn measure(
         frame_kept: costs.kept,
         passes: costs.passes,
         image_bytes: summary.image_bytes,
+        buffer_bytes: summary.buffer_bytes,
         draw_calls: summary.passes.iter().map(|pass| pass.draw_calls).sum(),
         triangles: summary.passes.iter().map(|pass| pass.triangles).sum(),
         left_out: plan.left_out,

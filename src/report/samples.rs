@@ -93,6 +93,7 @@ fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
         frame_kept: Spread { median: 4.8, least: 4.7, greatest: 5.1, runs: 5 },
         passes: vec![pass("shadow map of light 0", time - 4.0, true), pass("lit", 4.0, false)],
         image_bytes: (size * size * 4.0) as u64,
+        buffer_bytes: 2_500_000,
         draw_calls: 14,
         triangles: 138_902,
         left_out: vec![crate::techniques::LeftOut {

@@ -173,7 +173,7 @@ fn card(title: &str, row: Option<&Row>, instead: &str, number: usize) -> String 
          <a href=\"#s{number}r{index}\">row {index}</a></p>\n<pre><code>{}</code></pre>\n{}</div>\n",
         plain(measured.wrong_percent()),
         plain(measured.frame_redrawn.median),
-        bytes(measured.image_bytes),
+        bytes(measured.image_bytes + measured.buffer_bytes),
         escape(&row.to_toml()),
         plan_text(measured),
         index = row.index,
