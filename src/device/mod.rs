@@ -10,7 +10,7 @@ mod image;
 mod mesh;
 pub mod probe;
 mod program;
-mod queries;
+pub mod queries;
 mod readback;
 mod run;
 mod state;

@@ -51,7 +51,7 @@ fn beyond_a_face(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
 /// The distance of a clip-space point from plane `index` (left, right, bottom, top, near, far), positive inside.
 fn signed_distance(clip: &DVec4, index: usize) -> f64 {
     let value = clip[index / 2];
-    if index % 2 == 0 { clip.w + value } else { clip.w - value }
+    if index.is_multiple_of(2) { clip.w + value } else { clip.w - value }
 }
 
 fn slack(clip: &DVec4) -> f64 {

@@ -50,7 +50,7 @@ pub fn address_of(egl: &Egl, name: &CStr) -> *const c_void {
     unsafe {
         let pointer = egl.eglGetProcAddress(name.as_ptr());
         // Not compared as a function pointer: null is no valid one.
-        std::mem::transmute::<extern "system" fn(), *const c_void>(pointer)
+        pointer as *const c_void
     }
 }
 
