@@ -1,4 +1,4 @@
-//! How long the device worked at something (GL_TIME_ELAPSED).
+//! How long the device worked at something (GL_TIME_ELAPSED), read frames later so that nobody waits for the answer.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -46,6 +46,14 @@ impl Timer {
             unsafe { self.gl.end_query(glow::TIME_ELAPSED) };
             self.pending.push_back(query);
         }
+    }
+
+    /// The oldest time that is known by now, each once; does not wait.
+    pub fn poll(&mut self) -> Option<Duration> {
+        let query = *self.pending.front()?;
+        // SAFETY: the query has ended and is not deleted.
+        let available = unsafe { self.gl.get_query_parameter_u32(query, glow::QUERY_RESULT_AVAILABLE) };
+        if available != 0 { self.take_oldest() } else { None }
     }
 
     /// The oldest time, waited for if it must be; `None` if nothing was timed.

@@ -2,7 +2,27 @@
 
 use super::Mesh;
 
+/// As many triangles as a software driver transforms at once, about, each vertex in them once.
+const WINDOW: usize = 1024;
+
+/// Vertices a triangle in such windows: 0.5 at best, 0.65 in a mesh that is ordered well, 3 in one that is shuffled.
+const WELL_ORDERED: f64 = 0.8;
+
 impl Mesh {
+    /// Whether triangles that follow one another share so few vertices that sorting them pays.
+    pub fn is_scattered(&self) -> bool {
+        let mut last_window = vec![usize::MAX; self.positions.len()];
+        let mut transformed = 0;
+        for (window, indices) in self.indices.chunks(3 * WINDOW).enumerate() {
+            for index in indices {
+                let last = &mut last_window[*index as usize];
+                transformed += usize::from(*last != window);
+                *last = window;
+            }
+        }
+        transformed as f64 > WELL_ORDERED * self.triangle_count() as f64
+    }
+
     /// [`Mesh::indices`] with the triangles of each part in an order that reuses vertices soon. Each triangle keeps
     /// its winding, each part its range.
     pub fn cache_ordered(&self) -> Vec<u32> {
@@ -47,5 +67,22 @@ impl Mesh {
             materials: self.materials.clone(),
             bounds: self.bounds,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::primitive;
+
+    #[test]
+    fn a_sphere_is_scattered_only_when_shuffled() {
+        let mut mesh = primitive("sphere").unwrap();
+        assert!(!mesh.is_scattered());
+        let triangles = mesh.indices.as_chunks::<3>().0.to_vec();
+        // A stride that has no divisor in common with any count of triangles that a sphere of ours has.
+        let stride = 7919;
+        assert_ne!(triangles.len() % stride, 0);
+        mesh.indices = (0..triangles.len()).flat_map(|k| triangles[k * stride % triangles.len()]).collect();
+        assert!(mesh.triangle_count() <= 1024 || mesh.is_scattered());
     }
 }

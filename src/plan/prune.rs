@@ -116,13 +116,14 @@ fn drop_unused_images(plan: &mut Plan) {
     }
 }
 
-/// Sorting a mesh for the vertex cache costs about as much as drawing it this many times; each draw then saves about a
-/// quarter (`ci/bench` prints both).
+/// Sorting a scattered mesh for the vertex cache costs about as much as drawing it this many times; each draw then saves
+/// about a quarter (`ci/bench --model` prints both). A mesh whose file has it well ordered gains nothing.
 const DRAWS_THAT_PAY: u64 = 4;
 
 /// Draws each mesh in cache order where it is drawn often enough to pay for the sorting.
 fn choose_index_order(plan: &mut Plan, frames: u32) {
     let mut draws: HashMap<*const crate::geometry::Mesh, u64> = HashMap::new();
+    let mut sorted: HashMap<*const crate::geometry::Mesh, bool> = HashMap::new();
     for_each_draw(
         plan,
         |pass_frames, draw| {
@@ -133,9 +134,13 @@ fn choose_index_order(plan: &mut Plan, frames: u32) {
     for_each_draw(
         plan,
         |_, draw| {
-            let count = draws.get(&std::sync::Arc::as_ptr(&draw.mesh.0)).copied().unwrap_or(0);
-            let triangles = draw.primitive == Primitive::Triangles && draw.mesh.triangle_count() >= 256;
-            let sorted = count >= DRAWS_THAT_PAY && triangles;
+            if draw.primitive != Primitive::Triangles {
+                return;
+            }
+            let mesh = std::sync::Arc::as_ptr(&draw.mesh.0);
+            let count = draws.get(&mesh).copied().unwrap_or(0);
+            let pays = || count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256 && draw.mesh.is_scattered();
+            let sorted = *sorted.entry(mesh).or_insert_with(pays);
             draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
         },
         frames,

@@ -24,6 +24,9 @@ struct Round {
     glumbra_start_kib: u64,
 }
 
+/// Processes a round.
+const STEPS: usize = 9;
+
 /// The ratios that the issue expects at most.
 struct Expected;
 
@@ -80,22 +83,26 @@ impl Bench {
 
     fn round(&self, reversed: bool) -> Result<Round> {
         let mut round = Round::default();
-        let mut steps: Vec<fn(&Self, &mut Round) -> Result<()>> = vec![
-            |bench, round| Ok(round.floor = bench.frames_of(Who::Floor, Redraw::Always)?),
-            |bench, round| Ok(round.glumbra = bench.frames_of(Who::Glumbra, Redraw::Always)?),
-            |bench, round| Ok(round.tuned = bench.frames_of(Who::Tuned, Redraw::Always)?),
-            |bench, round| Ok(round.floor_once = bench.frames_of(Who::Floor, Redraw::Once)?),
-            |bench, round| Ok(round.glumbra_once = bench.frames_of(Who::Glumbra, Redraw::Once)?),
-            |bench, round| Ok((round.floor_start, round.floor_start_kib) = bench.start(Who::Floor)?),
-            |bench, round| Ok(round.glumbra_start = bench.start_of_command()?),
-            |bench, round| Ok(round.glumbra_start_kib = bench.start(Who::Glumbra)?.1),
-            |bench, round| Ok(round.first_pixel = timed(bench.child(Who::Clear)?)?.0),
-        ];
-        if reversed {
-            steps.reverse();
+        for step in 0..STEPS {
+            self.step(if reversed { STEPS - 1 - step } else { step }, &mut round)?;
         }
-        steps.into_iter().try_for_each(|step| step(self, &mut round))?;
         Ok(round)
+    }
+
+    /// One process of a round; those that are compared stand side by side.
+    fn step(&self, step: usize, round: &mut Round) -> Result<()> {
+        match step {
+            0 => round.floor = self.frames_of(Who::Floor, Redraw::Always)?,
+            1 => round.glumbra = self.frames_of(Who::Glumbra, Redraw::Always)?,
+            2 => round.tuned = self.frames_of(Who::Tuned, Redraw::Always)?,
+            3 => round.glumbra_once = self.frames_of(Who::Glumbra, Redraw::Once)?,
+            4 => round.floor_once = self.frames_of(Who::Floor, Redraw::Once)?,
+            5 => (round.floor_start, round.floor_start_kib) = self.start(Who::Floor)?,
+            6 => round.glumbra_start = self.start_of_command()?,
+            7 => round.glumbra_start_kib = self.start(Who::Glumbra)?.1,
+            _ => round.first_pixel = timed(self.child(Who::Clear)?)?.0,
+        }
+        Ok(())
     }
 
     fn frames(&self) -> usize {
