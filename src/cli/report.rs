@@ -45,7 +45,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
 
-    /// Timed frames for each setting; 9, or 3 when quick
+    /// Timed frames for each setting; 5, or 3 when quick
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     runs: Option<u16>,
 
@@ -172,7 +172,7 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
 fn options(arguments: &ReportArgs) -> Options {
     Options {
         light: arguments.light,
-        runs: arguments.runs.map_or(if arguments.quick { 3 } else { 9 }, usize::from),
+        runs: arguments.runs.map_or(if arguments.quick { 3 } else { 5 }, usize::from),
         jobs: usize::from(arguments.jobs),
         shard: arguments.shard,
         band_texels: arguments.band,
