@@ -110,6 +110,24 @@ impl Renderer {
         Ok(Frame { picture, views })
     }
 
+    /// Copies the picture of the plan that was drawn last into the window that the context belongs to.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::present`].
+    pub fn present(&mut self, plan: &Plan, window: [u32; 2]) -> Result<(), Error> {
+        Ok(self.device.present(&plan.list, plan.picture, window)?)
+    }
+
+    /// Reads what [`Renderer::present`] put into the window.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::read_window`].
+    pub fn read_window(&mut self, window: [u32; 2]) -> Result<Pixels, Error> {
+        Ok(self.device.read_window(window)?)
+    }
+
     /// The device, for what only it can do.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device

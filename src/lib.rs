@@ -1,4 +1,29 @@
 //! glumbra: a headless OpenGL reference renderer of shadows and projected light.
+//!
+//! A frame's way through the library:
+//!
+//! 1. [`scene::load`] resolves a file (TOML or OBJ) to a [`scene::Scene`]: plain values, no GL.
+//! 2. [`plan::make`] asks each light's technique ([`techniques::TABLE`]) to describe its passes,
+//! 3. adds the lit pass, and leaves out what this scene cannot show; a [`plan::Plan`] says what, and why.
+//! 4. Its [`pass::PassList`] is data: images, draw state, shader variants, draws. It can be printed and compared.
+//! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.
+//! 6. [`device::Device`] turns the pass list into GL, the only room that does,
+//! 7. which [`frame::Renderer`] drives and reads back;
+//! 8. [`output`] writes PNG, EXR or NPY.
+//! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, and
+//! 10. [`report`] says how far apart the two are, and what that cost.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = glumbra::scene::load("data/scenes/main.toml".as_ref(), &[])?.scene;
+//! let context = glumbra::context::open(&Default::default())?;
+//! let mut renderer = glumbra::frame::Renderer::new(context.as_ref());
+//! let plan = renderer.plan(&scene, &Default::default())?;
+//! renderer.draw(&plan)?;
+//! let pixels = renderer.read(&plan)?.picture;
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod cli;
 pub mod context;
@@ -13,3 +38,4 @@ pub mod plan;
 pub mod report;
 pub mod scene;
 pub mod techniques;
+pub mod viewer;

@@ -60,3 +60,36 @@ fn casters_whose_shadow_is_unseen_change_no_pixel() {
     }
     assert!(all_unseen > 100, "only {all_unseen} casters were left out: the test shows nothing");
 }
+
+/// Every scene of ours, once as planned and once with all that its plan leaves out: lights and objects out of sight,
+/// colour buffers of depth passes, maps drawn again in each frame.
+#[test]
+fn what_is_left_out_of_our_scenes_changes_no_pixel() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/");
+    let out_of_sight = ["light.0.position=[9.0, 3.0, 60.0]", "light.0.target=[9.0, 0.0, 90.0]", "light.0.far=80.0"];
+    let aside = ["camera.target=[9.0, 0.0, 4.0]"];
+    let mut saved = 0;
+    for name in ["main.toml", "teapot.toml", "hw_shadowmaps_simple.toml"] {
+        for changes in [&[][..], &out_of_sight[..], &aside[..]] {
+            let changes: Vec<String> =
+                changes.iter().map(|text| (*text).to_owned()).chain([String::from("image.size=[192, 128]")]).collect();
+            let scene = scene::load(format!("{root}{name}").as_ref(), &changes).unwrap().scene;
+            let mut picture = |keep_all| {
+                let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
+                for _ in 0..2 {
+                    renderer.draw(&plan).unwrap();
+                }
+                (renderer.read(&plan).unwrap().picture, plan)
+            };
+            let (pruned, plan) = picture(false);
+            let (whole, whole_plan) = picture(true);
+            assert!(pruned == whole, "{name} with {changes:?}: {:?}", plan.left_out);
+            assert!(whole_plan.left_out.is_empty() && !plan.left_out.is_empty());
+            assert!(whole_plan.summary().image_bytes >= plan.summary().image_bytes);
+            saved += whole_plan.list.passes.len() - plan.list.passes.len();
+        }
+    }
+    assert!(saved > 0, "no pass was ever left out");
+}

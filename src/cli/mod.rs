@@ -4,7 +4,10 @@ mod context_args;
 mod info;
 mod plan;
 mod render;
+mod report;
+pub mod sample;
 mod scene_args;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -29,6 +32,8 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Report(report::ReportArgs),
+    Tune(tune::TuneArgs),
 }
 
 /// Why a subcommand failed.
@@ -45,7 +50,25 @@ pub enum Error {
     #[error(transparent)]
     Frame(#[from] crate::frame::Error),
     #[error(transparent)]
+    Viewer(#[from] crate::viewer::Error),
+    #[error(transparent)]
     File(#[from] crate::output::Error),
+    #[error(transparent)]
+    Tune(#[from] crate::report::tune::Error),
+    #[error(transparent)]
+    Grid(#[from] crate::report::grid::Error),
+    #[error(transparent)]
+    Report(#[from] crate::report::run::Error),
+    #[error(transparent)]
+    Journal(#[from] crate::report::journal::Error),
+    #[error(transparent)]
+    Pictures(#[from] crate::report::pictures::Error),
+    #[error(transparent)]
+    Merge(#[from] crate::report::merge::Error),
+    #[error(transparent)]
+    ReportFiles(#[from] crate::report::write::Error),
+    #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
+    Interrupted { folder: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error("JSON: {0}")]
@@ -58,7 +81,13 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
+        Command::Tune(arguments) => tune::run(&arguments),
     };
+    exit_code(result)
+}
+
+fn exit_code(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         // A reader that has seen enough (`glumbra info | head`) is no error.
@@ -77,4 +106,13 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     serde_json::to_writer_pretty(&mut out, value)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// A spinner with a message, for work without a known length.
+fn spinner(template: &str) -> indicatif::ProgressBar {
+    let bar = indicatif::ProgressBar::new_spinner();
+    if let Ok(style) = indicatif::ProgressStyle::with_template(&format!("{{spinner}} {template}")) {
+        bar.set_style(style);
+    }
+    bar
 }

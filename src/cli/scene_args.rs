@@ -41,7 +41,7 @@ impl SceneArgs {
     }
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or("write it as 640x480")?;
     let side = |text: &str| text.trim().parse().map_err(|_| format!("'{text}' is no number of pixels"));
     Ok([side(width)?, side(height)?])

@@ -1,13 +1,14 @@
 //! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
 //!
 //! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
-//! its target already holds is left out ([`Redraw::WhenChanged`]).
+//! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 pub mod debug;
 mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+mod present;
 pub mod probe;
 mod program;
 pub mod queries;

@@ -67,7 +67,7 @@ impl Device {
         Ok(pixels)
     }
 
-    fn read_into(&self, size: [u32; 2], format: u32, kind: u32, bytes: &mut [u8]) {
+    pub(super) fn read_into(&self, size: [u32; 2], format: u32, kind: u32, bytes: &mut [u8]) {
         let [width, height] = size.map(|side| side as i32);
         unsafe {
             self.gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
@@ -78,7 +78,7 @@ impl Device {
 }
 
 /// GL's first row is the lowest.
-fn flip_rows<T>(data: &mut [T], row: usize) {
+pub(super) fn flip_rows<T>(data: &mut [T], row: usize) {
     let rows = data.len() / row.max(1);
     for low in 0..rows / 2 {
         let (top, bottom) = data.split_at_mut((rows - 1 - low) * row);

@@ -1,5 +1,6 @@
 //! Runs a pass list: first everything it needs is made and checked, then each pass is drawn in order.
 
+use std::collections::HashSet;
 use std::rc::Rc;
 use std::time::Instant;
 
@@ -18,6 +19,8 @@ pub enum Measure {
     /// Each pass by the wall clock with glFinish behind it, and by GL_TIME_ELAPSED where the driver has it. Waiting
     /// after each pass makes the frame as a whole slower.
     Passes,
+    /// The fragments that pass each pass's depth test (GL_SAMPLES_PASSED); no times.
+    Fragments,
 }
 
 /// The time of one pass in one frame.
@@ -28,6 +31,8 @@ pub struct PassTime {
     pub wall_ms: f64,
     /// GL_TIME_ELAPSED in milliseconds, where the driver counts it.
     pub gpu_ms: Option<f64>,
+    /// GL_SAMPLES_PASSED, where it was asked for.
+    pub fragments: Option<u64>,
 }
 
 /// A pass that a target already holds.
@@ -61,9 +66,13 @@ impl Device {
     }
 
     fn timed(&mut self, list: &PassList, pass: &Pass, measure: Measure) -> Result<Option<PassTime>, Error> {
-        if measure == Measure::No {
-            self.draw_pass(list, pass)?;
-            return Ok(None);
+        match measure {
+            Measure::No => {
+                self.draw_pass(list, pass)?;
+                return Ok(None);
+            }
+            Measure::Fragments => return self.counted(list, pass).map(Some),
+            Measure::Passes => {}
         }
         self.finish();
         let start = Instant::now();
@@ -78,7 +87,23 @@ impl Device {
         self.finish();
         let wall_ms = start.elapsed().as_secs_f64() * 1e3;
         let gpu_ms = self.timer.as_mut().and_then(|timer| timer.wait()).map(|time| time.as_secs_f64() * 1e3);
-        Ok(Some(PassTime { label: pass.label.clone(), wall_ms, gpu_ms }))
+        Ok(Some(PassTime { label: pass.label.clone(), wall_ms, gpu_ms, fragments: None }))
+    }
+
+    fn counted(&mut self, list: &PassList, pass: &Pass) -> Result<PassTime, Error> {
+        // SAFETY: the context is current; the query is deleted whether or not the pass could be drawn.
+        let query = unsafe { self.gl.create_query() }.map_err(Error::Create)?;
+        unsafe { self.gl.begin_query(glow::SAMPLES_PASSED, query) };
+        let drawn = self.draw_pass(list, pass);
+        let count = unsafe {
+            self.gl.end_query(glow::SAMPLES_PASSED);
+            let count = self.gl.get_query_parameter_u32(query, glow::QUERY_RESULT);
+            self.gl.delete_query(query);
+            count
+        };
+        drawn?;
+        let label = pass.label.clone();
+        Ok(PassTime { label, wall_ms: 0.0, gpu_ms: None, fragments: Some(u64::from(count)) })
     }
 
     fn draw_pass(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
@@ -112,19 +137,22 @@ impl Device {
     }
 
     fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
-        let old = std::mem::take(&mut self.images);
-        let old_count = old.len();
-        let mut old: Vec<_> = old.into_iter().map(Some).collect();
+        let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
+        let mut kept = HashSet::new();
         for desc in &list.images {
             let found = old.iter_mut().find(|slot| slot.as_ref().is_some_and(|(have, _)| have == desc));
             let image = match found.and_then(Option::take) {
-                Some((_, image)) => image,
+                Some((_, image)) => {
+                    kept.insert(image.name.number());
+                    image
+                }
                 None => Rc::new(image::create(&self.gl, desc)?),
             };
             self.images.push((desc.clone(), image));
         }
-        if old.iter().any(Option::is_some) || old_count != self.images.len() {
-            // Framebuffers of images that are gone; the rest are made again when they are drawn into.
+        if old.iter().any(Option::is_some) || kept.len() != self.images.len() {
+            // GL may give the numbers of deleted images to new ones: forget what was known of them.
+            self.done.retain(|_, done| done.objects.iter().all(|number| kept.contains(number)));
             self.framebuffers.clear();
         }
         Ok(())

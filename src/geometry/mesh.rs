@@ -1,4 +1,4 @@
-//! A triangle mesh, indexed, as GL draws it.
+//! A mesh of triangles or of line segments, indexed, as GL draws it.
 
 use std::ops::Range;
 
@@ -11,6 +11,9 @@ use crate::math::Aabb;
 ///
 /// `positions`, `normals` and, where present, `texcoords` have the same length; `indices` holds three
 /// entries a triangle, each below that length. All values are finite.
+///
+/// A guide, which is drawn as lines, is a mesh too: its `indices` then hold two entries a segment, and only
+/// the draw that uses it tells. Nothing that loads or resolves a scene makes such a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Where it comes from: a built-in's name or the file's path as written.

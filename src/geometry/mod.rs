@@ -17,4 +17,4 @@ pub use material::{Material, ObjectLinear, Texture};
 pub use mesh::{Mesh, Part};
 pub use obj::{CREASE_DEGREES, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
-pub use texture::load_texture;
+pub use texture::{decode_texture, load_texture};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::obj::scan::shorten;
-use super::{Error, Material, Texture, Warning, text, texture};
+use super::{Error, Material, Texture, text, texture};
 
 /// The materials of one or more library files.
 #[derive(Debug, Default)]
@@ -161,7 +161,7 @@ impl Library {
     }
 
     /// The materials, in the order of the files, with their textures; a file used twice is loaded once.
-    pub(super) fn load_materials(&self, _warnings: &mut Vec<Warning>) -> Result<Vec<Material>, Error> {
+    pub(super) fn load_materials(&self) -> Result<Vec<Material>, Error> {
         let parsed = self.parse().map(|(materials, _)| materials).unwrap_or_default();
         let mut materials: Vec<_> = parsed.into_iter().map(convert).collect();
         let mut loaded = HashMap::new();

@@ -21,7 +21,9 @@ pub(super) fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, E
         [0xef, 0xbb, 0xbf, rest @ ..] => decode_bytes(rest),
         _ => decode_bytes(bytes),
     };
-    if let Some(at) = text.bytes().position(is_binary) {
+    // Looked at as a whole first, which the compiler makes many bytes at once.
+    let has_binary = text.bytes().fold(false, |any, byte| any | is_binary(byte));
+    if let Some(at) = has_binary.then(|| text.bytes().position(is_binary)).flatten() {
         let line = 1 + text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count();
         return Err(Error::NotText { path: path.to_owned(), line, byte: text.as_bytes()[at] });
     }

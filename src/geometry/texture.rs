@@ -11,9 +11,13 @@ const LIMIT: u32 = 16384;
 
 /// Reads a PNG, JPEG, BMP or TGA, told by its first bytes, else by its name's ending.
 pub fn load_texture(path: &Path) -> Result<Texture, Error> {
+    decode_texture(path, &text::read(path)?)
+}
+
+/// [`load_texture`] of a file that is in memory; `path` is its name.
+pub fn decode_texture(path: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     let picture_error = |source| Error::Picture { path: path.to_owned(), source };
-    let bytes = text::read(path)?;
-    let mut reader = ImageReader::new(std::io::Cursor::new(&bytes));
+    let mut reader = ImageReader::new(std::io::Cursor::new(bytes));
     if let Ok(format) = image::ImageFormat::from_path(path) {
         reader.set_format(format);
     }
@@ -24,7 +28,7 @@ pub fn load_texture(path: &Path) -> Result<Texture, Error> {
     if !(1..=LIMIT).contains(&width) || !(1..=LIMIT).contains(&height) {
         return Err(Error::PictureSize { path: path.to_owned(), width, height, limit: LIMIT });
     }
-    let mut reader = ImageReader::new(std::io::Cursor::new(&bytes));
+    let mut reader = ImageReader::new(std::io::Cursor::new(bytes));
     if let Some(format) = format {
         reader.set_format(format);
     }

@@ -64,7 +64,7 @@ pub enum Work {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawPass {
     pub target: Target,
-    /// In pixels, from the target's lower left corner; the whole target.
+    /// In pixels, from the target's lower left corner; what is cleared is the whole target.
     pub viewport: [u32; 2],
     pub clear: Clear,
     pub state: DrawState,

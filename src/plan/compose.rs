@@ -1,12 +1,12 @@
 //! From a scene to its passes: each contributing light's own, then the lit pass, then the views.
 
-use super::{Error, Plan, Request, ViewRequest};
+use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage,
-    Target, Work,
+    Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage, Target, Work,
 };
 use crate::scene::Scene;
+use crate::techniques::guides;
 use crate::techniques::items::items;
 use crate::techniques::surface::{self, Ending, Viewer};
 use crate::techniques::views::{self, View};
@@ -22,10 +22,11 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let size = scene.image.size;
     let format = if request.float_picture { Format::Rgba32F } else { Format::Rgba8 };
     let target = color_and_depth("picture", size, format, &mut list);
-    let contributing: Vec<LightTerm> = terms.iter().filter(|t| t.contributes).map(|t| t.term.clone()).collect();
     let mut builder = Builder { scene, items: &items, list: &mut list };
-    let [r, g, b] = scene.image.background;
-    builder.surfaces("lit", target, &camera, &contributing, &Ending::Lit, [r, g, b, 1.0])?;
+    match request.subject {
+        Subject::Camera => builder.camera_picture(target, &camera, &terms)?,
+        Subject::Light(index) => builder.light_picture(target, index)?,
+    }
     let mut views = Vec::new();
     for wanted in &request.views {
         let image = builder.view(wanted, &camera, &terms, target)?;
@@ -66,8 +67,11 @@ fn light_terms(
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
         let shown = request.views.iter().any(|v| of_this(&v));
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
-        let view = LightView { scene, items, index, shown_whole };
-        let absent = why_absent(&view, camera, &visible);
+        // What is out of the camera's sight may be in another viewer's.
+        let shown_whole = shown_whole || request.subject != Subject::Camera;
+        let keep_all = request.keep_all;
+        let view = LightView { scene, items, index, shown_whole, keep_all };
+        let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
@@ -138,35 +142,65 @@ struct Builder<'a> {
     list: &'a mut PassList,
 }
 
+/// Where surfaces are drawn, and for whom.
+struct Onto<'a> {
+    label: &'a str,
+    target: Target,
+    viewport: [u32; 2],
+    viewer: &'a Viewer,
+    background: [f32; 4],
+}
+
 impl Builder<'_> {
-    fn surfaces(
-        &mut self,
-        label: &str,
-        target: Target,
-        viewer: &Viewer,
-        terms: &[LightTerm],
-        ending: &Ending,
-        background: [f32; 4],
-    ) -> Result<(), Error> {
-        let batches = surface::batches(self.scene, self.items, viewer, terms, ending, self.list);
-        let batches = batches.ok_or_else(|| self.singular(terms))?;
-        self.push(label, target, batches, background);
+    /// The picture from the camera: the surfaces in the light of all that contribute, then the guides over them.
+    fn camera_picture(&mut self, target: Target, camera: &Viewer, lights: &[PlannedLight]) -> Result<(), Error> {
+        let contributing: Vec<LightTerm> =
+            lights.iter().filter(|light| light.contributes).map(|light| light.term.clone()).collect();
+        let (viewport, background) = (self.scene.image.size, self.background());
+        let onto = Onto { label: "lit", target, viewport, viewer: camera, background };
+        self.surfaces(&onto, &contributing, &Ending::Lit)?;
+        if let Some(batch) = guides::frusta(self.scene, camera) {
+            let (clear, state) = (Clear::default(), guides::STATE);
+            self.push("guides", DrawPass { target, viewport, clear, state, batches: vec![batch] });
+        }
         Ok(())
     }
 
-    fn push(&mut self, label: &str, target: Target, batches: Vec<Batch>, background: [f32; 4]) {
-        let size = target.color.map_or([1, 1], |color| self.list.desc(color).size);
-        self.list.passes.push(Pass {
-            label: label.to_owned(),
-            redraw: Redraw::Always,
-            work: Work::Draw(DrawPass {
-                target,
-                viewport: size,
-                clear: Clear { color: Some(background), depth: Some(1.0) },
-                state: DrawState::OPAQUE,
-                batches,
-            }),
-        });
+    /// The picture as light `index` sees it.
+    fn light_picture(&mut self, target: Target, index: usize) -> Result<(), Error> {
+        let side = self.scene.image.size[0].min(self.scene.image.size[1]);
+        self.seen_by_light("lit", target, 1 << side.max(1).ilog2(), index)
+    }
+
+    /// The scene as a light sees it, lit by it alone and unshadowed, in a square of `side` pixels.
+    fn seen_by_light(&mut self, label: &str, target: Target, side: u32, index: usize) -> Result<(), Error> {
+        let Some(source) = self.scene.lights.get(index) else {
+            let view = format!("{}@{index}", View::LightView.name());
+            return Err(Error::NoSuchLight { view, count: self.scene.lights.len() });
+        };
+        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
+        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));
+        let onto = Onto { label, target, viewport: [side; 2], viewer: &viewer, background: self.background() };
+        self.surfaces(&onto, &[term], &Ending::Lit)
+    }
+
+    fn background(&self) -> [f32; 4] {
+        let [r, g, b] = self.scene.image.background;
+        [r, g, b, 1.0]
+    }
+
+    fn surfaces(&mut self, onto: &Onto<'_>, terms: &[LightTerm], ending: &Ending) -> Result<(), Error> {
+        let batches = surface::batches(self.scene, self.items, onto.viewer, terms, ending, self.list);
+        let batches = batches.ok_or_else(|| self.singular(terms))?;
+        let clear = Clear { color: Some(onto.background), depth: Some(1.0) };
+        let Onto { target, viewport, .. } = *onto;
+        self.push(onto.label, DrawPass { target, viewport, clear, state: DrawState::OPAQUE, batches });
+        Ok(())
+    }
+
+    fn push(&mut self, label: &str, pass: DrawPass) {
+        let label = label.to_owned();
+        self.list.passes.push(Pass { label, redraw: Redraw::Always, work: Work::Draw(pass) });
     }
 
     fn singular(&self, terms: &[LightTerm]) -> Error {
@@ -202,19 +236,17 @@ impl Builder<'_> {
             return Ok(term.map.unwrap_or(ImageId(0)));
         };
         let target = color_and_depth(&label, self.scene.image.size, Format::Rgba32F, self.list);
-        self.surfaces(&label, target, camera, &[term], &ending, [0.0; 4])?;
+        let viewport = self.scene.image.size;
+        let onto = Onto { label: &label, target, viewport, viewer: camera, background: [0.0; 4] };
+        self.surfaces(&onto, &[term], &ending)?;
         Ok(target.color.unwrap_or(ImageId(0)))
     }
 
     /// The scene as a light sees it, unshadowed, in the largest square that fits the picture.
     fn light_view(&mut self, label: &str, index: usize) -> Result<ImageId, Error> {
-        let source = &self.scene.lights[index];
-        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
         let side = self.scene.image.size[0].min(self.scene.image.size[1]);
         let target = color_and_depth(label, [side; 2], Format::Rgba32F, self.list);
-        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));
-        let [r, g, b] = self.scene.image.background;
-        self.surfaces(label, target, &viewer, &[term], &Ending::Lit, [r, g, b, 1.0])?;
+        self.seen_by_light(label, target, side, index)?;
         Ok(target.color.unwrap_or(ImageId(0)))
     }
 }

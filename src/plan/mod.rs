@@ -13,20 +13,44 @@ use crate::techniques::{LeftOut, views::View};
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]
 pub struct Request {
+    /// Whose eyes the picture is drawn for.
+    pub subject: Subject,
     /// Beside the picture itself.
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
     /// How many frames will be drawn of this scene: what pays off is decided by it.
     pub frames: u32,
+    /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
+    /// objects out of sight, colour buffers of depth passes, maps that are there already.
+    pub keep_all: bool,
     /// What the driver can do.
     pub limits: Limits,
 }
 
 impl Default for Request {
     fn default() -> Self {
-        Self { views: Vec::new(), float_picture: false, frames: 1, limits: Limits::default() }
+        Self {
+            subject: Subject::Camera,
+            views: Vec::new(),
+            float_picture: false,
+            frames: 1,
+            keep_all: false,
+            limits: Limits::default(),
+        }
     }
+}
+
+/// Who sees the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// The scene's camera; the whole picture.
+    #[default]
+    Camera,
+    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture,
+    /// in its lower left corner. A shadow map that is copied from the window's own depth buffer has that size
+    /// [techniques E].
+    Light(usize),
 }
 
 /// What the driver at hand can do; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
@@ -113,6 +137,8 @@ pub struct Summary {
     pub passes: Vec<PassSummary>,
     pub images: Vec<ImageSummary>,
     pub image_bytes: u64,
+    /// Vertex and index buffers: each attribute and index order of each mesh that a draw reads, once.
+    pub buffer_bytes: u64,
     pub left_out: Vec<LeftOut>,
     pub warnings: Vec<String>,
 }

@@ -1,9 +1,10 @@
 //! A plan in words: for `glumbra plan`, and as values for `--json`.
 
+use std::collections::HashSet;
 use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
-use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Redraw, Storage, Work};
+use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Storage, Work};
 
 impl Plan {
     /// The plan as values.
@@ -23,9 +24,33 @@ impl Plan {
             passes: self.list.passes.iter().map(|pass| self.pass_summary(pass)).collect(),
             image_bytes: images.iter().map(|image| image.bytes).sum(),
             images,
+            buffer_bytes: self.buffer_bytes(),
             left_out: self.left_out.clone(),
             warnings: self.warnings.clone(),
         }
+    }
+
+    fn buffer_bytes(&self) -> u64 {
+        let mut seen = HashSet::new();
+        let batches = self.list.passes.iter().filter_map(|pass| match &pass.work {
+            Work::Draw(draw) => Some(&draw.batches),
+            Work::CopyDepth { .. } => None,
+        });
+        let mut bytes = 0;
+        for batch in batches.flatten() {
+            for draw in &batch.draws {
+                let mesh = std::sync::Arc::as_ptr(&draw.mesh.0);
+                for attribute in &batch.program.attributes {
+                    if seen.insert((mesh, Err(*attribute))) {
+                        bytes += 4 * attribute.components() as u64 * draw.mesh.positions.len() as u64;
+                    }
+                }
+                if seen.insert((mesh, Ok(draw.order))) {
+                    bytes += 4 * draw.mesh.indices.len() as u64;
+                }
+            }
+        }
+        bytes
     }
 
     fn pass_summary(&self, pass: &Pass) -> PassSummary {
@@ -78,13 +103,16 @@ impl Plan {
             for draw in &batch.draws {
                 let order = if draw.order == IndexOrder::VertexCache { ", vertex-cache order" } else { "" };
                 summary.draws.push(format!(
-                    "{}: {} triangles of {}{order}",
+                    "{}: {} {} of {}{order}",
                     draw.label,
                     draw.primitive_count(),
+                    if draw.primitive == Primitive::Lines { "lines" } else { "triangles" },
                     draw.mesh.name
                 ));
                 summary.draw_calls += 1;
-                summary.triangles += draw.primitive_count();
+                if draw.primitive == Primitive::Triangles {
+                    summary.triangles += draw.primitive_count();
+                }
             }
         }
         summary
@@ -167,7 +195,8 @@ impl Display for Summary {
                 line("in all", &[format!("{} triangles in {} draws", pass.triangles, pass.draw_calls)])?;
             }
         }
-        writeln!(f, "\nImages: {:.1} MiB", self.image_bytes as f64 / f64::from(1 << 20))?;
+        let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+        writeln!(f, "\nBuffers: {:.1} MiB; images: {:.1} MiB", mib(self.buffer_bytes), mib(self.image_bytes))?;
         for image in &self.images {
             writeln!(f, "   {} {} {}x{}", image.label, image.format, image.size[0], image.size[1])?;
         }

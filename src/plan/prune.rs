@@ -5,15 +5,41 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Plan, Request};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{DrawPass, ImageId, IndexOrder, Input, Pass, Redraw, Target, Work};
+use crate::pass::{
+    DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage, Target, Work,
+};
 use crate::techniques::LeftOut;
 
 /// Prunes in place.
 pub fn prune(plan: &mut Plan, request: &Request) {
+    if request.keep_all {
+        return keep_all(plan);
+    }
     cull_draws(plan);
     drop_unread_passes(plan);
     drop_unused_images(plan);
     choose_index_order(plan, request.frames);
+}
+
+/// The opposite of pruning: every pass in every frame, and a colour buffer for each depth pass.
+fn keep_all(plan: &mut Plan) {
+    let PassList { images, passes } = &mut plan.list;
+    for pass in passes {
+        pass.redraw = Redraw::Always;
+        let Work::Draw(draw) = &mut pass.work else { continue };
+        if draw.target.color.is_none() {
+            images.push(ImageDesc {
+                label: format!("{}: colour", pass.label),
+                size: draw.viewport,
+                format: Format::Rgba8,
+                storage: Storage::Renderbuffer,
+            });
+            draw.target.color = Some(ImageId(images.len() - 1));
+            draw.clear.color = Some([0.0; 4]);
+            draw.state.color_write = true;
+        }
+    }
+    plan.left_out.clear();
 }
 
 /// Draws whose bounds lie beyond one of the pass's clip planes.
@@ -111,7 +137,7 @@ fn choose_index_order(plan: &mut Plan, frames: u32) {
             let mesh = std::sync::Arc::as_ptr(&draw.mesh.0);
             let count = draws.get(&mesh).copied().unwrap_or(0);
             let pays = || count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256 && draw.mesh.is_scattered();
-            let sorted = *sorted.entry(mesh).or_insert_with(pays);
+            let sorted = draw.primitive == Primitive::Triangles && *sorted.entry(mesh).or_insert_with(pays);
             draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
         },
         frames,

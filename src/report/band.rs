@@ -18,7 +18,11 @@ pub(super) fn find_band(truth: &Truth, edges: &[Pair], band: &Band) -> Vec<bool>
     let texel = |index: usize| truth.pixels[index].hit.map_or(DVec2::INFINITY, |hit| 0.5 * hit.in_light * size);
     let stretches: Vec<[DVec2; 2]> = edges.iter().map(|edge| [texel(edge.first), texel(edge.second)]).collect();
     let near = Cells::new(stretches, band.texels);
-    (0..truth.pixels.len()).map(|index| near.holds(texel(index))).collect()
+    let mut in_band: Vec<bool> = (0..truth.pixels.len()).map(|index| near.holds(texel(index))).collect();
+    for edge in edges {
+        (in_band[edge.first], in_band[edge.second]) = (true, true);
+    }
+    in_band
 }
 
 /// Stretches by the square cells that their surroundings reach.

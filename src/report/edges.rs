@@ -13,7 +13,7 @@ pub(super) struct Pair {
 }
 
 /// Distances in pixels from each of a set of edges to the nearest of another set.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EdgeDistance {
     /// Edges measured: sides of pixels.
     pub edges: usize,

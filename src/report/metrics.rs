@@ -23,7 +23,7 @@ pub struct ShadeImage {
 }
 
 /// What counts as near a true shadow edge: within so many texels of a map that the light's square frustum fills.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Band {
     /// k, not below 0. Pixels next to the edge belong to the band at any k.
     pub texels: f64,
@@ -32,7 +32,7 @@ pub struct Band {
 }
 
 /// All errors of one picture.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
     pub band: Band,
     pub all: Errors,
@@ -42,7 +42,7 @@ pub struct Metrics {
 }
 
 /// The errors over some of the pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Errors {
     /// Pixels compared, and of these those in the band.
     pub compared: usize,
@@ -65,7 +65,7 @@ pub struct Errors {
 }
 
 /// Wrong pixels by place: counts, and percent of all compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Split {
     pub inside: usize,
     pub outside: usize,
@@ -74,7 +74,7 @@ pub struct Split {
 }
 
 /// Pixels not compared, each counted once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct LeftOut {
     /// Neither draws anything.
     pub background: usize,
@@ -134,7 +134,8 @@ pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics
     })
 }
 
-fn is_lit(shade: f32) -> bool {
+/// Where a shade becomes shadow.
+pub(super) fn is_lit(shade: f32) -> bool {
     shade >= 0.5
 }
 

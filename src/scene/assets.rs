@@ -14,11 +14,18 @@ pub(super) struct Assets {
     /// By built-in name, or by the file's canonical path.
     meshes: HashMap<PathBuf, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
+    /// Pictures in memory, by the names that the scene file has for them.
+    embedded: &'static [(&'static str, &'static [u8])],
     /// Of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
 }
 
 impl Assets {
+    /// With pictures in memory, each by the name that the scene file has for it.
+    pub fn with_pictures(embedded: &'static [(&'static str, &'static [u8])]) -> Self {
+        Self { embedded, ..Self::default() }
+    }
+
     /// A built-in mesh, or one of a file named from `origin`.
     pub fn mesh(&mut self, name: &str, origin: &Origin) -> Result<Arc<Mesh>, Error> {
         if let Some(mesh) = self.primitive(name) {
@@ -58,11 +65,18 @@ impl Assets {
         if let Some(texture) = self.textures.get(&key) {
             return Ok(texture.clone());
         }
-        let texture =
-            geometry::load_texture(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })?;
-        let texture = Arc::new(texture);
+        let texture = match self.embedded_picture(name, origin) {
+            Some(bytes) => geometry::decode_texture(&path, bytes),
+            None => geometry::load_texture(&path),
+        };
+        let texture = Arc::new(texture.map_err(|source| Error::Asset { origin: origin.clone(), source })?);
         self.textures.insert(key, texture.clone());
         Ok(texture)
+    }
+
+    fn embedded_picture(&self, name: &str, origin: &Origin) -> Option<&'static [u8]> {
+        let by_the_file = matches!(origin, Origin::File { .. });
+        self.embedded.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
     }
 
     fn primitive(&mut self, name: &str) -> Option<Arc<Mesh>> {

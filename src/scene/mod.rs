@@ -37,6 +37,25 @@ pub struct Loaded {
     pub warnings: Vec<String>,
 }
 
+/// A scene file and the pictures that it names, compiled into a program. Its meshes are built in.
+#[derive(Clone, Copy, Debug)]
+pub struct Embedded {
+    /// The file's name, for messages.
+    pub path: &'static str,
+    pub text: &'static str,
+    /// Each with the name that the file has for it.
+    pub pictures: &'static [(&'static str, &'static [u8])],
+}
+
+/// Loads a scene that is part of the program; otherwise as [`load`].
+pub fn load_embedded(embedded: &Embedded, overrides: &[String]) -> Result<Loaded, Error> {
+    let mut assets = Assets::with_pictures(embedded.pictures);
+    let mut root = parse::document(Path::new(embedded.path), embedded.text)?;
+    overrides::apply(&mut root, overrides)?;
+    let scene = resolve::scene(&root, &mut assets)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
 /// Loads a scene (.toml) or a model (.obj) with a scene supplied around it. `overrides` are the texts of `--set`,
 /// `a.b.c=value`, applied in order.
 pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Error> {
@@ -49,6 +68,17 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Error> {
 /// The scene as [`load`] reads it, before it is resolved: for [`Settings::to_toml`].
 pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
+}
+
+/// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
+pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
+    let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
+    let text = format!("{{ {inside} }}");
+    let entry = parse::value("light.shadow", &text, &origin)?;
+    match entry.map(|entry| entry.value) {
+        Some(Value::Table(table)) => Ok(table),
+        _ => Err(Error::Settings(SettingsError::new(&origin, "this is no inline table"))),
+    }
 }
 
 fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {

@@ -65,6 +65,8 @@ pub struct Light {
     pub attenuation: [f32; 3],
     /// The spot image, projected through the light's frustum; modulates diffuse and specular.
     pub image: Option<Arc<Texture>>,
+    /// Whether the light's frustum is drawn as a wire cube in the camera's picture.
+    pub frustum_shown: bool,
     /// As written, or `light 0` by its place in the file.
     pub name: String,
     /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.

@@ -57,6 +57,13 @@ fn holds_table((_, entry): &(String, Entry)) -> bool {
     is_table(entry)
 }
 
+impl Value {
+    /// The value on one line, as on the right of `=`.
+    pub fn to_toml(&self) -> String {
+        inline(self)
+    }
+}
+
 fn inline(value: &Value) -> String {
     match value {
         Value::String(text) => quoted(text),

@@ -106,7 +106,8 @@ impl Stage {
 
     fn light(&self) -> Entry {
         let [near, far] = self.light_range();
-        let offset = vec![("factor", number(1.1)), ("units", number(4.0))];
+        // GL_LINEAR reaches up to a texel away along each axis, where a plane is up to two slopes nearer.
+        let offset = vec![("factor", number(2.0)), ("units", number(4.0))];
         let shadow = vec![
             ("technique", text("shadow-map")),
             ("size", entry(Value::Integer(1024))),

@@ -16,6 +16,8 @@ pub struct LightView<'a> {
     pub index: usize,
     /// Whether a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
     pub shown_whole: bool,
+    /// Whether even what no picture can show is drawn, to prove that it changes none.
+    pub keep_all: bool,
 }
 
 impl LightView<'_> {

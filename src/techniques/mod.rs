@@ -8,6 +8,7 @@
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
+pub mod guides;
 pub mod items;
 pub mod light;
 mod shadow_map;
@@ -32,6 +33,16 @@ pub trait Technique: Sync {
     /// The document and section that it implements.
     fn source(&self) -> &'static str;
 
+    /// What a report varies, and how.
+    fn axes(&self) -> &'static [Axis];
+
+    /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
+    ///
+    /// # Errors
+    ///
+    /// A key with a wrong value, with its place in the scene file.
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError>;
+
     /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
     /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
     ///
@@ -47,6 +58,16 @@ pub trait Technique: Sync {
     ) -> Result<LightTerm, SettingsError>;
 }
 
+/// A key of `[light.shadow]` that a report varies.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    pub key: &'static str,
+    /// In TOML.
+    pub values: &'static [&'static str],
+    /// The fewer values of a quick report.
+    pub quick: &'static [&'static str],
+}
+
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap];
 
@@ -58,7 +79,7 @@ pub struct Notes {
 }
 
 /// Something that this frame does not draw.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct LeftOut {
     pub what: String,
     pub why: String,

@@ -115,6 +115,7 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         specular: [1.0; 3],
         attenuation: [1.0, 0.0, 0.0],
         image: None,
+        frustum_shown: false,
         name: String::from("light"),
         shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
     }

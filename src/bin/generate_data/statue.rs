@@ -163,7 +163,7 @@ fn head(p: DVec3) -> f64 {
     d = smooth_union(d, ellipsoid(m, dvec3(0.075, 1.272, 0.235), dvec3(0.055, 0.02, 0.03)), 0.03);
     // Eyes: a hollow, and the ball in it.
     d = smooth_difference(d, ellipsoid(m, dvec3(0.078, 1.222, 0.292), dvec3(0.046, 0.032, 0.04)), 0.025);
-    d = smooth_union(d, ellipsoid(m, dvec3(0.076, 1.222, 0.258), dvec3(0.034, 0.028, 0.026)), 0.008);
+    d = smooth_union(d, ellipsoid(m, dvec3(0.076, 1.222, 0.258), dvec3(0.034, 0.028, 0.026)), 0.022);
     let mut muzzle = ellipsoid(m, dvec3(0.038, 1.128, 0.29), dvec3(0.05, 0.041, 0.05));
     muzzle = smooth_union(muzzle, ellipsoid(p, dvec3(0.0, 1.088, 0.268), dvec3(0.035, 0.028, 0.036)), 0.012);
     d = smooth_union(d, muzzle, 0.025);
@@ -174,8 +174,8 @@ fn head(p: DVec3) -> f64 {
 fn ears(d: f64, m: DVec3) -> f64 {
     // Flattened along z, hollow in front.
     let flat = |p: DVec3| dvec3(p.x, p.y, (p.z - 0.105) * 1.7);
-    let ear = cone(flat(m), dvec3(0.105, 1.30, 0.0), 0.078, dvec3(0.150, 1.465, -0.01), 0.027);
-    let hollow = cone(flat(m), dvec3(0.105, 1.31, 0.088), 0.054, dvec3(0.140, 1.40, 0.062), 0.010);
+    let ear = cone(flat(m), dvec3(0.105, 1.30, 0.0), 0.078, dvec3(0.148, 1.458, -0.01), 0.034);
+    let hollow = cone(flat(m), dvec3(0.105, 1.31, 0.088), 0.052, dvec3(0.138, 1.395, 0.064), 0.010);
     let ear = smooth_difference(ear, hollow, 0.014);
     smooth_union(d, ear, 0.025)
 }

@@ -3,14 +3,30 @@
 //! The raw entry points are used, not khronos-egl's `Instance`: that one panics where a call fails without an error
 //! code, as libglvnd's may when no driver is installed.
 
-use std::ffi::{CStr, c_void};
+use std::ffi::{CStr, c_char, c_void};
+use std::ops::Deref;
 use std::sync::OnceLock;
 
 use khronos_egl as egl;
 use khronos_egl::api::EGL1_0;
 
+type Dynamic = egl::Dynamic<libloading::Library, egl::EGL1_4>;
+type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
+
 /// libEGL, of version 1.4 or later.
-pub type Egl = egl::Dynamic<libloading::Library, egl::EGL1_4>;
+pub struct Egl {
+    entry_points: Dynamic,
+    /// By a signature that may answer null, as khronos-egl's own may not.
+    get_proc_address: GetProcAddress,
+}
+
+impl Deref for Egl {
+    type Target = Dynamic;
+
+    fn deref(&self) -> &Dynamic {
+        &self.entry_points
+    }
+}
 
 /// Where distributions keep it.
 const NAMES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
@@ -34,7 +50,7 @@ fn load() -> Result<Egl, String> {
         let loaded = unsafe {
             libloading::Library::new(name)
                 .map_err(|error| error.to_string())
-                .and_then(|library| Egl::load_required(library).map_err(|error| format!("{name}: {error}")))
+                .and_then(|library| find_functions(library).map_err(|error| format!("{name}: {error}")))
         };
         match loaded {
             Ok(egl) => return Ok(egl),
@@ -44,14 +60,22 @@ fn load() -> Result<Egl, String> {
     Err(answers.join("; "))
 }
 
-/// An EGL function outside EGL 1.4, or null.
+/// # Safety
+/// The library is libEGL.
+unsafe fn find_functions(library: libloading::Library) -> Result<Egl, String> {
+    // SAFETY: the signature is that of the EGL specification; the address is used only as long as the library.
+    unsafe {
+        let get_proc_address: GetProcAddress =
+            *library.get(b"eglGetProcAddress\0").map_err(|error| error.to_string())?;
+        let entry_points = Dynamic::load_required(library).map_err(|error| error.to_string())?;
+        Ok(Egl { entry_points, get_proc_address })
+    }
+}
+
+/// A GL function, or an EGL function outside EGL 1.4, or null.
 pub fn address_of(egl: &Egl, name: &CStr) -> *const c_void {
     // SAFETY: the name ends with a null byte; the answer is an address or null.
-    unsafe {
-        let pointer = egl.eglGetProcAddress(name.as_ptr());
-        // Not compared as a function pointer: null is no valid one.
-        pointer as *const c_void
-    }
+    unsafe { (egl.get_proc_address)(name.as_ptr()) }
 }
 
 /// Whether the display, or EGL itself where `display` is null, has an extension.

@@ -42,7 +42,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         let message = format!("{repaired} normals have no length or are not finite; made from the triangles");
         warnings.push(Warning { path: path.to_owned(), line: 0, message });
     }
-    mesh.materials = library.load_materials(&mut warnings)?;
+    mesh.materials = library.load_materials()?;
     mesh.update_bounds();
     Ok((mesh, warnings))
 }

@@ -64,7 +64,7 @@ fn clip_ears(flat: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
         emit(ear);
         left.remove(at % count);
         refused = 0;
-        // One step back, as its neighbour may have become an ear; on alternate corners this avoids thin fans.
+        // The next to be tried is the corner after the ear: going on around makes fewer slivers than a fan.
         at %= left.len();
     }
     emit([left[0], left[1], left[2]]);

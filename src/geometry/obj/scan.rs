@@ -233,6 +233,11 @@ impl Scanner {
 
 /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last one read.
 pub(super) fn read_corner(word: &str, counts: Counts) -> Result<Corner, Wrong> {
+    if !word.as_bytes().contains(&b'/')
+        && let Some(v) = read_index(word, "vertex", counts.v, word)?
+    {
+        return Ok(Corner { v, vt: None, vn: None });
+    }
     let mut parts = word.split('/');
     let v = read_index(parts.next().unwrap_or_default(), "vertex", counts.v, word)?;
     let vt = read_index(parts.next().unwrap_or_default(), "texture coordinate", counts.vt, word)?;

@@ -1,7 +1,7 @@
 //! Exact visibility by ray casting in f64, from the scene alone: the truth that shadows are measured against.
 //!
 //! It must not know techniques, light matrices, texture-coordinate generation or GL. It shares no formula with them:
-//! camera and light are places, directions and angles ([`camera`], [`light`]).
+//! camera and light are places, directions and angles (`camera.rs`, `light.rs`).
 //!
 //! # What it answers
 //! A ray through each pixel's centre finds the nearest surface between the camera's near and far planes; a second asks
@@ -13,7 +13,7 @@
 //!
 //! # When it does not answer
 //! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off
-//! by the rounding of f32 transforms (see [`Options`]). [`beam`] says what can change within that, and why looking for
+//! by the rounding of f32 transforms (see [`Options`]). `beam.rs` says what can change within that, and why looking for
 //! silhouettes, ends and holes inside the beam finds every such change: no sampling is involved, and nothing depends on
 //! the scene's size. No epsilon hides a contact: the visible triangle is left out by its number; another triangle of
 //! the same surface that touches the point counts only by its folds; any other surface within the error of the point

@@ -28,9 +28,25 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let attenuation = attenuation(&mut reader)?;
     let shadow = shadow(&mut reader)?;
     let image = reader.file("image")?;
+    let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
     reader.finish()?;
     let image = image.map(|(name, origin)| assets.texture(name, origin)).transpose()?;
-    Ok(Light { kind, position, target, up, near, far, ambient, diffuse, specular, attenuation, image, name, shadow })
+    Ok(Light {
+        kind,
+        position,
+        target,
+        up,
+        near,
+        far,
+        ambient,
+        diffuse,
+        specular,
+        attenuation,
+        image,
+        frustum_shown,
+        name,
+        shadow,
+    })
 }
 
 fn kind(reader: &mut Reader<'_>) -> Result<LightKind, SettingsError> {

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3, Vec4};
 use self::settings::{Addressing, Order, Settings, Transfer};
 use super::items::cutout;
 use super::unseen::Unseen;
-use super::{Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
@@ -31,6 +31,14 @@ impl Technique for ShadowMap {
         "Hardware Shadow Mapping; techniques A1-A10, A12"
     }
 
+    fn axes(&self) -> &'static [Axis] {
+        settings::AXES
+    }
+
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(settings).map(|_| ())
+    }
+
     fn describe(
         &self,
         view: &LightView<'_>,
@@ -40,7 +48,7 @@ impl Technique for ShadowMap {
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
         let casters = casters(view, &settings, notes);
-        if casters.is_empty() {
+        if casters.is_empty() && !view.keep_all {
             notes.left_out(
                 format!("the map of light {}", view.index),
                 "no caster in the light's frustum shadows what is seen",
@@ -56,13 +64,15 @@ impl Technique for ShadowMap {
 
 /// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
 fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
-    let unseen = (!view.shown_whole).then(|| Unseen::new(view, settings.size));
+    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(view, settings.size));
     let clip_from_world = view.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
             notes.left_out(format!("{} in the map of light {}", item.label, view.index), "casts_shadow = false");
-        } else if frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) == Overlap::Outside {
+        } else if !view.keep_all
+            && frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) == Overlap::Outside
+        {
             notes.left_out(format!("{} in the map of light {}", item.label, view.index), "outside the light's frustum");
         } else if unseen.as_ref().is_some_and(|unseen| unseen.shadow_of(item)) {
             notes.left_out(

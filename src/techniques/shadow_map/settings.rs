@@ -3,6 +3,7 @@
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError};
+use crate::techniques::Axis;
 
 /// How the depth texture gets its texels [techniques A2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +53,24 @@ pub struct Settings {
     pub dimming: f32,
     pub redraw: Redraw,
 }
+
+/// What decides error and price: resolution, bits, filter, offset, and the road of the texels.
+pub const AXES: &[Axis] = &[
+    Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["512", "1024"] },
+    Axis { key: "format", values: &["\"depth16\"", "\"depth24\"", "\"depth32f\""], quick: &["\"depth24\""] },
+    Axis { key: "filter", values: &["\"nearest\"", "\"linear\""], quick: &["\"nearest\"", "\"linear\""] },
+    Axis {
+        key: "offset",
+        values: &[
+            "{ factor = 0.0, units = 0.0 }",
+            "{ factor = 1.1, units = 4.0 }",
+            "{ factor = 2.0, units = 4.0 }",
+            "{ factor = 4.0, units = 16.0 }",
+        ],
+        quick: &["{ factor = 1.1, units = 4.0 }", "{ factor = 2.0, units = 4.0 }"],
+    },
+    Axis { key: "transfer", values: &["\"fbo\"", "\"copy\""], quick: &["\"fbo\""] },
+];
 
 /// Reads the keys, each with its default.
 ///

@@ -1,6 +1,6 @@
 //! No shadow: the light reaches all that its cone holds.
 
-use super::{LightTerm, LightView, Notes, Technique};
+use super::{Axis, LightTerm, LightView, Notes, TABLE, Technique};
 use crate::pass::{PassList, glsl};
 use crate::scene::{Reader, SettingsError};
 
@@ -19,13 +19,23 @@ impl Technique for Unshadowed {
         "GL 4.6 compatibility, 12.2"
     }
 
+    fn axes(&self) -> &'static [Axis] {
+        &[]
+    }
+
+    /// Keys of the other techniques may stand, so that `technique` alone can be switched; they are checked all the same.
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        TABLE.iter().filter(|row| row.name() != self.name()).try_for_each(|row| row.check(settings))
+    }
+
     fn describe(
         &self,
         view: &LightView<'_>,
-        _settings: &mut Reader<'_>,
+        settings: &mut Reader<'_>,
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
+        self.check(settings)?;
         Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag")))
     }
 }

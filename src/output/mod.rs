@@ -1,5 +1,7 @@
 //! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
-//! renamed when it is whole.
+//! renamed when it is whole (`whole.rs`).
+
+pub(crate) mod whole;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -90,38 +92,13 @@ pub struct Output<'a> {
 ///
 /// The first file that could not be written; what was written beside is removed.
 pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
-    let mut written: Vec<(PathBuf, &Path)> = Vec::new();
-    let mut result = Ok(());
-    for output in outputs {
-        let temporary = temporary(output.path);
-        result = write(output, &temporary).map_err(|error| failed(output.path, &error));
-        written.push((temporary, output.path));
-        if result.is_err() {
-            break;
-        }
-    }
-    for (temporary, path) in &written {
-        if result.is_ok() {
-            result = fs::rename(temporary, path).map_err(|error| failed(path, &error));
-        }
-        if result.is_err() {
-            // Best effort: the error that counts is the one above.
-            let _ = fs::remove_file(temporary);
-        }
-    }
-    result
+    let paths: Vec<&Path> = outputs.iter().map(|output| output.path).collect();
+    whole::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
+        .map_err(|(index, error)| failed(paths[index], &error))
 }
 
 fn failed(path: &Path, error: &io::Error) -> Error {
     Error::Write { path: path.to_owned(), reason: error.to_string() }
-}
-
-/// Unique to this process and name, in the same folder, so that the rename is one step.
-fn temporary(path: &Path) -> PathBuf {
-    let mut name = std::ffi::OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}.tmp", std::process::id()));
-    path.with_file_name(name)
 }
 
 fn write(output: &Output<'_>, path: &Path) -> io::Result<()> {

@@ -1,0 +1,274 @@
+//! `glumbra report`: errors against run time over a grid of settings, and `glumbra report merge`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::scene_args::parse_size;
+use super::{ContextArgs, Error};
+use crate::context::{self, Profile};
+use crate::frame::Renderer;
+use crate::report::grid::{self, Setting};
+use crate::report::html::{Goals, Pictures};
+use crate::report::journal::{self, Journal};
+use crate::report::results::{Report, VERSION};
+use crate::report::run::{self, Options, Sweep};
+use crate::report::{merge, pictures, write};
+
+/// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, after_help = HELP)]
+pub struct ReportArgs {
+    #[command(subcommand)]
+    command: Option<ReportCommand>,
+
+    /// Scenes (.toml) or models (.obj)
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+
+    /// The folder for report.html, report.json, report.csv and plots; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Sweeps the settings of this file in place of every technique's own
+    #[arg(long, value_name = "FILE")]
+    grid: Option<PathBuf>,
+
+    /// Few settings, few runs
+    #[arg(long)]
+    quick: bool,
+
+    /// Settings measured at once; above 1 their times disturb each other
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: u16,
+
+    /// Timed frames for each setting; 9, or 3 when quick
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    runs: Option<u16>,
+
+    /// The light whose shadow is measured, by its place in the scene
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    light: usize,
+
+    /// Measures only the I-th of N parts of the grid; `glumbra report merge` joins them
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard)]
+    shard: (usize, usize),
+
+    /// Goes on where a run into the same folder was cut short
+    #[arg(long)]
+    resume: bool,
+
+    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
+    error: f64,
+
+    /// Names the most exact setting whose frame takes at most this many milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 16.7)]
+    time: f64,
+
+    /// Half width of the band around the true shadow edge, in texels of the map
+    #[arg(long, value_name = "TEXELS", default_value_t = 2.0)]
+    band: f64,
+
+    /// The picture's size in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+
+    /// Changes a key of the scenes, e.g. camera.fov_y=30
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum ReportCommand {
+    /// Joins the parts that --shard made, on this machine or on others, to one report
+    Merge(MergeArgs),
+}
+
+#[derive(Debug, Args)]
+struct MergeArgs {
+    /// Folders of reports, or their report.json
+    #[arg(required = true, value_name = "PART")]
+    parts: Vec<PathBuf>,
+
+    /// The folder for the whole
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+
+    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
+    error: f64,
+
+    /// Names the most exact setting whose frame takes at most this many milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 16.7)]
+    time: f64,
+}
+
+const HELP: &str = "\
+A grid file varies what it lists:
+  [[sweep]]
+  technique = \"shadow-map\"
+  size = [512, 1024, 2048]
+  filter = [\"nearest\", \"linear\"]
+  offset = [{ factor = 1.1, units = 4.0 }, { factor = 2.0, units = 4.0 }]
+
+Examples:
+  glumbra report data/scenes/main.toml -o out/report --quick
+  glumbra report a.toml b.toml -o out/report --grid grid.toml --error 0.05
+  parallel glumbra report a.toml -o part{} --shard {}/4 ::: 1 2 3 4 && glumbra report merge part* -o out/report
+
+Ctrl-C leaves a report of what was done; --resume goes on from there.";
+
+/// `I/N`.
+fn parse_shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+    match parts {
+        Some((index, count)) if (1..=count).contains(&index) => Ok((index, count)),
+        _ => Err(String::from("write it as I/N with 1 <= I <= N, e.g. 2/8")),
+    }
+}
+
+/// Measures and writes, or merges.
+pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
+    if let Some(ReportCommand::Merge(merge)) = &arguments.command {
+        return run_merge(merge);
+    }
+    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from("report"));
+    let grid = match &arguments.grid {
+        Some(path) => grid::load(path)?,
+        None => grid::standard(arguments.quick),
+    };
+    let options = options(arguments);
+    let sweeps = prepare(arguments, &grid, &options)?;
+    let mut report = Report {
+        version: VERSION,
+        complete: false,
+        machine: run::machine(&options)?,
+        notes: Vec::new(),
+        asked_scenes: sweeps.len(),
+        scenes: sweeps.iter().map(|sweep| sweep.report.clone()).collect(),
+    };
+    write::make_folder(&folder)?;
+    let stop = stop_on_interrupt();
+    let journal = measure(arguments, &folder, &sweeps, &options, &stop, &mut report)?;
+    report.complete = report.has_all_rows();
+    let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    let pictures = draw_pictures(&sweeps, &mut report, &options, &goals)?;
+    write::write_all(&folder, &report, &pictures, &goals)?;
+    if stop.load(Ordering::Relaxed) {
+        return Err(Error::Interrupted { folder });
+    }
+    journal.remove();
+    println!("{}", folder.join("report.html").display());
+    Ok(())
+}
+
+fn options(arguments: &ReportArgs) -> Options {
+    Options {
+        light: arguments.light,
+        runs: arguments.runs.map_or(if arguments.quick { 3 } else { 9 }, usize::from),
+        jobs: usize::from(arguments.jobs),
+        shard: arguments.shard,
+        band_texels: arguments.band,
+        context: arguments.context.request(Profile::Core33),
+    }
+}
+
+fn prepare(arguments: &ReportArgs, grid: &[Setting], options: &Options) -> Result<Vec<Sweep>, Error> {
+    let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
+    let overrides: Vec<String> = size.into_iter().chain(arguments.set.iter().cloned()).collect();
+    let bar = super::spinner("tracing the truth of {msg}");
+    let prepared = arguments.scenes.iter().map(|path| {
+        bar.set_message(path.display().to_string());
+        bar.tick();
+        run::prepare(path, &overrides, grid, options)
+    });
+    let sweeps = prepared.collect::<Result<_, _>>()?;
+    bar.finish_and_clear();
+    Ok(sweeps)
+}
+
+/// Set by the first Ctrl-C; a second one ends the process.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = stop.clone();
+    let handled = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    });
+    if let Err(error) = handled {
+        eprintln!("warning: Ctrl-C will not leave a report: {error}");
+    }
+    stop
+}
+
+/// Runs every scene's rows that are not in the journal yet, and puts all of them into the report.
+fn measure(
+    arguments: &ReportArgs,
+    folder: &Path,
+    sweeps: &[Sweep],
+    options: &Options,
+    stop: &Arc<AtomicBool>,
+    report: &mut Report,
+) -> Result<Journal, Error> {
+    for scene in &mut report.scenes {
+        if arguments.resume {
+            scene.rows = journal::done(folder, &scene.fingerprint)?;
+        }
+    }
+    let mut journal = Journal::open(folder, arguments.resume)?;
+    let todo: Vec<Vec<usize>> =
+        sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| sweep.todo(options, &scene.rows)).collect();
+    let bar = ProgressBar::new(todo.iter().map(|rows| rows.len() as u64).sum());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} settings, {eta} left  {msg}") {
+        bar.set_style(style);
+    }
+    for ((sweep, todo), scene) in sweeps.iter().zip(&todo).zip(&mut report.scenes) {
+        bar.set_message(scene.path.display().to_string());
+        let mut failure = None;
+        sweep.run(todo, options, stop, |row| {
+            if let Err(error) = journal.add(&sweep.report.fingerprint, &row) {
+                failure = Some(error);
+                stop.store(true, Ordering::Relaxed);
+            }
+            scene.rows.push(row);
+            bar.inc(1);
+        })?;
+        if let Some(error) = failure {
+            return Err(error.into());
+        }
+        scene.rows.sort_by_key(|row| row.index);
+    }
+    bar.finish_and_clear();
+    Ok(journal)
+}
+
+/// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
+fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
+    let context = context::open(&options.context)?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut pictures = Pictures::default();
+    for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
+        scene.saved = Some(sweep.saved(options, &mut renderer)?);
+        pictures.scenes.push(pictures::of(sweep, scene, goals, &mut renderer)?);
+    }
+    Ok(pictures)
+}
+
+fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
+    let load = |path: &PathBuf| merge::load(path).map(|report| (path.clone(), report));
+    let parts = arguments.parts.iter().map(load).collect::<Result<Vec<_>, _>>()?;
+    let report = merge::merge(parts)?;
+    let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    write::make_folder(&arguments.output)?;
+    write::write_all(&arguments.output, &report, &Pictures::default(), &goals)?;
+    println!("{}", arguments.output.join("report.html").display());
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! The command line of a sample program: its scene in a window, or without one into a file.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, FromArgMatches, Parser, ValueEnum};
+
+use super::scene_args::parse_size;
+use super::{ContextArgs, Error};
+use crate::context::{self, Choice, Profile};
+use crate::device::Pixels;
+use crate::frame::Renderer;
+use crate::output::{self, Output};
+use crate::plan::Request;
+use crate::scene::{self, Embedded, Scene};
+use crate::viewer::{self, Mode, Shown, State};
+
+/// What a sample program is.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub scene: Embedded,
+}
+
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Arguments {
+    /// Draws without a window, into the file of -o
+    #[arg(long, requires = "output")]
+    headless: bool,
+
+    /// The picture's file: .png, or .exr or .npy with exact 32-bit values
+    #[arg(short, long, value_name = "FILE", requires = "headless")]
+    output: Option<PathBuf>,
+
+    /// Opens the window, draws, writes what the window shows to this .png, and quits
+    #[arg(long, value_name = "FILE", conflicts_with = "headless")]
+    capture: Option<PathBuf>,
+
+    /// The picture to begin with; space goes on to the next
+    #[arg(long, value_enum, default_value_t = ModeName::Shadowed)]
+    mode: ModeName,
+
+    /// The picture's or the window's size in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+
+    /// Changes a key of the scene, e.g. light.shadow.size=2048
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+
+    #[command(flatten)]
+    tweaks: TweakArgs,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+/// The tweaks that keys step in the window.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Tweaks")]
+struct TweakArgs {
+    /// Scale of r in the texture matrix
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    r_scale: Option<f64>,
+    /// Bias of r in the texture matrix
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    r_bias: Option<f64>,
+    /// glPolygonOffset's factor while the map is drawn
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    offset_factor: Option<f64>,
+    /// glPolygonOffset's units while the map is drawn
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    offset_units: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ModeName {
+    /// From the camera, without shadows
+    Camera,
+    /// From the camera, with shadows
+    Shadowed,
+    /// From the light, in the largest square of a power of two that fits
+    Light,
+}
+
+impl From<ModeName> for Mode {
+    fn from(name: ModeName) -> Self {
+        match name {
+            ModeName::Camera => Self::Camera,
+            ModeName::Shadowed => Self::Shadowed,
+            ModeName::Light => Self::Light,
+        }
+    }
+}
+
+/// Runs a sample program with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+pub fn run(sample: &Sample) -> ExitCode {
+    let mut command = Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help());
+    let matches = command.get_matches_mut();
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let chosen = arguments.context.request(Profile::Core33);
+    if !arguments.headless && (chosen.device.is_some() || !matches!(chosen.choice, Choice::Auto | Choice::Window)) {
+        let message = "a window has its display's context: --context and --device go with --headless -o FILE";
+        command.error(ErrorKind::ArgumentConflict, message).exit();
+    }
+    super::exit_code(show(sample, &arguments))
+}
+
+fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
+    let file = arguments.output.as_ref().or(arguments.capture.as_ref());
+    file.map(|path| output::check_path(path)).transpose()?;
+    let loaded = scene::load_embedded(&sample.scene, &arguments.overrides())?;
+    for warning in &loaded.warnings {
+        eprintln!("warning: {warning}");
+    }
+    // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
+    crate::plan::make(&loaded.scene, &Request::default())?;
+    let mode = Mode::from(arguments.mode);
+    let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
+    crate::plan::make(&scene, &request)?;
+    if let Some(path) = &arguments.output {
+        return write(path, &draw(&scene, request, path, arguments)?);
+    }
+    let shown = Shown { title: sample.name.to_owned(), capture: arguments.capture.is_some() };
+    let captured = viewer::run(State::new(loaded.scene, mode), shown)?;
+    match (&arguments.capture, captured) {
+        (Some(path), Some(pixels)) => write(path, &pixels),
+        _ => Ok(()),
+    }
+}
+
+/// One picture without a window.
+fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
+    request.float_picture = output::check_path(path)?.is_exact();
+    let context = context::open(&arguments.context.request(Profile::Core33))?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let plan = renderer.plan(scene, &request)?;
+    renderer.draw(&plan)?;
+    Ok(renderer.read(&plan)?.picture)
+}
+
+fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {
+    Ok(output::write_all(&[Output { path, pixels, view: None }])?)
+}
+
+impl Arguments {
+    /// In order: size and tweaks, then `--set`.
+    fn overrides(&self) -> Vec<String> {
+        let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
+        let tweaks = [
+            ("r.scale", self.tweaks.r_scale),
+            ("r.bias", self.tweaks.r_bias),
+            ("offset.factor", self.tweaks.offset_factor),
+            ("offset.units", self.tweaks.offset_units),
+        ];
+        let tweaks =
+            tweaks.into_iter().filter_map(|(key, value)| value.map(|value| format!("light.shadow.{key}={value:?}")));
+        size.into_iter().chain(tweaks).chain(self.set.iter().cloned()).collect()
+    }
+}

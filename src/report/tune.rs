@@ -1,0 +1,207 @@
+//! Finds the polygon offset, and the smallest map, that a scene needs: by search, with the oracle as judge.
+//!
+//! A larger offset only ever removes false shadow and adds leak. So for each slope factor there is a least number of
+//! units without false shadow, found by bisection over powers of two; of all factors the pair with the least leak wins.
+
+use super::metrics::{self, Band, Metrics};
+use super::run::{draw_shade, with_shadow};
+use crate::frame::{self, Renderer};
+use crate::oracle::ray::{self, Truth};
+use crate::scene::{self, Scene, Settings};
+
+/// Why nothing can be tuned.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Scene(#[from] scene::Error),
+    #[error(transparent)]
+    Truth(#[from] ray::Error),
+    #[error(transparent)]
+    Frame(#[from] frame::Error),
+    #[error(transparent)]
+    Metrics(#[from] metrics::Error),
+    #[error("the scene has {count} lights, there is no light {index}")]
+    NoLight { index: usize, count: usize },
+    #[error("light {index} draws no shadow map: its technique is \"{technique}\", whose offset cannot be tuned")]
+    NoMap { index: usize, technique: String },
+}
+
+/// What to search, and what is good enough.
+#[derive(Clone, Debug)]
+pub struct Options {
+    pub light: usize,
+    /// Map sizes to try, smallest first.
+    pub sizes: Vec<u32>,
+    /// The most leak in percent of the pixels compared that the smallest map may have.
+    pub leak_percent: f64,
+    /// The most pixels in 100,000 that face the light, lie beyond the edge band and may be falsely dark; two always may.
+    pub false_per_100_000: f64,
+    /// The edge band's half width in texels.
+    pub band_texels: f64,
+}
+
+/// One point of the curve.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Point {
+    pub size: u32,
+    pub factor: f64,
+    pub units: f64,
+    /// On surfaces that face the light, beyond the edge band, in percent of those compared.
+    pub false_shadow_percent: f64,
+    /// Of all pixels compared.
+    pub leak_percent: f64,
+    pub wrong_percent: f64,
+    /// Whether the false shadow is within [`Options::false_per_100_000`].
+    pub clean: bool,
+}
+
+/// What the search saw and chose.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Tuned {
+    pub curve: Vec<Point>,
+    /// The best offset of each size that has a clean one, by size.
+    pub best: Vec<Point>,
+    /// The smallest map that leaks no more than it may, or, where none does, the one that leaks least.
+    pub chosen: Option<Point>,
+    /// Whether `chosen` is within the leak that was asked for.
+    pub within_leak: bool,
+}
+
+/// Slope factors that are tried; the documents' "about 1.0 or more".
+const FACTORS: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
+/// Powers of two of units that are tried; 0 stands before them.
+const MOST_UNITS_LOG2: i32 = 20;
+
+/// Searches. `tick` is called with each point that was seen.
+///
+/// # Errors
+///
+/// A light that is not there or has no map, a truth that is not known, a frame that cannot be drawn.
+pub fn tune(
+    scene: &Scene,
+    options: &Options,
+    renderer: &mut Renderer,
+    mut tick: impl FnMut(&Point),
+) -> Result<Tuned, Error> {
+    let count = scene.lights.len();
+    let light = scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
+    let technique = match light.shadow.get("technique").map(|entry| &entry.value) {
+        Some(scene::Value::String(name)) => name.clone(),
+        _ => String::from("none"),
+    };
+    if technique == "none" {
+        return Err(Error::NoMap { index: options.light, technique });
+    }
+    let truth = ray::trace(scene, options.light, &ray::Options::default())?;
+    let mut search = Search { scene, truth, options, renderer, curve: Vec::new(), tick: &mut tick };
+    let mut best = Vec::new();
+    for size in &options.sizes {
+        if let Some(point) = search.best_of(*size)? {
+            best.push(point);
+            if point.leak_percent <= options.leak_percent {
+                break; // the smallest: larger maps cost more
+            }
+        }
+    }
+    let within = best.iter().find(|point| point.leak_percent <= options.leak_percent).copied();
+    let least = best.iter().min_by(|a, b| a.leak_percent.total_cmp(&b.leak_percent)).copied();
+    Ok(Tuned { curve: search.curve, best, chosen: within.or(least), within_leak: within.is_some() })
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    truth: Truth,
+    options: &'a Options,
+    renderer: &'a mut Renderer,
+    curve: Vec<Point>,
+    tick: &'a mut dyn FnMut(&Point),
+}
+
+impl Search<'_> {
+    /// The clean point of least leak at one map size.
+    fn best_of(&mut self, size: u32) -> Result<Option<Point>, Error> {
+        let mut best: Option<Point> = None;
+        for factor in FACTORS {
+            if let Some(point) = self.least_units(size, factor)?
+                && best.is_none_or(|best| point.leak_percent < best.leak_percent)
+            {
+                best = Some(point);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The least power of two of units, or none at all, that is clean with `factor`.
+    fn least_units(&mut self, size: u32, factor: f64) -> Result<Option<Point>, Error> {
+        // Exponents; -1 stands for no units.
+        let (mut low, mut high) = (-1, MOST_UNITS_LOG2);
+        let mut found = self.point(size, factor, units_of(high))?;
+        if !found.clean {
+            return Ok(None);
+        }
+        while low < high {
+            let middle = (low + high).div_euclid(2);
+            let point = self.point(size, factor, units_of(middle))?;
+            if point.clean {
+                (found, high) = (point, middle);
+            } else {
+                low = middle + 1;
+            }
+        }
+        Ok(Some(found))
+    }
+
+    fn point(&mut self, size: u32, factor: f64, units: f64) -> Result<Point, Error> {
+        let shadow = changed(&self.scene.lights[self.options.light].shadow, size, factor, units)?;
+        let scene = with_shadow(self.scene, self.options.light, &shadow);
+        let shade = draw_shade(&scene, self.options.light, self.renderer)?;
+        let band = Band { texels: self.options.band_texels, map_size: [size; 2] };
+        let Metrics { all, facing, .. } = metrics::compare(&self.truth, &shade, &band)?;
+        let false_shadow_percent = facing.false_shadow.outside_percent;
+        let point = Point {
+            size,
+            factor,
+            units,
+            false_shadow_percent,
+            leak_percent: all.leak_percent,
+            wrong_percent: all.wrong_percent,
+            clean: facing.false_shadow.outside as f64 <= self.spare(facing.compared),
+        };
+        self.curve.push(point);
+        (self.tick)(&point);
+        Ok(point)
+    }
+}
+
+impl Search<'_> {
+    /// The pixels that may stay falsely dark: single ones at the band's rim are no acne, however small the picture.
+    fn spare(&self, compared: usize) -> f64 {
+        (1e-5 * self.options.false_per_100_000 * compared as f64).max(SPARE_PIXELS)
+    }
+}
+
+/// See [`Search::spare`].
+const SPARE_PIXELS: f64 = 2.0;
+
+fn units_of(exponent: i32) -> f64 {
+    if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }
+}
+
+/// `shadow` with another map size and offset.
+fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
+    let kept = shadow.entries.iter().filter(|(key, _)| key != "size" && key != "offset");
+    let mut keys: Vec<String> = kept.map(|(key, entry)| format!("{key} = {}", entry.value.to_toml())).collect();
+    keys.push(format!("size = {size}"));
+    keys.push(format!("offset = {{ factor = {factor:?}, units = {units:?} }}"));
+    scene::shadow_settings(&keys.join(", "))
+}
+
+impl Point {
+    /// The keys of `[light.shadow]` to paste.
+    pub fn to_toml(&self) -> String {
+        format!(
+            "[light.shadow]\ntechnique = \"shadow-map\"\nsize = {}\noffset = {{ factor = {:?}, units = {:?} }}\n",
+            self.size, self.factor, self.units
+        )
+    }
+}

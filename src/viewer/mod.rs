@@ -1,0 +1,32 @@
+//! A scene in a window, to walk around in: what the sample programs share. The state of the walk is plain data and
+//! knows no window ([`State`]); [`run`] joins it to winit's events. Each change makes a new plan, and the device leaves
+//! out what that plan has in common with the last: the map stays when only the camera moves.
+
+mod keys;
+mod orbit;
+mod state;
+mod tweak;
+mod window;
+
+pub use keys::{Command, help};
+pub use state::{Handle, Mode, Reaction, State};
+pub use tweak::{TWEAKS, Tweak};
+pub use window::{Shown, run};
+
+use crate::{context, frame};
+
+/// Why a window could not be opened or drawn in.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(
+        "no window can be opened: neither DISPLAY nor WAYLAND_DISPLAY is set. \
+         Without a display, write a picture with --headless -o FILE"
+    )]
+    NoDisplay,
+    #[error("no window can be opened: {0}. Without one, write a picture with --headless -o FILE")]
+    Open(String),
+    #[error("{0}")]
+    Context(#[from] context::Error),
+    #[error(transparent)]
+    Frame(#[from] frame::Error),
+}

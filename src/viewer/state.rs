@@ -1,0 +1,235 @@
+//! What a window shows and what its user changed: the scene, the display mode, what the mouse holds, the tweak that the
+//! keys step. Plain data; knows no window and no GL.
+
+use glam::{DMat4, DVec2, DVec3};
+
+use super::keys::Command;
+use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
+use super::{TWEAKS, Tweak};
+use crate::math::{Aabb, frustum};
+use crate::plan::{Request, Subject};
+use crate::scene::Scene;
+
+/// The sample's display modes [techniques E].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// From the camera, without shadows.
+    Camera,
+    /// From the camera, with shadows.
+    #[default]
+    Shadowed,
+    /// From the first light, in the largest square of a power of two.
+    Light,
+}
+
+impl Mode {
+    /// In the order in which space goes through them, with their names on the command line.
+    pub const ALL: [(&str, Self); 3] = [("camera", Self::Camera), ("shadowed", Self::Shadowed), ("light", Self::Light)];
+
+    fn place(self) -> usize {
+        Self::ALL.iter().position(|(_, mode)| *mode == self).unwrap_or(0)
+    }
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        Self::ALL[self.place()].0
+    }
+
+    #[must_use]
+    pub fn next(self) -> Self {
+        Self::ALL[(self.place() + 1) % Self::ALL.len()].1
+    }
+
+    /// `scene` at `size` pixels, and the request for its picture, so that a frame shows it in this mode.
+    pub fn frame(self, scene: &Scene, size: [u32; 2]) -> (Scene, Request) {
+        let mut scene = scene.clone();
+        scene.image.size = size;
+        let mut request = Request::default();
+        match self {
+            // An empty table is one without a technique.
+            Self::Camera => scene.lights.iter_mut().for_each(|light| light.shadow.entries.clear()),
+            Self::Shadowed => {}
+            Self::Light => request.subject = Subject::Light(0),
+        }
+        (scene, request)
+    }
+}
+
+/// What the mouse turns and moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Handle {
+    #[default]
+    Camera,
+    /// The first light, about what it points at.
+    Light,
+    /// The first object that is lit, about its own middle.
+    Object,
+}
+
+/// What a command comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reaction {
+    Redraw,
+    /// Only what is said of the picture has changed.
+    Retitle,
+    Help,
+    Quit,
+}
+
+/// A walk through a scene.
+#[derive(Clone, Debug)]
+pub struct State {
+    first: Scene,
+    scene: Scene,
+    mode: Mode,
+    held: Handle,
+    tweak: usize,
+    size: [u32; 2],
+}
+
+impl State {
+    /// A walk that begins with `scene` as it is.
+    pub fn new(scene: Scene, mode: Mode) -> Self {
+        let size = scene.image.size;
+        Self { first: scene.clone(), scene, mode, held: Handle::default(), tweak: 0, size }
+    }
+
+    /// As changed so far.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Width and height of the picture, in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.size = size.map(|side| side.max(1));
+    }
+
+    /// What to draw now.
+    pub fn frame(&self) -> (Scene, Request) {
+        self.mode.frame(&self.scene, self.size)
+    }
+
+    /// One line: mode, what the mouse holds, the current tweak.
+    pub fn status(&self) -> String {
+        let mode = match self.mode {
+            Mode::Camera => "without shadows",
+            Mode::Shadowed => "with shadows",
+            Mode::Light => "from the light",
+        };
+        let held = match self.held {
+            Handle::Camera => "camera",
+            Handle::Light => "light",
+            Handle::Object => "object",
+        };
+        let tweak = self.scene.lights.first().map_or(String::new(), |light| self.tweak().in_words(&light.shadow));
+        format!("{mode} | mouse: {held} | {tweak} | h: help")
+    }
+
+    pub fn apply(&mut self, command: Command) -> Reaction {
+        match command {
+            Command::NextMode => self.mode = self.mode.next(),
+            Command::ViewAll => self.view_all(),
+            Command::Reset => self.scene = self.first.clone(),
+            Command::Hold(handle) => {
+                self.held = handle;
+                return Reaction::Retitle;
+            }
+            Command::NextTweak => {
+                self.tweak = (self.tweak + 1) % TWEAKS.len();
+                return Reaction::Retitle;
+            }
+            Command::Step(steps) => {
+                let tweak = self.tweak();
+                self.scene.lights.iter_mut().for_each(|light| tweak.step(&mut light.shadow, steps));
+            }
+            Command::Help => return Reaction::Help,
+            Command::Quit => return Reaction::Quit,
+        }
+        Reaction::Redraw
+    }
+
+    fn tweak(&self) -> &'static Tweak {
+        &TWEAKS[self.tweak % TWEAKS.len()]
+    }
+
+    /// Turns what the mouse holds. `drag` in pixels, right and down; the window's height is half a turn. The scene
+    /// follows the mouse when it turns the camera, and so do light and object.
+    pub fn drag(&mut self, drag: DVec2) {
+        let turn = drag * std::f64::consts::PI / f64::from(self.size[1]);
+        match self.held {
+            Handle::Camera => {
+                let camera = &mut self.scene.camera;
+                camera.eye = orbit(camera.eye, camera.target, camera.up, DVec2::new(-turn.x, turn.y));
+            }
+            Handle::Light => {
+                if let Some(light) = self.scene.lights.first_mut() {
+                    light.position = orbit(light.position, light.target, light.up, DVec2::new(turn.x, -turn.y));
+                }
+            }
+            Handle::Object => {
+                let right = self.camera_axis(DVec3::X);
+                let up = self.scene.camera.up;
+                self.place_object(|middle| turn_about(middle, up, right, turn));
+            }
+        }
+    }
+
+    /// Moves what the mouse holds nearer (to what it looks at; the object: to the camera), or farther by less than 0.
+    pub fn dolly(&mut self, steps: f64) {
+        match self.held {
+            Handle::Camera => {
+                let camera = &mut self.scene.camera;
+                let range = [2.0 * camera.near, 0.8 * camera.far];
+                camera.eye = dolly(camera.eye, camera.target, steps, range);
+            }
+            Handle::Light => {
+                if let Some(light) = self.scene.lights.first_mut() {
+                    light.position = dolly(light.position, light.target, steps, [2.0 * light.near, 0.95 * light.far]);
+                }
+            }
+            Handle::Object => {
+                let camera = &self.scene.camera;
+                let (eye, range) = (camera.eye, [2.0 * camera.near, 0.8 * camera.far]);
+                self.place_object(|middle| DMat4::from_translation(dolly(middle, eye, steps, range) - middle));
+            }
+        }
+    }
+
+    /// A direction of the camera's own space in the world.
+    fn camera_axis(&self, axis: DVec3) -> DVec3 {
+        self.scene.camera.view_from_world().inverse().transform_vector3(axis)
+    }
+
+    /// Moves the object by what `moved` makes of its middle.
+    fn place_object(&mut self, moved: impl Fn(DVec3) -> DMat4) {
+        let objects = &mut self.scene.objects;
+        let index = objects.iter().position(|object| object.lit).unwrap_or(0);
+        if let Some(object) = objects.get_mut(index) {
+            let middle = object.world_from_model.transform_point3(object.mesh.bounds.center());
+            object.world_from_model = moved(middle) * object.world_from_model;
+        }
+    }
+
+    /// The camera, where it looks from, so far away that it sees all objects and lights.
+    fn view_all(&mut self) {
+        let mut bounds = self.scene.world_bounds();
+        for light in &self.scene.lights {
+            bounds = bounds.including(light.position);
+            if light.frustum_shown {
+                let world_from_clip = (light.clip_from_view() * light.view_from_world()).inverse();
+                bounds = bounds.union(Aabb::from_points(frustum::corners(&world_from_clip)));
+            }
+        }
+        let aspect = f64::from(self.size[0]) / f64::from(self.size[1]);
+        let backwards = self.camera_axis(DVec3::Z);
+        let camera = &mut self.scene.camera;
+        let distance = distance_of_sphere(bounds.radius(), camera.fov_y_radians, aspect);
+        camera.target = bounds.center();
+        camera.eye = camera.target + distance * backwards;
+        camera.far = camera.far.max(1.1 * (distance + bounds.radius()));
+    }
+}

@@ -1,0 +1,246 @@
+//! A [`State`] in a window: winit's events in, pictures out. A frame is drawn into the same framebuffer object as
+//! without a window and then copied, so both have the same pixels. Nothing is drawn but on an event.
+
+use std::io::Write;
+
+use glam::DVec2;
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalPosition;
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::keyboard::{Key, NamedKey};
+use winit::window::WindowId;
+
+use super::{Error, Reaction, State, help, keys};
+use crate::context::window::{self, WindowContext};
+use crate::context::{self, Choice, ContextRequest, Profile};
+use crate::device::Pixels;
+use crate::frame::Renderer;
+
+/// How a state is shown.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The window's title begins with it.
+    pub title: String,
+    /// Draw one frame, read it back from the window, and close it.
+    pub capture: bool,
+}
+
+/// Pixels of a drag that count as one notch of the wheel.
+const PIXELS_A_STEP: f64 = 20.0;
+
+/// Opens a window of the state's size and shows it until the user quits. The window's own pixels, if they were to be
+/// captured.
+///
+/// # Errors
+///
+/// No display, no context, and whatever a frame can fail of.
+pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
+    if !window::display_is_named() {
+        return Err(Error::NoDisplay);
+    }
+    let events = window::event_loop().map_err(cannot_open)?;
+    events.set_control_flow(ControlFlow::Wait);
+    let mut app = App { state, shown, live: None, mouse: Mouse::default(), captured: None, failed: None };
+    let ended = events.run_app(&mut app);
+    if let Some(error) = app.failed {
+        return Err(error);
+    }
+    ended.map_err(|error| Error::Open(error.to_string()))?;
+    Ok(app.captured)
+}
+
+struct App {
+    state: State,
+    shown: Shown,
+    live: Option<Live>,
+    mouse: Mouse,
+    captured: Option<Pixels>,
+    failed: Option<Error>,
+}
+
+/// A window with what draws in it; the objects of GL go before the context does.
+struct Live {
+    renderer: Renderer,
+    context: WindowContext,
+}
+
+#[derive(Default)]
+struct Mouse {
+    at: Option<DVec2>,
+    turning: bool,
+    moving: bool,
+}
+
+impl App {
+    fn open(&self, event_loop: &ActiveEventLoop) -> Result<Live, Error> {
+        let request = ContextRequest {
+            choice: Choice::Window,
+            device: None,
+            profile: Profile::Core33,
+            debug: cfg!(debug_assertions),
+        };
+        let context =
+            WindowContext::open(event_loop, &self.title(), self.state.size(), &request).map_err(cannot_open)?;
+        let renderer = Renderer::new(&context);
+        Ok(Live { renderer, context })
+    }
+
+    fn title(&self) -> String {
+        format!("{}: {}", self.shown.title, self.state.status())
+    }
+
+    /// Draws the state as it is into the window.
+    fn draw(&mut self) -> Result<(), Error> {
+        let Some(Live { renderer, context }) = &mut self.live else { return Ok(()) };
+        let size = context.size();
+        self.state.resize(size);
+        let (scene, request) = self.state.frame();
+        let plan = renderer.plan(&scene, &request)?;
+        renderer.draw(&plan)?;
+        renderer.present(&plan, size)?;
+        if self.shown.capture && self.captured.is_none() {
+            self.captured = Some(renderer.read_window(size)?);
+        }
+        Ok(context.swap_buffers()?)
+    }
+
+    fn redraw(&self) {
+        if let Some(live) = &self.live {
+            live.context.window().request_redraw();
+        }
+    }
+
+    /// Tells the state on the title and on standard output.
+    fn tell(&self) {
+        if let Some(live) = &self.live {
+            live.context.window().set_title(&self.title());
+        }
+        say(&self.state.status());
+    }
+
+    fn key(&mut self, event_loop: &ActiveEventLoop, key: &Key) {
+        let Some(command) = key_name(key).and_then(keys::command) else { return };
+        match self.state.apply(command) {
+            Reaction::Redraw => {
+                self.tell();
+                self.redraw();
+            }
+            Reaction::Retitle => self.tell(),
+            Reaction::Help => say(&help()),
+            Reaction::Quit => event_loop.exit(),
+        }
+    }
+
+    fn moved(&mut self, position: PhysicalPosition<f64>) {
+        let at = DVec2::new(position.x, position.y);
+        let drag = self.mouse.at.map_or(DVec2::ZERO, |last| at - last);
+        self.mouse.at = Some(at);
+        if self.mouse.turning {
+            self.state.drag(drag);
+        }
+        if self.mouse.moving {
+            self.state.dolly(-drag.y / PIXELS_A_STEP);
+        }
+        if self.mouse.turning || self.mouse.moving {
+            self.redraw();
+        }
+    }
+
+    fn wheel(&mut self, delta: MouseScrollDelta) {
+        self.state.dolly(match delta {
+            MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
+            MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_A_STEP,
+        });
+        self.redraw();
+    }
+
+    fn end(&mut self, event_loop: &ActiveEventLoop, result: Result<(), Error>) {
+        if let Err(error) = result {
+            self.failed = Some(error);
+        }
+        if self.failed.is_some() || self.captured.is_some() {
+            event_loop.exit();
+        }
+    }
+}
+
+impl ApplicationHandler for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.live.is_some() {
+            return;
+        }
+        let opened = self.open(event_loop).map(|live| self.live = Some(live));
+        self.redraw();
+        if opened.is_ok() && !self.shown.capture {
+            say(&format!("{}\n{}", self.title(), help()));
+        }
+        self.end(event_loop, opened);
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        match event {
+            WindowEvent::RedrawRequested => {
+                let drawn = self.draw();
+                self.end(event_loop, drawn);
+            }
+            WindowEvent::Resized(size) => {
+                if let Some(live) = &self.live {
+                    live.context.resize(size);
+                }
+                self.redraw();
+            }
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::KeyboardInput {
+                event: KeyEvent { logical_key, state: ElementState::Pressed, .. }, ..
+            } => self.key(event_loop, &logical_key),
+            WindowEvent::MouseInput { state, button, .. } => {
+                let pressed = state == ElementState::Pressed;
+                match button {
+                    MouseButton::Left => self.mouse.turning = pressed,
+                    MouseButton::Right => self.mouse.moving = pressed,
+                    _ => {}
+                }
+            }
+            WindowEvent::CursorMoved { position, .. } => self.moved(position),
+            WindowEvent::CursorLeft { .. } => self.mouse.at = None,
+            WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
+            _ => {}
+        }
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        // While the event loop still has its display.
+        self.live = None;
+    }
+}
+
+/// Why there is no window, without the place in winit's sources where that was noticed.
+fn cannot_open(error: context::Error) -> Error {
+    let text = match error {
+        context::Error::Present(text) => text,
+        other => other.to_string(),
+    };
+    let answer = text.strip_prefix("os error at ").and_then(|rest| rest.split_once(": ")).map(|(_, answer)| answer);
+    Error::Open(answer.unwrap_or(&text).to_owned())
+}
+
+/// The name that [`keys`] has for a key.
+fn key_name(key: &Key) -> Option<&str> {
+    match key {
+        Key::Character(text) => Some(text.as_str()),
+        Key::Named(NamedKey::Space) => Some("space"),
+        Key::Named(NamedKey::Escape) => Some("Esc"),
+        Key::Named(NamedKey::Home) => Some("Home"),
+        Key::Named(NamedKey::ArrowUp) => Some("Up"),
+        Key::Named(NamedKey::ArrowDown) => Some("Down"),
+        Key::Named(NamedKey::PageUp) => Some("PageUp"),
+        Key::Named(NamedKey::PageDown) => Some("PageDown"),
+        _ => None,
+    }
+}
+
+/// A line on standard output. A reader that has gone is no reason to close the window.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}

@@ -1,0 +1,70 @@
+//! Pixel cases, one test a folder of `data/cases/<technique>/`. How a case is written: `tests/support/cases/file.rs`.
+//!
+//! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` draws goldens anew.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Trial};
+
+#[path = "support/cases/mod.rs"]
+mod cases;
+use cases::file::Case;
+
+/// Scenes that several cases share; no technique's folder.
+const SHARED: &str = "scenes";
+
+fn main() -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    // llvmpipe has threads of its own, and one context serves all.
+    arguments.test_threads.get_or_insert(1);
+    if !arguments.list {
+        println!("{}", cases::draw::driver());
+    }
+    libtest_mimic::run(&arguments, trials()).exit_code()
+}
+
+fn trials() -> Vec<Trial> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases");
+    let mut trials = vec![Trial::test("every_technique_has_a_case", {
+        let root = root.clone();
+        move || every_technique_has_a_case(&root).map_err(Into::into)
+    })];
+    for technique in folders(&root).into_iter().filter(|folder| name(folder) != SHARED) {
+        for folder in folders(&technique) {
+            let title = format!("{}/{}", name(&technique), name(&folder));
+            trials.push(Trial::test(title.clone(), move || {
+                cases::check::run(&Case::read(&folder, &title)?)?;
+                Ok(())
+            }));
+        }
+    }
+    trials
+}
+
+/// A technique without a case is untested, and a folder without a technique is never looked for.
+fn every_technique_has_a_case(root: &Path) -> Result<(), String> {
+    let known: Vec<&str> = glumbra::techniques::TABLE.iter().map(|technique| technique.name()).collect();
+    for technique in &known {
+        if folders(&root.join(technique)).is_empty() {
+            return Err(format!("the technique \"{technique}\" has no case in {}/{technique}", root.display()));
+        }
+    }
+    match folders(root).iter().map(|folder| name(folder)).find(|name| name != SHARED && !known.contains(&&**name)) {
+        Some(name) => Err(format!("{}/{name} is the folder of no technique", root.display())),
+        None => Ok(()),
+    }
+}
+
+/// The folders in `path`, sorted.
+fn folders(path: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut folders: Vec<PathBuf> = entries.filter(|path| path.is_dir()).collect();
+    folders.sort();
+    folders
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

@@ -1,0 +1,77 @@
+//! A picture as floats, whatever it was read from; PNG files of it.
+
+use std::path::Path;
+
+use glumbra::device::Pixels;
+
+/// Channels side by side, rows from the top down. Colours and shade in [0, 1].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub size: [u32; 2],
+    pub channels: usize,
+    pub data: Vec<f32>,
+}
+
+impl Picture {
+    pub fn pixel(&self, [x, y]: [u32; 2]) -> &[f32] {
+        let first = (y as usize * self.size[0] as usize + x as usize) * self.channels;
+        &self.data[first..first + self.channels]
+    }
+
+    pub fn pixels(&self) -> impl Iterator<Item = &[f32]> {
+        self.data.chunks_exact(self.channels)
+    }
+
+    /// Red, green and blue of a picture; shade and alpha of a shade view; a depth.
+    pub fn of(pixels: &Pixels, shade: bool) -> Self {
+        let keep: &[usize] = if shade { &[0, 3] } else { &[0, 1, 2] };
+        let picked = |data: &[f32]| data.chunks_exact(4).flat_map(|p| keep.iter().map(|c| p[*c])).collect();
+        let (channels, data) = match pixels {
+            Pixels::Rgba8 { data, .. } => {
+                (keep.len(), picked(&data.iter().map(|v| f32::from(*v) / 255.0).collect::<Vec<_>>()))
+            }
+            Pixels::RgbaF32 { data, .. } => (keep.len(), picked(data)),
+            Pixels::Depth { data, .. } => (1, data.clone()),
+        };
+        Self { size: pixels.size(), channels, data }
+    }
+
+    /// Reads an RGB file.
+    pub fn read_png(path: &Path) -> Result<Self, String> {
+        let image = image::open(path).map_err(|error| format!("{}: {error}", path.display()))?.to_rgb8();
+        let size = [image.width(), image.height()];
+        Ok(Self { size, channels: 3, data: image.into_raw().iter().map(|v| f32::from(*v) / 255.0).collect() })
+    }
+
+    /// Writes 8 bits a channel: gray for one or two channels (what the light does not reach is blue), RGB for three.
+    pub fn write_png(&self, path: &Path) -> Result<(), String> {
+        let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let rgb = self.pixels().flat_map(|p| match *p {
+            [gray] => [byte(gray); 3],
+            [_, 0.0] => [60, 60, 160],
+            [gray, _] => [byte(gray); 3],
+            [r, g, b] => [byte(r), byte(g), byte(b)],
+            _ => [255, 0, 255],
+        });
+        let image = image::RgbImage::from_raw(self.size[0], self.size[1], rgb.collect()).ok_or("odd size")?;
+        image.save(path).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    /// How far each pixel is from `other`'s, from black to white at 16/255 and beyond. `None`: the shapes differ.
+    pub fn difference(&self, other: &Self) -> Option<Self> {
+        if self.size != other.size || self.channels != other.channels {
+            return None;
+        }
+        let data = self.data.iter().zip(&other.data).map(|(a, b)| (a - b).abs() * 255.0 / 16.0);
+        Some(Self { data: data.collect(), ..self.clone() }.opaque())
+    }
+
+    /// A shade view without its alpha, so that differences of either are seen.
+    fn opaque(self) -> Self {
+        if self.channels != 2 {
+            return self;
+        }
+        let data = self.pixels().map(|p| p[0].max(p[1])).collect();
+        Self { channels: 1, data, ..self }
+    }
+}
