@@ -134,13 +134,10 @@ fn choose_index_order(plan: &mut Plan, frames: u32) {
     for_each_draw(
         plan,
         |_, draw| {
-            if draw.primitive != Primitive::Triangles {
-                return;
-            }
             let mesh = std::sync::Arc::as_ptr(&draw.mesh.0);
             let count = draws.get(&mesh).copied().unwrap_or(0);
             let pays = || count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256 && draw.mesh.is_scattered();
-            let sorted = *sorted.entry(mesh).or_insert_with(pays);
+            let sorted = draw.primitive == Primitive::Triangles && *sorted.entry(mesh).or_insert_with(pays);
             draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
         },
         frames,
