@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
+use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
@@ -92,4 +93,63 @@ fn what_is_left_out_of_our_scenes_changes_no_pixel() {
         }
     }
     assert!(saved > 0, "no pass was ever left out");
+}
+
+/// Objects that are declared closed: their back faces are left out where they are seen from outside, and drawn where
+/// the camera's near plane may cut them open. At a silhouette a front and a back face can round to the same depth, and
+/// the one that is drawn first wins: without back faces it is always the front one. That is one pixel in thousands.
+#[test]
+fn back_faces_of_closed_objects_are_left_out() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let meshes = [
+        ("sphere", true),
+        ("torus", true),
+        ("box", true),
+        (concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/dense.obj"), true),
+    ];
+    for (mesh, outside) in meshes {
+        for (eye, scale, outside) in [
+            ("[2.2, 1.9, 3.1]", "0.7", outside),
+            ("[0.1, 0.3, 0.2]", "3.0", false),
+            ("[2.2, 1.9, 3.1]", "[-0.7, 0.7, 0.7]", outside),
+        ] {
+            let text = format!(
+                "[image]\nsize = [160, 120]\n[camera]\neye = {eye}\ntarget = [0.0, 0.5, 0.0]\nnear = 0.1\nfar = 30.0\n\
+                 [[light]]\nkind = \"spot\"\nposition = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\nnear = 0.5\nfar = 20.0\n[light.shadow]\ntechnique = \"shadow-map\"\n\
+                 [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n[[object]]\nmesh = {mesh:?}\nscale = {scale}\nclosed = true\ntranslate = [0.0, 0.6, 0.0]\n"
+            );
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("closed.toml");
+            std::fs::write(&path, text).unwrap();
+            let scene = scene::load(&path, &[]).unwrap().scene;
+            let mut picture = |closed| {
+                let mut scene = scene.clone();
+                scene.objects[1].closed = closed;
+                let plan = renderer.plan(&scene, &Request::default()).unwrap();
+                renderer.draw(&plan).unwrap();
+                (renderer.read(&plan).unwrap().picture, plan)
+            };
+            let ((pruned, plan), (whole, _)) = (picture(true), picture(false));
+            let left_out = plan.left_out.iter().any(|left| left.what.starts_with("back faces of"));
+            assert_eq!(left_out, outside, "{mesh} from {eye}");
+            let (Pixels::Rgba8 { data: a, .. }, Pixels::Rgba8 { data: b, .. }) = (&pruned, &whole) else {
+                panic!("no RGBA8")
+            };
+            let differ = a.chunks_exact(4).zip(b.chunks_exact(4)).filter(|(a, b)| a != b).count();
+            println!("{mesh} from {eye}, scale {scale}: {differ} pixels of {} differ", a.len() / 4);
+            assert!(differ <= if outside { 3 } else { 0 }, "{mesh} from {eye}, scale {scale}: {differ}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_closed_cannot_be_declared_so() {
+    for (mesh, message) in [("quad", "open, crowded or turned edges"), ("teapot", "open, crowded or turned edges")] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("open.toml");
+        std::fs::write(&path, format!("[[object]]\nmesh = \"{mesh}\"\nclosed = true\n")).unwrap();
+        let error = scene::load(&path, &[]).unwrap_err().to_string();
+        assert!(error.contains("open.toml:3") && error.contains(message), "{error}");
+    }
 }

@@ -9,7 +9,9 @@ use glow::HasContext;
 use super::image::{self, ImageName};
 use super::state::{apply, set_mirrored};
 use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
-use crate::pass::{Batch, Draw, DrawPass, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work};
+use crate::pass::{
+    Batch, Draw, DrawPass, DrawState, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
+};
 
 /// Whether and how passes are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -216,7 +218,7 @@ impl Device {
         apply(&self.gl, &pass.state, &mut self.state);
         self.clear(pass);
         for batch in &pass.batches {
-            self.draw_batch(batch);
+            self.draw_batch(&pass.state, batch);
         }
         unsafe { self.gl.bind_vertex_array(None) };
         Ok(())
@@ -234,8 +236,9 @@ impl Device {
         }
     }
 
-    fn draw_batch(&mut self, batch: &Batch) {
+    fn draw_batch(&mut self, state: &DrawState, batch: &Batch) {
         let Some(program) = self.programs.get(&batch.program) else { return };
+        apply(&self.gl, &DrawState { cull: batch.cull.or(state.cull), ..*state }, &mut self.state);
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
             let ImageName::Texture(texture) = self.gpu_image(input.image) else { continue };

@@ -1,5 +1,7 @@
 //! How the triangles of a mesh hang together: places (vertices welded by position), edges, closedness.
 
+use glam::DVec3;
+
 use super::Mesh;
 
 /// The place of each vertex, and how many there are: vertices whose positions are equal (0 = -0) share one. Places
@@ -104,5 +106,12 @@ impl Mesh {
     /// Whether the mesh bounds a solid: see [`Topology::is_closed`].
     pub fn is_closed(&self) -> bool {
         inspect(self).is_closed()
+    }
+
+    /// The volume that a closed mesh bounds, in its own units; negative where more of it is inside out than not.
+    pub fn signed_volume(&self) -> f64 {
+        let corner = |index: &u32| DVec3::from(self.positions[*index as usize].map(f64::from)) - self.bounds.center();
+        let sixfold = |t: &[u32]| corner(&t[0]).dot(corner(&t[1]).cross(corner(&t[2])));
+        self.indices.chunks_exact(3).map(sixfold).sum::<f64>() / 6.0
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{Input, Program, Uniform};
+use super::{Face, Input, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -33,6 +33,8 @@ pub struct Batch {
     pub program: Program,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
+    /// Faces that are not drawn, beside those of the pass's own state.
+    pub cull: Option<Face>,
     pub draws: Vec<Draw>,
 }
 

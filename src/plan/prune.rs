@@ -49,12 +49,18 @@ fn cull_draws(plan: &mut Plan) {
         let label = pass.label.clone();
         let Work::Draw(draw_pass) = &mut pass.work else { continue };
         for batch in &mut draw_pass.batches {
+            let culls = batch.cull.is_some();
             batch.draws.retain(|draw| {
                 let seen = frustum::overlap(&draw.clip_from_model, &draw.bounds) != Overlap::Outside;
                 if !seen {
                     left_out.push(LeftOut {
                         what: format!("{} in \"{label}\"", draw.label),
                         why: String::from("outside the pass's frustum"),
+                    });
+                } else if culls {
+                    left_out.push(LeftOut {
+                        what: format!("back faces of {} in \"{label}\"", draw.label),
+                        why: String::from("it is closed and seen from outside"),
                     });
                 }
                 seen

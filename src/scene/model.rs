@@ -102,4 +102,7 @@ pub struct Object {
     pub lit: bool,
     /// Whether it is drawn into shadow maps.
     pub casts_shadow: bool,
+    /// Declared, and checked: the mesh is closed and its faces look outwards, so that no back face is ever seen from
+    /// outside of it.
+    pub closed: bool,
 }

@@ -25,6 +25,8 @@ pub struct Item {
     pub world_from_model: DMat4,
     pub lit: bool,
     pub casts_shadow: bool,
+    /// See [`crate::scene::Object::closed`].
+    pub closed: bool,
 }
 
 /// The scene's items, in its order. Parts of a mesh that share a material and follow one another are one item; what
@@ -55,6 +57,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
                 world_from_model: object.world_from_model,
                 lit: object.lit,
                 casts_shadow: object.casts_shadow,
+                closed: object.closed,
             });
         }
     }

@@ -43,6 +43,7 @@ pub fn object(name: &str, mesh: Mesh) -> Object {
         material: None,
         lit: true,
         casts_shadow: true,
+        closed: false,
     }
 }
 

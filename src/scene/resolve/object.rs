@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 
 use super::material;
+use crate::geometry::Mesh;
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
@@ -17,13 +18,28 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let world_from_model = placement(&mut reader)?;
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
+    let closed = reader.boolean("closed")?.unwrap_or(false);
     let material = reader.table("material")?;
     reader.finish()?;
     let material = material.map(|table| material::read(table, &name, assets)).transpose()?;
     let mesh = assets.mesh(mesh, mesh_origin)?;
-    let object = Object { name, mesh, world_from_model, material, lit, casts_shadow };
+    if closed {
+        check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
+    }
+    let object = Object { name, mesh, world_from_model, material, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     Ok(object)
+}
+
+/// Why a mesh is not what `closed = true` says of it.
+fn check_closed(mesh: &Mesh) -> Result<(), &'static str> {
+    if !mesh.is_closed() {
+        return Err("is not true: the mesh has open, crowded or turned edges");
+    }
+    if mesh.signed_volume() <= 0.0 {
+        return Err("needs faces that look outwards: those of the mesh look inwards");
+    }
+    Ok(())
 }
 
 /// `world_from_model`: scaled, then rotated, then translated.

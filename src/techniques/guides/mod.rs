@@ -32,7 +32,7 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
         attributes: vec![Attribute::Position],
     };
     let uniforms = vec![Uniform::new("guide_color", UniformValue::Vec3(YELLOW))];
-    (!draws.is_empty()).then_some(Batch { program, uniforms, inputs: Vec::new(), draws })
+    (!draws.is_empty()).then_some(Batch { program, uniforms, inputs: Vec::new(), cull: None, draws })
 }
 
 fn frustum_draw(light: &Light, viewer: &Viewer) -> Draw {

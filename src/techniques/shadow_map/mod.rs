@@ -199,7 +199,13 @@ fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList
             .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
         {
             Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch { program, uniforms: test.uniforms, inputs: test.inputs, draws: vec![draw] }),
+            None => batches.push(Batch {
+                program,
+                uniforms: test.uniforms,
+                inputs: test.inputs,
+                cull: None,
+                draws: vec![draw],
+            }),
         }
     }
     batches

@@ -27,12 +27,15 @@ struct Needs {
     normals: bool,
     per_vertex: bool,
     ambient: bool,
+    /// Front faces only, so that normals need not be turned.
+    one_sided: bool,
 }
 
 /// Program, uniforms and inputs for `item`.
 pub fn of(
     scene: &Scene,
     item: &Item,
+    one_sided: bool,
     lights: &[LightParts],
     ending: &Ending,
     list: &mut PassList,
@@ -44,6 +47,7 @@ pub fn of(
         normals: lit && item.lit && !lights.is_empty(),
         per_vertex: lit && scene.shading.per_vertex && !lights.is_empty(),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
+        one_sided,
     };
     let mut inputs = cut.inputs.clone();
     let mut uniforms = cut.uniforms.clone();
@@ -101,7 +105,7 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
         ("EYE_POSITION", lit && !lights.is_empty() && !needs.per_vertex),
         ("NORMALS", needs.normals),
         ("EYE_NORMAL", per_fragment),
-        ("TWO_SIDED", per_fragment),
+        ("TWO_SIDED", per_fragment && !needs.one_sided),
         ("UNLIT", lit && !item.lit),
         ("SPECULAR", needs.specular),
         ("PER_VERTEX", needs.per_vertex),
