@@ -3,34 +3,17 @@
 use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::oracle::ray;
-use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::metrics::{Band, Metrics, ShadeImage, compare};
+use glumbra::report::metrics::{Band, Metrics, compare};
+use glumbra::report::run::draw_shade;
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
 
 fn scene(overrides: &[&str]) -> Scene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut all = vec![format!("object.1.mesh={:?}", root.join("data/meshes/dense.obj"))];
     all.extend(overrides.iter().map(|text| (*text).to_owned()));
     scene::load(&root.join("data/scenes/example.toml"), &all).unwrap().scene
-}
-
-fn shade(renderer: &mut Renderer, scene: &Scene) -> ShadeImage {
-    let views = vec![ViewRequest { view: View::Shade, light: 0 }];
-    let plan = renderer.plan(scene, &Request { views, ..Request::default() }).unwrap();
-    renderer.draw(&plan).unwrap();
-    let Pixels::RgbaF32 { size: [width, height], data } = renderer.read(&plan).unwrap().views.remove(0) else {
-        panic!("shade is not in float");
-    };
-    ShadeImage {
-        width,
-        height,
-        shade: data.chunks_exact(4).map(|p| p[0]).collect(),
-        covered: data.chunks_exact(4).map(|p| p[3] > 0.0).collect(),
-    }
 }
 
 fn measure(size: u32, offset: [f64; 2], truth: &ray::Truth, renderer: &mut Renderer) -> Metrics {
@@ -40,7 +23,7 @@ fn measure(size: u32, offset: [f64; 2], truth: &ray::Truth, renderer: &mut Rende
         &format!("light.shadow.offset={{factor={factor}, units={units}}}"),
     ]);
     let band = Band { texels: 2.0, map_size: [size; 2] };
-    compare(truth, &shade(renderer, &scene), &band).unwrap()
+    compare(truth, &draw_shade(&scene, 0, renderer).unwrap(), &band).unwrap()
 }
 
 /// With the documents' offset what is left lies in the edge band (two texels), but for facets that are steeper than the

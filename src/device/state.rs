@@ -2,7 +2,7 @@
 
 use glow::HasContext;
 
-use crate::pass::{Blend, Compare, DrawState, Face};
+use crate::pass::{Compare, DrawState, Face};
 
 /// The state that GL is known to have, and the winding of front faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,15 +33,8 @@ pub fn apply(gl: &glow::Context, state: &DrawState, known: &mut Option<Applied>)
             }
             None => gl.disable(glow::POLYGON_OFFSET_FILL),
         }
-        match state.blend {
-            Some(Blend::Add) => {
-                gl.enable(glow::BLEND);
-                gl.blend_equation(glow::FUNC_ADD);
-                gl.blend_func(glow::ONE, glow::ONE);
-            }
-            None => gl.disable(glow::BLEND),
-        }
         if known.is_none() {
+            gl.disable(glow::BLEND);
             gl.disable(glow::SCISSOR_TEST);
             gl.disable(glow::STENCIL_TEST);
             gl.disable(glow::DITHER);

@@ -24,12 +24,6 @@ pub struct PolygonOffset {
     pub units: f32,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Blend {
-    /// GL_ONE, GL_ONE.
-    Add,
-}
-
 /// All of GL's per-fragment and raster state that a pass of ours can set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
@@ -42,7 +36,6 @@ pub struct DrawState {
     pub polygon_offset: Option<PolygonOffset>,
     /// glDepthRange; reversed where the first exceeds the second.
     pub depth_range: [f32; 2],
-    pub blend: Option<Blend>,
 }
 
 impl DrawState {
@@ -54,7 +47,6 @@ impl DrawState {
         cull: None,
         polygon_offset: None,
         depth_range: [0.0, 1.0],
-        blend: None,
     };
 
     /// Colour and depth: LESS.

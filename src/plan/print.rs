@@ -143,7 +143,7 @@ fn compare_name(compare: Compare) -> &'static str {
 }
 
 fn state_words(pass: &DrawPass) -> Vec<String> {
-    let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range, blend } = pass.state;
+    let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range } = pass.state;
     let mut words = Vec::new();
     if let Some([r, g, b, a]) = pass.clear.color {
         words.push(format!("clear colour ({r}, {g}, {b}, {a})"));
@@ -169,9 +169,6 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
     }
     if depth_range != [0.0, 1.0] {
         words.push(format!("depth range ({}, {})", depth_range[0], depth_range[1]));
-    }
-    if let Some(blend) = blend {
-        words.push(format!("blend {blend:?}").to_lowercase());
     }
     words
 }

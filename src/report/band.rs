@@ -10,9 +10,18 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::edges::Pair;
-use super::metrics::Band;
 use crate::oracle::ray::Truth;
 
+/// What counts as near a true shadow edge: within so many texels of a map that the light's square frustum fills.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Band {
+    /// k, not below 0. Pixels next to the edge belong to the band at any k.
+    pub texels: f64,
+    /// Of the whole frustum at the light's angle; for a map that covers less, of the map that would.
+    pub map_size: [u32; 2],
+}
+
+/// The pixels of `truth` within `band` of its shadow `edges`.
 pub(super) fn find_band(truth: &Truth, edges: &[Pair], band: &Band) -> Vec<bool> {
     let size = DVec2::new(f64::from(band.map_size[0]), f64::from(band.map_size[1]));
     let texel = |index: usize| truth.pixels[index].hit.map_or(DVec2::INFINITY, |hit| 0.5 * hit.in_light * size);

@@ -4,6 +4,7 @@
 //! out. A shade below 0.5 is shadow. All percentages are of the pixels compared, so that false shadow and leak add up
 //! to the total.
 
+pub use super::band::Band;
 use super::band::find_band;
 use super::edges::{Pair, connected_pairs, distances};
 use crate::oracle::ray::{Answer, Pixel, Truth};
@@ -20,15 +21,6 @@ pub struct ShadeImage {
     pub shade: Vec<f32>,
     /// Whether the picture shows a surface there.
     pub covered: Vec<bool>,
-}
-
-/// What counts as near a true shadow edge: within so many texels of a map that the light's square frustum fills.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Band {
-    /// k, not below 0. Pixels next to the edge belong to the band at any k.
-    pub texels: f64,
-    /// Of the whole frustum at the light's angle; for a map that covers less, of the map that would.
-    pub map_size: [u32; 2],
 }
 
 /// All errors of one picture.

@@ -236,10 +236,9 @@ fn an_empty_scene_is_background() {
     assert_eq!(truth.drawn(), 0);
 }
 
-/// `cargo test --release --test oracle -- --ignored --nocapture speed`
+/// Its time is printed, not judged: `cargo test --release --test oracle -- --nocapture dense`.
 #[test]
-#[ignore = "prints a time"]
-fn speed() {
+fn a_dense_sphere_leaves_little_doubt() {
     let body = object("sphere", mesh(&sphere(DVec3::new(0.2, 1.0, 0.1), 1.0, 132)));
     let mut scene = scene(vec![floor(), body], light(DVec3::new(1.5, 4.5, -1.0), DVec3::ZERO));
     scene.camera.eye = DVec3::new(0.5, 2.0, 3.0);
@@ -254,4 +253,5 @@ fn speed() {
         truth.drawn(),
         truth.reasons()
     );
+    assert!(truth.drawn() > 100_000 && truth.ambiguous_share() < 0.003);
 }
