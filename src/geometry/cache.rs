@@ -66,6 +66,7 @@ impl Mesh {
             parts: self.parts.clone(),
             materials: self.materials.clone(),
             bounds: self.bounds,
+            ..Mesh::default()
         }
     }
 }

@@ -192,7 +192,7 @@ impl Builder<'_> {
     fn surfaces(&mut self, onto: &Onto<'_>, terms: &[LightTerm], ending: &Ending) -> Result<(), Error> {
         let batches = surface::batches(self.scene, self.items, onto.viewer, terms, ending, self.list);
         let batches = batches.ok_or_else(|| self.singular(terms))?;
-        let clear = Clear { color: Some(onto.background), depth: Some(1.0) };
+        let clear = Clear { color: Some(onto.background), depth: Some(1.0), stencil: None };
         let Onto { target, viewport, .. } = *onto;
         self.push(onto.label, DrawPass { target, viewport, clear, state: DrawState::OPAQUE, batches });
         Ok(())

@@ -8,8 +8,8 @@ use glam::DMat4;
 use crate::geometry::{Material, Texture};
 use crate::math::Aabb;
 use crate::pass::{
-    Attribute, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
-    Sampler, Storage, Uniform, Wrap, glsl,
+    Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
+    Program, Sampler, Storage, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 
@@ -170,6 +170,37 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
         out.inputs.push(upload("alpha_map", texture, DECAL_SAMPLER, list));
     }
     out
+}
+
+/// The batches that draw the depth of `items` alone, with holes where the alpha test makes them.
+pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
+    let mut batches: Vec<Batch> = Vec::new();
+    for item in items {
+        let test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
+        let mut vertex = vec![glsl!("common/position.vert")];
+        vertex.extend(test.vertex);
+        vertex.push(glsl!("depth/depth.vert"));
+        let mut fragment = test.fragment;
+        fragment.push(glsl!("depth/depth.frag"));
+        let mut attributes = vec![Attribute::Position];
+        attributes.extend(test.attributes);
+        let program = Program { label: String::from("depth"), defines: test.defines, vertex, fragment, attributes };
+        let draw = item.draw(clip_from_world, Vec::new());
+        match batches
+            .iter_mut()
+            .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
+        {
+            Some(batch) => batch.draws.push(draw),
+            None => batches.push(Batch {
+                program,
+                uniforms: test.uniforms,
+                inputs: test.inputs,
+                cull: None,
+                draws: vec![draw],
+            }),
+        }
+    }
+    batches
 }
 
 /// Binds a texture of the scene; the same one becomes one image however often it is bound.
