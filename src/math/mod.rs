@@ -4,6 +4,7 @@
 mod aabb;
 pub mod dd;
 pub mod frustum;
+pub mod ledge;
 pub mod spaces;
 pub mod texgen;
 

@@ -1,6 +1,9 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
+mod builder;
 mod compose;
+mod counted;
+mod lens;
 mod print;
 mod prune;
 
@@ -96,6 +99,8 @@ pub enum Error {
     NoSuchLight { view: String, count: usize },
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
+    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
+    NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
