@@ -45,7 +45,12 @@ impl Hull {
         let points = bounds.corners().map(|corner| world_from_model.transform_point3(corner)).to_vec();
         let edges = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| world_from_model.transform_vector3(axis));
         let [x, y, z] = edges;
-        Self { points, directions: Vec::new(), normals: vec![x.cross(y), y.cross(z), z.cross(x)], edges: edges.to_vec() }
+        Self {
+            points,
+            directions: Vec::new(),
+            normals: vec![x.cross(y), y.cross(z), z.cross(x)],
+            edges: edges.to_vec(),
+        }
     }
 
     /// All that lies in `directions` from the origin: only their angles matter.

@@ -28,7 +28,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         views.push((*wanted, image));
     }
     let picture = target.color.unwrap_or(ImageId(0));
-    Ok(Plan { list, picture, views, left_out: notes.left_out, warnings: notes.warnings })
+    Ok(Plan { list, picture, views, left_out: notes.left_out, chosen: notes.chosen, warnings: notes.warnings })
 }
 
 /// A light's term, and whether the picture needs it.
@@ -66,6 +66,7 @@ fn light_terms(
         } else {
             technique.describe(&view, &mut keys, &mut spare_list, &mut spare_notes)?
         };
+        techniques::check_others(technique, &mut keys)?;
         keys.finish()?;
         if let Some(why) = absent {
             notes.left_out(format!("light {index}"), why);

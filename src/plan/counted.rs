@@ -51,7 +51,9 @@ impl Builder<'_> {
 
     /// Whether depth and count of a frame serve the next: one count, and frames that may use it again.
     fn keeps_count(&mut self, counted: &[&LightTerm]) -> bool {
-        counted.len() == 1 && self.request.frames > 1 && !self.request.keep_all
+        let [term] = counted else { return false };
+        let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
+        may && self.request.frames > 1 && !self.request.keep_all
     }
 
     /// Depth alone, kept from frame to frame.
@@ -78,9 +80,8 @@ impl Builder<'_> {
     /// The count itself, over depth that is there.
     fn count(&mut self, target: Target, lens: &Lens, counting: &Counting, prefix: &str, redraw: Redraw) {
         for (index, pass) in counting.passes.iter().enumerate() {
-            let clip_from_world = lens.viewer(pass.layer).clip_from_world();
             let fragment = glsl!("depth/depth.frag");
-            let batches = Counting::batches(&pass.draws, &clip_from_world, None, fragment, Vec::new());
+            let batches = Counting::batches(&pass.draws, &lens.viewer(pass.layer), None, fragment, Vec::new());
             let drawn = DrawPass {
                 target: Target { color: None, ..target },
                 viewport: self.scene.image.size,
@@ -182,10 +183,9 @@ impl Builder<'_> {
                 (Some(crate::pass::Face::Back), [0.95, 0.55, 0.1, 0.25]),
             ],
         };
-        let clip_from_world = lens.camera.clip_from_world();
         let batches = layers.iter().flat_map(|(cull, color)| {
             let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
-            Counting::batches(draws, &clip_from_world, *cull, glsl!("shadow_volume/colored.frag"), uniforms)
+            Counting::batches(draws, &lens.camera, *cull, glsl!("shadow_volume/colored.frag"), uniforms)
         });
         let pass = DrawPass {
             target,

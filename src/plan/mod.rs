@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{LeftOut, views::View};
+use crate::techniques::{Chosen, LeftOut, views::View};
 
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]
@@ -87,6 +87,7 @@ pub struct Plan {
     /// In the request's order.
     pub views: Vec<(ViewRequest, ImageId)>,
     pub left_out: Vec<LeftOut>,
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 
@@ -145,6 +146,7 @@ pub struct Summary {
     /// Vertex and index buffers: each attribute and index order of each mesh that a draw reads, once.
     pub buffer_bytes: u64,
     pub left_out: Vec<LeftOut>,
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 

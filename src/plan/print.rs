@@ -29,6 +29,7 @@ impl Plan {
             images,
             buffer_bytes: self.buffer_bytes(),
             left_out: self.left_out.clone(),
+            chosen: self.chosen.clone(),
             warnings: self.warnings.clone(),
         }
     }
@@ -255,6 +256,12 @@ impl Display for Summary {
         writeln!(f, "\nBuffers: {:.1} MiB; images: {:.1} MiB", mib(self.buffer_bytes), mib(self.image_bytes))?;
         for image in &self.images {
             writeln!(f, "   {} {} {}x{}", image.label, image.format, image.size[0], image.size[1])?;
+        }
+        if !self.chosen.is_empty() {
+            writeln!(f, "\nChosen:")?;
+        }
+        for chosen in &self.chosen {
+            writeln!(f, "   {}: {}: {}", chosen.of, chosen.choice, chosen.why)?;
         }
         writeln!(f, "\nLeft out:")?;
         for left_out in &self.left_out {

@@ -17,6 +17,8 @@ use crate::scene::Scene;
 #[derive(Clone, Debug)]
 pub struct Item {
     pub label: String,
+    /// Into [`Scene::objects`].
+    pub object: usize,
     pub mesh: MeshRef,
     pub indices: std::ops::Range<u32>,
     /// In model space.
@@ -34,7 +36,7 @@ pub struct Item {
 pub fn items(scene: &Scene) -> Vec<Item> {
     let mut materials = Materials::default();
     let mut items: Vec<Item> = Vec::new();
-    for object in &scene.objects {
+    for (index, object) in scene.objects.iter().enumerate() {
         let mut last_material: Option<Option<usize>> = None;
         for part in object.mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let own = if object.material.is_some() { None } else { part.material };
@@ -50,6 +52,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
             last_material = Some(own);
             items.push(Item {
                 label: object.name.clone(),
+                object: index,
                 mesh: MeshRef(object.mesh.clone()),
                 indices: part.indices.clone(),
                 bounds: part.bounds,

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use glam::{DMat4, Vec4};
 
+use super::surface::Viewer;
 use super::{Item, items};
 use crate::math::Aabb;
 use crate::math::texgen::{SetUp, Split, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Uniform,
-    glsl,
+    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw,
+    Uniform, glsl,
 };
 use crate::scene::{Light, Scene};
 
@@ -67,6 +68,8 @@ pub struct LightTerm {
 #[derive(Clone, Debug)]
 pub struct Counting {
     pub passes: Vec<CountPass>,
+    /// Whether a frame may keep the count of the one before.
+    pub redraw: Redraw,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
     /// Volumes need depth before the near plane: surfaces leave it to them (C8).
@@ -105,16 +108,25 @@ pub struct VolumeDraw {
     pub mesh: MeshRef,
     pub primitive: Primitive,
     pub indices: Range<u32>,
-    pub world_from_model: DMat4,
+    pub space: VolumeSpace,
     /// Triangles look outwards where they wind clockwise.
     pub reversed: bool,
+}
+
+/// The space of a volume's vertices.
+#[derive(Clone, Copy, Debug)]
+pub enum VolumeSpace {
+    /// Its caster's own, so that caps are transformed as surfaces are.
+    Model { world_from_model: DMat4 },
+    /// The camera's, for volumes that are cut at its near plane.
+    Eye,
 }
 
 impl Counting {
     /// The batches that draw `draws`, which `fragment` colours.
     pub fn batches(
         draws: &[VolumeDraw],
-        clip_from_world: &DMat4,
+        viewer: &Viewer,
         cull: Option<Face>,
         fragment: Chunk,
         uniforms: Vec<Uniform>,
@@ -129,14 +141,17 @@ impl Counting {
             fragment: vec![fragment],
             attributes: vec![Attribute::Position],
         };
-        let draws = draws.iter().map(|draw| draw.under(clip_from_world)).collect();
+        let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
         vec![Batch { program, uniforms, inputs: Vec::new(), cull, draws }]
     }
 }
 
 impl VolumeDraw {
-    fn under(&self, clip_from_world: &DMat4) -> Draw {
-        let clip_from_model = *clip_from_world * self.world_from_model;
+    fn under(&self, viewer: &Viewer) -> Draw {
+        let clip_from_model = match self.space {
+            VolumeSpace::Model { world_from_model } => viewer.clip_from_world() * world_from_model,
+            VolumeSpace::Eye => viewer.clip_from_eye,
+        };
         Draw {
             label: self.label.clone(),
             mesh: self.mesh.clone(),
