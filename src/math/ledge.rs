@@ -87,10 +87,8 @@ mod tests {
             };
             for k in 0..=20 {
                 let z = -near * (far / near).powf(f64::from(k) / 20.0);
-                let [a, b] = [
-                    window(&scene, ledge.scene_range, z),
-                    window(&ledge.volume_clip_from_view, ledge.volume_range, z),
-                ];
+                let [a, b] =
+                    [window(&scene, ledge.scene_range, z), window(&ledge.volume_clip_from_view, ledge.volume_range, z)];
                 // f64 rounding of the two products.
                 assert!((a - b).abs() < 1e-12, "{near} {far} {z}: {a} {b}");
             }

@@ -81,8 +81,14 @@ impl Caster {
         let order = shells::sorted_by_shell(&triangles);
         let triangles: Vec<[u32; 3]> = order.iter().map(|(_, triangle)| triangles[*triangle as usize]).collect();
         let (plain, other) = find_edges(&triangles);
-        let mut caster =
-            Self { planes: Planes::new(&positions, &triangles), positions, triangles, shells: Vec::new(), plain, other };
+        let mut caster = Self {
+            planes: Planes::new(&positions, &triangles),
+            positions,
+            triangles,
+            shells: Vec::new(),
+            plain,
+            other,
+        };
         caster.shells = shells::describe(&caster, &order);
         caster
     }

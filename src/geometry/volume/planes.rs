@@ -35,10 +35,8 @@ pub(super) struct Planes {
 impl Planes {
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
         let position = |place: u32| DVec3::from_array(positions[place as usize].map(f64::from));
-        let mut planes = Self {
-            center: triangles.first().map_or(DVec3::ZERO, |triangle| position(triangle[0])),
-            ..Self::default()
-        };
+        let mut planes =
+            Self { center: triangles.first().map_or(DVec3::ZERO, |triangle| position(triangle[0])), ..Self::default() };
         for array in [&mut planes.x, &mut planes.y, &mut planes.z, &mut planes.offset] {
             array.reserve_exact(triangles.len());
         }
