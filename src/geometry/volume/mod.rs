@@ -26,6 +26,7 @@ mod caster;
 mod extrude;
 mod loops;
 mod near_cap;
+mod near_plane;
 mod outline;
 mod planes;
 mod seen;
