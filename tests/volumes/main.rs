@@ -1,0 +1,10 @@
+//! Shadow volumes on the CPU, without GL: closure, counts against brute force and against the oracle, caps.
+
+mod closure;
+mod counts;
+mod homogeneous;
+mod near_plane;
+#[path = "../oracle/scenes.rs"]
+#[allow(dead_code)]
+mod scenes;
+mod shapes;
