@@ -4,6 +4,7 @@ mod closure;
 mod counts;
 mod homogeneous;
 mod near_plane;
+mod oracle;
 #[path = "../oracle/scenes.rs"]
 #[allow(dead_code)]
 mod scenes;

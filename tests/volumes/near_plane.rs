@@ -31,9 +31,9 @@ fn check(case: &str, mesh: &Mesh, facing_only: bool, world_from_model: &DMat4, s
     let source = match seed % 4 {
         0 => Source::Direction(random.vector(1.0)),
         // In the near plane itself.
-        1 if seed % 8 == 1 => Source::Point(
-            view_from_world.inverse().transform_point3(random.vector(2.0).with_z(-NEAR)),
-        ),
+        1 if seed % 8 == 1 => {
+            Source::Point(view_from_world.inverse().transform_point3(random.vector(2.0).with_z(-NEAR)))
+        }
         _ => Source::Point(random.vector(3.0)),
     };
     let view_from_model = view_from_world * *world_from_model;
