@@ -8,6 +8,7 @@ mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+mod parts;
 mod present;
 pub mod probe;
 mod program;
@@ -28,6 +29,7 @@ use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampl
 
 pub use error::Error;
 pub use readback::Pixels;
+pub(crate) use state::compare_code;
 pub use run::{Measure, PassTime};
 
 /// A GL context's objects, and the passes that they already hold.
@@ -98,7 +100,7 @@ impl Device {
     }
 
     /// Any GL error since the last check, as an error of ours with the pass's label.
-    fn check(&self, label: &str) -> Result<(), Error> {
+    pub(crate) fn check(&self, label: &str) -> Result<(), Error> {
         Ok(self.debug.check(label)?)
     }
 }
