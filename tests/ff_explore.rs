@@ -41,7 +41,7 @@ fn explore() {
         for (mode, float) in [(Mode::Shadowed, false), (Mode::Shadowed, true), (Mode::Camera, true), (Mode::Light, true)] {
             let (scene, mut request) = mode.frame(&loaded.scene, loaded.scene.image.size);
             request.float_picture = float;
-            if mode == Mode::Shadowed {
+            if mode == Mode::Shadowed && std::env::var("NOVIEWS").is_err() {
                 request.views = (0..scene.lights.len()).flat_map(|light| [View::Shade, View::ProjectedMap, View::Depth].map(|view| ViewRequest { view, light })).collect();
             }
             let request = Request { ..request };
@@ -50,6 +50,10 @@ fn explore() {
             if !bad.is_empty() { println!("  {mode:?}: {bad:#?}"); continue }
             fixed.run(&plan.list).unwrap();
             let ff: Vec<Pixels> = [plan.picture].into_iter().chain(plan.views.iter().map(|v| v.1)).map(|id| fixed.read(&plan.list, id).unwrap()).collect();
+            if let Ok(dir) = std::env::var("FFOUT") {
+                let name = format!("{dir}/{}-{mode:?}-{float}.png", Path::new(path).file_stem().unwrap().to_string_lossy());
+                glumbra::output::write_all(&[glumbra::output::Output { path: Path::new(&name), pixels: &ff[0], view: None }]).unwrap();
+            }
             for arithmetic in [false, true] {
                 if arithmetic { plan.list = fixed.in_driver_arithmetic(&plan.list); }
                 renderer.device().forget();

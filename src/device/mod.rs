@@ -94,9 +94,11 @@ impl Device {
         known.map(|known| probe::depth_format(&self.gl, known)).transpose()
     }
 
-    /// Forgets which passes their targets hold, so that the next run draws them all.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever else
+    /// has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
+        self.state = None;
     }
 
     /// Any GL error since the last check, as an error of ours with the pass's label.

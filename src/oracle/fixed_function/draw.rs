@@ -13,7 +13,11 @@ impl FixedFunction {
     pub(super) fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
         self.device.begin(list, label, pass)?;
         // SAFETY: the context is current.
-        unsafe { self.gl.use_program(None) };
+        unsafe {
+            self.gl.use_program(None);
+            self.gl.enable(raw::COLOR_SUM);
+            self.gl.disable(raw::COLOR_SUM);
+        }
         for batch in &pass.batches {
             // The list has been found expressible.
             for layer in self.layers(batch).unwrap_or_default() {
@@ -33,14 +37,18 @@ impl FixedFunction {
             self.binding.MatrixMode(raw::MODELVIEW);
             self.binding.LoadIdentity();
         }
-        for (index, unit) in (0..).zip(&layer.units) {
-            let bound = match unit.image {
+        // Masks are made when they are first needed, on a unit that must not yet be set up.
+        let mut textures = Vec::new();
+        for unit in &layer.units {
+            textures.push(match unit.image {
                 UnitImage::Mask(mask) => Some(Bound { texture: self.masks.get(mask)?, sampler: None, red_as_alpha: false }),
                 UnitImage::Input { index, red_as_alpha } => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.texture(input.image)?;
                     Some(Bound { texture, sampler: Some(input.sampler), red_as_alpha })
                 }),
-            };
+            });
+        }
+        for ((index, unit), bound) in (0..).zip(&layer.units).zip(textures) {
             if let Some(bound) = bound {
                 units::enable(&self.gl, &self.binding, index, unit, bound);
             }
