@@ -21,7 +21,7 @@ fn stat(name: &str, a: &Pixels, b: &Pixels) {
     let n255 = a.chunks(4).zip(b.chunks(4)).filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a.min(1.0) - b.min(1.0)).abs() > 1.001 / 255.0)).count();
     let max = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     let sum: f32 = b.iter().sum();
-    println!("  {name}: differ {n}, by more than 1/255 {n255}, max {max} (sum {sum})");
+    print!(" | {name}: {n}/{n255} {max:.6}{}", if sum == 0.0 {" EMPTY"} else {""});
 }
 
 #[test]
@@ -36,13 +36,13 @@ fn explore() {
         let mut words = entry.split_whitespace();
         let path = words.next().unwrap();
         let set: Vec<String> = words.map(str::to_owned).collect();
-        println!("== {entry}");
+        println!("\n== {entry}");
         let Ok(loaded) = scene::load(Path::new(path), &set) else { println!("  does not load"); continue };
         for (mode, float) in [(Mode::Shadowed, false), (Mode::Shadowed, true), (Mode::Camera, true), (Mode::Light, true)] {
             let (scene, mut request) = mode.frame(&loaded.scene, loaded.scene.image.size);
             request.float_picture = float;
             if mode == Mode::Shadowed && std::env::var("NOVIEWS").is_err() {
-                request.views = (0..scene.lights.len()).flat_map(|light| [View::Shade, View::ProjectedMap, View::Depth].map(|view| ViewRequest { view, light })).collect();
+                request.views = (0..scene.lights.len()).flat_map(|light| [View::Shade, View::ProjectedMap].map(|view| ViewRequest { view, light })).collect();
             }
             let request = Request { ..request };
             let mut plan = match renderer.plan(&scene, &request) { Ok(plan) => plan, Err(e) => { println!("  no plan {e}"); continue } };
@@ -59,7 +59,7 @@ fn explore() {
                 renderer.device().forget();
                 renderer.device().run(&plan.list, Measure::No).unwrap();
                 let frame = renderer.read(&plan).unwrap();
-                println!(" {mode:?} float {float} driver arithmetic {arithmetic}");
+                print!("\n {mode:?} {} {}", if float {"float"} else {"8bit"}, if arithmetic {"driver"} else {"own"});
                 stat("picture", &frame.picture, &ff[0]);
                 for ((what, _), (a, b)) in plan.views.iter().zip(frame.views.iter().zip(&ff[1..])) { stat(&format!("{}@{}", what.view.name(), what.light), a, b); }
             }

@@ -72,6 +72,8 @@ pub struct Unit {
     pub coordinates: Coordinates,
     pub rgb: Combine,
     pub alpha: Combine,
+    /// 1, 2 or 4; what it makes of alpha is clamped to [0, 1].
+    pub alpha_scale: f32,
     pub constant: [f32; 4],
 }
 

@@ -72,7 +72,7 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
         stack.cone(&view.projection);
         let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
         outside.units = stack.finish();
-        outside.alpha_test = Some((Compare::GreaterEqual, 1.0));
+        outside.alpha_test = Some((Compare::LessEqual, 0.0));
         outside.blend = Blend::Erase;
         outside.first = false;
         layers.push(outside);
@@ -231,7 +231,7 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
         name: format!("{name} {}", projection.light),
         primary,
         units: stack.finish(),
-        alpha_test: projection.cone.then_some((Compare::Less, 1.0)),
+        alpha_test: projection.cone.then_some((Compare::Greater, 0.0)),
         blend: Blend::Add,
         first: false,
         alpha_write: false,

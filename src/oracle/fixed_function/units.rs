@@ -144,7 +144,7 @@ fn set_combiners(fixed: &Binding, unit: &Unit) {
         fixed.TexEnvi(raw::TEXTURE_ENV, raw::TEXTURE_ENV_MODE, raw::COMBINE as i32);
         fixed.TexEnvfv(raw::TEXTURE_ENV, raw::TEXTURE_ENV_COLOR, unit.constant.as_ptr());
         fixed.TexEnvf(raw::TEXTURE_ENV, raw::RGB_SCALE, 1.0);
-        fixed.TexEnvf(raw::TEXTURE_ENV, raw::ALPHA_SCALE, 1.0);
+        fixed.TexEnvf(raw::TEXTURE_ENV, raw::ALPHA_SCALE, unit.alpha_scale);
     }
     set_combiner(fixed, raw::COMBINE_RGB, [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB], raw::OPERAND0_RGB, unit.rgb);
     let sources = [raw::SRC0_ALPHA, glow::SRC1_ALPHA, raw::SRC2_ALPHA];
