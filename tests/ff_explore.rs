@@ -20,6 +20,15 @@ fn stat(name: &str, a: &Pixels, b: &Pixels) {
     let n = a.chunks(4).zip(b.chunks(4)).filter(|(a, b)| a != b).count();
     let n255 = a.chunks(4).zip(b.chunks(4)).filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a.min(1.0) - b.min(1.0)).abs() > 1.001 / 255.0)).count();
     let max = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    if std::env::var("FFHIST").is_ok() {
+        let mut hist = [0; 8];
+        for (i, (a, b)) in a.iter().zip(&b).enumerate() {
+            let d = (a - b).abs();
+            if d > 0.0 { hist[((-d.log10()) as usize).min(7)] += 1; }
+            if d == max { println!("max at ({}, {}) channel {}: {a} {b}", (i / 4) % 512, i / 4 / 512, i % 4); }
+        }
+        println!("{hist:?}");
+    }
     let sum: f32 = b.iter().sum();
     print!(" | {name}: {n}/{n255} {max:.6}{}", if sum == 0.0 {" EMPTY"} else {""});
 }

@@ -94,6 +94,11 @@ impl FixedFunction {
         Ok(())
     }
 
+    /// Waits until all that was asked of GL is done.
+    pub fn finish(&self) {
+        self.device.finish();
+    }
+
     /// Reads an image of the list that was run last.
     ///
     /// # Errors
