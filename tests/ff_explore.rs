@@ -13,6 +13,7 @@ fn floats(p: &Pixels) -> Vec<f32> {
         Pixels::Rgba8 { data, .. } => data.iter().map(|b| f32::from(*b) / 255.0).collect(),
         Pixels::RgbaF32 { data, .. } => data.clone(),
         Pixels::Depth { data, .. } => data.clone(),
+        Pixels::Stencil { .. } => panic!("no stencil"),
     }
 }
 fn stat(name: &str, a: &Pixels, b: &Pixels) {

@@ -18,7 +18,7 @@ use crate::pass::{Batch, Compare, Lit, Meaning, PointLight, Projection, Sampled,
 pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
     match &batch.meaning {
         Meaning::Depth(texturing) => Ok(vec![cut_out("depth", batch, texturing)?]),
-        Meaning::Constant([r, g, b]) => Ok(vec![Layer::first("colour", Primary::Color([*r, *g, *b, 1.0]))]),
+        Meaning::Constant(color) => Ok(vec![Layer::first("colour", Primary::Color(*color))]),
         Meaning::Lit(lit) => lit_layers(batch, lit),
         Meaning::Sampled(view) => view_layers(batch, view),
         Meaning::Shader(what) => Err((*what).to_owned()),

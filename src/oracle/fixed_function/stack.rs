@@ -72,6 +72,12 @@ impl<'a> Stack<'a> {
     pub fn shade(&mut self, shade: &Shade, projection: &Projection, dimming: f32) -> Result<(), String> {
         let name = match shade {
             Shade::Lit => return Ok(()),
+            Shade::Dark if dimming == 0.0 => {
+                self.pass_on(Combine::Replace(Operand::Constant), KEPT);
+                self.constant([0.0, 0.0, 0.0, 1.0]);
+                return Ok(());
+            }
+            Shade::Dark => return Err(String::from("a shadow everywhere, dimmed")),
             Shade::Shader(what) => return Err((*what).to_owned()),
             Shade::Texture { input, .. } => input,
         };
