@@ -7,8 +7,8 @@ use super::compose::PlannedLight;
 use super::lens::Lens;
 use super::{Error, Request, ViewRequest};
 use crate::pass::{
-    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw, Storage,
-    Target, Uniform, Work, glsl,
+    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
+    Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::surface::{self, Ending, Viewer};

@@ -6,7 +6,8 @@ use super::Error;
 use super::builder::{Builder, Onto};
 use super::lens::Lens;
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps, Target, Texturing, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps, Target,
+    Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;

@@ -18,6 +18,16 @@ pub struct Stack<'a> {
     cone: bool,
 }
 
+/// What a layer's light is weighed by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weight {
+    Shade,
+    /// `dimming + (1 - dimming)·shade`.
+    Dimmed(f32),
+    /// `dimming·(1 - shade)`.
+    Left(f32),
+}
+
 /// The units that make a cone's alpha steeper, each by [`STEEPER`]. The alpha test may compare in the precision of the
 /// colour buffer: with 8 bits of alpha the cone would end early by 1/510 of its radius's square; so, by 256 times less.
 const STEEP_UNITS: usize = 4;
@@ -68,11 +78,11 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// Modulates by the light's shade; with dimming by `dimming + (1 - dimming)·shade`.
-    pub fn shade(&mut self, shade: &Shade, projection: &Projection, dimming: f32) -> Result<(), String> {
+    /// Modulates by the light's shade, or by what a dimmed shadow makes of it.
+    pub fn shade(&mut self, shade: &Shade, projection: &Projection, weight: Weight) -> Result<(), String> {
         let name = match shade {
             Shade::Lit => return Ok(()),
-            Shade::Dark if dimming == 0.0 => {
+            Shade::Dark if weight == Weight::Shade => {
                 self.pass_on(Combine::Replace(Operand::Constant), KEPT);
                 self.constant([0.0, 0.0, 0.0, 1.0]);
                 return Ok(());
@@ -82,14 +92,23 @@ impl<'a> Stack<'a> {
             Shade::Texture { input, .. } => input,
         };
         let (image, coordinates) = (self.input(name)?, map_coordinates(projection));
-        if dimming == 0.0 {
-            self.push(image, coordinates, BY_TEXTURE, KEPT);
-            return Ok(());
-        }
+        let (combine, constant) = match weight {
+            Weight::Shade => {
+                self.push(image, coordinates, BY_TEXTURE, KEPT);
+                return Ok(());
+            }
+            Weight::Dimmed(dimming) => {
+                let combine = Combine::Interpolate(Operand::Texture, Operand::Constant, Operand::ConstantAlpha);
+                (combine, [1.0, 1.0, 1.0, 1.0 - dimming])
+            }
+            Weight::Left(dimming) => {
+                let combine = Combine::Interpolate(Operand::Constant, Operand::ConstantAlpha, Operand::Texture);
+                (combine, [0.0, 0.0, 0.0, dimming])
+            }
+        };
         // The shade first, so that the primary colour is still there to be modulated by what comes of it.
-        let dimmed = Combine::Interpolate(Operand::Texture, Operand::Constant, Operand::ConstantAlpha);
-        self.push(image, coordinates, dimmed, KEPT);
-        self.constant([1.0, 1.0, 1.0, 1.0 - dimming]);
+        self.push(image, coordinates, combine, KEPT);
+        self.constant(constant);
         let by_primary = Combine::Modulate(Operand::Previous, Operand::Primary);
         self.pass_on(by_primary, KEPT);
         Ok(())
@@ -132,7 +151,7 @@ impl<'a> Stack<'a> {
     /// The units, with as many more as a cone needs to be steep.
     pub fn finish(mut self) -> Vec<Unit> {
         while self.cone && self.units.len() <= STEEP_UNITS {
-                self.pass_on(KEPT, KEPT);
+            self.pass_on(KEPT, KEPT);
         }
         self.units
     }
