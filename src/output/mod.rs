@@ -1,6 +1,8 @@
 //! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
 //! renamed when it is whole (`whole.rs`).
 
+pub mod canvas;
+mod counts;
 pub(crate) mod whole;
 
 use std::fs;
@@ -130,6 +132,9 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
             let stretch = Stretch::over(data.iter().copied().filter(|depth| *depth < 1.0));
             let gray = data.iter().flat_map(|depth| to_u16(stretch.apply(*depth)).to_ne_bytes());
             (gray.collect(), ExtendedColorType::L16)
+        }
+        (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
+            (counts::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
         }
         (Pixels::Stencil { data, .. }, _) => (data.clone(), ExtendedColorType::L8),
         (Pixels::RgbaF32 { data, .. }, Some(View::Shade)) => {

@@ -7,7 +7,7 @@ use super::compose::PlannedLight;
 use super::lens::Lens;
 use super::{Error, Request, ViewRequest};
 use crate::pass::{
-    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
+    Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
     Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::Scene;
@@ -48,7 +48,7 @@ impl Builder<'_> {
             self.surfaces(self.scene, &self.first("lit", target, &lens, self.background()), &terms, &Ending::Lit)?;
         }
         if let Some(batch) = guides::frusta(self.scene, &lens.camera) {
-            let state = DrawState { depth_range: lens.depth_range, ..guides::STATE };
+            let state = lens.of_surfaces(guides::STATE);
             let (viewport, clear) = (self.scene.image.size, Clear::default());
             self.push("guides", Redraw::Always, DrawPass { target, viewport, clear, state, batches: vec![batch] });
         }
@@ -101,7 +101,7 @@ impl Builder<'_> {
             viewport: self.scene.image.size,
             lens,
             clear: Clear { color: Some(background), depth: Some(1.0), stencil: None },
-            state: DrawState { depth_range: lens.depth_range, ..DrawState::OPAQUE },
+            state: lens.of_surfaces(DrawState::OPAQUE),
         }
     }
 
@@ -114,30 +114,31 @@ impl Builder<'_> {
     ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| self.singular(terms))?;
-        self.cut_at_far(onto.lens, &mut batches);
+        self.cut_at_planes(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
         self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
         Ok(())
     }
 
-    /// Where the projection has no far plane and something reaches beyond the scene's, fragments there are discarded.
-    pub fn cut_at_far(&self, lens: &Lens, batches: &mut [Batch]) {
+    /// Where the projection does not clip at the scene's planes and something reaches beyond them, fragments there are
+    /// discarded.
+    pub fn cut_at_planes(&self, lens: &Lens, batches: &mut [Batch]) {
         let camera = &self.scene.camera;
         let reaches_beyond = |item: &Item| {
             let eye_from_model = lens.camera.eye_from_world * item.world_from_model;
-            item.bounds.corners().iter().any(|corner| -eye_from_model.transform_point3(*corner).z > 0.999 * camera.far)
+            let distances = item.bounds.corners().map(|corner| -eye_from_model.transform_point3(corner).z);
+            distances.iter().any(|distance| !(1.001 * camera.near..0.999 * camera.far).contains(distance))
         };
-        if !lens.infinite || !self.items.iter().any(reaches_beyond) {
+        if !lens.clips_less() || !self.items.iter().any(reaches_beyond) {
             return;
         }
-        let far_depth = Uniform::new("far_depth", (1.0 - camera.near / camera.far) as f32);
-        let rename =
-            crate::pass::Chunk { name: "main before far".into(), text: "#define main main_before_far\n".into() };
+        let view_range = glam::DVec2::new(camera.near, camera.far).as_vec2();
+        let rename = Chunk { name: "main, renamed".into(), text: "#define main main_between_planes\n".into() };
         for batch in batches {
             batch.program.fragment.insert(0, rename.clone());
-            batch.program.fragment.push(glsl!("common/before_far.frag"));
-            batch.uniforms.push(far_depth.clone());
-            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection has none");
+            batch.program.fragment.push(glsl!("common/between_planes.frag"));
+            batch.uniforms.push(Uniform::new("view_range", view_range));
+            batch.meaning = Meaning::Shader("near and far planes that cut fragments where the projection does not");
         }
     }
 

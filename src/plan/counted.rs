@@ -36,7 +36,7 @@ impl Builder<'_> {
             self.depth_first(target, lens);
             self.count_all(target, lens, &counted[..1], Redraw::WhenChanged);
             uncounted.clear.depth = None;
-            uncounted.state = DrawState { depth_range: lens.depth_range, ..DrawState::REPEAT };
+            uncounted.state = lens.of_surfaces(DrawState::REPEAT);
         }
         let scene = self.without_count(&counted);
         let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
@@ -61,12 +61,12 @@ impl Builder<'_> {
     fn depth_first(&mut self, target: Target, lens: &Lens) {
         let items: Vec<&Item> = self.items.iter().collect();
         let mut batches = depth_batches(&items, &lens.camera.clip_from_world(), self.list);
-        self.cut_at_far(lens, &mut batches);
+        self.cut_at_planes(lens, &mut batches);
         let pass = DrawPass {
             target: Target { color: None, ..target },
             viewport: self.scene.image.size,
             clear: Clear { depth: Some(1.0), ..Clear::default() },
-            state: DrawState { depth_range: lens.depth_range, ..DrawState::DEPTH_ONLY },
+            state: lens.of_surfaces(DrawState::DEPTH_ONLY),
             batches,
         };
         self.push("depth", Redraw::WhenChanged, pass);
@@ -105,12 +105,7 @@ impl Builder<'_> {
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
-            state: DrawState {
-                stencil: Some(LIT),
-                blend: Some(Blend::Add),
-                depth_range: lens.depth_range,
-                ..DrawState::REPEAT
-            },
+            state: lens.of_surfaces(DrawState { stencil: Some(LIT), blend: Some(Blend::Add), ..DrawState::REPEAT }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
         let lit = LightTerm { dimming: 0.0, ..term.clone() };
@@ -153,7 +148,7 @@ impl Builder<'_> {
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
         self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
-        let state = DrawState { stencil: Some(LIT), depth_range: lens.depth_range, ..DrawState::REPEAT };
+        let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
         let label = format!("{label}: where the count is 0");
         let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
         self.surfaces(self.scene, &onto, &[lit], &ending)?;
@@ -194,13 +189,12 @@ impl Builder<'_> {
             target,
             viewport: self.scene.image.size,
             clear: Clear::default(),
-            state: DrawState {
+            state: lens.of_surfaces(DrawState {
                 depth_test: Some(Compare::LessEqual),
                 depth_write: false,
-                depth_range: lens.depth_range,
                 blend: Some(Blend::Over),
                 ..DrawState::OPAQUE
-            },
+            }),
             batches: batches.collect(),
         };
         self.push(&format!("{label}: {name}"), Redraw::Always, pass);

@@ -74,6 +74,8 @@ pub struct Counting {
     pub redraw: Redraw,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
+    /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
+    pub clamped: bool,
     /// Volumes need depth before the near plane: surfaces leave it to them (C8).
     pub ledge: bool,
     /// What a picture of the volumes shows: all of their sides and caps.

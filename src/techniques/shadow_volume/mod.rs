@@ -69,6 +69,7 @@ fn counting(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
         passes: counts::passes(view, &shapes, settings),
         redraw: settings.redraw,
         infinite: has(Way::ZFail),
+        clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
