@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec4};
 
-use super::layer::{Combine, Coordinates, Mask, Operand, Unit, UnitImage};
+use super::layer::{Combine, Coordinates, EyeLinear, Mask, Operand, Unit, UnitImage};
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
 /// What the unit before came to.
@@ -160,11 +160,8 @@ impl<'a> Stack<'a> {
 /// The light's coordinates as the scene has them set up, with `then` behind the texture matrix.
 fn coordinates(projection: &Projection, then: DMat4) -> Coordinates {
     let texgen = &projection.texgen;
-    Coordinates::EyeLinear {
-        planes: texgen.planes,
-        modelview: texgen.modelview,
-        texture_matrix: then * texgen.texture_matrix,
-    }
+    let texture_matrix = then * texgen.texture_matrix;
+    Coordinates::EyeLinear(Box::new(EyeLinear { planes: texgen.planes, modelview: texgen.modelview, texture_matrix }))
 }
 
 fn map_coordinates(projection: &Projection) -> Coordinates {
@@ -193,5 +190,6 @@ fn before_the_light(projection: &Projection) -> Coordinates {
     let texgen = &projection.texgen;
     let q = (texgen.texture_matrix * texgen.eye_planes).row(3);
     let planes = DMat4::from_cols(q + DVec4::W * 0.5, DVec4::ZERO, DVec4::ZERO, DVec4::W).transpose();
-    Coordinates::EyeLinear { planes, modelview: DMat4::IDENTITY, texture_matrix: DMat4::IDENTITY }
+    let (modelview, texture_matrix) = (DMat4::IDENTITY, DMat4::IDENTITY);
+    Coordinates::EyeLinear(Box::new(EyeLinear { planes, modelview, texture_matrix }))
 }
