@@ -7,8 +7,8 @@ use super::compose::PlannedLight;
 use super::lens::Lens;
 use super::{Error, Request, ViewRequest};
 use crate::pass::{
-    Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage,
-    Target, Uniform, Work, glsl,
+    Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
+    Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::surface::{self, Ending, Viewer};
@@ -83,7 +83,7 @@ impl Builder<'_> {
         };
         let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
         let lens = Lens::of_viewer(viewer);
-        let term = LightTerm::new(index, glsl!("light/unshadowed.frag"));
+        let term = LightTerm::unshadowed(index);
         let onto = Onto { viewport: [side; 2], ..self.first(label, target, &lens, self.background()) };
         self.surfaces(self.scene, &onto, &[term], &Ending::Lit)
     }
@@ -135,6 +135,7 @@ impl Builder<'_> {
             batch.program.fragment.insert(0, rename.clone());
             batch.program.fragment.push(glsl!("common/before_far.frag"));
             batch.uniforms.push(Uniform::new("view_far", camera.far as f32));
+            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection has none");
         }
     }
 

@@ -6,7 +6,8 @@ use super::Error;
 use super::builder::{Builder, Onto};
 use super::lens::Lens;
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Redraw, Stencil, StencilOps, Target, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps, Target,
+    Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;
@@ -81,7 +82,8 @@ impl Builder<'_> {
     fn count(&mut self, target: Target, lens: &Lens, counting: &Counting, prefix: &str, redraw: Redraw) {
         for (index, pass) in counting.passes.iter().enumerate() {
             let fragment = glsl!("depth/depth.frag");
-            let batches = Counting::batches(&pass.draws, &lens.viewer(pass.layer), None, fragment, Vec::new());
+            let (viewer, meaning) = (lens.viewer(pass.layer), Meaning::Depth(Texturing::default()));
+            let batches = Counting::batches(&pass.draws, &viewer, None, fragment, meaning, Vec::new());
             let drawn = DrawPass {
                 target: Target { color: None, ..target },
                 viewport: self.scene.image.size,
@@ -142,7 +144,7 @@ impl Builder<'_> {
             _ => {}
         }
         let Some((ending, lit)) = views::camera_pass(view, term) else { return Ok(ImageId(0)) };
-        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), ..lit.clone() };
+        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), meaning: Shade::Dark, ..lit.clone() };
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
         self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
@@ -180,7 +182,8 @@ impl Builder<'_> {
         };
         let batches = layers.iter().flat_map(|(cull, color)| {
             let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
-            Counting::batches(draws, &lens.camera, *cull, glsl!("shadow_volume/colored.frag"), uniforms)
+            let fragment = glsl!("shadow_volume/colored.frag");
+            Counting::batches(draws, &lens.camera, *cull, fragment, Meaning::Constant(*color), uniforms)
         });
         let pass = DrawPass {
             target,

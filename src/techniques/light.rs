@@ -9,8 +9,8 @@ use super::{Item, items};
 use crate::math::Aabb;
 use crate::math::texgen::{SetUp, Split, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw,
-    Uniform, glsl,
+    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
+    Redraw, Shade, Uniform, glsl,
 };
 use crate::scene::{Light, Scene};
 
@@ -45,6 +45,8 @@ pub struct LightTerm {
     pub index: usize,
     /// Defines `float shade_@()`.
     pub shade: Chunk,
+    /// What that computes, in the terms of fixed function.
+    pub meaning: Shade,
     /// Beside what [`super::surface`] adds for every light; names end in the light's index.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
@@ -131,6 +133,7 @@ impl Counting {
         viewer: &Viewer,
         cull: Option<Face>,
         fragment: Chunk,
+        meaning: Meaning,
         uniforms: Vec<Uniform>,
     ) -> Vec<Batch> {
         if draws.is_empty() {
@@ -144,7 +147,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, uniforms, inputs: Vec::new(), cull, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, draws }]
     }
 }
 
@@ -170,11 +173,18 @@ impl VolumeDraw {
 }
 
 impl LightTerm {
-    /// A light whose shade `shade` finds, with the documents' ordinary texture coordinates.
+    /// A light that nothing shadows.
+    pub fn unshadowed(index: usize) -> Self {
+        Self { meaning: Shade::Lit, ..Self::new(index, glsl!("light/unshadowed.frag")) }
+    }
+
+    /// A light whose shade `shade` finds, with the documents' ordinary texture coordinates. Where texture units find it too,
+    /// its technique sets [`LightTerm::meaning`].
     pub fn new(index: usize, shade: Chunk) -> Self {
         Self {
             index,
             shade,
+            meaning: Shade::Shader("a shade that its technique has a shader for"),
             defines: Vec::new(),
             uniforms: Vec::new(),
             inputs: Vec::new(),

@@ -13,7 +13,7 @@ use self::settings::Settings;
 use super::light::Counting;
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::geometry::volume::{Kind, Source};
-use crate::pass::{PassList, glsl};
+use crate::pass::PassList;
 use crate::scene::{Reader, SettingsError};
 
 pub struct ShadowVolume;
@@ -47,7 +47,7 @@ impl Technique for ShadowVolume {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"));
+        let mut term = LightTerm::unshadowed(view.index);
         term.dimming = settings.dimming;
         let casting = casting(view.items);
         warn(view, &casting, notes);
