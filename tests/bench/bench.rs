@@ -7,6 +7,7 @@ mod floor_gl;
 mod pictures;
 mod rounds;
 mod table;
+mod techniques;
 mod volumes;
 
 use std::process::ExitCode;
@@ -42,6 +43,12 @@ pub struct Arguments {
     /// Shadow volumes on the CPU instead: adjacency, outline, extrusion
     #[arg(long)]
     volumes: bool,
+    /// Each technique against the floor's shadow map, instead
+    #[arg(long)]
+    techniques: bool,
+    /// The child's overrides of the scene, as `glumbra render` takes them
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Where the child writes its picture
     #[arg(short, long)]
     output: Option<std::path::PathBuf>,
@@ -83,6 +90,7 @@ fn main() -> ExitCode {
     let result = match arguments.child {
         Some(who) => child::run(who, &arguments),
         None if arguments.volumes => volumes::run(&arguments),
+        None if arguments.techniques => techniques::run(&arguments),
         None => rounds::run(&arguments),
     };
     match result {

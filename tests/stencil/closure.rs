@@ -9,8 +9,8 @@ use glumbra::geometry::Mesh;
 use glumbra::geometry::volume::{Caps, Caster, Extent, Outline, Source, Volume};
 use glumbra::math::spaces::{infinite_perspective, view_from_world};
 use glumbra::pass::{
-    Chunk, Clear, DrawPass, DrawState, Format, ImageDesc, ImageId, MeshRef, Pass, PassList, Primitive, Redraw, Stencil,
-    StencilOp, StencilOps, Storage, Target, Work,
+    Chunk, Clear, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, MeshRef, Pass, PassList, Primitive, Redraw,
+    Stencil, StencilOp, StencilOps, Storage, Target, Work,
 };
 use glumbra::techniques::light::{Counting, VolumeDraw, VolumeSpace};
 use glumbra::techniques::surface::Viewer;
@@ -55,7 +55,7 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
         viewport: SIZE,
         clear: Clear { stencil: Some(0), ..Clear::default() },
         state: DrawState { depth_test: None, depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY },
-        batches: Counting::batches(&draws, viewer, None, nothing, Vec::new()),
+        batches: Counting::batches(&draws, viewer, None, nothing, Meaning::Shader("a volume"), Vec::new()),
     };
     let label = String::from("depth and stencil");
     let image = ImageDesc { label, size: SIZE, format: Format::Depth24Stencil8, storage: Storage::Renderbuffer };
