@@ -9,6 +9,7 @@ mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+mod parts;
 mod present;
 pub mod probe;
 mod program;
@@ -29,6 +30,7 @@ use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampl
 
 pub use error::Error;
 pub use readback::Pixels;
+pub(crate) use state::compare_code;
 pub use run::{Measure, PassTime};
 
 /// A GL context's objects, and the passes that they already hold.
@@ -93,13 +95,15 @@ impl Device {
         known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
     }
 
-    /// Forgets which passes their targets hold, so that the next run draws them all.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever else
+    /// has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
+        self.state = None;
     }
 
     /// Any GL error since the last check, as an error of ours with the pass's label.
-    fn check(&self, label: &str) -> Result<(), Error> {
+    pub(crate) fn check(&self, label: &str) -> Result<(), Error> {
         Ok(self.debug.check(label)?)
     }
 }

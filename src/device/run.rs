@@ -138,7 +138,7 @@ impl Device {
         Ok(())
     }
 
-    fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
+    pub(super) fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
         let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
         let mut kept = HashSet::new();
         for desc in &list.images {
@@ -211,16 +211,22 @@ impl Device {
     }
 
     fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
+        self.begin_pass(list, label, pass)?;
+        for batch in &pass.batches {
+            self.draw_batch(&pass.state, batch);
+        }
+        unsafe { self.gl.bind_vertex_array(None) };
+        Ok(())
+    }
+
+    /// Binds and clears the target under the pass's state.
+    pub(super) fn begin_pass(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
         check_feedback(list, label, pass)?;
         self.bind_target(list, label, pass.target)?;
         let [width, height] = pass.viewport.map(|side| side as i32);
         unsafe { self.gl.viewport(0, 0, width, height) };
         apply(&self.gl, &pass.state, &mut self.state);
         self.clear(pass);
-        for batch in &pass.batches {
-            self.draw_batch(&pass.state, batch);
-        }
-        unsafe { self.gl.bind_vertex_array(None) };
         Ok(())
     }
 
@@ -270,7 +276,7 @@ impl Device {
         }
     }
 
-    fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
+    pub(super) fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
         let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
         self.bind_target(list, label, Target { color: None, depth: Some(from) })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);

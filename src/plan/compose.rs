@@ -3,7 +3,7 @@
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage, Target, Work,
+    Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Shade, Storage, Target, Work,
 };
 use crate::scene::Scene;
 use crate::techniques::guides;
@@ -179,7 +179,7 @@ impl Builder<'_> {
             return Err(Error::NoSuchLight { view, count: self.scene.lights.len() });
         };
         let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
-        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));
+        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"), Shade::Lit);
         let onto = Onto { label, target, viewport: [side; 2], viewer: &viewer, background: self.background() };
         self.surfaces(&onto, &[term], &Ending::Lit)
     }

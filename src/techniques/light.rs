@@ -4,7 +4,7 @@ use glam::{DMat4, Vec4};
 
 use super::Item;
 use crate::math::texgen::{SetUp, Split, scale_bias};
-use crate::pass::{Chunk, ImageId, Input, Uniform};
+use crate::pass::{Chunk, ImageId, Input, Shade, Uniform};
 use crate::scene::{Light, Scene};
 
 /// What a technique may know when it describes its passes for a light.
@@ -38,6 +38,8 @@ pub struct LightTerm {
     pub index: usize,
     /// Defines `float shade_@()`.
     pub shade: Chunk,
+    /// What that computes, in the terms of fixed function.
+    pub meaning: Shade,
     /// Beside what [`super::surface`] adds for every light; names end in the light's index.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
@@ -56,10 +58,11 @@ pub struct LightTerm {
 
 impl LightTerm {
     /// A light whose shade `shade` finds, with the documents' ordinary texture coordinates.
-    pub fn new(index: usize, shade: Chunk) -> Self {
+    pub fn new(index: usize, shade: Chunk, meaning: Shade) -> Self {
         Self {
             index,
             shade,
+            meaning,
             defines: Vec::new(),
             uniforms: Vec::new(),
             inputs: Vec::new(),

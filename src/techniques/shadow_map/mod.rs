@@ -12,7 +12,7 @@ use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
     Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass,
-    PassList, PolygonOffset, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Meaning, PassList, PolygonOffset, Program, Sampler, Shade, Storage, Target, Work, Wrap, glsl,
 };
 use crate::scene::{Reader, SettingsError};
 
@@ -53,7 +53,7 @@ impl Technique for ShadowMap {
                 format!("the map of light {}", view.index),
                 "no caster in the light's frustum shadows what is seen",
             );
-            let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"));
+            let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"), Shade::Lit);
             term.dimming = settings.dimming;
             return Ok(term);
         }
@@ -201,6 +201,7 @@ fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList
             Some(batch) => batch.draws.push(draw),
             None => batches.push(Batch {
                 program,
+                meaning: Meaning::Depth(test.meaning),
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,
@@ -213,17 +214,20 @@ fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList
 
 /// How the lit pass compares against `map`.
 fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
-    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
+    let name = format!("shadow_map_{index}");
+    let clamped = settings.format == DepthFormat::Depth32F;
+    let meaning = Shade::Texture { input: name.clone().into(), clamped };
+    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"), meaning);
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
         Order::GreaterEqual => Compare::GreaterEqual,
     };
     term.inputs.push(Input {
-        name: format!("shadow_map_{index}").into(),
+        name: name.into(),
         image: map,
         sampler: Sampler { filter: settings.filter, wrap: Wrap::ClampToEdge, compare: Some(compare) },
     });
-    if settings.format == DepthFormat::Depth32F {
+    if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     term.texture_from_light_clip = texture_from_light_clip(settings);

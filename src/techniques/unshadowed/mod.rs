@@ -1,7 +1,7 @@
 //! No shadow: the light reaches all that its cone holds.
 
 use super::{Axis, LightTerm, LightView, Notes, TABLE, Technique};
-use crate::pass::{PassList, glsl};
+use crate::pass::{PassList, Shade, glsl};
 use crate::scene::{Reader, SettingsError};
 
 pub struct Unshadowed;
@@ -36,6 +36,6 @@ impl Technique for Unshadowed {
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         self.check(settings)?;
-        Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag")))
+        Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag"), Shade::Lit))
     }
 }
