@@ -78,14 +78,12 @@ impl Bench {
         let filter_first = self.mutation == Some(Mutation::FilterThenCompare);
         let program = self.program(draw.shader, filter_first)?;
         let gl = &self.gl;
-        let state = self.mutation.map_or(draw.state, |mutation| mutation.state(draw.state));
+        self.prepare(draw.surface, draw.state);
         // SAFETY: the context is current; the objects are not deleted; positions and values lie in turn, as the vertex array has it.
         unsafe {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(draw.surface.name));
-            apply(gl, self.offset_clamp, &state, draw.surface.size);
             gl.use_program(Some(program));
             for (unit, &(name, image, sampling)) in draw.images.iter().enumerate() {
-                self.bind_image(unit as u32, image, self.mutation.map_or(sampling, |it| it.sampling(sampling)));
+                self.bind_image(unit as u32, image, sampling);
                 gl.uniform_1_i32(gl.get_uniform_location(program, name).as_ref(), unit as i32);
                 if filter_first && let Some(compare) = sampling.compare {
                     let location = gl.get_uniform_location(program, "shadow_function");
@@ -109,6 +107,14 @@ impl Bench {
             gl.use_program(None);
         }
         self.check("a draw")
+    }
+
+    /// Binds the surface and sets the whole state.
+    pub(crate) fn prepare(&self, surface: &Surface, state: State) {
+        let state = self.mutation.map_or(state, |mutation| mutation.state(state));
+        // SAFETY: the context is current, and the framebuffer is not deleted.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name)) };
+        apply(&self.gl, self.offset_clamp, &state, surface.size);
     }
 
     /// What `fragment` makes of each of `inputs`: its body reads `at`, a vec4, and sets `result`, of float precision.

@@ -227,6 +227,7 @@ impl Bench {
 
     /// Binds to a unit and sets the whole sampling state.
     pub(crate) fn bind_image(&self, unit: u32, image: &Image, sampling: Sampling) {
+        let sampling = self.mutation.map_or(sampling, |mutation| mutation.sampling(sampling));
         let filter = |linear| if linear { glow::LINEAR } else { glow::NEAREST };
         let min = match (sampling.mipmap, sampling.linear) {
             (true, true) => glow::LINEAR_MIPMAP_LINEAR,

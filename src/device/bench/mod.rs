@@ -22,6 +22,7 @@ pub use image::{DEPTH_COMPONENT32, Encoding, Format, Image, Sampling, Wrap};
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;
+pub(crate) use program::{Program, build};
 pub use state::{Blend, Compare, Face, Mode, Offset, State, Stencil, StencilOp};
 pub use surface::Surface;
 

@@ -61,9 +61,9 @@ float compare_lod(vec3 at, float lod) { return decide(at.z, textureLod(shadow, a
 ";
 
 /// A linked program, deleted on drop.
-pub(super) struct Program {
+pub(crate) struct Program {
     gl: Rc<glow::Context>,
-    pub name: glow::Program,
+    pub(crate) name: glow::Program,
 }
 
 impl Drop for Program {
@@ -91,7 +91,8 @@ impl Bench {
     }
 }
 
-fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<Program, Error> {
+/// Whole sources, linked.
+pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<Program, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = Program { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use glow::HasContext;
 
 use super::image::{Format, Image};
+use super::mutation::Mutation;
 use super::{Bench, Error};
 
 /// A framebuffer and its attachments, deleted on drop.
@@ -92,6 +93,7 @@ impl Bench {
     pub fn copy_depth(&self, surface: &Surface, from: [i32; 4], image: &Image, to: [i32; 2]) -> Option<String> {
         self.take_errors();
         let [x, y, width, height] = from;
+        let x = if self.mutation == Some(Mutation::CopyShifted) { x + 1 } else { x };
         // SAFETY: the context is current; both are not deleted. GL checks the rectangles.
         unsafe {
             self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name));

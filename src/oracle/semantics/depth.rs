@@ -114,7 +114,7 @@ fn ledge(subject: &Subject, findings: &mut Findings, surface: &Surface, format: 
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
     for _ in 0..ROUNDS {
         let n = f64::from(random.between(0.05, 0.95));
-        let mut draw = |range: [f64; 2], z: f32| {
+        let draw = |range: [f64; 2], z: f32| {
             subject.bench.draw(&Draw::plain(surface, State { depth_range: range, ..State::WRITE }, &full(z)))?;
             Ok::<f64, Error>(surface.depths()[5])
         };

@@ -8,6 +8,7 @@ use super::{Findings, Subject};
 use crate::device::bench::{
     Blend, Compare, Draw, Error, Face, Format, Offset, Shader, State, Stencil, StencilOp, Surface, Uniform, Vertex,
 };
+use crate::math::spaces;
 
 const SIDE: u32 = 96;
 const DECLARATIONS: &str = "uniform mat4 clip_from_model; uniform mat4 clip_from_eye; uniform mat4 eye_from_model;
@@ -72,7 +73,7 @@ fn mesh(near_too: bool) -> Vec<Vertex> {
 fn matrices() -> [Mat4; 2] {
     let eye_from_model = Mat4::from_translation(Vec3::new(0.03, -0.07, -3.1))
         * Mat4::from_axis_angle(Vec3::new(0.3, 0.9, 0.2).normalize(), 0.7);
-    [Mat4::perspective_rh_gl(0.9, 1.0, 0.7, 40.0), eye_from_model]
+    [spaces::perspective(0.9, 1.0, 0.7, 40.0).as_mat4(), eye_from_model]
 }
 
 fn draw(subject: &Subject, surface: &Surface, shader: Shader, state: State, vertices: &[Vertex]) -> Result<(), Error> {
