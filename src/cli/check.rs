@@ -103,7 +103,9 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
 
 /// A compatibility context, or a core one where there is none.
 fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
-    if !arguments.core && let Ok(context) = context::open(&arguments.context.request(Profile::Compatibility)) {
+    if !arguments.core
+        && let Ok(context) = context::open(&arguments.context.request(Profile::Compatibility))
+    {
         return Ok(context);
     }
     Ok(context::open(&arguments.context.request(Profile::Core33))?)

@@ -30,8 +30,8 @@ use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampl
 
 pub use error::Error;
 pub use readback::Pixels;
-pub(crate) use state::compare_code;
 pub use run::{Measure, PassTime};
+pub(crate) use state::compare_code;
 
 /// A GL context's objects, and the passes that they already hold.
 pub struct Device {

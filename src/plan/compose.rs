@@ -3,7 +3,8 @@
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Shade, Storage, Target, Work,
+    Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Shade, Storage,
+    Target, Work,
 };
 use crate::scene::Scene;
 use crate::techniques::guides;

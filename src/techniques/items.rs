@@ -8,8 +8,8 @@ use glam::DMat4;
 use crate::geometry::{Material, Texture};
 use crate::math::Aabb;
 use crate::pass::{
-    AlphaTest, Attribute, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
-    Sampler, Storage, Texturing, Uniform, Wrap, glsl,
+    AlphaTest, Attribute, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList,
+    Primitive, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 

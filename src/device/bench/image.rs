@@ -28,14 +28,8 @@ pub enum Format {
 
 impl Format {
     /// The depth formats.
-    pub const DEPTHS: [Self; 6] = [
-        Self::Depth16,
-        Self::Depth24,
-        Self::Depth32,
-        Self::Depth32F,
-        Self::Depth24Stencil8,
-        Self::Depth32FStencil8,
-    ];
+    pub const DEPTHS: [Self; 6] =
+        [Self::Depth16, Self::Depth24, Self::Depth32, Self::Depth32F, Self::Depth24Stencil8, Self::Depth32FStencil8];
 
     /// GL's name, without GL_.
     pub fn name(self) -> &'static str {

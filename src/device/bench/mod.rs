@@ -124,11 +124,6 @@ impl Bench {
         self.mutation
     }
 
-    /// The context's functions.
-    pub(crate) fn gl(&self) -> &Rc<glow::Context> {
-        &self.gl
-    }
-
     /// Whether glPolygonOffsetClamp is there.
     pub fn has_offset_clamp(&self) -> bool {
         self.offset_clamp.is_some()

@@ -50,7 +50,7 @@ impl Compare {
     }
 }
 
-/// glPolygonOffset and, where it is not 0, glPolygonOffsetClamp; for filled polygons and lines alike.
+/// glPolygonOffset and, where it is not 0, glPolygonOffsetClamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offset {
     pub factor: f32,
@@ -153,6 +153,8 @@ pub struct State {
     pub depth_range: [f64; 2],
     pub depth_clamp: bool,
     pub offset: Option<Offset>,
+    /// The polygon modes that the offset is for: POLYGON_OFFSET_FILL and POLYGON_OFFSET_LINE.
+    pub offset_modes: [bool; 2],
     /// Of front and back faces.
     pub stencil: Option<[Stencil; 2]>,
     /// Faces that are not drawn.
@@ -180,6 +182,7 @@ impl State {
         depth_range: [0.0, 1.0],
         depth_clamp: false,
         offset: None,
+        offset_modes: [true; 2],
         stencil: None,
         cull: None,
         clockwise: false,
@@ -241,7 +244,7 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
         enable(glow::FRAMEBUFFER_SRGB, state.encode_srgb);
         enable(glow::DITHER, false);
     }
-    apply_offset(gl, offset_clamp, state.offset);
+    apply_offset(gl, offset_clamp, state);
 }
 
 fn apply_stencil(gl: &glow::Context, state: &State) {
@@ -271,13 +274,13 @@ fn apply_mode(gl: &glow::Context, mode: [Mode; 2]) {
     }
 }
 
-fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, offset: Option<Offset>) {
+fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &State) {
     // SAFETY: as in `apply`; glPolygonOffsetClamp has the signature that it was loaded with.
     unsafe {
-        for mode in [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE] {
-            if offset.is_some() { gl.enable(mode) } else { gl.disable(mode) }
+        for (mode, on) in [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE].into_iter().zip(state.offset_modes) {
+            if on && state.offset.is_some() { gl.enable(mode) } else { gl.disable(mode) }
         }
-        let Offset { factor, units, clamp } = offset.unwrap_or(Offset { factor: 0.0, units: 0.0, clamp: 0.0 });
+        let Offset { factor, units, clamp } = state.offset.unwrap_or(Offset { factor: 0.0, units: 0.0, clamp: 0.0 });
         match offset_clamp {
             Some(function) => function(factor, units, clamp),
             None => gl.polygon_offset(factor, units),

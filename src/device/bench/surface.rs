@@ -30,12 +30,7 @@ impl Bench {
     /// # Errors
     ///
     /// [`Error::Refused`] where the driver has no such image or framebuffer.
-    pub fn surface(
-        &self,
-        size: [u32; 2],
-        color: Option<Format>,
-        depth: Option<Format>,
-    ) -> Result<Surface, Error> {
+    pub fn surface(&self, size: [u32; 2], color: Option<Format>, depth: Option<Format>) -> Result<Surface, Error> {
         let image = |format: Option<Format>| format.map(|format| self.image(format, size)).transpose();
         let (color, depth) = (image(color)?, image(depth)?);
         let gl = &self.gl;

@@ -41,7 +41,9 @@ impl FixedFunction {
         let mut textures = Vec::new();
         for unit in &layer.units {
             textures.push(match unit.image {
-                UnitImage::Mask(mask) => Some(Bound { texture: self.masks.get(mask)?, sampler: None, red_as_alpha: false }),
+                UnitImage::Mask(mask) => {
+                    Some(Bound { texture: self.masks.get(mask)?, sampler: None, red_as_alpha: false })
+                }
                 UnitImage::Input { index, red_as_alpha } => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.texture(input.image)?;
                     Some(Bound { texture, sampler: Some(input.sampler), red_as_alpha })

@@ -61,17 +61,7 @@ fn create(gl: &glow::Context, mask: Mask) -> Result<glow::Texture, Error> {
         gl.bind_texture(glow::TEXTURE_2D, Some(texture));
         let data = glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(&texels)));
         let [width, height] = size;
-        gl.tex_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            glow::RGBA32F as i32,
-            width,
-            height,
-            0,
-            glow::RGBA,
-            glow::FLOAT,
-            data,
-        );
+        gl.tex_image_2d(glow::TEXTURE_2D, 0, glow::RGBA32F as i32, width, height, 0, glow::RGBA, glow::FLOAT, data);
         let parameters = [
             (glow::TEXTURE_MAX_LEVEL, 0),
             (glow::TEXTURE_MIN_FILTER, filter),

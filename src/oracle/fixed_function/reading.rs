@@ -215,7 +215,9 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
     }
     if let Some(already) = already {
         if dimming > 0.0 && light.shade != Shade::Lit {
-            return Err(String::from("its light saturates at vertices and its shadow is dimmed: no combiner does both"));
+            return Err(String::from(
+                "its light saturates at vertices and its shadow is dimmed: no combiner does both",
+            ));
         }
         stack.subtract(already.to_array());
     }
@@ -257,10 +259,14 @@ fn primary(lit: &Lit, light: &PointLight, parts: Parts) -> Result<(Primary, Opti
     let relevant = if parts.specular { sum } else { ambient + strength * diffuse };
     let saturates = relevant.max_element() > 1.0 && ambient != Vec3::ZERO;
     if !parts.diffuse && sum.max_element() > 1.0 {
-        return Err(String::from("its specular light may saturate beside the diffuse, and fixed function clamps the sum"));
+        return Err(String::from(
+            "its specular light may saturate beside the diffuse, and fixed function clamps the sum",
+        ));
     }
     if saturates && is_attenuated(light) && own_ambient(lit, light) != Vec3::ZERO {
-        return Err(String::from("its light saturates beside ambient light that is attenuated, and fixed function clamps the sum"));
+        return Err(String::from(
+            "its light saturates beside ambient light that is attenuated, and fixed function clamps the sum",
+        ));
     }
     let mut source = unlit_source(light);
     let mut lighting = Lighting { opacity: 1.0, shininess: lit.shininess, ..Lighting::default() };

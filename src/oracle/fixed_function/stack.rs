@@ -126,7 +126,7 @@ impl<'a> Stack<'a> {
     /// The units, with as many more as a cone needs to be steep.
     pub fn finish(mut self) -> Vec<Unit> {
         while self.cone && self.units.len() <= STEEP_UNITS {
-                self.pass_on(KEPT, KEPT);
+            self.pass_on(KEPT, KEPT);
         }
         self.units
     }

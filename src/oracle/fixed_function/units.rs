@@ -4,8 +4,8 @@
 use glam::DMat4;
 use glow::HasContext;
 
-use super::{Binding, raw};
 use super::layer::{Combine, Coordinates, Operand, Unit};
+use super::{Binding, raw};
 use crate::device::compare_code;
 use crate::pass::{Filter, Sampler, Wrap};
 
@@ -16,7 +16,6 @@ const COORDINATES: [(u32, u32); 4] = [
     (raw::R, raw::TEXTURE_GEN_R),
     (raw::Q, raw::TEXTURE_GEN_Q),
 ];
-
 
 /// A texture with what it is sampled by.
 #[derive(Clone, Copy, Debug)]

@@ -4,11 +4,12 @@ use super::planes;
 use super::random::Random;
 use super::verify::{self, Grade, Tally};
 use super::{Findings, Subject, Verdict};
-use crate::device::bench::{Compare, Draw, Error, Format, Image, Offset, Sampling, Shader, State, Vertex, full, triangle};
+use crate::device::bench::{
+    Compare, Draw, Error, Format, Image, Offset, Sampling, Shader, State, Vertex, full, triangle,
+};
 
 const PROJECTED: &str = "result = vec4(compare_proj(texelFetch(inputs, ivec2(gl_FragCoord.xy), 0)));";
-const DIVIDED: &str =
-    "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = vec4(compare(at.xyz / at.w));";
+const DIVIDED: &str = "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = vec4(compare(at.xyz / at.w));";
 
 /// Texels along a side of T2's map.
 const SIDE: usize = 16;
@@ -25,10 +26,9 @@ pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
         .collect();
     let image = subject.bench.depth_image(Format::Depth24, [SIDE as u32; 2], &[&depths])?;
     let stored = subject.bench.image_depths(&image)?;
-    for (name, sampling) in [
-        ("NEAREST", Sampling::compare(Compare::LessEqual)),
-        ("LINEAR", Sampling::compare_linear(Compare::LessEqual)),
-    ] {
+    for (name, sampling) in
+        [("NEAREST", Sampling::compare(Compare::LessEqual)), ("LINEAR", Sampling::compare_linear(Compare::LessEqual))]
+    {
         let images = [("shadow", &image, sampling)];
         let projected = subject.bench.map(PROJECTED, &inputs, &images)?;
         let divided = subject.bench.map(DIVIDED, &inputs, &images)?;
@@ -67,7 +67,11 @@ fn texel_grade(value: f64, [s, t, r, q]: [f32; 4], stored: &[f64], linear: bool)
     }
     // Within 2^-7 of a texel's edge the neighbour may be meant.
     let edge = [u, v].iter().any(|place| (place - place.round()).abs() < 1.0 / 128.0);
-    if edge { verify::within(value - 0.5, 0.5, 0.5) } else { verify::within(value - f64::from(u8::from(passes[0])), 0.0, 0.0) }
+    if edge {
+        verify::within(value - 0.5, 0.5, 0.5)
+    } else {
+        verify::within(value - f64::from(u8::from(passes[0])), 0.0, 0.0)
+    }
 }
 
 /// T3: varyings with perspective, depth without, and what gl_FragCoord.z says.
@@ -122,12 +126,8 @@ fn fragment_depth(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
 /// Pixels along a side of T4's map.
 const MAP: u32 = 128;
 /// A floor under the light's view, corners in clip space (60 degrees, near 1, far 30).
-const FLOOR: [[f32; 4]; 4] = [
-    [-1.6, -1.4, 0.069, 1.0345],
-    [1.6, -1.4, 0.069, 1.0345],
-    [14.0, 9.0, 12.0, 12.9],
-    [-14.0, 9.0, 12.0, 12.9],
-];
+const FLOOR: [[f32; 4]; 4] =
+    [[-1.6, -1.4, 0.069, 1.0345], [1.6, -1.4, 0.069, 1.0345], [14.0, 9.0, 12.0, 12.9], [-14.0, 9.0, 12.0, 12.9]];
 
 /// T4: the floor's shadow map, looked up from the light's own view.
 pub fn self_shadow(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
@@ -168,8 +168,10 @@ fn lit_share(subject: &Subject, format: Format, [factor, units]: [f32; 2]) -> Re
 fn lit_from(subject: &Subject, image: &Image, vertices: &[Vertex]) -> Result<f64, Error> {
     let view = subject.bench.surface([MAP; 2], Some(Format::Rgba8), None)?;
     view.clear_color([0.5; 4]);
-    let shader =
-        Shader { fragment: "result = vec4(compare_proj(vec4(0.5 * (passed.xyz + passed.w), passed.w)));", ..Shader::PLAIN };
+    let shader = Shader {
+        fragment: "result = vec4(compare_proj(vec4(0.5 * (passed.xyz + passed.w), passed.w)));",
+        ..Shader::PLAIN
+    };
     let images = [("shadow", image, Sampling::compare(Compare::LessEqual))];
     let state = State { depth: None, ..State::WRITE };
     subject.bench.draw(&Draw { shader, images: &images, ..Draw::plain(&view, state, vertices) })?;

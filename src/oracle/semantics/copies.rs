@@ -3,7 +3,9 @@
 use super::random::Random;
 use super::verify::{self, Grade, Tally};
 use super::{Findings, Subject};
-use crate::device::bench::{Blend, Draw, Error, Format, Sampling, Shader, State, Surface, Vertex, full, rectangle, triangle};
+use crate::device::bench::{
+    Blend, Draw, Error, Format, Sampling, Shader, State, Surface, Vertex, full, rectangle, triangle,
+};
 
 const SIDE: u32 = 32;
 
@@ -122,7 +124,8 @@ pub fn completeness(subject: &Subject, findings: &mut Findings) -> Result<(), Er
         }
     }
     let separate = subject.bench.separate_stencil_is_complete()?;
-    findings.fact("a depth texture with a stencil buffer of its own", if separate { "complete" } else { "not supported" });
+    findings
+        .fact("a depth texture with a stencil buffer of its own", if separate { "complete" } else { "not supported" });
     Ok(())
 }
 
@@ -183,8 +186,10 @@ fn blended(subject: &Subject, blend: Blend) -> Result<Tally, Error> {
     let surface = subject.bench.surface([CODES as u32; 2], Some(Format::Rgba8), None)?;
     let code = |index: i32| (index * 4 + 1) as f32 / 255.0;
     let ndc = |index: i32| index as f32 * 2.0 / CODES as f32 - 1.0;
-    let columns: Vec<_> = (0..CODES).flat_map(|x| rectangle([ndc(x), -1.0], [ndc(x + 1), 1.0], 0.0, [code(x); 4])).collect();
-    let rows: Vec<_> = (0..CODES).flat_map(|y| rectangle([-1.0, ndc(y)], [1.0, ndc(y + 1)], 0.0, [code(y); 4])).collect();
+    let columns: Vec<_> =
+        (0..CODES).flat_map(|x| rectangle([ndc(x), -1.0], [ndc(x + 1), 1.0], 0.0, [code(x); 4])).collect();
+    let rows: Vec<_> =
+        (0..CODES).flat_map(|y| rectangle([-1.0, ndc(y)], [1.0, ndc(y + 1)], 0.0, [code(y); 4])).collect();
     let plain = State { depth: None, ..State::WRITE };
     subject.bench.draw(&Draw::plain(&surface, plain, &columns))?;
     subject.bench.draw(&Draw::plain(&surface, State { blend: Some(blend), ..plain }, &rows))?;

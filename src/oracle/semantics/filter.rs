@@ -31,7 +31,10 @@ fn matches(rule: &Rule, pattern: &str) -> bool {
     let pattern = pattern.trim().to_lowercase();
     let (id, title) = (rule.id.to_lowercase(), rule.title.to_lowercase());
     // An id is meant as it stands: C1 is not C10.
-    !pattern.is_empty() && (id == pattern || (pattern.len() == 1 && id.starts_with(&pattern)) || (pattern.len() > 2 && title.contains(&pattern)))
+    !pattern.is_empty()
+        && (id == pattern
+            || (pattern.len() == 1 && id.starts_with(&pattern))
+            || (pattern.len() > 2 && title.contains(&pattern)))
 }
 
 fn unknown(pattern: &str) -> UnknownFilter {

@@ -87,7 +87,8 @@ impl Findings {
     pub fn tally(&mut self, what: impl Into<String>, tally: Tally, unit: &str) {
         let Tally { good, allowed, wrong, worst } = tally;
         let count = tally.count();
-        let off = if worst > 0.0 && !unit.is_empty() { format!(", at most {worst:.3} {unit} off") } else { String::new() };
+        let off =
+            if worst > 0.0 && !unit.is_empty() { format!(", at most {worst:.3} {unit} off") } else { String::new() };
         let (verdict, measured) = match () {
             () if wrong > 0 => (Verdict::Fail, format!("{wrong} of {count} wrong{off}")),
             () if count == 0 => (Verdict::Fail, "nothing was drawn".to_owned()),

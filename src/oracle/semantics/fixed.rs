@@ -120,11 +120,16 @@ fn queried(fixed: &FixedBench, findings: &mut Findings, setup: &Setup) {
     let due = planes * setup.eye_from_world.inverse();
     fixed.set_texgen(&Texgen { eye: true, planes, modelview: setup.eye_from_world });
     let first = fixed.eye_planes();
-    let off = (0..4).map(|row| ((first.row(row) - due.row(row)).abs().max_element()) / due.row(row).abs().max_element());
+    let off =
+        (0..4).map(|row| ((first.row(row) - due.row(row)).abs().max_element()) / due.row(row).abs().max_element());
     let off = off.fold(0.0, f64::max);
     // An inverse in f32 of a matrix that is well conditioned: some tens of its rounding.
     let grade = verify::within(off, 64.0 * f64::from(f32::EPSILON), 1e-4);
-    findings.grade("eye planes asked back: p times the inverse modelview", grade, format!("{:.1} x 2^-23 off", off / f64::from(f32::EPSILON)));
+    findings.grade(
+        "eye planes asked back: p times the inverse modelview",
+        grade,
+        format!("{:.1} x 2^-23 off", off / f64::from(f32::EPSILON)),
+    );
     fixed.set_texgen(&Texgen { eye: false, planes, modelview: setup.world_from_model });
     let kept = fixed.eye_planes() == first;
     let measured = if kept { "as they were" } else { "changed with the modelview" };
@@ -167,7 +172,11 @@ fn looked_up(
     let differ = by_texgen.iter().zip(&by_shader).filter(|(a, b)| a != b).count();
     // A.3 promises no equality of fixed function and a shader's own sums.
     let grade = if differ == 0 { Grade::Good } else { Grade::Allowed };
-    findings.grade(name("EYE_LINEAR and a shader with GL's planes"), grade, format!("{differ} of {} pixels differ", by_texgen.len()));
+    findings.grade(
+        name("EYE_LINEAR and a shader with GL's planes"),
+        grade,
+        format!("{differ} of {} pixels differ", by_texgen.len()),
+    );
     let stored = subject.bench.image_depths(map)?;
     let map_from_model = moved * setup.map_from_world * setup.world_from_model;
     let clip_from_model = setup.projection * modelview;
@@ -182,7 +191,8 @@ fn looked_up(
 fn judged(picture: &[[u8; 4]], stored: &[f64], clip_from_model: DMat4, map_from_model: DMat4, linear: bool) -> Tally {
     let mut tally = Tally::default();
     for (index, color) in picture.iter().enumerate().filter(|(_, color)| color[3] == 255) {
-        let [x, y] = [index as u32 % SIDE, index as u32 / SIDE].map(|at| (f64::from(at) + 0.5) * 2.0 / f64::from(SIDE) - 1.0);
+        let [x, y] =
+            [index as u32 % SIDE, index as u32 / SIDE].map(|at| (f64::from(at) + 0.5) * 2.0 / f64::from(SIDE) - 1.0);
         let Some(model) = on_floor(clip_from_model, [x, y]) else { continue };
         let at = map_from_model * model;
         if let Some(grade) = texel_grade(f64::from(color[0]) / 255.0, at / at.w, stored, linear) {
@@ -249,7 +259,11 @@ pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
         let differ = picture.iter().zip(surface.colors()).filter(|(a, b)| a[..3] != b[..3]).count();
         let grade = if differ == 0 { Grade::Good } else { Grade::Allowed };
         let filter = if linear { "LINEAR" } else { "NEAREST" };
-        findings.grade(format!("{filter}: fixed function and shadow2DProj"), grade, format!("{differ} of {} pixels differ", picture.len()));
+        findings.grade(
+            format!("{filter}: fixed function and shadow2DProj"),
+            grade,
+            format!("{differ} of {} pixels differ", picture.len()),
+        );
     }
     Ok(())
 }
@@ -280,14 +294,19 @@ pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
         fixed.draw(&subject.bench, &draw)?;
         let state = State { depth: Some(Compare::Equal), ..State::WRITE };
         fixed.draw(&subject.bench, &FixedDraw { state, shaders: Some([vertex, WHITE]), ..draw })?;
-        let pairs: Vec<_> = surface.colors().into_iter().zip(surface.depths()).filter(|(_, depth)| *depth < 1.0).collect();
+        let pairs: Vec<_> =
+            surface.colors().into_iter().zip(surface.depths()).filter(|(_, depth)| *depth < 1.0).collect();
         let missed = pairs.iter().filter(|(color, _)| color[0] != 255).count();
         let grade = match missed {
             0 if !pairs.is_empty() => Grade::Good,
             _ if required => Grade::Wrong,
             _ => Grade::Allowed,
         };
-        findings.grade(format!("fixed function, then {name}, EQUAL"), grade, format!("{missed} of {} pixels missed", pairs.len()));
+        findings.grade(
+            format!("fixed function, then {name}, EQUAL"),
+            grade,
+            format!("{missed} of {} pixels missed", pairs.len()),
+        );
     }
     Ok(())
 }

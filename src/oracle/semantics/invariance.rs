@@ -133,9 +133,11 @@ pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
 /// What renderers rely on although nobody promises it.
 fn not_promised(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let equal = State { depth: Some(Compare::Equal), ..State::WRITE };
-    let other = shader("gl_Position = clip_from_eye * (eye_from_model * position); passed = value;", "result = vec4(1.0);");
+    let other =
+        shader("gl_Position = clip_from_eye * (eye_from_model * position); passed = value;", "result = vec4(1.0);");
     let two = Again { name: "", required: false, shader: other, states: vec![equal] };
-    let clamped = Again { name: "", required: false, shader: PLAIN, states: vec![State { depth_clamp: true, ..equal }] };
+    let clamped =
+        Again { name: "", required: false, shader: PLAIN, states: vec![State { depth_clamp: true, ..equal }] };
     for (name, again, mesh) in [
         ("P (M v) after (P M) v, EQUAL with 24 bits", two, mesh(false)),
         ("depth clamp turned on, across the near plane, EQUAL with 24 bits", clamped, mesh(true)),

@@ -37,6 +37,7 @@ use crate::device::bench::{self, Bench, Mutation};
 use crate::oracle::fixed_function::FixedBench;
 
 /// One rule of GL, and how it is checked.
+#[derive(Debug)]
 pub struct Rule {
     /// As `C1`: a letter for the kind.
     pub id: &'static str,

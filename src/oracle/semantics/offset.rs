@@ -1,7 +1,7 @@
 //! O1 and O2: polygon offset [GL 4.6, 14.6.5].
 
 use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject, Verdict};
+use super::{Findings, Subject};
 use crate::device::bench::{Compare, Draw, Encoding, Error, Format, Mode, Offset, State, Surface, Vertex, rectangle};
 use crate::device::probe::{self, Measured};
 
@@ -30,7 +30,15 @@ fn unit(subject: &Subject, findings: &mut Findings, format: Format) -> Result<()
     };
     let Measured { units: [far, near], one_unit_shows, float, .. } = measured;
     let power = |depth: f64| format!("2^{:.2}", depth.log2());
-    let text = format!("{} ({:.2} steps) at {}, {} ({:.2} steps) at {}", power(far.depth), far.codes, far.at_depth, power(near.depth), near.codes, near.at_depth);
+    let text = format!(
+        "{} ({:.2} steps) at {}, {} ({:.2} steps) at {}",
+        power(far.depth),
+        far.codes,
+        far.at_depth,
+        power(near.depth),
+        near.codes,
+        near.at_depth
+    );
     findings.fact(format!("{}: r, one unit of polygon offset", format.name()), text.clone());
     let grade = verify::offset_unit(far.codes).max(verify::offset_unit(near.codes));
     let kind = if float { "2^(e-23)" } else { "the least step" };
@@ -150,44 +158,59 @@ fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// O2: the offset of filled and of outlined polygons, by side.
+/// Units of O2's offset.
+const UNITS: f32 = 64.0;
+
+/// O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode.
 pub fn modes(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     use Mode::{Fill, Line};
     let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
-    for modes in [[Fill, Fill], [Line, Line], [Fill, Line], [Line, Fill]] {
-        let name = format!("front {:?}, back {:?}", modes[0], modes[1]);
-        if modes[0] != modes[1] && !subject.bench.is_compatible() {
+    for mode in [[Fill, Fill], [Line, Line], [Fill, Line], [Line, Fill]] {
+        let name = format!("front {:?}, back {:?}", mode[0], mode[1]);
+        if mode[0] != mode[1] && !subject.bench.is_compatible() {
             findings.untestable(name, "a core context has one mode for both sides");
             continue;
         }
-        for (side, turned) in [("front", false), ("back", true)] {
-            let off = side_offset(subject, &surface, modes, turned, encoding)?;
-            let verdict = if off.abs() <= 2.0 { Verdict::Pass } else { Verdict::Fail };
-            findings.add(format!("{name}: offset of the {side}"), verdict, format!("{off:.0} codes off"));
+        for offset_modes in [[true, true], [true, false], [false, true]] {
+            for side in [0, 1] {
+                let due = if offset_modes[usize::from(mode[side] == Line)] { UNITS } else { 0.0 };
+                let state = State { mode, offset_modes, ..State::WRITE };
+                let moved = moved_units(subject, &surface, state, side == 1, encoding)?;
+                let on = match offset_modes {
+                    [true, true] => "fill and line",
+                    [true, false] => "fill",
+                    _ => "line",
+                };
+                let what = format!("{name}: the {} with an offset for {on}", ["front", "back"][side]);
+                let grade = verify::within(moved - f64::from(due), 0.5, 0.5);
+                findings.grade(what, grade, format!("moved by {moved:.1} units; {due} is due"));
+            }
         }
     }
     Ok(())
 }
 
-/// By how many codes the greatest difference of a side's depths is off 64 units.
-fn side_offset(subject: &Subject, surface: &Surface, mode: [Mode; 2], turned: bool, encoding: Encoding) -> Result<f64, Error> {
-    let mut quad = rectangle([-0.5; 2], [0.5; 2], 0.25, [0.0; 4]);
+/// By how many units a side's depths are moved; where they disagree, the least.
+fn moved_units(
+    subject: &Subject,
+    surface: &Surface,
+    state: State,
+    turned: bool,
+    encoding: Encoding,
+) -> Result<f64, Error> {
+    const Z: f32 = 0.25;
+    let mut quad = rectangle([-0.5; 2], [0.5; 2], Z, [0.0; 4]);
     if turned {
         quad.reverse();
     }
-    let depths = |units: Option<f32>| {
-        surface.clear_depth(0.0);
-        let offset = units.map(|units| Offset { factor: 0.0, units, clamp: 0.0 });
-        subject.bench.draw(&Draw::plain(surface, State { mode, offset, ..State::WRITE }, &quad))?;
-        Ok::<_, Error>(surface.depths())
-    };
-    let r = {
-        let at = |units| probe::stored(&subject.bench, surface, 0.625, units);
-        (at(1024.0)? - at(0.0)?) / 1024.0
-    };
-    let (plain, moved) = (depths(None)?, depths(Some(64.0))?);
-    let differences = plain.iter().zip(&moved).filter(|(plain, _)| **plain > 0.0).map(|(plain, moved)| moved - plain);
-    let worst = differences.map(|difference| difference - 64.0 * r).fold(f64::NAN, |worst: f64, off| if off.abs() > worst.abs() || worst.is_nan() { off } else { worst });
-    Ok(worst / encoding.step(0.75))
+    let at = |units| probe::stored(&subject.bench, surface, f64::from(Z + 1.0) / 2.0, units);
+    let flat = at(0.0)?;
+    let unit = (at(1024.0)? - flat) / 1024.0;
+    surface.clear_depth(0.0);
+    let offset = Some(Offset { factor: 0.0, units: UNITS, clamp: 0.0 });
+    subject.bench.draw(&Draw::plain(surface, State { offset, ..state }, &quad))?;
+    let drawn = surface.depths().into_iter().filter(|depth| *depth > encoding.step(0.75));
+    let least = drawn.fold(f64::INFINITY, f64::min);
+    Ok((least - flat) / unit)
 }

@@ -2,14 +2,17 @@
 
 use std::fmt::Write;
 
-use comfy_table::{ContentArrangement, Table, presets};
+use comfy_table::{ColumnConstraint, ContentArrangement, Table, Width, presets};
 
 use super::{Checked, Finding, Outcome, Verdict};
 
 /// The whole text. `width` in columns; `all` lists what passes too.
 pub fn print(checked: &Checked, width: u16, all: bool) -> String {
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+    table
+        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(width);
     table.set_header(["rule", "GL 4.6 says", "measured", "verdict", "tolerance"]);
     for outcome in &checked.outcomes {
         table.add_row([
@@ -19,6 +22,12 @@ pub fn print(checked: &Checked, width: u16, all: bool) -> String {
             outcome.verdict.to_string(),
             outcome.tolerance.to_owned(),
         ]);
+    }
+    let narrow = [(0, 18), (3, 10)];
+    for (column, most) in narrow {
+        if let Some(column) = table.column_mut(column) {
+            column.set_constraint(ColumnConstraint::UpperBoundary(Width::Fixed(most)));
+        }
     }
     let mut text = format!("{table}\n");
     // Writing to a string cannot fail.
@@ -37,7 +46,14 @@ fn measured(outcome: &Outcome, all: bool) -> String {
     let passed = outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Pass).count();
     if !all && passed > 0 {
         let asked = outcome.findings.len();
-        lines.insert(0, if passed == asked { format!("{passed} checks, all pass") } else { format!("{passed} of {asked} checks pass") });
+        lines.insert(
+            0,
+            if passed == asked {
+                format!("{passed} checks, all pass")
+            } else {
+                format!("{passed} of {asked} checks pass")
+            },
+        );
     }
     lines.join("\n")
 }
@@ -54,7 +70,8 @@ fn line(finding: &Finding) -> String {
 }
 
 fn numbers(text: &mut String, checked: &Checked) -> std::fmt::Result {
-    let facts: Vec<_> = checked.outcomes.iter().flat_map(|outcome| outcome.facts.iter().map(move |fact| (outcome.id, fact))).collect();
+    let facts: Vec<_> =
+        checked.outcomes.iter().flat_map(|outcome| outcome.facts.iter().map(move |fact| (outcome.id, fact))).collect();
     if !facts.is_empty() {
         writeln!(text, "\nNumbers of this driver")?;
     }
@@ -73,7 +90,8 @@ fn summary(checked: &Checked) -> String {
         (Verdict::Untestable, "cannot be tested here"),
     ];
     let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
-    let parts: Vec<String> = counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+    let parts: Vec<String> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
     let context = &checked.context;
     let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
     format!(

@@ -2,7 +2,9 @@
 
 use super::verify;
 use super::{Findings, Subject};
-use crate::device::bench::{Compare, Draw, Error, Face, Format, Shader, State, Stencil, StencilOp, Surface, Vertex, full, rectangle};
+use crate::device::bench::{
+    Compare, Draw, Error, Face, Format, Shader, State, Stencil, StencilOp, Surface, Vertex, full, rectangle,
+};
 
 /// Values that stand in the buffer beforehand, one a column.
 const OLD: [u8; 8] = [0, 1, 0x0F, 0x7F, 0x80, 0xAB, 254, 255];
@@ -33,7 +35,8 @@ fn rows(
     }
     let values = surface.stencils();
     let pairs = sides.iter().zip(values.chunks(OLD.len()));
-    let wrong = pairs.map(|(side, row)| row.iter().zip(OLD).filter(|(new, old)| **new != due(side, *old)).count()).sum();
+    let wrong =
+        pairs.map(|(side, row)| row.iter().zip(OLD).filter(|(new, old)| **new != due(side, *old)).count()).sum();
     Ok((wrong, values.len()))
 }
 
@@ -121,7 +124,8 @@ pub fn facing(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
         let state = State { clockwise, stencil: Some(sides), ..State::counting(StencilOp::Keep, StencilOp::Keep) };
         subject.bench.draw(&Draw::plain(&surface, state, &quad))?;
         let value = surface.stencils()[5];
-        let seen = [(11, "front"), (9, "back")].into_iter().find(|(due, _)| *due == value).map_or("neither", |(_, side)| side);
+        let seen =
+            [(11, "front"), (9, "back")].into_iter().find(|(due, _)| *due == value).map_or("neither", |(_, side)| side);
         let due = if front { "front" } else { "back" };
         findings.expect(format!("{name}: stencil"), seen == due, format!("{seen}; {due} is due"));
         for cull in [Face::Front, Face::Back] {
@@ -132,7 +136,11 @@ pub fn facing(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
             let color = surface.colors()[5][0];
             let due = if (cull == Face::Front) == front { 128 } else { u8::from(front) * 255 };
             let right = color == due || (due == 128 && color == 127);
-            findings.expect(format!("{name}: {cull:?} faces culled, gl_FrontFacing"), right, format!("{color}; {due} is due"));
+            findings.expect(
+                format!("{name}: {cull:?} faces culled, gl_FrontFacing"),
+                right,
+                format!("{color}; {due} is due"),
+            );
         }
     }
     Ok(())

@@ -25,7 +25,7 @@ pub const TABLE: &[Rule] = &[
         title: "filtered comparison",
         section: "8.14, 8.23.1",
         says: "LINEAR may compare several texels: the result lies in [0, 1], in proportion to those that pass.",
-        tolerance: "2^-5 at positions good to 2^-7 texel; else a warning between the least and greatest of four results",
+        tolerance: "2^-5 at positions good to 2^-7 texel; else a warning from there to the nearest texel's and the mean of four (in proportion, both)",
         check: compare::filtered,
     },
     Rule {
@@ -89,7 +89,7 @@ pub const TABLE: &[Rule] = &[
         title: "depth conversion",
         section: "2.3.4, 2.3.5",
         says: "A depth becomes one of the two nearest codes, preferably the nearest; 0 and 1 are exact.",
-        tolerance: "half a code; else a warning to 1.5 (arithmetic in f32); a fetch to 2^-24, else a warning to 2^-23",
+        tolerance: "half a code; else a warning to 1.5, or 1.5 x 2^-24 (arithmetic in f32); a fetch to 2^-24, else a warning to 2^-23",
         check: depth::conversion,
     },
     Rule {
@@ -137,7 +137,7 @@ pub const TABLE: &[Rule] = &[
         title: "polygon offset of lines and fills",
         section: "14.6.4, 14.6.5",
         says: "POLYGON_OFFSET_FILL and _LINE hold for the sides that are drawn in that mode.",
-        tolerance: "2 codes: 64 units are measured by 1024",
+        tolerance: "half a unit of 64: r is measured by 1024",
         check: offset::modes,
     },
     Rule {

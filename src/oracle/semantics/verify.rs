@@ -58,7 +58,10 @@ pub const NEAR_TIE: f64 = 1.0 / 65536.0;
 /// `stored`, and of one that is possible: the true one, or any within `error`.
 pub fn comparisons(results: [f32; 8], reference: f64, stored: f64, error: f64) -> Grade {
     let explains = |order: Ordering| {
-        Compare::ALL.into_iter().zip(results).all(|(compare, result)| result == f32::from(u8::from(compare.holds(order))))
+        Compare::ALL
+            .into_iter()
+            .zip(results)
+            .all(|(compare, result)| result == f32::from(u8::from(compare.holds(order))))
     };
     let truth = reference.total_cmp(&stored);
     if explains(truth) {
@@ -72,48 +75,44 @@ pub fn comparisons(results: [f32; 8], reference: f64, stored: f64, error: f64) -
     }
 }
 
-/// Bits within which a filtered comparison must lie, as a tier.
-#[derive(Clone, Copy, Debug)]
-pub struct FilterBits {
-    /// Of the sub-texel position.
-    pub position: i32,
-    /// Of the filtered result; 0: anything between the least and the greatest of the four.
-    pub result: i32,
-}
-
-/// The strict tier, and the specification's: "proportional to passes or failures" [GL 4.6, 8.23.1].
-pub const STRICT_FILTER: FilterBits = FilterBits { position: 7, result: 5 };
-pub const LEAST_FILTER: FilterBits = FilterBits { position: 4, result: 0 };
+/// Bits of a filtered comparison's result, and of its sub-texel position: strictly, and at least.
+const RESULT_BITS: i32 = 5;
+const POSITION_BITS: [i32; 2] = [7, 4];
 
 /// A comparison filtered over 2x2 texels: `passes` at (0,0), (1,0), (0,1), (1,1), weights `alpha` along x, `beta`
-/// along y.
-pub fn filtered(value: f64, passes: [bool; 4], [alpha, beta]: [f64; 2]) -> Grade {
-    let [strict, least] = [STRICT_FILTER, LEAST_FILTER].map(|bits| filtered_range(passes, [alpha, beta], bits));
-    // What is written as a float is read as one: 2^-9 covers results of 8 bits.
-    let inside = |[low, high]: [f64; 2]| value >= low - 1.0 / 512.0 && value <= high + 1.0 / 512.0;
+/// along y. Strictly the bilinear result. "Proportional to the number of comparison passes" [GL 4.6, 8.23.1] also
+/// allows the nearest texel alone, the mean of four, and what lies between these; not a depth that was filtered first.
+pub fn filtered(value: f64, passes: [bool; 4], weights: [f64; 2]) -> Grade {
+    let texels = passes.map(|pass| f64::from(u8::from(pass)));
+    let [strict, least] = POSITION_BITS.map(|bits| f64::from(-bits).exp2());
+    let good = range(positions(weights, strict).map(|[alpha, beta]| bilinear(texels, alpha, beta)));
+    let nearest = positions(weights, least).map(|[alpha, beta]| bilinear(texels, alpha.round(), beta.round()));
+    let near = positions(weights, least).map(|[alpha, beta]| bilinear(texels, alpha, beta));
+    let [low, high] = [range(nearest), range(near)].into_iter().fold([texels.iter().sum::<f64>() / 4.0; 2], join);
+    // What is written as 8 bits is read as a float: 2^-9 more.
+    let error = f64::from(-RESULT_BITS).exp2() + 1.0 / 512.0;
+    let inside = |[low, high]: [f64; 2]| (low - error..=high + error).contains(&value);
     match () {
-        () if inside(strict) => Grade::Good,
-        () if inside(least) => Grade::Allowed,
+        // Where all agree there is nothing to weigh.
+        () if passes.iter().all(|pass| *pass == passes[0]) => within(value - texels[0], 1.0 / 512.0, 1.0 / 512.0),
+        () if inside(good) => Grade::Good,
+        () if inside([low, high]) => Grade::Allowed,
         () => Grade::Wrong,
     }
 }
 
-/// The least and greatest result: bilinear in each weight, so that the extremes lie at the corners of what the
-/// position may be.
-fn filtered_range(passes: [bool; 4], weights: [f64; 2], bits: FilterBits) -> [f64; 2] {
-    let texels = passes.map(|pass| f64::from(u8::from(pass)));
-    let least_and_most = |values: &[f64]| {
-        [values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max)]
-    };
-    if bits.result == 0 {
-        return least_and_most(&texels);
-    }
-    let slack = f64::from(-bits.position).exp2();
+/// The corners of where a position may be: a bilinear result is least and greatest there.
+fn positions(weights: [f64; 2], slack: f64) -> [[f64; 2]; 4] {
     let [alphas, betas] = weights.map(|weight| [-slack, slack].map(|change| (weight + change).clamp(0.0, 1.0)));
-    let corners = alphas.into_iter().flat_map(|a| betas.map(|b| bilinear(texels, a, b)));
-    let [low, high] = least_and_most(&corners.collect::<Vec<_>>());
-    let error = f64::from(-bits.result).exp2();
-    [low - error, high + error]
+    [[alphas[0], betas[0]], [alphas[1], betas[0]], [alphas[0], betas[1]], [alphas[1], betas[1]]]
+}
+
+fn range(values: [f64; 4]) -> [f64; 2] {
+    values.into_iter().map(|value| [value; 2]).fold([f64::INFINITY, f64::NEG_INFINITY], join)
+}
+
+fn join(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
 }
 
 /// Texels at (0,0), (1,0), (0,1), (1,1).
@@ -130,7 +129,9 @@ pub fn depth_code(stored: f64, depth: f64, encoding: Encoding) -> Grade {
         return within(stored - depth, 0.0, 0.0);
     }
     let step = encoding.step(depth);
-    within(stored - depth, step * (0.5 + 1e-6), step * (1.5 + 1e-6))
+    // Small floats have finer steps than a window transform in f32 can keep.
+    let least_step = if encoding.float { step.max(encoding.step(0.75)) } else { step };
+    within(stored - depth, step * (0.5 + 1e-6), least_step * (1.5 + 1e-6))
 }
 
 /// The depth of a plane at a pixel: strictly to f32's rounding of values in [0, 1] and a code; else where the plane
@@ -201,7 +202,8 @@ pub fn covers(corners: [[f64; 2]; 3], center: [f64; 2], band: f64) -> Option<boo
         let across = edge[0] * (center[1] - from[1]) - edge[1] * (center[0] - from[0]);
         across / edge[0].hypot(edge[1])
     });
-    let [low, high] = [distances.iter().copied().fold(f64::MAX, f64::min), distances.iter().copied().fold(f64::MIN, f64::max)];
+    let [low, high] =
+        [distances.iter().copied().fold(f64::MAX, f64::min), distances.iter().copied().fold(f64::MIN, f64::max)];
     match () {
         () if low > band || high < -band => Some(true),
         // Surely outside of one edge of each winding that the triangle may have.

@@ -44,18 +44,23 @@ fn comparisons_are_of_one_order() {
 fn filtered_comparisons() {
     let half = [true, false, true, false];
     let slack = 1.0 / 32.0 + 1.0 / 128.0 + 1.0 / 512.0;
+    let error = 1.0 / 32.0 + 1.0 / 512.0;
     let cases = [
         (0.75, half, Good),
         (0.75 + slack - 1e-6, half, Good),
         (0.75 + slack + 1e-6, half, Allowed),
+        // The nearest texel alone, and the mean of four.
         (1.0, half, Allowed),
-        (1.003, half, Wrong),
-        (-0.003, half, Wrong),
-        (0.99, [true; 4], Good),
-        (0.9, [true; 4], Wrong),
-        (1.0, [true; 4], Good),
+        (0.5, half, Allowed),
+        (0.5 - error + 1e-6, half, Allowed),
+        (0.5 - error - 1e-6, half, Wrong),
+        // Filtered first: the one texel that passes weighs an eighth, and yet decides.
+        (1.0, [false, true, false, false], Wrong),
+        (0.99, [true; 4], Wrong),
+        (0.999, [true; 4], Good),
         (0.0, [false; 4], Good),
         (0.1, [false; 4], Wrong),
+        (f64::NAN, half, Wrong),
     ];
     for (value, passes, grade) in cases {
         assert_eq!(filtered(value, passes, [0.25, 0.5]), grade, "{value} {passes:?}");
@@ -76,6 +81,8 @@ fn depth_codes() {
         (0.75, 0.75, FLOAT, Good),
         (0.75 + 2f64.powi(-24), 0.75, FLOAT, Allowed),
         (0.75 + 2f64.powi(-23), 0.75, FLOAT, Wrong),
+        (1e-4 + 2f64.powi(-24), 1e-4, FLOAT, Allowed),
+        (1e-4 + 2f64.powi(-23), 1e-4, FLOAT, Wrong),
     ];
     for (stored, depth, encoding, grade) in cases {
         assert_eq!(depth_code(stored, depth, encoding), grade, "{stored} for {depth}");
@@ -98,7 +105,8 @@ fn offsets() {
     }
     assert_eq!(offset_slope(0.549, [0.3, 0.4]), Allowed);
     assert_eq!(offset_slope(0.551, [0.3, 0.4]), Wrong);
-    let cases = [(1.0, Good), (1.02, Allowed), (1.9999, Allowed), (2.0, Allowed), (2.01, Wrong), (0.98, Wrong), (0.0, Wrong)];
+    let cases =
+        [(1.0, Good), (1.02, Allowed), (1.9999, Allowed), (2.0, Allowed), (2.01, Wrong), (0.98, Wrong), (0.0, Wrong)];
     for (steps, grade) in cases {
         assert_eq!(offset_unit(steps), grade, "{steps}");
     }
@@ -106,7 +114,8 @@ fn offsets() {
 
 #[test]
 fn eight_bit_codes() {
-    let cases = [(128, 127.6, Good), (127, 127.6, Allowed), (126, 127.6, Wrong), (129, 127.9, Wrong), (255, 400.0, Good)];
+    let cases =
+        [(128, 127.6, Good), (127, 127.6, Allowed), (126, 127.6, Wrong), (129, 127.9, Wrong), (255, 400.0, Good)];
     for (code, value, grade) in cases {
         assert_eq!(unorm8(code, value / 255.0), grade, "{code} for {value}");
     }
@@ -146,6 +155,6 @@ fn coverage_of_either_winding() {
         assert_eq!(covers(corners, [2.0, 0.005], 0.01), None);
         assert_eq!(covers(corners, [2.0, -0.02], 0.01), Some(false));
         assert_eq!(covers(corners, [6.0, 6.0], 0.01), Some(false));
-        assert_eq!(covers(corners, [20.0, 0.0], 0.01), None, "on an edge's line, though far from the edge");
+        assert_eq!(covers(corners, [20.0, 0.0], 0.01), Some(false), "on an edge's line, and beyond another");
     }
 }

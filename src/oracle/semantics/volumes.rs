@@ -37,7 +37,8 @@ fn random_volume(random: &mut Random) -> Vec<[[f32; 4]; 3]> {
         [random.between(z, -z), random.between(z, -z), z]
     });
     let [a, b, c] = caster.map(|corner| [corner[0] - light[0], corner[1] - light[1], corner[2] - light[2]]);
-    let facing = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    let facing =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
     if facing > 0.0 {
         caster.swap(1, 2);
     }
@@ -94,7 +95,8 @@ fn far_cap(subject: &Subject, findings: &mut Findings, format: Format) -> Result
     let mut random = Random::new(34);
     let vertices: Vec<_> = (0..64)
         .flat_map(|_| {
-            let corners = [0; 3].map(|_| [random.between(-2.0, 2.0), random.between(-2.0, 2.0), -random.between(0.3, 3.0), 0.0]);
+            let corners =
+                [0; 3].map(|_| [random.between(-2.0, 2.0), random.between(-2.0, 2.0), -random.between(0.3, 3.0), 0.0]);
             triangle(corners.map(clip_from_eye))
         })
         .collect();
@@ -110,6 +112,10 @@ fn far_cap(subject: &Subject, findings: &mut Findings, format: Format) -> Result
     subject.bench.draw(&Draw::plain(&surface, State { depth: Some(Compare::Less), ..State::WRITE }, &vertices))?;
     let passed = surface.depths().into_iter().filter(|depth| *depth != 1.0).count();
     let grade = if passed == 0 { Grade::Good } else { Grade::Allowed };
-    findings.grade(format!("{}: that cap and LESS against a cleared 1", format.name()), grade, format!("{passed} pixels pass"));
+    findings.grade(
+        format!("{}: that cap and LESS against a cleared 1", format.name()),
+        grade,
+        format!("{passed} pixels pass"),
+    );
     Ok(())
 }

@@ -76,7 +76,8 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Waiver>, Error> {
 /// Marks waived failures, and returns what is wrong with waivers for this driver that nothing needed.
 pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]) -> Vec<String> {
     let mut stale = Vec::new();
-    let here = |waiver: &&Waiver| context.renderer.contains(&waiver.renderer) && context.version.contains(&waiver.version);
+    let here =
+        |waiver: &&Waiver| context.renderer.contains(&waiver.renderer) && context.version.contains(&waiver.version);
     for waiver in waivers.iter().filter(here) {
         let Some(outcome) = outcomes.iter_mut().find(|outcome| outcome.id == waiver.rule) else { continue };
         let matching = |verdict: Verdict, message: &str| verdict == Verdict::Fail && message == waiver.message;

@@ -40,7 +40,17 @@ fn context(renderer: &str) -> ContextInfo {
 /// O1 with one finding.
 fn outcome(what: &str, verdict: Verdict, measured: &str) -> Outcome {
     let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned() }];
-    Outcome { id: "O1", title: "", section: "", says: "", tolerance: "", verdict, findings, facts: Vec::new(), seconds: 0.0 }
+    Outcome {
+        id: "O1",
+        title: "",
+        section: "",
+        says: "",
+        tolerance: "",
+        verdict,
+        findings,
+        facts: Vec::new(),
+        seconds: 0.0,
+    }
 }
 
 fn waiver(message: &str) -> Vec<Waiver> {
@@ -50,7 +60,9 @@ fn waiver(message: &str) -> Vec<Waiver> {
 
 #[test]
 fn a_failure_is_waived_by_its_exact_words_alone() {
-    for (message, verdict, stale) in [("r: is 4", Verdict::Waived, 0), ("r: is 3", Verdict::Fail, 1), ("r", Verdict::Fail, 1)] {
+    for (message, verdict, stale) in
+        [("r: is 4", Verdict::Waived, 0), ("r: is 3", Verdict::Fail, 1), ("r", Verdict::Fail, 1)]
+    {
         let mut outcomes = [outcome("r", Verdict::Fail, "is 4")];
         assert_eq!(apply(&waiver(message), &context("llvmpipe (LLVM)"), &mut outcomes).len(), stale, "{message}");
         assert_eq!(outcomes[0].verdict, verdict, "{message}");

@@ -11,8 +11,8 @@ use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass,
-    Meaning, PassList, PolygonOffset, Program, Sampler, Shade, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning,
+    Pass, PassList, PolygonOffset, Program, Sampler, Shade, Storage, Target, Work, Wrap, glsl,
 };
 use crate::scene::{Reader, SettingsError};
 

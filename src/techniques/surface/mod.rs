@@ -172,13 +172,7 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     }
 }
 
-fn add_lighting(
-    parts: &mut LightParts,
-    source: &Light,
-    viewer: &Viewer,
-    term: &LightTerm,
-    list: &mut PassList,
-) {
+fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
     let index = parts.index;
     parts.uniforms.push(Uniform::of_light("light_position", index, eye_position(source, viewer)));
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
