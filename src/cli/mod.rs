@@ -6,6 +6,7 @@ mod info;
 mod plan;
 mod render;
 mod report;
+mod road;
 pub mod sample;
 mod scene_args;
 mod tune;
@@ -43,6 +44,10 @@ enum Command {
 pub enum Error {
     #[error(transparent)]
     Context(#[from] context::Error),
+    #[error("--road fixed-function needs OpenGL's compatibility profile. {0}")]
+    NoFixedFunction(context::Error),
+    #[error(transparent)]
+    FixedFunction(#[from] crate::oracle::fixed_function::Error),
     #[error(transparent)]
     Probe(#[from] probe::Error),
     #[error(transparent)]

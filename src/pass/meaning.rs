@@ -15,8 +15,8 @@ use crate::math::texgen::Texgen;
 pub enum Meaning {
     /// Depth alone.
     Depth(Texturing),
-    /// One colour.
-    Constant([f32; 3]),
+    /// One colour, RGBA.
+    Constant([f32; 4]),
     /// `(ambient + shade·diffuse)·decal + shade·specular`, summed over lights [techniques A12].
     Lit(Box<Lit>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
@@ -109,6 +109,8 @@ pub struct Projection {
 pub enum Shade {
     /// It is 1.
     Lit,
+    /// It is 0.
+    Dark,
     /// The input of this name at (s/q, t/q, r/q), by its sampler; compared where that compares.
     Texture {
         input: Cow<'static, str>,

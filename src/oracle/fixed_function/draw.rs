@@ -15,6 +15,8 @@ impl FixedFunction {
         // SAFETY: the context is current.
         unsafe {
             self.gl.use_program(None);
+            // Mesa 22.3.6 keeps the fragment program that it made for a framebuffer without colour when the next one has
+            // colour and no texture or fog state has changed: the colour is then undefined. This makes it look again.
             self.gl.enable(raw::COLOR_SUM);
             self.gl.disable(raw::COLOR_SUM);
         }

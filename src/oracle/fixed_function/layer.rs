@@ -110,8 +110,17 @@ pub enum Coordinates {
     Mesh,
     /// glTexGen GL_OBJECT_LINEAR for s and t; the texture matrix scales both.
     ObjectLinear(ObjectLinear),
-    /// glTexGen GL_EYE_LINEAR for all four, with these planes set under this modelview.
-    EyeLinear { planes: DMat4, modelview: DMat4, texture_matrix: DMat4 },
+    /// glTexGen GL_EYE_LINEAR for all four.
+    EyeLinear(Box<EyeLinear>),
+}
+
+/// Planes, the modelview under which they are set, and the texture matrix behind them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EyeLinear {
+    /// Rows: s, t, r, q.
+    pub planes: DMat4,
+    pub modelview: DMat4,
+    pub texture_matrix: DMat4,
 }
 
 /// What a combiner reads.

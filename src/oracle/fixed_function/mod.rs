@@ -31,7 +31,7 @@ pub use error::{Error, Inexpressible};
 
 use crate::context::Context;
 use crate::device::{Device, Pixels};
-use crate::pass::{Batch, ImageId, PassList, Work};
+use crate::pass::{Batch, Compare, DrawState, ImageId, Meaning, PassList, Work};
 
 /// The fixed-function pipeline of one compatibility context.
 pub struct FixedFunction {
@@ -67,7 +67,7 @@ impl FixedFunction {
         for pass in &list.passes {
             let Work::Draw(draw) = &pass.work else { continue };
             for batch in &draw.batches {
-                if let Err(why) = self.layers(batch) {
+                if let Err(why) = check_state(&draw.state, batch).and_then(|()| self.layers(batch)) {
                     found.push(Inexpressible { pass: pass.label.clone(), what: names(batch), why });
                 }
             }
@@ -96,6 +96,11 @@ impl FixedFunction {
         Ok(())
     }
 
+    /// Waits until all that was asked of GL is done.
+    pub fn finish(&self) {
+        self.device.finish();
+    }
+
     /// Reads an image of the list that was run last.
     ///
     /// # Errors
@@ -122,6 +127,23 @@ impl FixedFunction {
         }
         Ok(layers)
     }
+}
+
+/// A lit surface takes several layers, which blend and share positions only with one another.
+fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
+    let layered = matches!(batch.meaning, Meaning::Lit(_) | Meaning::Sampled(_));
+    let why = match state {
+        DrawState { stencil: Some(_), .. } => {
+            "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
+             caps where it puts the surfaces"
+        }
+        DrawState { depth_test: Some(Compare::Equal), .. } => {
+            "depth EQUAL to another pass, whose positions fixed function may compute otherwise"
+        }
+        DrawState { blend: Some(_), .. } if layered => "a pass that blends, as its own layers do",
+        _ => return Ok(()),
+    };
+    Err(String::from(why))
 }
 
 /// The names of what a batch draws, each once.

@@ -7,7 +7,7 @@ use glam::Vec3;
 
 use super::bounds::{self, Reach};
 use super::layer::{Blend, Layer, Lighting, Primary, Source};
-use super::stack::Stack;
+use super::stack::{Stack, Weight};
 use crate::pass::{Batch, Compare, Lit, Meaning, PointLight, Projection, Sampled, Shade, Texturing};
 
 /// The layers of a batch, in the order in which they are drawn.
@@ -18,7 +18,7 @@ use crate::pass::{Batch, Compare, Lit, Meaning, PointLight, Projection, Sampled,
 pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
     match &batch.meaning {
         Meaning::Depth(texturing) => Ok(vec![cut_out("depth", batch, texturing)?]),
-        Meaning::Constant([r, g, b]) => Ok(vec![Layer::first("colour", Primary::Color([*r, *g, *b, 1.0]))]),
+        Meaning::Constant(color) => Ok(vec![Layer::first("colour", Primary::Color(*color))]),
         Meaning::Lit(lit) => lit_layers(batch, lit),
         Meaning::Sampled(view) => view_layers(batch, view),
         Meaning::Shader(what) => Err((*what).to_owned()),
@@ -57,7 +57,7 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
     let reach = bounds::of(batch, &view.projection)?;
     check_reference(batch, &view.shade, reach)?;
     let mut stack = Stack::new(batch);
-    stack.shade(&view.shade, &view.projection, 0.0)?;
+    stack.shade(&view.shade, &view.projection, Weight::Shade)?;
     stack.reach(&view.projection, reach.behind, true);
     let mut shown = Layer::first("shade", Primary::Color([1.0; 4]));
     shown.units = stack.finish();
@@ -177,11 +177,12 @@ fn unlit_source(light: &PointLight) -> Source {
     Source { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
 }
 
-/// Which of a light's colours a layer adds.
+/// Which of a light's colours a layer adds, and how they are weighed.
 #[derive(Clone, Copy, PartialEq)]
 struct Parts {
     diffuse: bool,
     specular: bool,
+    weight: Weight,
 }
 
 fn light_layers(batch: &Batch, lit: &Lit, light: &PointLight) -> Result<Vec<Layer>, String> {
@@ -189,23 +190,29 @@ fn light_layers(batch: &Batch, lit: &Lit, light: &PointLight) -> Result<Vec<Laye
     check_reference(batch, &light.shade, reach)?;
     let has_diffuse = product(light.diffuse, lit.diffuse) != Vec3::ZERO;
     let has_specular = lit.lit && product(light.specular, lit.specular) != Vec3::ZERO;
-    let one = !lit.texturing.decal && light.dimming == 0.0;
-    let parts = match (has_diffuse, has_specular) {
-        (true, true) if one => vec![Parts { diffuse: true, specular: true }],
-        _ => [(has_diffuse, true), (has_specular, false)]
-            .into_iter()
-            .filter_map(|(has, diffuse)| has.then_some(Parts { diffuse, specular: !diffuse }))
-            .collect(),
-    };
+    let dimmed = if light.dimming > 0.0 { Weight::Dimmed(light.dimming) } else { Weight::Shade };
+    let mut parts = Vec::new();
+    if has_diffuse && has_specular && !lit.texturing.decal {
+        // Both saturate together: what a dimmed shadow leaves of the diffuse light alone is added to it.
+        parts.push(Parts { diffuse: true, specular: true, weight: Weight::Shade });
+        if light.dimming > 0.0 && light.shade != Shade::Lit {
+            parts.push(Parts { diffuse: true, specular: false, weight: Weight::Left(light.dimming) });
+        }
+    } else {
+        let each = [(has_diffuse, true, dimmed), (has_specular, false, Weight::Shade)].into_iter();
+        parts.extend(each.filter(|(has, ..)| *has).map(|(_, diffuse, weight)| {
+            let specular = !diffuse;
+            Parts { diffuse, specular, weight }
+        }));
+    }
     parts.into_iter().map(|parts| light_layer(batch, lit, light, parts, reach)).collect()
 }
 
 fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach: Reach) -> Result<Layer, String> {
     let projection: &Projection = &light.projection;
-    let dimming = if parts.diffuse { light.dimming } else { 0.0 };
     let (primary, already) = primary(lit, light, parts)?;
     let name = match parts {
-        Parts { diffuse: true, specular: true } => "light",
+        Parts { diffuse: true, specular: true, .. } => "light",
         Parts { diffuse: true, .. } => "diffuse light",
         Parts { .. } => "specular light",
     };
@@ -214,14 +221,14 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
         stack.cone(projection);
     }
     if let Some(already) = already {
-        if dimming > 0.0 && light.shade != Shade::Lit {
+        if parts.weight != Weight::Shade && light.shade != Shade::Lit {
             return Err(String::from(
                 "its light saturates at vertices and its shadow is dimmed: no combiner does both",
             ));
         }
         stack.subtract(already.to_array());
     }
-    stack.shade(&light.shade, projection, dimming)?;
+    stack.shade(&light.shade, projection, parts.weight)?;
     if let Some(beam) = &light.beam {
         stack.beam(beam, projection)?;
     }

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec4};
 
-use super::layer::{Combine, Coordinates, Mask, Operand, Unit, UnitImage};
+use super::layer::{Combine, Coordinates, EyeLinear, Mask, Operand, Unit, UnitImage};
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
 /// What the unit before came to.
@@ -16,6 +16,16 @@ pub struct Stack<'a> {
     units: Vec<Unit>,
     /// Whether alpha holds what [`Stack::cone`] put there, to be made steeper.
     cone: bool,
+}
+
+/// What a layer's light is weighed by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weight {
+    Shade,
+    /// `dimming + (1 - dimming)·shade`.
+    Dimmed(f32),
+    /// `dimming·(1 - shade)`.
+    Left(f32),
 }
 
 /// The units that make a cone's alpha steeper, each by [`STEEPER`]. The alpha test may compare in the precision of the
@@ -68,22 +78,37 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// Modulates by the light's shade; with dimming by `dimming + (1 - dimming)·shade`.
-    pub fn shade(&mut self, shade: &Shade, projection: &Projection, dimming: f32) -> Result<(), String> {
+    /// Modulates by the light's shade, or by what a dimmed shadow makes of it.
+    pub fn shade(&mut self, shade: &Shade, projection: &Projection, weight: Weight) -> Result<(), String> {
         let name = match shade {
             Shade::Lit => return Ok(()),
+            Shade::Dark if weight == Weight::Shade => {
+                self.pass_on(Combine::Replace(Operand::Constant), KEPT);
+                self.constant([0.0, 0.0, 0.0, 1.0]);
+                return Ok(());
+            }
+            Shade::Dark => return Err(String::from("a shadow everywhere, dimmed")),
             Shade::Shader(what) => return Err((*what).to_owned()),
             Shade::Texture { input, .. } => input,
         };
         let (image, coordinates) = (self.input(name)?, map_coordinates(projection));
-        if dimming == 0.0 {
-            self.push(image, coordinates, BY_TEXTURE, KEPT);
-            return Ok(());
-        }
+        let (combine, constant) = match weight {
+            Weight::Shade => {
+                self.push(image, coordinates, BY_TEXTURE, KEPT);
+                return Ok(());
+            }
+            Weight::Dimmed(dimming) => {
+                let combine = Combine::Interpolate(Operand::Texture, Operand::Constant, Operand::ConstantAlpha);
+                (combine, [1.0, 1.0, 1.0, 1.0 - dimming])
+            }
+            Weight::Left(dimming) => {
+                let combine = Combine::Interpolate(Operand::Constant, Operand::ConstantAlpha, Operand::Texture);
+                (combine, [0.0, 0.0, 0.0, dimming])
+            }
+        };
         // The shade first, so that the primary colour is still there to be modulated by what comes of it.
-        let dimmed = Combine::Interpolate(Operand::Texture, Operand::Constant, Operand::ConstantAlpha);
-        self.push(image, coordinates, dimmed, KEPT);
-        self.constant([1.0, 1.0, 1.0, 1.0 - dimming]);
+        self.push(image, coordinates, combine, KEPT);
+        self.constant(constant);
         let by_primary = Combine::Modulate(Operand::Previous, Operand::Primary);
         self.pass_on(by_primary, KEPT);
         Ok(())
@@ -135,11 +160,8 @@ impl<'a> Stack<'a> {
 /// The light's coordinates as the scene has them set up, with `then` behind the texture matrix.
 fn coordinates(projection: &Projection, then: DMat4) -> Coordinates {
     let texgen = &projection.texgen;
-    Coordinates::EyeLinear {
-        planes: texgen.planes,
-        modelview: texgen.modelview,
-        texture_matrix: then * texgen.texture_matrix,
-    }
+    let texture_matrix = then * texgen.texture_matrix;
+    Coordinates::EyeLinear(Box::new(EyeLinear { planes: texgen.planes, modelview: texgen.modelview, texture_matrix }))
 }
 
 fn map_coordinates(projection: &Projection) -> Coordinates {
@@ -168,5 +190,6 @@ fn before_the_light(projection: &Projection) -> Coordinates {
     let texgen = &projection.texgen;
     let q = (texgen.texture_matrix * texgen.eye_planes).row(3);
     let planes = DMat4::from_cols(q + DVec4::W * 0.5, DVec4::ZERO, DVec4::ZERO, DVec4::W).transpose();
-    Coordinates::EyeLinear { planes, modelview: DMat4::IDENTITY, texture_matrix: DMat4::IDENTITY }
+    let (modelview, texture_matrix) = (DMat4::IDENTITY, DMat4::IDENTITY);
+    Coordinates::EyeLinear(Box::new(EyeLinear { planes, modelview, texture_matrix }))
 }

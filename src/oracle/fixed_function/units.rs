@@ -102,9 +102,9 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinate
                     gl.enable(*switch);
                 }
             }
-            Coordinates::EyeLinear { planes, modelview, texture_matrix } => {
-                fixed.LoadMatrixf(texture_matrix.as_mat4().to_cols_array().as_ptr());
-                set_eye_planes(fixed, planes, modelview);
+            Coordinates::EyeLinear(eye_linear) => {
+                fixed.LoadMatrixf(eye_linear.texture_matrix.as_mat4().to_cols_array().as_ptr());
+                set_eye_planes(fixed, &eye_linear.planes, &eye_linear.modelview);
                 COORDINATES.iter().for_each(|(_, switch)| gl.enable(*switch));
             }
         }

@@ -32,7 +32,7 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
         attributes: vec![Attribute::Position],
     };
     let uniforms = vec![Uniform::new("guide_color", UniformValue::Vec3(YELLOW))];
-    let meaning = Meaning::Constant(YELLOW.to_array());
+    let meaning = Meaning::Constant(YELLOW.extend(1.0).to_array());
     (!draws.is_empty()).then_some(Batch { program, meaning, uniforms, inputs: Vec::new(), cull: None, draws })
 }
 

@@ -5,14 +5,14 @@ mod settings;
 use glam::{DMat4, DVec3, Vec4};
 
 use self::settings::{Addressing, Order, Settings, Transfer};
-use super::items::cutout;
+use super::items::depth_batches;
 use super::unseen::Unseen;
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning,
-    Pass, PassList, PolygonOffset, Program, Sampler, Shade, Storage, Target, Work, Wrap, glsl,
+    Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList, PolygonOffset,
+    Sampler, Shade, Storage, Target, Work, Wrap, glsl,
 };
 use crate::scene::{Reader, SettingsError};
 
@@ -53,7 +53,7 @@ impl Technique for ShadowMap {
                 format!("the map of light {}", view.index),
                 "no caster in the light's frustum shadows what is seen",
             );
-            let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"), Shade::Lit);
+            let mut term = LightTerm::unshadowed(view.index);
             term.dimming = settings.dimming;
             return Ok(term);
         }
@@ -133,7 +133,7 @@ fn depth_passes(
         work: Work::Draw(DrawPass {
             target: Target { color: None, depth: Some(drawn) },
             viewport: [settings.size; 2],
-            clear: Clear { color: None, depth: Some(cleared) },
+            clear: Clear { color: None, depth: Some(cleared), stencil: None },
             state,
             batches,
         }),
@@ -181,43 +181,12 @@ fn raster_from_clip(settings: &Settings) -> DMat4 {
     }
 }
 
-fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
-    let mut batches: Vec<Batch> = Vec::new();
-    for item in casters {
-        let test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
-        let mut vertex = vec![glsl!("common/position.vert")];
-        vertex.extend(test.vertex);
-        vertex.push(glsl!("depth/depth.vert"));
-        let mut fragment = test.fragment;
-        fragment.push(glsl!("depth/depth.frag"));
-        let mut attributes = vec![Attribute::Position];
-        attributes.extend(test.attributes);
-        let program = Program { label: String::from("depth"), defines: test.defines, vertex, fragment, attributes };
-        let draw = item.draw(clip_from_world, Vec::new());
-        match batches
-            .iter_mut()
-            .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
-        {
-            Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch {
-                program,
-                meaning: Meaning::Depth(test.meaning),
-                uniforms: test.uniforms,
-                inputs: test.inputs,
-                cull: None,
-                draws: vec![draw],
-            }),
-        }
-    }
-    batches
-}
-
 /// How the lit pass compares against `map`.
 fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
     let name = format!("shadow_map_{index}");
     let clamped = settings.format == DepthFormat::Depth32F;
-    let meaning = Shade::Texture { input: name.clone().into(), clamped };
-    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"), meaning);
+    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
+    term.meaning = Shade::Texture { input: name.clone().into(), clamped };
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
         Order::GreaterEqual => Compare::GreaterEqual,
