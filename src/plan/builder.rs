@@ -114,35 +114,33 @@ impl Builder<'_> {
     ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| self.singular(terms))?;
-        self.cut_at_planes(onto.lens, &mut batches);
+        self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
         self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
         Ok(())
     }
 
-    /// Where the projection does not clip at the scene's planes and something reaches beyond them, fragments there are
-    /// discarded.
-    pub fn cut_at_planes(&self, lens: &Lens, batches: &mut [Batch]) {
+    /// Where nothing clips at the scene's far plane and something reaches beyond it, fragments there are discarded.
+    pub fn cut_at_far(&self, lens: &Lens, batches: &mut [Batch]) {
         let camera = &self.scene.camera;
         let reaches_beyond = |item: &Item| {
             let eye_from_model = lens.camera.eye_from_world * item.world_from_model;
-            let distances = item.bounds.corners().map(|corner| -eye_from_model.transform_point3(corner).z);
-            distances.iter().any(|distance| !(1.001 * camera.near..0.999 * camera.far).contains(distance))
+            item.bounds.corners().iter().any(|corner| -eye_from_model.transform_point3(*corner).z > 0.999 * camera.far)
         };
-        if !lens.clips_less() || !self.items.iter().any(reaches_beyond) {
+        if !lens.has_no_far_plane() || !self.items.iter().any(reaches_beyond) {
             return;
         }
-        let view_range = glam::DVec2::new(camera.near, camera.far).as_vec2();
-        let rename = Chunk { name: "main, renamed".into(), text: "#define main main_between_planes\n".into() };
+        let rename = Chunk { name: "main, renamed".into(), text: "#define main main_before_far\n".into() };
         for batch in batches {
             batch.program.fragment.insert(0, rename.clone());
-            batch.program.fragment.push(glsl!("common/between_planes.frag"));
-            batch.uniforms.push(Uniform::new("view_range", view_range));
-            batch.meaning = Meaning::Shader("near and far planes that cut fragments where the projection does not");
+            batch.program.fragment.push(glsl!("common/before_far.frag"));
+            batch.uniforms.push(Uniform::new("view_far", camera.far as f32));
+            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection does not");
         }
     }
 
-    pub fn push(&mut self, label: &str, redraw: Redraw, pass: DrawPass) {
+    pub fn push(&mut self, label: &str, redraw: Redraw, mut pass: DrawPass) {
+        Lens::adapt(&pass.state, &mut pass.batches);
         self.list.passes.push(Pass { label: label.to_owned(), redraw, work: Work::Draw(pass) });
     }
 

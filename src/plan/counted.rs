@@ -61,7 +61,7 @@ impl Builder<'_> {
     fn depth_first(&mut self, target: Target, lens: &Lens) {
         let items: Vec<&Item> = self.items.iter().collect();
         let mut batches = depth_batches(&items, &lens.camera.clip_from_world(), self.list);
-        self.cut_at_planes(lens, &mut batches);
+        self.cut_at_far(lens, &mut batches);
         let pass = DrawPass {
             target: Target { color: None, ..target },
             viewport: self.scene.image.size,

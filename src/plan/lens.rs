@@ -4,7 +4,7 @@
 
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
-use crate::pass::DrawState;
+use crate::pass::{Batch, DrawState};
 use crate::scene::Scene;
 use crate::techniques::light::{Counting, Layer};
 use crate::techniques::surface::Viewer;
@@ -19,8 +19,8 @@ pub struct Lens {
     depth_range: [f32; 2],
     /// The far plane is at infinity.
     infinite: bool,
-    /// Neither plane clips; depth is clamped, of surfaces too: a triangle that is clipped here and not there has other
-    /// depths.
+    /// The far plane does not clip; depth is clamped, of surfaces too: a triangle that is clipped here and not there has
+    /// other depths.
     clamped: bool,
     ledge: Option<Ledge>,
 }
@@ -60,12 +60,11 @@ impl Lens {
 
     /// State of the surfaces.
     pub fn of_surfaces(&self, state: DrawState) -> DrawState {
-        DrawState { depth_range: self.depth_range, depth_clamp: self.clamped, ..state }
+        DrawState { depth_range: self.depth_range, depth_clamp: self.clamped, clip_distance: self.clamped, ..state }
     }
 
-    /// Whether the projection clips at less than the scene's own near and far planes, so that what lies beyond them must
-    /// be left out by hand.
-    pub fn clips_less(&self) -> bool {
+    /// Whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
+    pub fn has_no_far_plane(&self) -> bool {
         self.infinite || self.clamped
     }
 
@@ -88,6 +87,13 @@ impl Lens {
             _ => self.depth_range,
         };
         let depth_clamp = state.depth_clamp || (counting.infinite && !self.infinite);
-        DrawState { depth_range, depth_clamp, ..*state }
+        DrawState { depth_range, depth_clamp, clip_distance: depth_clamp, ..*state }
+    }
+
+    /// Makes the vertex stage write what `state` clips by.
+    pub fn adapt(state: &DrawState, batches: &mut [Batch]) {
+        for batch in batches.iter_mut().filter(|_| state.clip_distance) {
+            batch.program.defines.push(("CLIP_NEAR".into(), String::new()));
+        }
     }
 }

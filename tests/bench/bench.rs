@@ -7,6 +7,7 @@ mod floor_gl;
 mod pictures;
 mod rounds;
 mod table;
+mod volumes;
 
 use std::process::ExitCode;
 
@@ -38,6 +39,9 @@ pub struct Arguments {
     /// The child's scene, with the model that is drawn
     #[arg(long, hide = true, value_name = "TOML")]
     file: Option<std::path::PathBuf>,
+    /// Shadow volumes on the CPU instead: adjacency, outline, extrusion
+    #[arg(long)]
+    volumes: bool,
     /// Where the child writes its picture
     #[arg(short, long)]
     output: Option<std::path::PathBuf>,
@@ -78,6 +82,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.child {
         Some(who) => child::run(who, &arguments),
+        None if arguments.volumes => volumes::run(&arguments),
         None => rounds::run(&arguments),
     };
     match result {

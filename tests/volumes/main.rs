@@ -8,4 +8,5 @@ mod oracle;
 #[path = "../oracle/scenes.rs"]
 #[allow(dead_code)]
 mod scenes;
+mod seen;
 mod shapes;

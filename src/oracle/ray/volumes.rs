@@ -172,9 +172,14 @@ impl<'t, 'a> Counting<'t, 'a> {
         if self.rule(&seen.triangle) == Rule::Never {
             return None;
         }
-        let to_light = self.tracer.lamp.position - seen.position;
+        let to_light = self.to_light(seen.position);
         let tilt = seen.error * (2.0 + to_light.length() / seen.triangle.least_height());
         (seen.normal.dot(to_light).abs() <= tilt).then_some(Reason::GrazingLight)
+    }
+
+    /// From a point towards the light.
+    fn to_light(&self, point: DVec3) -> DVec3 {
+        self.tracer.lamp.position - point
     }
 
     fn rule(&self, triangle: &Triangle<'_>) -> Rule {
@@ -183,7 +188,7 @@ impl<'t, 'a> Counting<'t, 'a> {
 
     /// Whether the triangle has a volume under this light.
     fn counts(&self, triangle: &Triangle<'_>) -> bool {
-        let height = triangle.normal().dot(self.tracer.lamp.position - triangle.corners[0]);
+        let height = triangle.normal().dot(self.to_light(triangle.corners[0]));
         match self.rule(triangle) {
             Rule::Never => false,
             Rule::Facing => (height > 0.0) != triangle.placed.mirrors() && height != 0.0,
@@ -216,7 +221,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         let counts = self.counts(triangle);
         if let Some(seen) = seen.filter(|seen| seen.triangle.coincides(triangle)) {
             // Its own surface: the space before the visible side is in its volume if that side is averted.
-            let is_averted = seen.normal.dot(beam.apex - seen.position) < 0.0;
+            let is_averted = seen.normal.dot(self.to_light(seen.position)) < 0.0;
             return Share { center: u32::from(counts && is_averted), reason: fold };
         }
         let Some(meeting) = beam.meet(&triangle.corners, error) else {
