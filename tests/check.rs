@@ -39,7 +39,7 @@ fn without_a_mistake_no_rule_fails() {
 }
 
 /// Each mistake, and exactly the rules that it turns red.
-const MUTATIONS: [(Mutation, &[&str]); 12] = [
+const MUTATIONS: [(Mutation, &[&str]); 14] = [
     (Mutation::CompareSwapped, &["C1", "C2"]),
     (Mutation::IncrementForIncrementWrap, &["S1", "S3"]),
     (Mutation::OneOffsetUnitLess, &["O1", "O2"]),
@@ -52,6 +52,8 @@ const MUTATIONS: [(Mutation, &[&str]); 12] = [
     (Mutation::DepthClampIgnored, &["D3"]),
     (Mutation::StencilMaskIgnored, &["S1"]),
     (Mutation::CopyShifted, &["F1"]),
+    (Mutation::ClipPlanesIgnored, &["R2"]),
+    (Mutation::BlendIgnored, &["F4"]),
 ];
 
 #[test]

@@ -24,11 +24,13 @@ pub enum Mutation {
     StencilMaskIgnored,
     /// Depth copies start one texel off.
     CopyShifted,
+    ClipPlanesIgnored,
+    BlendIgnored,
 }
 
 impl Mutation {
     /// Each of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::CompareSwapped,
         Self::IncrementForIncrementWrap,
         Self::OneOffsetUnitLess,
@@ -41,6 +43,8 @@ impl Mutation {
         Self::DepthClampIgnored,
         Self::StencilMaskIgnored,
         Self::CopyShifted,
+        Self::ClipPlanesIgnored,
+        Self::BlendIgnored,
     ];
 
     pub(super) fn state(self, mut state: State) -> State {
@@ -62,6 +66,8 @@ impl Mutation {
                     side.write_mask = 0xFF;
                 }
             }
+            Self::ClipPlanesIgnored => state.clip_distances = 0,
+            Self::BlendIgnored => state.blend = None,
             _ => {}
         }
         state

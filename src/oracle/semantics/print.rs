@@ -95,8 +95,9 @@ fn summary(checked: &Checked) -> String {
     let context = &checked.context;
     let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
     format!(
-        "{} rules: {}; {seconds:.1} s on {} ({}, {}, {} profile)",
+        "{} rule{}: {}; {seconds:.1} s on {} ({}, {}, {} profile)",
         checked.outcomes.len(),
+        if checked.outcomes.len() == 1 { "" } else { "s" },
         parts.join(", "),
         context.renderer,
         context.version,

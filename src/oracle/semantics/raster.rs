@@ -219,31 +219,34 @@ fn complements(
     random: &mut Random,
 ) -> Result<(), Error> {
     const SHADER: Shader = Shader {
-        declarations: "uniform float side;\n#ifdef VERTEX\nout float gl_ClipDistance[1];\n#endif",
-        vertex: "gl_Position = position; passed = value; gl_ClipDistance[0] = side * value.x;",
+        declarations: "uniform float side;\n#ifdef VERTEX\nout float gl_ClipDistance[2];\n#endif",
+        vertex: "gl_Position = position; passed = value; gl_ClipDistance[0] = side * value.x; gl_ClipDistance[1] = side * value.y;",
         fragment: "result = passed;",
     };
-    let (mut wrong, mut count) = (0, 0);
+    let (mut wrong, mut count, mut cut) = (0, 0, 0);
     for _ in 0..8 {
         let [a, b, c] = [0; 3].map(|_| random.between(-1.0, 1.0));
         let vertices = full(0.0).map(|mut vertex| {
             vertex.value[0] = a * vertex.position[0] + b * vertex.position[1] + 0.5 * c;
+            vertex.value[1] = -1.0;
             vertex
         });
-        surface.clear_stencil(0);
-        for side in [1.0, -1.0] {
-            let state = State { clip_distances: 1, ..COUNT };
-            let uniforms = [("side", Uniform::Float(side))];
-            subject.bench.draw(&Draw {
-                shader: SHADER,
-                uniforms: &uniforms,
-                ..Draw::plain(surface, state, &vertices)
-            })?;
-        }
-        let counts = surface.stencils();
+        let drawn = |draws: &[(f32, u32)]| {
+            surface.clear_stencil(0);
+            for &(side, clip_distances) in draws {
+                let uniforms = [("side", Uniform::Float(side))];
+                let plain = Draw::plain(surface, State { clip_distances, ..COUNT }, &vertices);
+                subject.bench.draw(&Draw { shader: SHADER, uniforms: &uniforms, ..plain })?;
+            }
+            Ok::<_, Error>(surface.stencils())
+        };
+        // The second distance is never enabled, and would leave nothing of one of the two.
+        let counts = drawn(&[(1.0, 1), (-1.0, 1)])?;
         wrong += not_one(&counts);
         count += counts.len();
+        cut += not_one(&drawn(&[(-1.0, 0)])?);
     }
     findings.none_wrong("a clip plane and its opposite", wrong, count);
+    findings.none_wrong("clip distances that are written, none of them enabled", cut, count);
     Ok(())
 }

@@ -175,8 +175,8 @@ pub const TABLE: &[Rule] = &[
     Rule {
         id: "R2",
         title: "clipping",
-        section: "13.7",
-        says: "-w <= x, y, z <= w before the division: w = 0 is a direction; a clip plane and its opposite make the whole.",
+        section: "13.7, GLSL 7.1.1",
+        says: "-w <= x, y, z <= w before the division: w = 0 is a direction; a clip plane and its opposite make the whole, one that is not enabled does nothing.",
         tolerance: "none; 1/32 pixel along edges of triangles with corners behind the eye",
         check: raster::clipping,
     },
