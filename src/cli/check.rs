@@ -44,10 +44,11 @@ pub struct CheckArgs {
 }
 
 const HELP: &str = "\
-A rule passes, has a quality warning (the specification allows it, good drivers do better), fails, or cannot be tested
-here. Verdicts come from bounds on what the specification allows, never from a picture of another driver.
+A rule passes, has a quality warning (it is allowed, but good drivers do better), fails, or cannot be
+tested here. Verdicts come from bounds on what the specification allows, never from a picture.
 
-Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance, F framebuffers.
+Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
+F framebuffers.
 
 A waiver names a deviation that is known, by driver and version and to the letter:
   [[waiver]]
