@@ -36,8 +36,8 @@ impl Road {
         }
     }
 
-    /// Draws `count` frames of a plan, times each, and reads the last. By shaders with `passes`, one more frame is drawn
-    /// with its passes timed.
+    /// Draws `count` frames of a plan, times each, and reads the last. By shaders with `passes`, one more frame is
+    /// drawn with its passes timed.
     ///
     /// # Errors
     ///

@@ -95,8 +95,8 @@ impl Device {
         known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
     }
 
-    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever else
-    /// has used the context.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever
+    /// else has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
         self.state = None;

@@ -239,7 +239,7 @@ impl Device {
         Ok(())
     }
 
-    /// Clears through the pass's write masks, which must be open for what is cleared.
+    /// Clears colour and depth through the pass's write masks, which must be open for what is cleared.
     fn clear(&self, pass: &DrawPass) {
         unsafe {
             if let Some(color) = pass.clear.color {
@@ -249,7 +249,10 @@ impl Device {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
             }
             if let Some(stencil) = pass.clear.stencil {
+                // All of it, however few bits the draws write.
+                self.gl.stencil_mask(0xFF);
                 self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
+                self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));
             }
         }
     }

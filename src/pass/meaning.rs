@@ -1,7 +1,8 @@
 //! What a batch's shaders compute, in the terms of the fixed-function pipeline: plain values beside the program, for a
 //! reader that has no shaders. Who writes the program sets them; tests hold the two readings against each other.
 //!
-//! Colours are linear RGB. Images are named as the batch's inputs are, so that they follow when the list is renumbered.
+//! Colours are linear RGB. Images are named as the batch's inputs are, so that they follow when the list is
+//! renumbered.
 
 use std::borrow::Cow;
 

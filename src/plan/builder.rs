@@ -135,7 +135,7 @@ impl Builder<'_> {
             batch.program.fragment.insert(0, rename.clone());
             batch.program.fragment.push(glsl!("common/before_far.frag"));
             batch.uniforms.push(Uniform::new("view_far", camera.far as f32));
-            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection does not");
+            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection has none");
         }
     }
 

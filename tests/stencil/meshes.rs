@@ -64,9 +64,8 @@ fn random_soups_are_counted_exactly() {
 #[test]
 fn counts_beyond_255_wrap_or_saturate() {
     let nested = cases().into_iter().find(|case| case.name == "nested boxes").unwrap();
-    let mut scene = over_floor(nested.mesh, DMat4::IDENTITY, 96);
-    // From below the eye sees the sides that 300 boxes shade.
-    scene.camera.near = 0.05;
+    // Small enough that the eye sees the middle of their shadow on the floor.
+    let scene = over_floor(nested.mesh, DMat4::from_scale(DVec3::splat(0.3)), 96);
     let truth = truth(&scene);
     let deepest = truth.pixels.iter().filter_map(|pixel| pixel.at_center).max().unwrap();
     assert!(deepest > 255, "{deepest} volumes at most");
@@ -76,6 +75,6 @@ fn counts_beyond_255_wrap_or_saturate() {
         assert_eq!(wrapping.different, 0, "{method}: {wrapping:?}");
         // Stops at 255 on the way up, and comes down from there: what is left is not the count.
         let saturating = bench.hold(&scene, &truth, &format!("method = \"{method}\", count = \"saturate\""));
-        assert!(saturating.different > 100, "{method}: {saturating:?}");
+        assert!(saturating.different > 40, "{method}: {saturating:?}");
     }
 }

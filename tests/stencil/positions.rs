@@ -27,7 +27,8 @@ fn room(eye: DVec3, target: DVec3, position: DVec3, at: DVec3) -> Scene {
 
 /// Half of the places are anywhere around; the others are where it is hard.
 fn hard_place(random: &mut Random, index: u32) -> DVec3 {
-    let anywhere = random.vector(2.5) + DVec3::new(0.0, 1.6, 0.0);
+    // One in eight or so below the floor.
+    let anywhere = random.vector(2.5) + DVec3::new(0.0, 1.9, 0.0);
     match index % 8 {
         // Inside the box; on the plane of one of its faces; near a corner of it; on the floating square's plane.
         0 => DVec3::new(0.85, 0.45, -0.15) + 0.3 * random.vector(1.0),
@@ -50,8 +51,7 @@ fn a_thousand_eyes_and_lights_are_counted_exactly() {
         let truth = truth(&scene);
         for method in RIGHT {
             let held = bench.hold(&scene, &truth, &format!("method = \"{method}\""));
-            if held.different>0 {println!("BAD {index} {method} {held:?}");}
-            assert!(true || held.different== 0, "{index}, {method}: {held:?}; eye {eye}, light {position}");
+            assert_eq!(held.different, 0, "{index}, {method}: {held:?}; eye {eye}, light {position}");
             if method == RIGHT[0] {
                 (told, inside) = (told + held.told, inside + held.inside);
             }
@@ -65,5 +65,5 @@ fn a_thousand_eyes_and_lights_are_counted_exactly() {
     );
     assert!(told > 300_000 && inside > 50_000);
     // The eye is in some volume in many of them, which plain z-pass does not know (C7); and volumes overlap (C2).
-    assert!(plain_fails > 100 && parity_fails > 100);
+    assert!(plain_fails > 100 && parity_fails > plain_fails + 100);
 }

@@ -1,5 +1,5 @@
-//! How far a batch's draws reach in a light's texture coordinates, from their bounding boxes: what cannot happen needs no
-//! texture unit. Knows no GL.
+//! How far a batch's draws reach in a light's texture coordinates, from their bounding boxes: what cannot happen needs
+//! no texture unit. Knows no GL.
 
 use glam::{DMat4, Mat4};
 

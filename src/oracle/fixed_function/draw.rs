@@ -15,8 +15,9 @@ impl FixedFunction {
         // SAFETY: the context is current.
         unsafe {
             self.gl.use_program(None);
-            // Mesa 22.3.6 keeps the fragment program that it made for a framebuffer without colour when the next one has
-            // colour and no texture or fog state has changed: the colour is then undefined. This makes it look again.
+            // Mesa 22.3.6 keeps the fragment program that it made for a framebuffer without colour when the next one
+            // has colour and no texture or fog state has changed: the colour is then undefined. This makes it look
+            // again.
             self.gl.enable(raw::COLOR_SUM);
             self.gl.disable(raw::COLOR_SUM);
         }
@@ -155,8 +156,8 @@ impl FixedFunction {
         }
     }
 
-    /// Projection and modelview, the same for all layers of a batch, so that depth EQUAL agrees to the bit. What knows no
-    /// eye space has all of it in the projection.
+    /// Projection and modelview, the same for all layers of a batch, so that depth EQUAL agrees to the bit. What knows
+    /// no eye space has all of it in the projection.
     fn set_matrices(&self, batch: &Batch, draw: &Draw) {
         let eye = match &batch.meaning {
             Meaning::Lit(lit) => Some(lit.clip_from_eye),

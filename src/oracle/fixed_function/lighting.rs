@@ -7,7 +7,8 @@ use super::{Binding, raw};
 
 /// Sets a layer's primary colour. The modelview is the identity: positions are in eye space.
 pub fn set(gl: &glow::Context, fixed: &Binding, primary: &Primary) {
-    // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the call.
+    // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the
+    // call.
     unsafe {
         match primary {
             Primary::Color([r, g, b, a]) => {

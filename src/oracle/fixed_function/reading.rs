@@ -51,8 +51,8 @@ fn opacity(texturing: &Texturing) -> f32 {
     texturing.alpha_test.as_ref().map_or(1.0, |test| test.opacity)
 }
 
-/// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha test
-/// can ask one question and alpha must be 1 in the end.
+/// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha
+/// test can ask one question and alpha must be 1 in the end.
 fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
     let reach = bounds::of(batch, &view.projection)?;
     check_reference(batch, &view.shade, reach)?;

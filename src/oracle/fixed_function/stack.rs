@@ -29,7 +29,8 @@ pub enum Weight {
 }
 
 /// The units that make a cone's alpha steeper, each by [`STEEPER`]. The alpha test may compare in the precision of the
-/// colour buffer: with 8 bits of alpha the cone would end early by 1/510 of its radius's square; so, by 256 times less.
+/// colour buffer: with 8 bits of alpha the cone would end early by 1/510 of its radius's square; so, by 256 times
+/// less.
 const STEEP_UNITS: usize = 4;
 const STEEPER: f32 = 4.0;
 
@@ -132,9 +133,9 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// Alpha: above 0 inside the cone, 0 outside. The dot product finds the square of the distance from the light's axis in
-    /// units of the cone's radius; alpha is what it lacks of 1, made steep. Must come first: the units behind it find the
-    /// primary colour as it was.
+    /// Alpha: above 0 inside the cone, 0 outside. The dot product finds the square of the distance from the light's
+    /// axis in units of the cone's radius; alpha is what it lacks of 1, made steep. Must come first: the units behind
+    /// it find the primary colour as it was.
     pub fn cone(&mut self, projection: &Projection) {
         let dot = Combine::Dot3Rgba(Operand::Texture, Operand::Texture);
         self.push(UnitImage::Mask(Mask::Ramp), ramp_coordinates(projection), dot, KEPT);

@@ -28,7 +28,8 @@ pub struct Bound {
 
 /// Switches unit `index` on.
 pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, bound: Bound) {
-    // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the call.
+    // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the
+    // call.
     unsafe {
         gl.active_texture(glow::TEXTURE0 + index);
         gl.bind_sampler(index, None);
@@ -111,8 +112,8 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinate
     }
 }
 
-/// Sets the active unit's eye planes, the rows of `planes`, while `modelview` is the modelview: GL multiplies them by its
-/// inverse [GL 4.6 compatibility, 12.1.3]. Leaves the modelview the identity.
+/// Sets the active unit's eye planes, the rows of `planes`, while `modelview` is the modelview: GL multiplies them by
+/// its inverse [GL 4.6 compatibility, 12.1.3]. Leaves the modelview the identity.
 pub fn set_eye_planes(fixed: &Binding, planes: &DMat4, modelview: &DMat4) {
     let rows = planes.as_mat4().transpose();
     // SAFETY: as above.

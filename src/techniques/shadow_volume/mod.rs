@@ -56,15 +56,21 @@ impl Technique for ShadowVolume {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
-        term.counting = Some(counting(view, &casting, &ways, &settings));
+        term.counting = Some(counting(view, &casting, &ways, &settings, notes));
         Ok(term)
     }
 }
 
-fn counting(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings) -> Counting {
+fn counting(
+    view: &LightView<'_>,
+    casting: &[Casting],
+    ways: &[Way],
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Counting {
     let source = source(view);
-    let shapes = shapes::shapes(view, casting, ways, source, settings);
-    let has = |wanted: Way| ways.contains(&wanted);
+    let shapes = shapes::shapes(view, casting, ways, source, settings, notes);
+    let has = |wanted: Way| shapes.iter().any(|shape| shape.way == wanted);
     Counting {
         passes: counts::passes(view, &shapes, settings),
         redraw: settings.redraw,
