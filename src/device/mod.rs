@@ -3,6 +3,7 @@
 //! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
 //! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
+pub mod bench;
 pub mod debug;
 mod error;
 mod framebuffer;
@@ -90,8 +91,8 @@ impl Device {
     pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
         self.state = None;
         let name = format.to_string();
-        let known = probe::FORMATS.iter().find(|known| known.name == name);
-        known.map(|known| probe::depth_format(&self.gl, known)).transpose()
+        let known = probe::FORMATS.iter().find(|known| known.name() == name);
+        known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
     }
 
     /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever

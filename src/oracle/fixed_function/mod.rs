@@ -8,6 +8,7 @@
 //!
 //! Images, framebuffers and raster state are the device's own; so are copies.
 
+mod bench;
 mod binding;
 mod bounds;
 mod draw;
@@ -24,6 +25,7 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
+pub use bench::{DepthMode, FixedBench, FixedDraw, Texgen};
 pub use binding::{Binding, BindingError, raw};
 pub use error::{Error, Inexpressible};
 
