@@ -40,8 +40,14 @@ pub struct PassTime {
 /// A pass that a target already holds.
 pub struct Done {
     pub pass: Pass,
-    /// GL's numbers of the images it read and wrote.
+    /// GL's numbers of the images it read, then of those it wrote.
     pub objects: Vec<u32>,
+}
+
+impl Done {
+    fn reads(&self) -> &[u32] {
+        &self.objects[..self.pass.reads().len()]
+    }
 }
 
 impl Device {
@@ -59,6 +65,9 @@ impl Device {
             if pass.redraw == Redraw::WhenChanged && unchanged(self.done.get(&pass.label), pass, &objects) {
                 continue;
             }
+            // Passes that read what is drawn here are not what they were, though they be the same.
+            let written = &objects[pass.reads().len()..];
+            self.done.retain(|_, done| !done.reads().iter().any(|number| written.contains(number)));
             times.extend(self.timed(list, pass, measure)?);
             if pass.redraw == Redraw::WhenChanged {
                 self.done.insert(pass.label.clone(), Done { pass: pass.clone(), objects });

@@ -11,6 +11,8 @@
 pub mod guides;
 pub mod items;
 pub mod light;
+mod midpoint;
+mod second_depth;
 mod shadow_map;
 pub mod surface;
 mod unseen;
@@ -69,7 +71,8 @@ pub struct Axis {
 }
 
 /// Every technique.
-pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap];
+pub const TABLE: &[&dyn Technique] =
+    &[&unshadowed::Unshadowed, &shadow_map::ShadowMap, &midpoint::Midpoint, &second_depth::SecondDepth];
 
 /// What was left out and why, and what the reader of a plan should know besides.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -91,15 +94,18 @@ impl Notes {
     }
 }
 
-/// The technique that `[light.shadow]` names; an absent table means none.
+/// The technique that `[light.shadow]` names; an absent table means none. Keys of the other techniques may stand, so
+/// that `technique` alone can be switched; they are checked all the same.
 ///
 /// # Errors
 ///
-/// A name that no row of the table has.
+/// A name that no row of the table has, a key of another technique with a wrong value.
 pub fn chosen(settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
     let name = settings.string("technique")?.unwrap_or("none");
-    TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
+    let chosen = TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
         let names = TABLE.iter().map(|row| row.name());
         settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names)))
-    })
+    })?;
+    TABLE.iter().try_for_each(|row| row.check(settings))?;
+    Ok(chosen)
 }

@@ -1,0 +1,150 @@
+//! The passes that draw the casters' depth from the light [Hardware Shadow Mapping, "How To Do It"; techniques A1-A4].
+
+use glam::DMat4;
+
+use super::settings::{Order, Settings, Transfer};
+use super::term::raster_from_clip;
+use crate::pass::{
+    Attribute, Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList,
+    PolygonOffset, Program, Storage, Target, Uniform, Work, glsl,
+};
+use crate::techniques::items::cutout;
+use crate::techniques::{Item, LightView, Notes};
+
+/// One pass of depth over the casters.
+pub struct Layer<'a> {
+    /// Of the pass, behind the light's number.
+    pub name: &'static str,
+    /// Of the image, likewise.
+    pub image: &'static str,
+    pub ending: Ending,
+    /// The polygon offset of the pass.
+    pub offset: PolygonOffset,
+    pub casters: &'a [&'a Item],
+}
+
+/// What a fragment of a layer does once it has passed the alpha test.
+pub struct Ending {
+    pub label: &'static str,
+    /// Has `main`.
+    pub fragment: Chunk,
+    pub defines: Vec<&'static str>,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+impl Ending {
+    /// Its depth is written, and that is all.
+    pub fn depth() -> Self {
+        Self {
+            label: "depth",
+            fragment: glsl!("depth/depth.frag"),
+            defines: Vec::new(),
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+        }
+    }
+}
+
+/// Draws a layer and, by the copy road, copies it. Returns the depth texture.
+pub fn draw(
+    view: &LightView<'_>,
+    layer: &Layer<'_>,
+    settings: &Settings,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> ImageId {
+    let Layer { name, image, .. } = layer;
+    let map = list.image(desc(view, image, settings, Storage::Texture));
+    let drawn = match settings.transfer {
+        Transfer::Fbo => map,
+        Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
+    };
+    let batches = batches(layer, &(raster_from_clip(settings) * view.clip_from_world()), list);
+    let label = format!("light {}: {name}", view.index);
+    notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
+    let (state, cleared) = state(settings, layer.offset);
+    list.passes.push(Pass {
+        label: label.clone(),
+        redraw: settings.redraw,
+        work: Work::Draw(DrawPass {
+            target: Target { color: None, depth: Some(drawn) },
+            viewport: [settings.size; 2],
+            clear: Clear { color: None, depth: Some(cleared) },
+            state,
+            batches,
+        }),
+    });
+    if settings.transfer == Transfer::Copy {
+        let label = format!("{label}, copied");
+        list.passes.push(Pass { label, redraw: settings.redraw, work: Work::CopyDepth { from: drawn, to: map } });
+    }
+    map
+}
+
+/// An image of the map's size and format.
+pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
+    ImageDesc {
+        label: format!("light {} {name}", view.index),
+        size: [settings.size; 2],
+        format: Format::Depth(settings.format),
+        storage,
+    }
+}
+
+/// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
+pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset) -> (DrawState, f32) {
+    let offset = |sign: f32| {
+        (factor != 0.0 || units != 0.0).then_some(PolygonOffset { factor: sign * factor, units: sign * units })
+    };
+    let plain = DrawState { cull: settings.cull, ..DrawState::DEPTH_ONLY };
+    match settings.order {
+        Order::LessEqual => (DrawState { polygon_offset: offset(1.0), ..plain }, 1.0),
+        Order::GreaterEqual => {
+            let reversed = DrawState {
+                depth_test: Some(Compare::Greater),
+                depth_range: [1.0, 0.0],
+                polygon_offset: offset(-1.0),
+                ..plain
+            };
+            (reversed, 0.0)
+        }
+    }
+}
+
+/// The casters in as few batches as their alpha tests allow.
+fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
+    let mut batches: Vec<Batch> = Vec::new();
+    for item in layer.casters {
+        let batch = batch(item, &layer.ending, clip_from_world, list);
+        let joins =
+            |b: &&mut Batch| b.program == batch.program && b.uniforms == batch.uniforms && b.inputs == batch.inputs;
+        match batches.iter_mut().find(joins) {
+            Some(joined) => joined.draws.extend(batch.draws),
+            None => batches.push(batch),
+        }
+    }
+    batches
+}
+
+fn batch(item: &Item, ending: &Ending, clip_from_world: &DMat4, list: &mut PassList) -> Batch {
+    let mut test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
+    let mut vertex = vec![glsl!("common/position.vert")];
+    vertex.extend(test.vertex);
+    vertex.push(glsl!("depth/depth.vert"));
+    let mut fragment = test.fragment;
+    fragment.push(ending.fragment.clone());
+    let mut attributes = vec![Attribute::Position];
+    attributes.extend(test.attributes);
+    test.defines.extend(ending.defines.iter().map(|name| ((*name).into(), String::new())));
+    test.uniforms.extend(ending.uniforms.iter().cloned());
+    test.inputs.extend(ending.inputs.iter().cloned());
+    let label = ending.label.to_owned();
+    Batch {
+        program: Program { label, defines: test.defines, vertex, fragment, attributes },
+        uniforms: test.uniforms,
+        inputs: test.inputs,
+        cull: None,
+        draws: vec![item.draw(clip_from_world, Vec::new())],
+    }
+}
