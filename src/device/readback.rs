@@ -36,9 +36,9 @@ impl Device {
         let label = format!("reading {}", desc.label);
         let is_depth = matches!(desc.format, Format::Depth(_));
         let target = if is_depth {
-            Target { color: None, depth: Some(image) }
+            Target { color: None, depth: Some(image), level: 0 }
         } else {
-            Target { color: Some(image), depth: None }
+            Target { color: Some(image), depth: None, level: 0 }
         };
         self.bind_target(list, &label, target)?;
         let [width, height] = desc.size;

@@ -214,7 +214,7 @@ impl Device {
             let labels = labels.map(|desc| format!("{} ({})", desc.label, desc.format));
             (label.to_owned(), labels.collect::<Vec<_>>().join(" + "))
         };
-        let framebuffer = framebuffer::create(&self.gl, color, depth, describe)?;
+        let framebuffer = framebuffer::create(&self.gl, [color, depth], target.level, describe)?;
         self.framebuffers.insert(key, framebuffer);
         Ok(())
     }
@@ -281,7 +281,7 @@ impl Device {
 
     fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
         let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
-        self.bind_target(list, label, Target { color: None, depth: Some(from) })?;
+        self.bind_target(list, label, Target { color: None, depth: Some(from), level: 0 })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);
         unsafe {
             self.gl.active_texture(glow::TEXTURE0);

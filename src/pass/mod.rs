@@ -71,11 +71,13 @@ pub struct DrawPass {
     pub batches: Vec<Batch>,
 }
 
-/// Framebuffer attachments, all of one size.
+/// Framebuffer attachments, all of one size at their level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
     pub depth: Option<ImageId>,
+    /// Of the images that have several levels.
+    pub level: u32,
 }
 
 /// What is cleared before the draws.

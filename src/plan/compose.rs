@@ -132,6 +132,7 @@ fn color_and_depth(label: &str, size: [u32; 2], format: Format, list: &mut PassL
     Target {
         color: Some(image(label.to_owned(), format)),
         depth: Some(image(format!("{label} depth"), Format::Depth(DepthFormat::Depth24))),
+        level: 0,
     }
 }
 

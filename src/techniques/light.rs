@@ -38,7 +38,7 @@ pub struct LightTerm {
     pub index: usize,
     /// Defines `float shade_@()`.
     pub shade: Chunk,
-    /// Beside what [`super::surface`] adds for every light; names end in the light's index.
+    /// Beside what [`super::surface`] adds for every light; names end in the light's index, a value may follow.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,

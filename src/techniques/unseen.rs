@@ -11,8 +11,8 @@ use super::{Item, LightView};
 use crate::math::Aabb;
 use crate::scene::LightKind;
 
-/// How far from its own place a lookup reaches: a linear filter's neighbour, Direct3D's half texel and rounding, in
-/// texels.
+/// How far from its own place one comparison's lookup reaches: a linear filter's neighbour, Direct3D's half texel and
+/// rounding, in texels.
 const REACH_TEXELS: f64 = 4.0;
 
 /// Tells which casters of one light matter to the picture.
@@ -21,13 +21,13 @@ pub struct Unseen {
     light: DVec3,
     /// World space; the normals, of unit length, point inwards.
     camera_planes: [DVec4; 6],
-    /// What [`REACH_TEXELS`] measure at a distance of 1 from the light.
+    /// What the texels that a lookup reaches measure at a distance of 1 from the light.
     reach_at_one: f64,
 }
 
 impl Unseen {
-    /// For a map of `texels` a side.
-    pub fn new(view: &LightView<'_>, texels: u32) -> Self {
+    /// For a map of `texels` a side, looked up within `reach` texels beside a filter's own.
+    pub fn new(view: &LightView<'_>, texels: u32, reach: f64) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
         let LightKind::Spot { cone_radians, .. } = view.light().kind;
@@ -35,7 +35,7 @@ impl Unseen {
             scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
             light: view.light().position,
             camera_planes: planes(&clip_from_world),
-            reach_at_one: REACH_TEXELS * 2.0 * (0.5 * cone_radians).tan() / f64::from(texels),
+            reach_at_one: (REACH_TEXELS + reach) * 2.0 * (0.5 * cone_radians).tan() / f64::from(texels),
         }
     }
 

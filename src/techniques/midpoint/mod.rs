@@ -22,7 +22,7 @@ use self::settings::{Average, Settings, Single};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::Order;
-use super::shadow_map::{self, term};
+use super::shadow_map::{self, bias, term};
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
@@ -73,7 +73,10 @@ impl Technique for Midpoint {
         let first = match settings.single.unwrap_or_else(|| needed(view)) {
             Single::Far => None,
             Single::First => Some(nearest),
-            Single::FirstOffset => Some(draw("offset layer", "offset layer", Ending::depth(), settings.map.offset)),
+            Single::FirstOffset => {
+                let offset = bias::offset(&settings.map).polygon;
+                Some(draw("offset layer", "offset layer", Ending::depth(), offset))
+            }
         };
         let map = match first {
             Some(first) => single::fill(view, first, midpoint, &settings.map, list),
@@ -83,7 +86,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        Ok(term::term(view.index, map, &settings.map))
+        Ok(term::term(view, map, &settings.map, 0.0))
     }
 }
 
@@ -106,7 +109,7 @@ fn peel(view: &LightView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),
     };
-    let sampler = |compare| Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare };
+    let sampler = |compare| Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare, lod_halves: None };
     let mut ending = Ending {
         label: "peel",
         fragment: glsl!("midpoint/peel.frag"),

@@ -23,7 +23,7 @@ pub fn fill(
     list: &mut PassList,
 ) -> ImageId {
     let map = list.image(depth::desc(view, "map", settings, Storage::Texture));
-    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None };
+    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     let input = |name: &'static str, image| Input { name: name.into(), image, sampler };
     let defines = match settings.order {
         Order::LessEqual => Vec::new(),
@@ -46,7 +46,7 @@ pub fn fill(
         label: format!("light {}: single layer", view.index),
         redraw: settings.redraw,
         work: Work::Draw(DrawPass {
-            target: Target { color: None, depth: Some(map) },
+            target: Target { color: None, depth: Some(map), level: 0 },
             viewport: [settings.size; 2],
             clear: Clear::default(),
             state: DrawState { depth_test: Some(Compare::Always), ..DrawState::DEPTH_ONLY },

@@ -64,7 +64,7 @@ impl Technique for SecondDepth {
         let layer = Layer { name: "second depth", image: "map", ending: Ending::depth(), offset, casters: &casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        Ok(term::term(view.index, map, &settings))
+        Ok(term::term(view, map, &settings, 0.0))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which of the scene's items are drawn into a light's map.
 
-use super::settings::Settings;
+use super::bias;
+use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::frustum::{self, Overlap};
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{Item, LightView, Notes};
@@ -9,7 +10,7 @@ use crate::techniques::{Item, LightView, Notes};
 pub fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
     let mut casters = in_frustum(view, notes);
     if !view.shown_whole && !view.keep_all {
-        let unseen = Unseen::new(view, settings.size);
+        let unseen = Unseen::new(view, settings.size, reach(settings));
         casters.retain(|item| {
             let is_unseen = unseen.shadow_of(item);
             if is_unseen {
@@ -19,6 +20,17 @@ pub fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes)
         });
     }
     casters
+}
+
+/// What kernels, normal offsets and the coarser of two levels reach beside a filter's own, in texels.
+fn reach(settings: &Settings) -> f64 {
+    let kernel = bias::reach_texels(settings) - bias::filter_reach(settings);
+    match (settings.mipmaps, settings.bias) {
+        (Mipmaps::None, Bias::NormalOffset) => kernel + std::f64::consts::SQRT_2 * bias::reach_texels(settings),
+        (Mipmaps::None, _) => kernel,
+        (Mipmaps::EightTaps, _) => 2.0 * (kernel + 2.0),
+        (Mipmaps::All, _) => f64::from(settings.size),
+    }
 }
 
 /// The items that can stand in the light's way inside its frustum.

@@ -2,7 +2,7 @@
 
 use glam::DMat4;
 
-use super::settings::{Order, Settings, Transfer};
+use super::settings::{Mipmaps, Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
     Attribute, Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList,
@@ -55,7 +55,9 @@ pub fn draw(
     notes: &mut Notes,
 ) -> ImageId {
     let Layer { name, image, .. } = layer;
-    let map = list.image(desc(view, image, settings, Storage::Texture));
+    let levels = levels(settings);
+    let storage = if levels > 1 { Storage::Mipmapped(levels) } else { Storage::Texture };
+    let map = list.image(desc(view, image, settings, storage));
     let drawn = match settings.transfer {
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
@@ -64,22 +66,33 @@ pub fn draw(
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let (state, cleared) = state(settings, layer.offset);
-    list.passes.push(Pass {
-        label: label.clone(),
-        redraw: settings.redraw,
-        work: Work::Draw(DrawPass {
-            target: Target { color: None, depth: Some(drawn) },
-            viewport: [settings.size; 2],
-            clear: Clear { color: None, depth: Some(cleared) },
-            state,
-            batches,
-        }),
-    });
+    for level in 0..levels {
+        list.passes.push(Pass {
+            label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },
+            redraw: settings.redraw,
+            work: Work::Draw(DrawPass {
+                target: Target { color: None, depth: Some(drawn), level },
+                viewport: [(settings.size >> level).max(1); 2],
+                clear: Clear { color: None, depth: Some(cleared) },
+                state,
+                batches: batches.clone(),
+            }),
+        });
+    }
     if settings.transfer == Transfer::Copy {
         let label = format!("{label}, copied");
         list.passes.push(Pass { label, redraw: settings.redraw, work: Work::CopyDepth { from: drawn, to: map } });
     }
     map
+}
+
+/// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].
+fn levels(settings: &Settings) -> u32 {
+    match settings.mipmaps {
+        Mipmaps::None => 1,
+        Mipmaps::EightTaps => settings.size.ilog2().min(1) + 1,
+        Mipmaps::All => settings.size.ilog2() + 1,
+    }
 }
 
 /// An image of the map's size and format.

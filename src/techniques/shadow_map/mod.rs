@@ -1,6 +1,7 @@
 //! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10];
 //! its parts are what every technique with a map is made of.
 
+pub(super) mod bias;
 pub(super) mod casters;
 pub(super) mod depth;
 pub(super) mod settings;
@@ -47,10 +48,11 @@ impl Technique for ShadowMap {
         if casters.is_empty() && !view.keep_all {
             return Ok(without_casters(view, settings.dimming, notes));
         }
-        let (ending, offset) = (Ending::depth(), settings.offset);
-        let layer = Layer { name: "depth", image: "map", ending, offset, casters: &casters };
+        let offset = bias::offset(&settings);
+        let (ending, casters) = (Ending::depth(), casters.as_slice());
+        let layer = Layer { name: "depth", image: "map", ending, offset: offset.polygon, casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
-        Ok(term::term(view.index, map, &settings))
+        Ok(term::term(view, map, &settings, offset.texels))
     }
 }
 

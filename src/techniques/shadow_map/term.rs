@@ -2,13 +2,16 @@
 
 use glam::{DMat4, DVec3, Vec4};
 
-use super::settings::{Addressing, Order, Settings};
+use super::bias;
+use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
-use crate::pass::{Compare, DepthFormat, ImageId, Input, Sampler, Wrap, glsl};
-use crate::techniques::LightTerm;
+use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Uniform, Wrap, glsl};
+use crate::scene::Light;
+use crate::techniques::{LightTerm, LightView};
 
-/// How the lit pass compares against `map`.
-pub fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
+/// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
+pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
+    let index = view.index;
     let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
@@ -17,12 +20,15 @@ pub fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
     term.inputs.push(Input {
         name: format!("shadow_map_{index}").into(),
         image: map,
-        sampler: Sampler { filter: settings.filter, wrap: Wrap::ClampToEdge, compare: Some(compare) },
+        sampler: sampler(settings, compare),
     });
     if settings.format == DepthFormat::Depth32F {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     term.texture_from_light_clip = texture_from_light_clip(settings);
+    if texels > 0.0 {
+        term.texture_from_light_clip *= bias::moved_to_light(view.light(), texels, settings);
+    }
     if settings.addressing == Addressing::Direct3d {
         let half_texel = 0.5 / settings.size as f32;
         term.frustum_from_map = Some(Vec4::new(1.0, -1.0, -half_texel, 1.0 + half_texel));
@@ -31,7 +37,60 @@ pub fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
     term.split = settings.split;
     term.dimming = settings.dimming;
     term.map = Some(map);
+    look_up(&mut term, view.light(), settings);
     term
+}
+
+fn sampler(settings: &Settings, compare: Compare) -> Sampler {
+    let plain = Sampler { filter: settings.filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
+    match settings.mipmaps {
+        Mipmaps::None => plain,
+        Mipmaps::All => Sampler { filter: Filter::Trilinear, ..plain },
+        Mipmaps::EightTaps => Sampler { filter: Filter::Trilinear, lod_halves: Some(1), ..plain },
+    }
+}
+
+/// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
+fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
+    let index = term.index;
+    if settings.kernel == 1 && settings.bias == Bias::Offset {
+        return;
+    }
+    term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
+    let of_light = |name, value: f32| Uniform::of_light(name, index, value);
+    match settings.bias {
+        Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
+        Bias::ReceiverPlane => {
+            let sign = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
+            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/receiver_plane.frag"));
+            term.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
+            term.uniforms.push(of_light("towards_light", sign));
+        }
+        Bias::Adaptive => {
+            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/adaptive.frag"));
+            if settings.filter == Filter::Linear {
+                term.defines.push(format!("LINEAR_{index}"));
+            }
+        }
+        Bias::NormalOffset => {
+            term.shade = glsl!("shadow_map/normal_offset.frag");
+            let (texture, light_clip) = (term.texture_from_light_clip, light.clip_from_view());
+            let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
+            let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
+            let radius = std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(light, settings);
+            term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
+            let texture_from_light = (texture * light_clip).as_mat4();
+            term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light));
+            term.uniforms.push(of_light("offset_radius", radius as f32));
+        }
+    }
+    if settings.bias != Bias::Offset {
+        term.defines.push(format!("DERIVATIVES_{index}"));
+    }
+    // These clamp the reference themselves, whatever the format.
+    if settings.bias != Bias::Offset {
+        term.defines.retain(|name| !name.starts_with("CLAMP_REFERENCE"));
+    }
 }
 
 /// `S`, by the rules of the addressing, with r's tweaks and bias; mirrored in r for GEQUAL.

@@ -65,7 +65,7 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
             term.inputs = vec![Input {
                 name: format!("depth_map_{}", term.index).into(),
                 image: term.map?,
-                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None },
+                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None },
             }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
         }
