@@ -38,6 +38,11 @@ pub trait Technique: Sync {
     /// What a report varies, and how.
     fn axes(&self) -> &'static [Axis];
 
+    /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
+    fn more_axes(&self) -> &'static [&'static [Axis]] {
+        &[]
+    }
+
     /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
     ///
     /// # Errors

@@ -34,7 +34,6 @@ pub struct Settings {
 pub const AXES: &[Axis] = &[
     Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
     Axis { key: "average", values: &["\"window\"", "\"eye-linear\""], quick: &["\"window\""] },
-    Axis { key: "single", values: &["\"far\"", "\"first+offset\""], quick: &["\"far\""] },
 ];
 
 /// Reads the keys, each with its default.

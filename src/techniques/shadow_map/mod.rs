@@ -32,6 +32,10 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
+    fn more_axes(&self) -> &'static [&'static [Axis]] {
+        settings::MORE_AXES
+    }
+
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
         settings::read(settings).map(|_| ())
     }

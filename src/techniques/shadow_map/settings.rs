@@ -110,6 +110,26 @@ pub const AXES: &[Axis] = &[
     Axis { key: "transfer", values: &["\"fbo\"", "\"copy\""], quick: &["\"fbo\""] },
 ];
 
+/// Under the default offset: kernels, what else there is against acne, mipmaps.
+pub const MORE_AXES: &[&[Axis]] = &[
+    &[
+        Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
+        Axis { key: "kernel", values: &["1", "\"3x3\"", "\"5x5\""], quick: &["1", "\"3x3\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis {
+            key: "bias",
+            values: &["\"receiver-plane\"", "\"normal-offset\"", "\"adaptive\""],
+            quick: &["\"receiver-plane\"", "\"normal-offset\"", "\"adaptive\""],
+        },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis { key: "mipmaps", values: &["true", "\"8-tap\""], quick: &["\"8-tap\""] },
+    ],
+];
+
 /// Reads the keys, each with its default.
 ///
 /// # Errors

@@ -42,7 +42,9 @@ pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64
 }
 
 fn sampler(settings: &Settings, compare: Compare) -> Sampler {
-    let plain = Sampler { filter: settings.filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
+    // Where the shader weighs the texels itself, it asks for them one by one.
+    let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
+    let plain = Sampler { filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
     match settings.mipmaps {
         Mipmaps::None => plain,
         Mipmaps::All => Sampler { filter: Filter::Trilinear, ..plain },
