@@ -5,10 +5,11 @@
 //! corners and of where they then are holds the shadow. Where that hull, grown by what a filter can reach, lies beyond
 //! one of the camera's planes, no visible point looks the caster up.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 
 use super::{Item, LightView};
 use crate::math::Aabb;
+use crate::math::frustum::planes;
 use crate::scene::LightKind;
 
 /// How far from its own place one comparison's lookup reaches: a linear filter's neighbour, Direct3D's half texel and
@@ -54,6 +55,13 @@ impl Unseen {
         })
     }
 
+    /// Whether `item` is flat and nothing of the scene lies behind it: what it could shadow is itself, and that it cannot.
+    pub fn shadows_nothing(&self, item: &Item) -> bool {
+        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+        let is_flat = (item.bounds.max - item.bounds.min).min_element() == 0.0;
+        is_flat && self.end_of_shadow(&corners).is_some_and(|end| end <= 1e-9)
+    }
+
     /// The least t by which all corners have crossed some face of the scene's bounds; `None` if there is none.
     fn end_of_shadow(&self, corners: &[DVec3; 8]) -> Option<f64> {
         let time = |corner: &DVec3, axis: usize, bound: f64, sign: f64| {
@@ -74,11 +82,4 @@ impl Unseen {
 
 fn world_bounds(item: &Item) -> Aabb {
     Aabb::from_points(item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)))
-}
-
-/// The clip volume's planes in world space, `dot(plane, (x, y, z, 1)) >= 0` inside.
-fn planes(clip_from_world: &DMat4) -> [DVec4; 6] {
-    let rows = clip_from_world.transpose();
-    let (x, y, z, w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
-    [w + x, w - x, w + y, w - y, w + z, w - z].map(|plane| plane / plane.truncate().length())
 }

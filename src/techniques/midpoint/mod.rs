@@ -21,7 +21,7 @@ mod single;
 use self::settings::{Average, Settings, Single};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
-use super::shadow_map::settings::Order;
+use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias, term};
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
@@ -60,6 +60,7 @@ impl Technique for Midpoint {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
+        refuse(&settings.map, keys)?;
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
@@ -87,6 +88,17 @@ impl Technique for Midpoint {
             }
         };
         Ok(term::term(view, map, &settings.map, 0.0))
+    }
+}
+
+/// What the second pass cannot do: it looks its own texel up, in a map of one level; and what a fitted map leaves out
+/// may be the second layer.
+fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    let message = "goes with technique = \"shadow-map\" or \"second-depth\", not with \"midpoint\"";
+    match (map.mipmaps, map.fit) {
+        (Mipmaps::None, Fit::None) => Ok(()),
+        (Mipmaps::None, _) => Err(keys.error("fit", message)),
+        _ => Err(keys.error("mipmaps", message)),
     }
 }
 

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{self as map, Settings};
-use super::shadow_map::{self, term};
+use super::shadow_map::{self, fit, term};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{Reader, SettingsError};
@@ -52,8 +52,9 @@ impl Technique for SecondDepth {
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let (settings, is_assumed) = read(keys)?;
-        let casters = casters(view, &settings, notes);
+        let (mut settings, is_assumed) = read(keys)?;
+        let mut casters = casters(view, &settings, notes);
+        settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if !is_assumed {
             refuse_open(&casters, keys)?;
         }

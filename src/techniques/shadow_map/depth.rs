@@ -62,7 +62,7 @@ pub fn draw(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
-    let batches = batches(layer, &(raster_from_clip(settings) * view.clip_from_world()), list);
+    let batches = batches(layer, &map_clip_from_world(view, settings), list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let (state, cleared) = state(settings, layer.offset);
@@ -84,6 +84,11 @@ pub fn draw(
         list.passes.push(Pass { label, redraw: settings.redraw, work: Work::CopyDepth { from: drawn, to: map } });
     }
     map
+}
+
+/// Raster, crop, and the light's own clip space.
+fn map_clip_from_world(view: &LightView<'_>, settings: &Settings) -> DMat4 {
+    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
 /// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].

@@ -4,12 +4,14 @@
 pub(super) mod bias;
 pub(super) mod casters;
 pub(super) mod depth;
+pub(super) mod fit;
 pub(super) mod settings;
 pub(super) mod term;
+mod texel;
 
 use self::casters::casters;
 use self::depth::{Ending, Layer};
-use super::{Axis, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{PassList, glsl};
 use crate::scene::{Reader, SettingsError};
 
@@ -47,13 +49,16 @@ impl Technique for ShadowMap {
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let settings = settings::read(keys)?;
-        let casters = casters(view, &settings, notes);
+        let mut settings = settings::read(keys)?;
+        let mut casters = casters(view, &settings, notes);
+        settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(without_casters(view, settings.dimming, notes));
         }
         let offset = bias::offset(&settings);
-        let (ending, casters) = (Ending::depth(), casters.as_slice());
+        let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
+        let fewer: Vec<&Item> = fewer.iter().collect();
+        let (ending, casters) = (Ending::depth(), if settings.simplified { &fewer } else { &casters });
         let layer = Layer { name: "depth", image: "map", ending, offset: offset.polygon, casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         Ok(term::term(view, map, &settings, offset.texels))

@@ -1,5 +1,6 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
+use super::fit::Crop;
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
@@ -55,6 +56,17 @@ pub enum Bias {
     Adaptive,
 }
 
+/// What of the light's frustum the map covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fit {
+    /// All of it.
+    None,
+    /// What holds casters.
+    Casters,
+    /// Of that, what is lit and seen: the map then follows the camera.
+    View,
+}
+
 /// `offset`, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offset {
@@ -79,6 +91,11 @@ pub struct Settings {
     /// Comparisons a side, 1..=7.
     pub kernel: u32,
     pub mipmaps: Mipmaps,
+    pub fit: Fit,
+    /// Whether casters are drawn with no more triangles than the map's texels show.
+    pub simplified: bool,
+    /// What `fit` comes to in a scene; the whole until [`super::fit::crop`] was asked.
+    pub crop: Crop,
     pub cull: Option<Face>,
     pub set_up: SetUp,
     pub split: Split,
@@ -128,6 +145,11 @@ pub const MORE_AXES: &[&[Axis]] = &[
         Axis { key: "size", values: &["1024"], quick: &["1024"] },
         Axis { key: "mipmaps", values: &["true", "\"8-tap\""], quick: &["\"8-tap\""] },
     ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis { key: "fit", values: &["\"casters\"", "\"view\""], quick: &["\"view\""] },
+        Axis { key: "casters", values: &["\"full\"", "\"texel\""], quick: &["\"texel\""] },
+    ],
 ];
 
 /// Reads the keys, each with its default.
@@ -167,6 +189,11 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         bias: keys.choice("bias", &biases)?.unwrap_or(Bias::Offset),
         kernel: read_kernel(keys)?,
         mipmaps: read_mipmaps(keys)?,
+        fit: keys
+            .choice("fit", &[("none", Fit::None), ("casters", Fit::Casters), ("view", Fit::View)])?
+            .unwrap_or(Fit::None),
+        simplified: keys.choice("casters", &[("full", false), ("texel", true)])?.unwrap_or(false),
+        crop: Crop::WHOLE,
         cull: keys
             .choice("cull", &[("none", None), ("back", Some(Face::Back)), ("front", Some(Face::Front))])?
             .unwrap_or(None),
@@ -217,6 +244,8 @@ fn check_mipmaps(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsE
         "need addressing = \"opengl\": half a texel is another length at every level"
     } else if settings.bias != Bias::Offset {
         "need bias = \"offset\": the others reckon with the texels of one level"
+    } else if settings.mipmaps == Mipmaps::All && settings.fit != Fit::None {
+        "need fit = \"none\", or \"8-tap\": of the smallest level one texel reaches across the map"
     } else {
         return Ok(());
     };

@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3, Vec4};
 
 use super::bias;
+use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Uniform, Wrap, glsl};
@@ -26,19 +27,30 @@ pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     term.texture_from_light_clip = texture_from_light_clip(settings);
+    term.texture_from_light_clip *= settings.crop.map_clip_from_light_clip();
     if texels > 0.0 {
         term.texture_from_light_clip *= bias::moved_to_light(view.light(), texels, settings);
     }
-    if settings.addressing == Addressing::Direct3d {
-        let half_texel = 0.5 / settings.size as f32;
-        term.frustum_from_map = Some(Vec4::new(1.0, -1.0, -half_texel, 1.0 + half_texel));
-    }
+    term.frustum_from_map = frustum_from_map(settings);
     term.set_up = settings.set_up;
     term.split = settings.split;
     term.dimming = settings.dimming;
     term.map = Some(map);
     look_up(&mut term, view.light(), settings);
     term
+}
+
+/// Scale and offset from (s, t) of the map to those of the light's whole frustum, where they differ.
+fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
+    let crop = settings.crop.frustum_from_map();
+    match settings.addressing {
+        Addressing::Direct3d => {
+            let half_texel = 0.5 / settings.size as f32;
+            let [x, y] = [-half_texel, 1.0 + half_texel];
+            Some(Vec4::new(crop.x, -crop.y, crop.x * x + crop.z, crop.y * y + crop.w))
+        }
+        Addressing::OpenGl => (settings.crop != Crop::WHOLE).then_some(crop),
+    }
 }
 
 fn sampler(settings: &Settings, compare: Compare) -> Sampler {
