@@ -19,11 +19,13 @@ impl Drop for Framebuffer {
     }
 }
 
-/// Makes a framebuffer of the attachments, at `level` of those that are textures, and checks that the driver can draw into it. It is left bound for drawing
-/// and reading. Without colour its draw and read buffers are GL_NONE.
+/// Makes a framebuffer of the attachments and checks that the driver can draw into it. It is left bound for drawing
+/// and reading. Without colour its draw and read buffers are GL_NONE. `depth` comes with where it is attached: as depth,
+/// or as depth and stencil. `level` is that of textures.
 pub fn create(
     gl: &Rc<glow::Context>,
-    [color, depth]: [Option<ImageName>; 2],
+    color: Option<ImageName>,
+    depth: Option<(ImageName, u32)>,
     level: u32,
     describe: impl Fn() -> (String, String),
 ) -> Result<Framebuffer, Error> {
@@ -37,8 +39,8 @@ pub fn create(
             gl.draw_buffers(&[glow::NONE]);
             gl.read_buffer(glow::NONE);
         }
-        if let Some(image) = depth {
-            attach(gl, glow::DEPTH_ATTACHMENT, image, level);
+        if let Some((image, point)) = depth {
+            attach(gl, point, image, level);
         }
         let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
         if status == glow::FRAMEBUFFER_COMPLETE {

@@ -10,7 +10,7 @@ use super::image::{self, ImageName};
 use super::state::{apply, set_mirrored};
 use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
 use crate::pass::{
-    Batch, Draw, DrawPass, DrawState, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
+    Batch, Draw, DrawPass, DrawState, Format, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
 };
 
 /// Whether and how passes are timed.
@@ -40,14 +40,8 @@ pub struct PassTime {
 /// A pass that a target already holds.
 pub struct Done {
     pub pass: Pass,
-    /// GL's numbers of the images it read, then of those it wrote.
+    /// GL's numbers of the images it read and wrote.
     pub objects: Vec<u32>,
-}
-
-impl Done {
-    fn reads(&self) -> &[u32] {
-        &self.objects[..self.pass.reads().len()]
-    }
 }
 
 impl Device {
@@ -60,14 +54,16 @@ impl Device {
     pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
         self.prepare(list)?;
         let mut times = Vec::new();
+        // What this frame has drawn anew: who builds on it cannot be left out.
+        let mut written = HashSet::new();
         for pass in &list.passes {
             let objects = self.objects(list, pass);
-            if pass.redraw == Redraw::WhenChanged && unchanged(self.done.get(&pass.label), pass, &objects) {
+            let builds_on_new = pass.reads().into_iter().chain(pass.writes()).any(|image| written.contains(&image));
+            let known = self.done.get(&pass.label);
+            if pass.redraw == Redraw::WhenChanged && !builds_on_new && unchanged(known, pass, &objects) {
                 continue;
             }
-            // Passes that read what is drawn here are not what they were, though they be the same.
-            let written = &objects[pass.reads().len()..];
-            self.done.retain(|_, done| !done.reads().iter().any(|number| written.contains(number)));
+            written.extend(pass.writes());
             times.extend(self.timed(list, pass, measure)?);
             if pass.redraw == Redraw::WhenChanged {
                 self.done.insert(pass.label.clone(), Done { pass: pass.clone(), objects });
@@ -147,7 +143,7 @@ impl Device {
         Ok(())
     }
 
-    fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
+    pub(super) fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
         let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
         let mut kept = HashSet::new();
         for desc in &list.images {
@@ -214,18 +210,18 @@ impl Device {
             let labels = labels.map(|desc| format!("{} ({})", desc.label, desc.format));
             (label.to_owned(), labels.collect::<Vec<_>>().join(" + "))
         };
-        let framebuffer = framebuffer::create(&self.gl, [color, depth], target.level, describe)?;
+        let point = |id| match list.desc(id).format {
+            Format::Depth24Stencil8 => glow::DEPTH_STENCIL_ATTACHMENT,
+            _ => glow::DEPTH_ATTACHMENT,
+        };
+        let depth = depth.zip(target.depth.map(point));
+        let framebuffer = framebuffer::create(&self.gl, color, depth, target.level, describe)?;
         self.framebuffers.insert(key, framebuffer);
         Ok(())
     }
 
     fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
-        check_feedback(list, label, pass)?;
-        self.bind_target(list, label, pass.target)?;
-        let [width, height] = pass.viewport.map(|side| side as i32);
-        unsafe { self.gl.viewport(0, 0, width, height) };
-        apply(&self.gl, &pass.state, &mut self.state);
-        self.clear(pass);
+        self.begin_pass(list, label, pass)?;
         for batch in &pass.batches {
             self.draw_batch(&pass.state, batch);
         }
@@ -233,7 +229,18 @@ impl Device {
         Ok(())
     }
 
-    /// Clears through the pass's write masks, which must be open for what is cleared.
+    /// Binds and clears the target under the pass's state.
+    pub(super) fn begin_pass(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
+        check_feedback(list, label, pass)?;
+        self.bind_target(list, label, pass.target)?;
+        let [width, height] = pass.viewport.map(|side| side as i32);
+        unsafe { self.gl.viewport(0, 0, width, height) };
+        apply(&self.gl, &pass.state, &mut self.state);
+        self.clear(pass);
+        Ok(())
+    }
+
+    /// Clears colour and depth through the pass's write masks, which must be open for what is cleared.
     fn clear(&self, pass: &DrawPass) {
         unsafe {
             if let Some(color) = pass.clear.color {
@@ -241,6 +248,12 @@ impl Device {
             }
             if let Some(depth) = pass.clear.depth {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
+            }
+            if let Some(stencil) = pass.clear.stencil {
+                // All of it, however few bits the draws write.
+                self.gl.stencil_mask(0xFF);
+                self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
+                self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));
             }
         }
     }
@@ -279,7 +292,7 @@ impl Device {
         }
     }
 
-    fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
+    pub(super) fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
         let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
         self.bind_target(list, label, Target { color: None, depth: Some(from), level: 0 })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);

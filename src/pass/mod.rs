@@ -1,15 +1,17 @@
 //! A frame as data: images, passes, draw state, shader variants, draws. Plain values that can be printed, compared and
-//! run by more than one reader. Knows meshes; no scene, no technique, no GL.
+//! run by more than one reader. Knows meshes and the math of texture coordinates; no scene, no technique, no GL.
 
 mod draw;
 mod image;
+mod meaning;
 mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use image::{DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
+pub use meaning::{AlphaTest, Lit, Meaning, PointLight, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
-pub use state::{Compare, DrawState, Face, PolygonOffset};
+pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
 pub(crate) use program::glsl;
 
@@ -75,6 +77,7 @@ pub struct DrawPass {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
+    /// Attached as depth and stencil where its format has both.
     pub depth: Option<ImageId>,
     /// Of the images that have several levels.
     pub level: u32,
@@ -85,13 +88,20 @@ pub struct Target {
 pub struct Clear {
     pub color: Option<[f32; 4]>,
     pub depth: Option<f32>,
+    pub stencil: Option<u8>,
 }
 
 impl Pass {
-    /// The images that the pass reads.
+    /// The images that the pass samples, copies, or adds to without clearing them first.
     pub fn reads(&self) -> Vec<ImageId> {
         match &self.work {
-            Work::Draw(draw) => draw.batches.iter().flat_map(|b| b.inputs.iter().map(|input| input.image)).collect(),
+            Work::Draw(draw) => {
+                let inputs = draw.batches.iter().flat_map(|b| b.inputs.iter().map(|input| input.image));
+                let color = draw.target.color.filter(|_| draw.clear.color.is_none());
+                let tests = draw.state.depth_test.is_some() || draw.state.stencil.is_some();
+                let depth = draw.target.depth.filter(|_| tests && draw.clear.depth.is_none());
+                inputs.chain(color).chain(depth).collect()
+            }
             Work::CopyDepth { from, .. } => vec![*from],
         }
     }
@@ -104,10 +114,17 @@ impl Pass {
         }
     }
 
-    /// The images that the pass writes.
+    /// The images that the pass writes. A pass that only holds its fragments against depth or stencil writes neither.
     pub fn writes(&self) -> Vec<ImageId> {
         match &self.work {
-            Work::Draw(draw) => draw.target.color.iter().chain(&draw.target.depth).copied().collect(),
+            Work::Draw(draw) => {
+                let state = &draw.state;
+                let color = draw.target.color.filter(|_| state.color_write || draw.clear.color.is_some());
+                let counts = state.stencil.is_some_and(|stencil| stencil.write_mask != 0);
+                let clears = draw.clear.depth.is_some() || draw.clear.stencil.is_some();
+                let depth = draw.target.depth.filter(|_| state.depth_write || counts || clears);
+                color.into_iter().chain(depth).collect()
+            }
             Work::CopyDepth { to, .. } => vec![*to],
         }
     }

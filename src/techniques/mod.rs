@@ -14,6 +14,7 @@ pub mod light;
 mod midpoint;
 mod second_depth;
 mod shadow_map;
+mod shadow_volume;
 pub mod surface;
 mod unseen;
 mod unshadowed;
@@ -76,13 +77,20 @@ pub struct Axis {
 }
 
 /// Every technique.
-pub const TABLE: &[&dyn Technique] =
-    &[&unshadowed::Unshadowed, &shadow_map::ShadowMap, &midpoint::Midpoint, &second_depth::SecondDepth];
+pub const TABLE: &[&dyn Technique] = &[
+    &unshadowed::Unshadowed,
+    &shadow_map::ShadowMap,
+    &midpoint::Midpoint,
+    &second_depth::SecondDepth,
+    &shadow_volume::ShadowVolume,
+];
 
 /// What was left out and why, and what the reader of a plan should know besides.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     pub left_out: Vec<LeftOut>,
+    /// What a technique chose by itself, and why.
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 
@@ -93,24 +101,42 @@ pub struct LeftOut {
     pub why: String,
 }
 
+/// A choice among several ways.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Chosen {
+    pub of: String,
+    pub choice: String,
+    pub why: String,
+}
+
 impl Notes {
     pub fn left_out(&mut self, what: impl Into<String>, why: impl Into<String>) {
         self.left_out.push(LeftOut { what: what.into(), why: why.into() });
     }
+
+    pub fn chosen(&mut self, of: impl Into<String>, choice: impl Into<String>, why: impl Into<String>) {
+        self.chosen.push(Chosen { of: of.into(), choice: choice.into(), why: why.into() });
+    }
 }
 
-/// The technique that `[light.shadow]` names; an absent table means none. Keys of the other techniques may stand, so
-/// that `technique` alone can be switched; they are checked all the same.
+/// Checks the keys that only other techniques read: they may stand, so that `technique` alone can be switched.
 ///
 /// # Errors
 ///
-/// A name that no row of the table has, a key of another technique with a wrong value.
+/// A key with a wrong value, with its place in the scene file.
+pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+    TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
+}
+
+/// The technique that `[light.shadow]` names; an absent table means none.
+///
+/// # Errors
+///
+/// A name that no row of the table has.
 pub fn chosen(settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
     let name = settings.string("technique")?.unwrap_or("none");
-    let chosen = TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
+    TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
         let names = TABLE.iter().map(|row| row.name());
         settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names)))
-    })?;
-    TABLE.iter().try_for_each(|row| row.check(settings))?;
-    Ok(chosen)
+    })
 }

@@ -48,6 +48,7 @@ impl Tracer<'_> {
             error: seen.error,
             depth_error: seen.error,
             start: (self.lamp.near / self.lamp.depth(seen.position)).clamp(0.0, 1.0),
+            levers: true,
         };
         let direction: DVec3 = beam.base - beam.apex;
         let radius = beam.radius(self.largest_error);

@@ -69,14 +69,14 @@ impl Technique for Midpoint {
             let layer = Layer { name, image, ending, offset, casters: &casters };
             depth::draw(view, &layer, &settings.map, list, notes)
         };
-        let nearest = draw("nearest layer", "nearest layer", Ending::depth(), NO_OFFSET);
-        let midpoint = draw("midpoint", "midpoint map", peel(view, nearest, &settings), NO_OFFSET);
+        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET);
+        let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET);
         let first = match settings.single.unwrap_or_else(|| needed(view)) {
             Single::Far => None,
             Single::First => Some(nearest),
             Single::FirstOffset => {
                 let offset = bias::offset(&settings.map).polygon;
-                Some(draw("offset layer", "offset layer", Ending::depth(), offset))
+                Some(draw("offset layer", "offset layer", None, offset))
             }
         };
         let map = match first {

@@ -7,8 +7,8 @@ use glam::{DMat4, DVec4};
 
 use crate::geometry::{Mesh, primitive};
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, MeshRef, Pass,
-    PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, Meaning, MeshRef,
+    Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::techniques::LightView;
 use crate::techniques::shadow_map::depth;
@@ -37,6 +37,7 @@ pub fn fill(
             fragment: vec![glsl!("midpoint/single.frag")],
             attributes: vec![Attribute::Position],
         },
+        meaning: Meaning::Shader("one map where another has no second layer"),
         uniforms: Vec::new(),
         inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
         cull: None,
@@ -48,7 +49,8 @@ pub fn fill(
         work: Work::Draw(DrawPass {
             target: Target { color: None, depth: Some(map), level: 0 },
             viewport: [settings.size; 2],
-            clear: Clear::default(),
+            // All of it is drawn over; cleared, it is not read before.
+            clear: Clear { depth: Some(1.0), ..Clear::default() },
             state: DrawState { depth_test: Some(Compare::Always), ..DrawState::DEPTH_ONLY },
             batches: vec![batch],
         }),

@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use super::shadow_map::casters::casters;
-use super::shadow_map::depth::{self, Ending, Layer};
+use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit, term};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
@@ -62,7 +62,7 @@ impl Technique for SecondDepth {
             return Ok(shadow_map::without_casters(view, settings.dimming, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer = Layer { name: "second depth", image: "map", ending: Ending::depth(), offset, casters: &casters };
+        let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
         Ok(term::term(view, map, &settings, 0.0))

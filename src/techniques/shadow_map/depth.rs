@@ -5,10 +5,10 @@ use glam::DMat4;
 use super::settings::{Mipmaps, Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
-    Attribute, Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList,
-    PolygonOffset, Program, Storage, Target, Uniform, Work, glsl,
+    Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
+    PolygonOffset, Storage, Target, Uniform, Work,
 };
-use crate::techniques::items::cutout;
+use crate::techniques::items::depth_batches;
 use crate::techniques::{Item, LightView, Notes};
 
 /// One pass of depth over the casters.
@@ -17,7 +17,8 @@ pub struct Layer<'a> {
     pub name: &'static str,
     /// Of the image, likewise.
     pub image: &'static str,
-    pub ending: Ending,
+    /// `None`: the depth of a fragment is written, and that is all.
+    pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
     pub casters: &'a [&'a Item],
@@ -31,19 +32,6 @@ pub struct Ending {
     pub defines: Vec<&'static str>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-}
-
-impl Ending {
-    /// Its depth is written, and that is all.
-    pub fn depth() -> Self {
-        Self {
-            label: "depth",
-            fragment: glsl!("depth/depth.frag"),
-            defines: Vec::new(),
-            uniforms: Vec::new(),
-            inputs: Vec::new(),
-        }
-    }
 }
 
 /// Draws a layer and, by the copy road, copies it. Returns the depth texture.
@@ -73,7 +61,7 @@ pub fn draw(
             work: Work::Draw(DrawPass {
                 target: Target { color: None, depth: Some(drawn), level },
                 viewport: [(settings.size >> level).max(1); 2],
-                clear: Clear { color: None, depth: Some(cleared) },
+                clear: Clear { depth: Some(cleared), ..Clear::default() },
                 state,
                 batches: batches.clone(),
             }),
@@ -130,39 +118,18 @@ pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset
     }
 }
 
-/// The casters in as few batches as their alpha tests allow.
+/// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
 fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
-    let mut batches: Vec<Batch> = Vec::new();
-    for item in layer.casters {
-        let batch = batch(item, &layer.ending, clip_from_world, list);
-        let joins =
-            |b: &&mut Batch| b.program == batch.program && b.uniforms == batch.uniforms && b.inputs == batch.inputs;
-        match batches.iter_mut().find(joins) {
-            Some(joined) => joined.draws.extend(batch.draws),
-            None => batches.push(batch),
-        }
+    let mut batches = depth_batches(layer.casters, clip_from_world, list);
+    let Some(ending) = &layer.ending else { return batches };
+    for batch in &mut batches {
+        batch.meaning = Meaning::Shader(ending.label);
+        batch.program.label = ending.label.to_owned();
+        batch.program.fragment.pop();
+        batch.program.fragment.push(ending.fragment.clone());
+        batch.program.defines.extend(ending.defines.iter().map(|name| ((*name).into(), String::new())));
+        batch.uniforms.extend(ending.uniforms.iter().cloned());
+        batch.inputs.extend(ending.inputs.iter().cloned());
     }
     batches
-}
-
-fn batch(item: &Item, ending: &Ending, clip_from_world: &DMat4, list: &mut PassList) -> Batch {
-    let mut test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
-    let mut vertex = vec![glsl!("common/position.vert")];
-    vertex.extend(test.vertex);
-    vertex.push(glsl!("depth/depth.vert"));
-    let mut fragment = test.fragment;
-    fragment.push(ending.fragment.clone());
-    let mut attributes = vec![Attribute::Position];
-    attributes.extend(test.attributes);
-    test.defines.extend(ending.defines.iter().map(|name| ((*name).into(), String::new())));
-    test.uniforms.extend(ending.uniforms.iter().cloned());
-    test.inputs.extend(ending.inputs.iter().cloned());
-    let label = ending.label.to_owned();
-    Batch {
-        program: Program { label, defines: test.defines, vertex, fragment, attributes },
-        uniforms: test.uniforms,
-        inputs: test.inputs,
-        cull: None,
-        draws: vec![item.draw(clip_from_world, Vec::new())],
-    }
 }

@@ -10,9 +10,9 @@ pub(super) mod term;
 mod texel;
 
 use self::casters::casters;
-use self::depth::{Ending, Layer};
+use self::depth::Layer;
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
-use crate::pass::{PassList, glsl};
+use crate::pass::PassList;
 use crate::scene::{Reader, SettingsError};
 
 pub struct ShadowMap;
@@ -58,8 +58,8 @@ impl Technique for ShadowMap {
         let offset = bias::offset(&settings);
         let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
         let fewer: Vec<&Item> = fewer.iter().collect();
-        let (ending, casters) = (Ending::depth(), if settings.simplified { &fewer } else { &casters });
-        let layer = Layer { name: "depth", image: "map", ending, offset: offset.polygon, casters };
+        let casters = if settings.simplified { &fewer } else { &casters };
+        let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         Ok(term::term(view, map, &settings, offset.texels))
     }
@@ -69,7 +69,7 @@ impl Technique for ShadowMap {
 pub(super) fn without_casters(view: &LightView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
-    let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"));
+    let mut term = LightTerm::unshadowed(view.index);
     term.dimming = dimming;
     term
 }

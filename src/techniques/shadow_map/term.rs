@@ -6,24 +6,23 @@ use super::bias;
 use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
-use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Uniform, Wrap, glsl};
+use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::scene::Light;
 use crate::techniques::{LightTerm, LightView};
 
 /// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
 pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
     let index = view.index;
+    let name = format!("shadow_map_{index}");
+    let clamped = settings.format == DepthFormat::Depth32F;
     let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
+    term.meaning = Shade::Texture { input: name.clone().into(), clamped };
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
         Order::GreaterEqual => Compare::GreaterEqual,
     };
-    term.inputs.push(Input {
-        name: format!("shadow_map_{index}").into(),
-        image: map,
-        sampler: sampler(settings, compare),
-    });
-    if settings.format == DepthFormat::Depth32F {
+    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(settings, compare) });
+    if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     term.texture_from_light_clip = texture_from_light_clip(settings);
@@ -70,6 +69,7 @@ fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
     if settings.kernel == 1 && settings.bias == Bias::Offset {
         return;
     }
+    term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
     term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
     match settings.bias {

@@ -7,8 +7,10 @@ use glam::{DMat4, DVec3, Mat3, Vec3, Vec4};
 
 use super::{Item, LightTerm};
 use crate::math::texgen;
-use crate::pass::{Attribute, Batch, Chunk, Face, Filter, Input, PassList, Program, Sampler, Uniform, Wrap};
-use crate::scene::{LightKind, LightShape, Scene};
+use crate::pass::{
+    Attribute, Batch, Chunk, Face, Filter, Input, PassList, PointLight, Program, Projection, Sampler, Uniform, Wrap,
+};
+use crate::scene::{Light, LightKind, LightShape, Scene};
 pub use variant::Ending;
 
 /// Whose picture the surfaces are drawn for.
@@ -41,14 +43,18 @@ pub fn batches(
     let mut batches: Vec<Batch> = Vec::new();
     for item in items {
         let one_sided = shows_no_back_face(item, &(clip_from_world * item.world_from_model));
-        let (program, uniforms, inputs) = variant::of(scene, item, one_sided, &lights, ending, list);
+        let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
+        let variant::Variant { program, meaning, uniforms, inputs } = surface;
         let cull = one_sided.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =
             |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
         match batches.iter_mut().find(joins) {
-            Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch { program, uniforms, inputs, cull, draws: vec![draw] }),
+            Some(batch) => {
+                debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
+                batch.draws.push(draw);
+            }
+            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, draws: vec![draw] }),
         }
     }
     Some(batches)
@@ -84,6 +90,7 @@ pub(super) struct LightParts {
     shade: Chunk,
     uniforms: Vec<Uniform>,
     inputs: Vec<Input>,
+    meaning: PointLight,
     has_specular: bool,
     has_ambient: bool,
 }
@@ -100,17 +107,21 @@ fn light_parts(
 ) -> Option<LightParts> {
     let source = &scene.lights[term.index];
     let index = term.index;
+    let cone = matches!(source.kind, LightKind::Spot { shape: LightShape::Cone, .. });
+    let texgen = texgen(source, viewer, term)?;
+    let projection = Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, cone };
     let mut parts = LightParts {
         index,
         defines: term.defines.clone(),
         shade: term.shade.for_light(index),
         uniforms: term.uniforms.clone(),
         inputs: term.inputs.clone(),
+        meaning: meaning(source, viewer, term, projection),
         has_specular: source.specular != [0.0; 3],
         has_ambient: source.ambient != [0.0; 3],
     };
-    add_texgen(&mut parts, source, viewer, term)?;
-    if matches!(source.kind, LightKind::Spot { shape: LightShape::Cone, .. }) {
+    add_texgen(&mut parts, &texgen);
+    if cone {
         parts.defines.push(format!("CONE_{index}"));
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
@@ -123,14 +134,36 @@ fn light_parts(
     Some(parts)
 }
 
-fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Viewer, term: &LightTerm) -> Option<()> {
+/// The light in the terms of fixed function.
+fn meaning(source: &Light, viewer: &Viewer, term: &LightTerm, projection: Projection) -> PointLight {
+    PointLight {
+        position: eye_position(source, viewer).to_array(),
+        ambient: source.ambient,
+        diffuse: source.diffuse,
+        specular: source.specular,
+        attenuation: source.attenuation,
+        beam: source.image.as_ref().map(|_| format!("spot_image_{}", term.index).into()),
+        dimming: term.dimming,
+        projection,
+        shade: term.meaning.clone(),
+    }
+}
+
+fn eye_position(source: &Light, viewer: &Viewer) -> Vec3 {
+    viewer.eye_from_world.transform_point3(source.position).as_vec3()
+}
+
+fn texgen(source: &Light, viewer: &Viewer, term: &LightTerm) -> Option<texgen::Texgen> {
     let spaces = texgen::Spaces {
         texture_from_light_clip: term.texture_from_light_clip,
         light_clip_from_light: source.clip_from_view(),
         light_from_world: source.view_from_world(),
         eye_from_world: viewer.eye_from_world,
     };
-    let generated = texgen::set_up(&spaces, term.set_up, term.split)?;
+    texgen::set_up(&spaces, term.set_up, term.split)
+}
+
+fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     let rows = generated.eye_planes.as_mat4().transpose();
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
     parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
@@ -138,19 +171,11 @@ fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Vie
         parts.defines.push(format!("TEXTURE_MATRIX_{}", parts.index));
         parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
     }
-    Some(())
 }
 
-fn add_lighting(
-    parts: &mut LightParts,
-    source: &crate::scene::Light,
-    viewer: &Viewer,
-    term: &LightTerm,
-    list: &mut PassList,
-) {
+fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
     let index = parts.index;
-    let position = viewer.eye_from_world.transform_point3(source.position).as_vec3();
-    parts.uniforms.push(Uniform::of_light("light_position", index, position));
+    parts.uniforms.push(Uniform::of_light("light_position", index, eye_position(source, viewer)));
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
     if parts.has_ambient {
         parts.defines.push(format!("LIGHT_AMBIENT_{index}"));

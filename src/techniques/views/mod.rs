@@ -1,7 +1,7 @@
 //! Arbitrary output variables: the pictures that show how a shadow comes about [Hardware Shadow Mapping, Fig. 2, 4, 5;
 //! techniques A18]. Each is a row of [`VIEWS`].
 
-use crate::pass::{Filter, Input, Sampler, Wrap, glsl};
+use crate::pass::{Filter, Input, Sampler, Shade, Wrap, glsl};
 
 use super::LightTerm;
 use super::surface::Ending;
@@ -15,6 +15,10 @@ pub enum View {
     LightView,
     LightDistance,
     ProjectedMap,
+    StencilCount,
+    StencilColors,
+    Volume,
+    Silhouette,
 }
 
 /// Name, view, whether it shows one light, what it shows.
@@ -30,6 +34,15 @@ pub const VIEWS: &[(&str, View, bool, &str)] = &[
     ("light-view", View::LightView, true, "the scene as the light sees it, lit and without shadow"),
     ("light-distance", View::LightDistance, true, "r/q: each sample's planar distance from the light"),
     ("projected-map", View::ProjectedMap, true, "the shadow map's depths projected onto the scene"),
+    (
+        "stencil-count",
+        View::StencilCount,
+        true,
+        "the shadow volumes that hold each point, as they are counted: integers",
+    ),
+    ("stencil-colors", View::StencilColors, true, "the same for the eye: green lit, red shadowed, with a legend"),
+    ("volume", View::Volume, true, "the shadow volumes over the scene: outsides orange, insides blue"),
+    ("silhouette", View::Silhouette, true, "the casters' possible silhouettes as the light sees them"),
 ];
 
 impl View {
@@ -47,6 +60,21 @@ impl View {
     pub fn needs_map(self) -> bool {
         matches!(self, Self::LightDepth | Self::ProjectedMap)
     }
+
+    /// Whether it shows what shadow volumes count.
+    pub fn needs_count(self) -> bool {
+        matches!(self, Self::StencilCount | Self::StencilColors | Self::Volume | Self::Silhouette)
+    }
+
+    /// Whether it shows a stencil buffer.
+    pub fn is_stencil(self) -> bool {
+        matches!(self, Self::StencilCount | Self::StencilColors)
+    }
+
+    /// Whether a count in the stencil buffer decides what it shows.
+    pub fn depends_on_shade(self) -> bool {
+        self == Self::Shade || self.needs_count()
+    }
 }
 
 /// How a view from the camera ends its fragments, and the light's term with what the view reads. `None` for views that
@@ -56,20 +84,29 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
     let ending = match view {
         View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
         View::LightDistance => {
+            term.meaning = Shade::Shader("r/q as a colour");
             term.inputs.clear();
             term.uniforms.clear();
             Ending::View { chunk: glsl!("views/distance.frag"), shade: false }
         }
         View::ProjectedMap => {
             term.uniforms.clear();
+            let name = format!("depth_map_{}", term.index);
+            term.meaning = Shade::Texture { input: name.clone().into(), clamped: false };
             term.inputs = vec![Input {
-                name: format!("depth_map_{}", term.index).into(),
+                name: name.into(),
                 image: term.map?,
                 sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None },
             }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
         }
-        View::Depth | View::LightDepth | View::LightView => return None,
+        View::Depth
+        | View::LightDepth
+        | View::LightView
+        | View::StencilCount
+        | View::StencilColors
+        | View::Volume
+        | View::Silhouette => return None,
     };
     Some((ending, term))
 }

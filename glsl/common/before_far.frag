@@ -1,0 +1,10 @@
+// The camera's far plane, where nothing is clipped by it: 1 / gl_FragCoord.w is the distance along the view.
+#undef main
+uniform float view_far;
+
+void main()
+{
+    if (1.0 / gl_FragCoord.w > view_far)
+        discard;
+    main_before_far();
+}
