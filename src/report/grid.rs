@@ -35,12 +35,14 @@ impl Setting {
 
 /// Every technique over its own axes; `quick` takes few values of each.
 pub fn standard(quick: bool) -> Vec<Setting> {
-    let of = |technique: &&dyn crate::techniques::Technique| {
-        let values = |axis: &Axis| {
-            let values = if quick { axis.quick } else { axis.values };
-            (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
-        };
-        product(technique.name(), &technique.axes().iter().map(values).collect::<Vec<_>>())
+    let values = |axis: &Axis| {
+        let values = if quick { axis.quick } else { axis.values };
+        (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
+    };
+    let of = |technique: &&'static dyn crate::techniques::Technique| {
+        let (name, grids) =
+            (technique.name(), [technique.axes()].into_iter().chain(technique.more_axes().iter().copied()));
+        grids.flat_map(move |axes| product(name, &axes.iter().map(values).collect::<Vec<_>>()))
     };
     TABLE.iter().flat_map(of).collect()
 }

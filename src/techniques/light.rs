@@ -47,7 +47,7 @@ pub struct LightTerm {
     pub shade: Chunk,
     /// What that computes, in the terms of fixed function.
     pub meaning: Shade,
-    /// Beside what [`super::surface`] adds for every light; names end in the light's index.
+    /// Beside what [`super::surface`] adds for every light; names end in the light's index, a value may follow.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
