@@ -11,7 +11,7 @@ use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::grid::{self, Setting};
+use crate::report::grid::{self, Grid};
 use crate::report::html::{Goals, Pictures};
 use crate::report::journal::{self, Journal};
 use crate::report::results::{Report, VERSION};
@@ -141,8 +141,8 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     }
     let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from("report"));
     let grid = match &arguments.grid {
-        Some(path) => grid::load(path)?,
-        None => grid::standard(arguments.quick),
+        Some(path) => Grid::Own(grid::load(path)?),
+        None => Grid::Standard { quick: arguments.quick },
     };
     let options = options(arguments);
     let sweeps = prepare(arguments, &grid, &options)?;
@@ -180,7 +180,7 @@ fn options(arguments: &ReportArgs) -> Options {
     }
 }
 
-fn prepare(arguments: &ReportArgs, grid: &[Setting], options: &Options) -> Result<Vec<Sweep>, Error> {
+fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec<Sweep>, Error> {
     let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
     let overrides: Vec<String> = size.into_iter().chain(arguments.set.iter().cloned()).collect();
     let bar = super::spinner("tracing the truth of {msg}");

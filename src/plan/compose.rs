@@ -1,11 +1,13 @@
 //! From a scene to its passes: each contributing light's own, then the lit pass, then the views.
 
+use glam::DMat4;
+
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage, Target, Work,
 };
-use crate::scene::Scene;
+use crate::scene::{Frustum, Light, Scene};
 use crate::techniques::guides;
 use crate::techniques::items::items;
 use crate::techniques::surface::{self, Ending, Viewer};
@@ -73,7 +75,7 @@ fn light_terms(
         let view = LightView { scene, items, index, shown_whole, keep_all };
         let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
-        let technique = techniques::chosen(&mut keys)?;
+        let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
         let term = if absent.is_none() || shown {
             technique.describe(&view, &mut keys, list, notes)?
@@ -106,9 +108,11 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
     if source.ambient != [0.0; 3] {
         return None; // ambient light is not bound by the cone
     }
-    let reach = reach(view);
-    let (light_clip, camera_clip) = (reach.clip_from_world(), camera.clip_from_world());
-    let corners = |clip: &glam::DMat4| frustum::corners(&clip.inverse());
+    let Some(light_clip) = reach(source) else {
+        return visible.is_empty().then_some("nothing that is seen is there for it to light");
+    };
+    let camera_clip = camera.clip_from_world();
+    let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
     }
@@ -117,13 +121,12 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
     if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
-/// What the light can light: its cone's pyramid from its very position on. Its near plane bounds casters and its far
-/// plane the map's depths; neither ends the light.
-fn reach(view: &LightView<'_>) -> Viewer {
-    let mut unbounded = view.light().clone();
-    unbounded.near *= 1e-3;
-    unbounded.far *= 1e3;
-    Viewer { clip_from_eye: unbounded.clip_from_view(), eye_from_world: unbounded.view_from_world() }
+/// `clip_from_world` of what the light can light: its cone's pyramid from its very position on. Its near plane bounds
+/// casters and its far plane the map's depths; neither ends the light. `None`: nothing bounds it.
+fn reach(source: &Light) -> Option<DMat4> {
+    let frustum = source.frustum()?;
+    let unbounded = Frustum { near: 1e-3 * frustum.near, far: 1e3 * frustum.far, ..frustum.clone() };
+    Some(unbounded.clip_from_world())
 }
 
 fn color_and_depth(label: &str, size: [u32; 2], format: Format, list: &mut PassList) -> Target {
@@ -178,8 +181,12 @@ impl Builder<'_> {
             let view = format!("{}@{index}", View::LightView.name());
             return Err(Error::NoSuchLight { view, count: self.scene.lights.len() });
         };
-        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
-        let term = LightTerm::new(index, crate::pass::glsl!("light/unshadowed.frag"));
+        let Some(frustum) = source.frustum() else {
+            let (view, why) = (View::LightView.name(), "has no one frustum to look through");
+            return Err(Error::NoView { view, light: index, kind: source.kind.name(), why });
+        };
+        let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
+        let term = LightTerm::new(self.scene, index, crate::pass::glsl!("light/unshadowed.frag"));
         let onto = Onto { label, target, viewport: [side; 2], viewer: &viewer, background: self.background() };
         self.surfaces(&onto, &[term], &Ending::Lit)
     }
@@ -191,7 +198,7 @@ impl Builder<'_> {
 
     fn surfaces(&mut self, onto: &Onto<'_>, terms: &[LightTerm], ending: &Ending) -> Result<(), Error> {
         let batches = surface::batches(self.scene, self.items, onto.viewer, terms, ending, self.list);
-        let batches = batches.ok_or_else(|| self.singular(terms))?;
+        let batches = batches.ok_or_else(|| Self::singular(terms))?;
         let clear = Clear { color: Some(onto.background), depth: Some(1.0) };
         let Onto { target, viewport, .. } = *onto;
         self.push(onto.label, DrawPass { target, viewport, clear, state: DrawState::OPAQUE, batches });
@@ -203,10 +210,9 @@ impl Builder<'_> {
         self.list.passes.push(Pass { label, redraw: Redraw::Always, work: Work::Draw(pass) });
     }
 
-    fn singular(&self, terms: &[LightTerm]) -> Error {
+    fn singular(terms: &[LightTerm]) -> Error {
         let light = terms.first().map_or(0, |term| term.index);
-        let (near, far) = self.scene.lights.get(light).map_or((0.0, 0.0), |l| (l.near, l.far));
-        Error::Singular { light, near, far }
+        Error::Singular { light }
     }
 
     /// The image that a requested view ends in.
@@ -227,6 +233,10 @@ impl Builder<'_> {
         if wanted.view.needs_map() && term.map.is_none() {
             let why = "its technique draws none, or no caster lies in its frustum";
             return Err(Error::NoMap { view: name, light: wanted.light, why });
+        }
+        if wanted.view == View::LightDistance && term.coordinates.is_none() {
+            let (kind, why) = (self.scene.lights[wanted.light].kind.name(), "has no plane to measure distance from");
+            return Err(Error::NoView { view: name, light: wanted.light, kind, why });
         }
         let label = format!("view: {name} of light {}", wanted.light);
         if wanted.view == View::LightView {

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::{Item, LightView};
 use crate::math::Aabb;
-use crate::scene::LightKind;
+use crate::scene::Frustum;
 
 /// How far from its own place a lookup reaches: a linear filter's neighbour, Direct3D's half texel and rounding, in
 /// texels.
@@ -26,16 +26,15 @@ pub struct Unseen {
 }
 
 impl Unseen {
-    /// For a map of `texels` a side.
-    pub fn new(view: &LightView<'_>, texels: u32) -> Self {
+    /// For a map of `frustum` with `texels` a side.
+    pub fn new(view: &LightView<'_>, frustum: &Frustum, texels: u32) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-        let LightKind::Spot { cone_radians, .. } = view.light().kind;
         Self {
             scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
-            light: view.light().position,
+            light: frustum.position,
             camera_planes: planes(&clip_from_world),
-            reach_at_one: REACH_TEXELS * 2.0 * (0.5 * cone_radians).tan() / f64::from(texels),
+            reach_at_one: REACH_TEXELS * 2.0 * (0.5 * frustum.cone_radians).tan() / f64::from(texels),
         }
     }
 

@@ -149,9 +149,11 @@ fn a_cone_lights_an_ellipse_and_a_frustum_a_quadrilateral() {
     let half = 14f64.to_radians();
     for shape in [LightShape::Cone, LightShape::Frustum] {
         let mut lamp = light(position, target);
-        lamp.kind = LightKind::Spot { cone_radians: 2.0 * half, shape };
+        frustum_of(&mut lamp).cone_radians = 2.0 * half;
+        let LightKind::Spot(spot) = &mut lamp.kind else { panic!("no spotlight") };
+        spot.shape = shape;
         let axis = (target - position).normalize();
-        let right = axis.cross(lamp.up).normalize();
+        let right = axis.cross(spot.frustum.up).normalize();
         let scene = scene(vec![floor()], lamp);
         let truth = trace_scene(&scene);
         let (mut inside, mut outside) = (0, 0);

@@ -90,7 +90,7 @@ fn an_object_that_casts_no_shadow_leaves_the_floor_lit() {
 #[test]
 fn a_blocker_before_the_lights_near_plane_does_not_cast() {
     let mut lamp = light(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO);
-    lamp.near = 3.5;
+    frustum_of(&mut lamp).near = 3.5;
     let truth = trace_scene(&scene(vec![floor(), object("square", mesh(&square(0.75, 2.0)))], lamp));
     assert_eq!(truth.count(|answer| answer == Answer::Shadowed), 0);
 }
@@ -123,7 +123,7 @@ fn no_light_leaks_into_closed_bodies_and_no_sight_out() {
             assert!(truth.pixels.iter().all(is_dark), "light leaks");
         }
         let mut lamp = light(eye - DVec3::X * 0.25, eye);
-        lamp.near = 1e-4;
+        frustum_of(&mut lamp).near = 1e-4;
         let truth = inside(&body, eye, lamp);
         assert!(truth.count(|answer| answer == Answer::Lit) > 1000);
     }
@@ -138,7 +138,7 @@ fn scaled(scene: &Scene, scale: f64, moved: DVec3) -> Scene {
     let camera = &mut scaled.camera;
     (camera.eye, camera.target) = (world.transform_point3(camera.eye), world.transform_point3(camera.target));
     (camera.near, camera.far) = (camera.near * scale, camera.far * scale);
-    let lamp = &mut scaled.lights[0];
+    let lamp = frustum_of(&mut scaled.lights[0]);
     (lamp.position, lamp.target) = (world.transform_point3(lamp.position), world.transform_point3(lamp.target));
     (lamp.near, lamp.far) = (lamp.near * scale, lamp.far * scale);
     scaled

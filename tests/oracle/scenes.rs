@@ -8,7 +8,7 @@ use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
 use glumbra::oracle::ray::{Answer, Options, Pixel, Truth, trace};
 use glumbra::scene::Origin;
-use glumbra::scene::{Camera, Image, Light, LightKind, LightShape, Object, Scene, Settings, Shading};
+use glumbra::scene::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Scene, Settings, Shading, Spot};
 
 pub const SIZE: u32 = 192;
 
@@ -105,20 +105,33 @@ fn grid(columns: u32, rows: u32, point: impl Fn(f64, f64) -> DVec3) -> Shape {
 /// A light that stands at `position` and looks at the origin's neighbourhood with 100 degrees.
 pub fn light(position: DVec3, target: DVec3) -> Light {
     Light {
-        kind: LightKind::Spot { cone_radians: 100f64.to_radians(), shape: LightShape::Frustum },
-        position,
-        target,
-        up: if (target - position).normalize().y.abs() > 0.9 { DVec3::Z } else { DVec3::Y },
-        near: 0.01,
-        far: 100.0,
+        kind: LightKind::Spot(Spot {
+            frustum: Frustum {
+                position,
+                target,
+                up: if (target - position).normalize().y.abs() > 0.9 { DVec3::Z } else { DVec3::Y },
+                cone_radians: 100f64.to_radians(),
+                near: 0.01,
+                far: 100.0,
+            },
+            shape: LightShape::Frustum,
+            attenuation: [1.0, 0.0, 0.0],
+            image: None,
+            frustum_shown: false,
+        }),
         ambient: [0.0; 3],
         diffuse: [1.0; 3],
         specular: [1.0; 3],
-        attenuation: [1.0, 0.0, 0.0],
-        image: None,
-        frustum_shown: false,
         name: String::from("light"),
         shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
+    }
+}
+
+/// The frustum of what [`light`] made.
+pub fn frustum_of(light: &mut Light) -> &mut Frustum {
+    match &mut light.kind {
+        LightKind::Spot(spot) => &mut spot.frustum,
+        other => panic!("{other:?} has no frustum"),
     }
 }
 

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::beam::Side;
 use super::truth::Reason;
-use crate::scene::{Light, LightKind, LightShape};
+use crate::scene::{Frustum, Light, LightKind, LightShape};
 
 pub(super) struct Lamp {
     pub position: DVec3,
@@ -17,18 +17,19 @@ pub(super) struct Lamp {
 }
 
 impl Lamp {
-    pub fn new(light: &Light) -> Self {
-        let LightKind::Spot { cone_radians, shape } = light.kind;
-        let ahead = (light.target - light.position).normalize();
-        let right = ahead.cross(light.up).normalize();
-        Self {
-            position: light.position,
+    pub fn new(light: &Light) -> Option<Self> {
+        let LightKind::Spot(spot) = &light.kind else { return None };
+        let Frustum { position, target, up, cone_radians, near, far } = spot.frustum;
+        let ahead = (target - position).normalize();
+        let right = ahead.cross(up).normalize();
+        Some(Self {
+            position,
             axes: [ahead, right, right.cross(ahead)],
-            shape,
+            shape: spot.shape,
             half_angle_radians: 0.5 * cone_radians,
-            near: light.near,
-            far: light.far,
-        }
+            near,
+            far,
+        })
     }
 
     pub fn is_finite(&self) -> bool {

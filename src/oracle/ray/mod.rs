@@ -112,7 +112,7 @@ struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
         let missing = || Error::NoLight { index: light, count: scene.lights.len() };
-        let lamp = Lamp::new(scene.lights.get(light).ok_or_else(missing)?);
+        let lamp = Lamp::new(scene.lights.get(light).ok_or_else(missing)?).ok_or(Error::View)?;
         let eye = Eye::new(scene);
         if !(eye.is_finite() && lamp.is_finite()) {
             return Err(Error::View);

@@ -7,14 +7,14 @@ use glam::{DMat4, DVec3, Vec4};
 use self::settings::{Addressing, Order, Settings, Transfer};
 use super::items::cutout;
 use super::unseen::Unseen;
-use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Coordinates, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
     Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass,
     PassList, PolygonOffset, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
 
@@ -29,6 +29,16 @@ impl Technique for ShadowMap {
 
     fn source(&self) -> &'static str {
         "Hardware Shadow Mapping; techniques A1-A10, A12"
+    }
+
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        match kind {
+            LightKind::Spot(_) => Ok(()),
+            LightKind::Point(_) => Err("draws one square map, and a point light's six come with the cube map"),
+            LightKind::Directional { .. } => {
+                Err("draws its map in perspective, and a directional light's comes with the orthographic map")
+            }
+        }
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -47,25 +57,26 @@ impl Technique for ShadowMap {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let casters = casters(view, &settings, notes);
+        let frustum = view.light().frustum().ok_or_else(|| keys.error("technique", "draws the map of a frustum"))?;
+        let casters = casters(view, frustum, &settings, notes);
         if casters.is_empty() && !view.keep_all {
             notes.left_out(
                 format!("the map of light {}", view.index),
                 "no caster in the light's frustum shadows what is seen",
             );
-            let mut term = LightTerm::new(view.index, glsl!("light/unshadowed.frag"));
+            let mut term = LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag"));
             term.dimming = settings.dimming;
             return Ok(term);
         }
-        let map = depth_passes(view, &casters, &settings, list, notes);
-        Ok(term(view.index, map, &settings))
+        let map = depth_passes(view, frustum, &casters, &settings, list, notes);
+        Ok(term(view, frustum, map, &settings))
     }
 }
 
 /// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
-fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
-    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(view, settings.size));
-    let clip_from_world = view.clip_from_world();
+fn casters<'a>(view: &LightView<'a>, frustum: &Frustum, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(view, frustum, settings.size));
+    let clip_from_world = frustum.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
@@ -80,7 +91,7 @@ fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> 
                 "the camera sees nothing that it shadows",
             );
         } else {
-            warn_of_near(view, item, notes);
+            warn_of_near(view, frustum, item, notes);
             casters.push(item);
         }
     }
@@ -88,16 +99,13 @@ fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> 
 }
 
 /// A caster between the light and its near plane casts no shadow from what is cut off: say so.
-fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
-    let mut cut_off = view.light().clone();
-    (cut_off.near, cut_off.far) = (1e-3 * cut_off.near, cut_off.near);
-    let clip_from_model = cut_off.clip_from_view() * cut_off.view_from_world() * item.world_from_model;
+fn warn_of_near(view: &LightView<'_>, frustum: &Frustum, item: &Item, notes: &mut Notes) {
+    let cut_off = Frustum { near: 1e-3 * frustum.near, far: frustum.near, ..frustum.clone() };
+    let clip_from_model = cut_off.clip_from_world() * item.world_from_model;
     if frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside {
         notes.warnings.push(format!(
             "{} may come nearer to light {} than its near plane at {}: what lies before that plane casts no shadow",
-            item.label,
-            view.index,
-            view.light().near
+            item.label, view.index, frustum.near
         ));
     }
 }
@@ -105,6 +113,7 @@ fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
 /// Draws the casters' depth and, by the copy road, copies it. Returns the depth texture.
 fn depth_passes(
     view: &LightView<'_>,
+    frustum: &Frustum,
     casters: &[&Item],
     settings: &Settings,
     list: &mut PassList,
@@ -122,7 +131,7 @@ fn depth_passes(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(format!("light {index} depth buffer"), Storage::Renderbuffer)),
     };
-    let clip_from_world = raster_from_clip(settings) * view.clip_from_world();
+    let clip_from_world = raster_from_clip(settings) * frustum.clip_from_world();
     let batches = depth_batches(casters, &clip_from_world, list);
     let label = format!("light {index}: depth");
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
@@ -212,8 +221,9 @@ fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList
 }
 
 /// How the lit pass compares against `map`.
-fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
-    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
+fn term(view: &LightView<'_>, frustum: &Frustum, map: ImageId, settings: &Settings) -> LightTerm {
+    let index = view.index;
+    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
         Order::GreaterEqual => Compare::GreaterEqual,
@@ -226,13 +236,16 @@ fn term(index: usize, map: ImageId, settings: &Settings) -> LightTerm {
     if settings.format == DepthFormat::Depth32F {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
-    term.texture_from_light_clip = texture_from_light_clip(settings);
+    term.coordinates = Some(Coordinates {
+        texture_from_light_clip: texture_from_light_clip(settings),
+        set_up: settings.set_up,
+        split: settings.split,
+        ..Coordinates::of_frustum(frustum)
+    });
     if settings.addressing == Addressing::Direct3d {
         let half_texel = 0.5 / settings.size as f32;
         term.frustum_from_map = Some(Vec4::new(1.0, -1.0, -half_texel, 1.0 + half_texel));
     }
-    term.set_up = settings.set_up;
-    term.split = settings.split;
     term.dimming = settings.dimming;
     term.map = Some(map);
     term

@@ -7,8 +7,8 @@ use glam::{DMat4, DVec3, Mat3, Vec3, Vec4};
 
 use super::{Item, LightTerm};
 use crate::math::texgen;
-use crate::pass::{Attribute, Batch, Chunk, Face, Filter, Input, PassList, Program, Sampler, Uniform, Wrap};
-use crate::scene::{LightKind, LightShape, Scene};
+use crate::pass::{Attribute, Batch, Chunk, Face, Filter, Input, PassList, Program, Sampler, Uniform, Wrap, glsl};
+use crate::scene::{Light, LightKind, LightShape, Scene};
 pub use variant::Ending;
 
 /// Whose picture the surfaces are drawn for.
@@ -84,8 +84,14 @@ pub(super) struct LightParts {
     shade: Chunk,
     uniforms: Vec<Uniform>,
     inputs: Vec<Input>,
+    /// Defines `bool in_reach_@()`.
+    reach: Chunk,
+    has_coordinates: bool,
     has_specular: bool,
     has_ambient: bool,
+    /// Whether its direction differs from point to point.
+    has_position: bool,
+    has_attenuation: bool,
 }
 
 const SPOT_IMAGE_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None };
@@ -105,11 +111,16 @@ fn light_parts(
         shade: term.shade.for_light(index),
         uniforms: term.uniforms.clone(),
         inputs: term.inputs.clone(),
+        reach: if source.spot().is_some() { glsl!("light/reach.frag") } else { glsl!("light/everywhere.frag") }
+            .for_light(index),
+        has_coordinates: term.coordinates.is_some(),
+        has_position: source.position().is_some(),
+        has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
         has_specular: source.specular != [0.0; 3],
         has_ambient: source.ambient != [0.0; 3],
     };
-    add_texgen(&mut parts, source, viewer, term)?;
-    if matches!(source.kind, LightKind::Spot { shape: LightShape::Cone, .. }) {
+    add_texgen(&mut parts, viewer, term)?;
+    if source.spot().is_some_and(|spot| spot.shape == LightShape::Cone) {
         parts.defines.push(format!("CONE_{index}"));
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
@@ -122,14 +133,11 @@ fn light_parts(
     Some(parts)
 }
 
-fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Viewer, term: &LightTerm) -> Option<()> {
-    let spaces = texgen::Spaces {
-        texture_from_light_clip: term.texture_from_light_clip,
-        light_clip_from_light: source.clip_from_view(),
-        light_from_world: source.view_from_world(),
-        eye_from_world: viewer.eye_from_world,
-    };
-    let generated = texgen::set_up(&spaces, term.set_up, term.split)?;
+/// `None` where the coordinates' transform has no inverse.
+fn add_texgen(parts: &mut LightParts, viewer: &Viewer, term: &LightTerm) -> Option<()> {
+    let Some(coordinates) = &term.coordinates else { return Some(()) };
+    let spaces = coordinates.spaces(viewer.eye_from_world);
+    let generated = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
     let rows = generated.eye_planes.as_mat4().transpose();
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
     parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
@@ -140,32 +148,41 @@ fn add_texgen(parts: &mut LightParts, source: &crate::scene::Light, viewer: &Vie
     Some(())
 }
 
-fn add_lighting(
-    parts: &mut LightParts,
-    source: &crate::scene::Light,
-    viewer: &Viewer,
-    term: &LightTerm,
-    list: &mut PassList,
-) {
+fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
     let index = parts.index;
-    let position = viewer.eye_from_world.transform_point3(source.position).as_vec3();
-    parts.uniforms.push(Uniform::of_light("light_position", index, position));
+    parts.uniforms.push(place(source, viewer, index));
+    if !parts.has_position {
+        parts.defines.push(format!("DIRECTIONAL_{index}"));
+    }
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
     if parts.has_ambient {
         parts.defines.push(format!("LIGHT_AMBIENT_{index}"));
         parts.uniforms.push(Uniform::of_light("light_ambient", index, Vec3::from(source.ambient)));
     }
-    if source.attenuation != [1.0, 0.0, 0.0] {
+    if parts.has_attenuation {
         parts.defines.push(format!("ATTENUATION_{index}"));
-        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation)));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
     }
     if term.dimming > 0.0 {
         parts.defines.push(format!("DIMMING_{index}"));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some(image) = &source.image {
+    if let Some(image) = source.spot().and_then(|spot| spot.image.as_ref()) {
         parts.defines.push(format!("SPOT_IMAGE_{index}"));
         parts.inputs.push(super::items::upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
     }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
+}
+
+/// Where the light stands, or the unit vector to a light that is infinitely far away; in eye space.
+fn place(source: &Light, viewer: &Viewer, index: usize) -> Uniform {
+    let position = match &source.kind {
+        LightKind::Spot(spot) => spot.frustum.position,
+        LightKind::Point(point) => point.position,
+        LightKind::Directional { direction } => {
+            let towards = viewer.eye_from_world.transform_vector3(-*direction).as_vec3();
+            return Uniform::of_light("light_direction", index, towards);
+        }
+    };
+    Uniform::of_light("light_position", index, viewer.eye_from_world.transform_point3(position).as_vec3())
 }

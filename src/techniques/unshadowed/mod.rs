@@ -2,7 +2,7 @@
 
 use super::{Axis, LightTerm, LightView, Notes, TABLE, Technique};
 use crate::pass::{PassList, glsl};
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct Unshadowed;
 
@@ -12,11 +12,15 @@ impl Technique for Unshadowed {
     }
 
     fn summary(&self) -> &'static str {
-        "no shadow: everything in the light's cone is lit"
+        "no shadow: everything that the light can reach is lit"
     }
 
     fn source(&self) -> &'static str {
         "GL 4.6 compatibility, 12.2"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -36,6 +40,6 @@ impl Technique for Unshadowed {
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         self.check(settings)?;
-        Ok(LightTerm::new(view.index, glsl!("light/unshadowed.frag")))
+        Ok(LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag")))
     }
 }
