@@ -105,7 +105,10 @@ impl Renderer {
     /// See [`Device::read`].
     pub fn read(&mut self, plan: &Plan) -> Result<Frame, Error> {
         let picture = self.device.read(&plan.list, plan.picture)?;
-        let views = plan.views.iter().map(|(_, image)| self.device.read(&plan.list, *image));
+        let views = plan.views.iter().map(|(wanted, image)| match wanted.view.is_stencil() {
+            true => self.device.read_stencil(&plan.list, *image),
+            false => self.device.read(&plan.list, *image),
+        });
         let views = views.collect::<Result<_, _>>()?;
         Ok(Frame { picture, views })
     }

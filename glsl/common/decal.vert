@@ -12,8 +12,7 @@ out vec2 st;
 void set_decal()
 {
 #ifdef OBJECT_LINEAR
-    vec4 model = vec4(position, 1.0);
-    st = texture_scale * vec2(dot(object_planes[0], model), dot(object_planes[1], model));
+    st = texture_scale * vec2(dot(object_planes[0], position), dot(object_planes[1], position));
 #else
     st = texcoord;
 #endif

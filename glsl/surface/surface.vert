@@ -19,7 +19,7 @@ void main()
     set_decal();
 #endif
 #ifdef EYE_SPACE
-    vec4 eye = eye_from_model * vec4(position, 1.0);
+    vec4 eye = eye_from_model * position;
     TEXGEN(eye)
 #endif
 #ifdef EYE_POSITION

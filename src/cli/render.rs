@@ -49,6 +49,10 @@ Views for --aov:
   light-view      the scene as the light sees it
   light-distance  r/q, each sample's planar distance from the light
   projected-map   the shadow map projected onto the scene
+  stencil-count   the shadow volumes that hold each point, as counted: gray values are the integers
+  stencil-colors  the same for the eye: green lit, red shadowed, with a legend
+  volume          the shadow volumes over the scene: outsides orange, insides blue
+  silhouette      the casters' possible silhouettes, as the light sees them
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
 
 Examples:

@@ -20,11 +20,12 @@ impl Drop for Framebuffer {
 }
 
 /// Makes a framebuffer of the attachments and checks that the driver can draw into it. It is left bound for drawing
-/// and reading. Without colour its draw and read buffers are GL_NONE.
+/// and reading. Without colour its draw and read buffers are GL_NONE. `depth` comes with where it is attached: as depth,
+/// or as depth and stencil.
 pub fn create(
     gl: &Rc<glow::Context>,
     color: Option<ImageName>,
-    depth: Option<ImageName>,
+    depth: Option<(ImageName, u32)>,
     describe: impl Fn() -> (String, String),
 ) -> Result<Framebuffer, Error> {
     unsafe {
@@ -37,8 +38,8 @@ pub fn create(
             gl.draw_buffers(&[glow::NONE]);
             gl.read_buffer(glow::NONE);
         }
-        if let Some(image) = depth {
-            attach(gl, glow::DEPTH_ATTACHMENT, image);
+        if let Some((image, point)) = depth {
+            attach(gl, point, image);
         }
         let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
         if status == glow::FRAMEBUFFER_COMPLETE {

@@ -69,14 +69,8 @@ impl GpuMesh {
             for (attribute, buffer) in buffers {
                 self.gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
                 self.gl.enable_vertex_attrib_array(attribute as u32);
-                self.gl.vertex_attrib_pointer_f32(
-                    attribute as u32,
-                    attribute.components(),
-                    glow::FLOAT,
-                    false,
-                    4 * attribute.components(),
-                    0,
-                );
+                let components = components(attribute, &self.mesh);
+                self.gl.vertex_attrib_pointer_f32(attribute as u32, components, glow::FLOAT, false, 4 * components, 0);
             }
             self.gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(indices));
             self.gl.bind_vertex_array(None);
@@ -90,6 +84,7 @@ impl GpuMesh {
             return Ok(Some(*buffer));
         }
         let bytes: &[u8] = match attribute {
+            Attribute::Position if self.mesh.positions.is_empty() => bytemuck::cast_slice(&self.mesh.homogeneous),
             Attribute::Position => bytemuck::cast_slice(&self.mesh.positions),
             Attribute::Normal => bytemuck::cast_slice(&self.mesh.normals),
             Attribute::Texcoord => match &self.mesh.texcoords {
@@ -115,6 +110,14 @@ impl GpuMesh {
         };
         self.indices.insert(order, buffer);
         Ok(buffer)
+    }
+}
+
+/// Numbers a vertex; GL completes a position of three with w = 1 [GL 4.6, 10.3.1].
+fn components(attribute: Attribute, mesh: &Mesh) -> i32 {
+    match attribute {
+        Attribute::Position if mesh.positions.is_empty() => 4,
+        _ => attribute.components(),
     }
 }
 

@@ -14,13 +14,18 @@ pub enum Pixels {
     RgbaF32 { size: [u32; 2], data: Vec<f32> },
     /// Window-space depth in [0, 1], one number a texel.
     Depth { size: [u32; 2], data: Vec<f32> },
+    /// Stencil values, one number a texel.
+    Stencil { size: [u32; 2], data: Vec<u8> },
 }
 
 impl Pixels {
     /// Width and height.
     pub fn size(&self) -> [u32; 2] {
         match self {
-            Self::Rgba8 { size, .. } | Self::RgbaF32 { size, .. } | Self::Depth { size, .. } => *size,
+            Self::Rgba8 { size, .. }
+            | Self::RgbaF32 { size, .. }
+            | Self::Depth { size, .. }
+            | Self::Stencil { size, .. } => *size,
         }
     }
 }
@@ -34,8 +39,7 @@ impl Device {
     pub fn read(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
         let desc = list.desc(image);
         let label = format!("reading {}", desc.label);
-        let is_depth = matches!(desc.format, Format::Depth(_));
-        let target = if is_depth {
+        let target = if desc.format.has_depth() {
             Target { color: None, depth: Some(image) }
         } else {
             Target { color: Some(image), depth: None }
@@ -56,7 +60,7 @@ impl Device {
                 flip_rows(&mut data, 4 * width as usize);
                 Pixels::RgbaF32 { size: desc.size, data }
             }
-            Format::Depth(_) => {
+            Format::Depth(_) | Format::Depth24Stencil8 => {
                 let mut data = vec![0.0_f32; count];
                 self.read_into(desc.size, glow::DEPTH_COMPONENT, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
                 flip_rows(&mut data, width as usize);
@@ -65,6 +69,22 @@ impl Device {
         };
         self.check(&label)?;
         Ok(pixels)
+    }
+
+    /// Reads the stencil values of an image of the list that was run last. Waits until it is drawn.
+    ///
+    /// # Errors
+    ///
+    /// GL errors, and images without stencil.
+    pub fn read_stencil(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
+        let desc = list.desc(image);
+        let label = format!("reading the stencil of {}", desc.label);
+        self.bind_target(list, &label, Target { color: None, depth: Some(image) })?;
+        let mut data = vec![0; desc.size[0] as usize * desc.size[1] as usize];
+        self.read_into(desc.size, glow::STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut data);
+        flip_rows(&mut data, desc.size[0] as usize);
+        self.check(&label)?;
+        Ok(Pixels::Stencil { size: desc.size, data })
     }
 
     pub(super) fn read_into(&self, size: [u32; 2], format: u32, kind: u32, bytes: &mut [u8]) {

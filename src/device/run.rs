@@ -10,7 +10,7 @@ use super::image::{self, ImageName};
 use super::state::{apply, set_mirrored};
 use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
 use crate::pass::{
-    Batch, Draw, DrawPass, DrawState, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
+    Batch, Draw, DrawPass, DrawState, Format, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
 };
 
 /// Whether and how passes are timed.
@@ -54,11 +54,16 @@ impl Device {
     pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
         self.prepare(list)?;
         let mut times = Vec::new();
+        // What this frame has drawn anew: who builds on it cannot be left out.
+        let mut written = HashSet::new();
         for pass in &list.passes {
             let objects = self.objects(list, pass);
-            if pass.redraw == Redraw::WhenChanged && unchanged(self.done.get(&pass.label), pass, &objects) {
+            let builds_on_new = pass.reads().into_iter().chain(pass.writes()).any(|image| written.contains(&image));
+            let known = self.done.get(&pass.label);
+            if pass.redraw == Redraw::WhenChanged && !builds_on_new && unchanged(known, pass, &objects) {
                 continue;
             }
+            written.extend(pass.writes());
             times.extend(self.timed(list, pass, measure)?);
             if pass.redraw == Redraw::WhenChanged {
                 self.done.insert(pass.label.clone(), Done { pass: pass.clone(), objects });
@@ -205,7 +210,11 @@ impl Device {
             let labels = labels.map(|desc| format!("{} ({})", desc.label, desc.format));
             (label.to_owned(), labels.collect::<Vec<_>>().join(" + "))
         };
-        let framebuffer = framebuffer::create(&self.gl, color, depth, describe)?;
+        let point = |id| match list.desc(id).format {
+            Format::Depth24Stencil8 => glow::DEPTH_STENCIL_ATTACHMENT,
+            _ => glow::DEPTH_ATTACHMENT,
+        };
+        let framebuffer = framebuffer::create(&self.gl, color, depth.zip(target.depth.map(point)), describe)?;
         self.framebuffers.insert(key, framebuffer);
         Ok(())
     }
@@ -232,6 +241,9 @@ impl Device {
             }
             if let Some(depth) = pass.clear.depth {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
+            }
+            if let Some(stencil) = pass.clear.stencil {
+                self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
             }
         }
     }

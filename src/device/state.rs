@@ -2,7 +2,7 @@
 
 use glow::HasContext;
 
-use crate::pass::{Compare, DrawState, Face};
+use crate::pass::{Blend, Compare, DrawState, Face, Stencil, StencilOp};
 
 /// The state that GL is known to have, and the winding of front faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,10 +33,10 @@ pub fn apply(gl: &glow::Context, state: &DrawState, known: &mut Option<Applied>)
             }
             None => gl.disable(glow::POLYGON_OFFSET_FILL),
         }
+        set_blend(gl, state.blend);
+        set_stencil(gl, state.stencil);
+        set_scissor(gl, state.scissor);
         if known.is_none() {
-            gl.disable(glow::BLEND);
-            gl.disable(glow::SCISSOR_TEST);
-            gl.disable(glow::STENCIL_TEST);
             gl.disable(glow::DITHER);
             gl.front_face(glow::CCW);
         }
@@ -56,6 +56,59 @@ fn set_depth(gl: &glow::Context, state: &DrawState) {
         }
         gl.depth_mask(state.depth_write);
         gl.depth_range_f32(state.depth_range[0], state.depth_range[1]);
+        enable(gl, glow::DEPTH_CLAMP, state.depth_clamp);
+    }
+}
+
+fn enable(gl: &glow::Context, what: u32, on: bool) {
+    unsafe { if on { gl.enable(what) } else { gl.disable(what) } }
+}
+
+fn set_blend(gl: &glow::Context, blend: Option<Blend>) {
+    enable(gl, glow::BLEND, blend.is_some());
+    let (source, destination) = match blend {
+        None => return,
+        Some(Blend::Add) => (glow::ONE, glow::ONE),
+        Some(Blend::Over) => (glow::SRC_ALPHA, glow::ONE_MINUS_SRC_ALPHA),
+    };
+    unsafe {
+        gl.blend_equation(glow::FUNC_ADD);
+        gl.blend_func_separate(source, destination, glow::ZERO, glow::ONE);
+    }
+}
+
+fn set_stencil(gl: &glow::Context, stencil: Option<Stencil>) {
+    enable(gl, glow::STENCIL_TEST, stencil.is_some());
+    // Clears go through the mask even where the test is off.
+    let Some(stencil) = stencil else { return unsafe { gl.stencil_mask(0xFF) } };
+    unsafe {
+        gl.stencil_mask(u32::from(stencil.write_mask));
+        let test = compare_code(stencil.test);
+        gl.stencil_func(test, i32::from(stencil.reference), u32::from(stencil.read_mask));
+        for (face, ops) in [(glow::FRONT, stencil.front), (glow::BACK, stencil.back)] {
+            let [fail, depth_fail, pass] = [ops.stencil_fail, ops.depth_fail, ops.pass].map(op_code);
+            gl.stencil_op_separate(face, fail, depth_fail, pass);
+        }
+    }
+}
+
+fn op_code(op: StencilOp) -> u32 {
+    match op {
+        StencilOp::Keep => glow::KEEP,
+        StencilOp::Zero => glow::ZERO,
+        StencilOp::Replace => glow::REPLACE,
+        StencilOp::Increment => glow::INCR,
+        StencilOp::IncrementWrap => glow::INCR_WRAP,
+        StencilOp::Decrement => glow::DECR,
+        StencilOp::DecrementWrap => glow::DECR_WRAP,
+        StencilOp::Invert => glow::INVERT,
+    }
+}
+
+fn set_scissor(gl: &glow::Context, scissor: Option<[u32; 4]>) {
+    enable(gl, glow::SCISSOR_TEST, scissor.is_some());
+    if let Some([left, bottom, width, height]) = scissor.map(|sides| sides.map(|side| side as i32)) {
+        unsafe { gl.scissor(left, bottom, width, height) };
     }
 }
 
@@ -72,9 +125,11 @@ pub fn set_mirrored(gl: &glow::Context, mirrored: bool, known: &mut Option<Appli
 /// GL's code of a comparison.
 pub fn compare_code(compare: Compare) -> u32 {
     match compare {
+        Compare::Never => glow::NEVER,
         Compare::Less => glow::LESS,
         Compare::LessEqual => glow::LEQUAL,
         Compare::Equal => glow::EQUAL,
+        Compare::NotEqual => glow::NOTEQUAL,
         Compare::GreaterEqual => glow::GEQUAL,
         Compare::Greater => glow::GREATER,
         Compare::Always => glow::ALWAYS,

@@ -9,8 +9,12 @@ const WINDOW: usize = 1024;
 const WELL_ORDERED: f64 = 0.8;
 
 impl Mesh {
-    /// Whether triangles that follow one another share so few vertices that sorting them pays.
+    /// Whether triangles that follow one another share so few vertices that sorting them pays. A shadow volume, whose
+    /// parts are ranges of its indices, is never sorted.
     pub fn is_scattered(&self) -> bool {
+        if self.parts.is_empty() {
+            return false;
+        }
         let mut last_window = vec![usize::MAX; self.positions.len()];
         let mut transformed = 0;
         for (window, indices) in self.indices.chunks(3 * WINDOW).enumerate() {
@@ -66,6 +70,7 @@ impl Mesh {
             parts: self.parts.clone(),
             materials: self.materials.clone(),
             bounds: self.bounds,
+            ..Mesh::default()
         }
     }
 }

@@ -19,6 +19,8 @@ pub struct Mesh {
     /// Where it comes from: a built-in's name or the file's path as written.
     pub name: String,
     pub positions: Vec<[f32; 3]>,
+    /// Positions with w in place of `positions`, which is then empty: of shadow volumes, whose far vertices have w = 0.
+    pub homogeneous: Vec<[f32; 4]>,
     /// Of unit length; (0, 0, 1) where a vertex has no triangle of any area.
     pub normals: Vec<[f32; 3]>,
     /// (s, t), t upwards as in GL and OBJ.

@@ -1,4 +1,4 @@
-//! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals. No GL, no scene.
+//! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals, shadow volumes. No GL, no scene.
 
 mod cache;
 mod error;
@@ -11,6 +11,7 @@ mod primitives;
 mod text;
 mod texture;
 pub mod topology;
+pub mod volume;
 
 pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Texture};

@@ -21,6 +21,9 @@ pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     if bounds.is_empty() {
         return Overlap::Outside;
     }
+    if *bounds == Aabb::EVERYTHING {
+        return Overlap::Partial;
+    }
     let corners = bounds.corners().map(|corner| *clip_from_box * corner.extend(1.0));
     let mut inside = true;
     for plane in 0..6 {

@@ -3,7 +3,10 @@
 
 mod aabb;
 pub mod dd;
+pub mod exact;
 pub mod frustum;
+pub mod hull;
+pub mod ledge;
 pub mod spaces;
 pub mod texgen;
 

@@ -28,3 +28,33 @@ pub fn perspective(fov_y_radians: f64, aspect: f64, near: f64, far: f64) -> DMat
         DVec4::new(0.0, 0.0, 2.0 * far * near / depth, 0.0),
     )
 }
+
+/// `clip_from_view` of the same perspective with its far plane at infinity: points with w = 0 ahead of the eye land on
+/// depth 1 exactly and are never clipped by it [GDC 2001; Everitt & Kilgard]. Its x, y and w rows are those of
+/// [`perspective`] to the bit.
+pub fn infinite_perspective(fov_y_radians: f64, aspect: f64, near: f64) -> DMat4 {
+    let f = 1.0 / (0.5 * fov_y_radians).tan();
+    DMat4::from_cols(
+        DVec4::new(f / aspect, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, f, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, -1.0, -1.0),
+        DVec4::new(0.0, 0.0, -2.0 * near, 0.0),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_infinite_perspective_is_the_finite_ones_limit() {
+        let (finite, infinite) = (perspective(0.9, 1.5, 0.1, 1e12), infinite_perspective(0.9, 1.5, 0.1));
+        assert!(finite.abs_diff_eq(infinite, 1e-12));
+        for row in [0, 1, 3] {
+            assert_eq!(finite.row(row), infinite.row(row));
+        }
+        let far = infinite * DVec4::new(0.3, -0.2, -1.0, 0.0);
+        assert_eq!(far.z, far.w);
+        assert_eq!((infinite * DVec4::new(0.0, 0.0, -0.1, 1.0)).z, -0.1);
+    }
+}

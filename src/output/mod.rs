@@ -1,6 +1,8 @@
 //! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
 //! renamed when it is whole (`whole.rs`).
 
+pub mod canvas;
+mod counts;
 pub(crate) mod whole;
 
 use std::fs;
@@ -131,6 +133,10 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
             let gray = data.iter().flat_map(|depth| to_u16(stretch.apply(*depth)).to_ne_bytes());
             (gray.collect(), ExtendedColorType::L16)
         }
+        (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
+            (counts::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
+        }
+        (Pixels::Stencil { data, .. }, _) => (data.clone(), ExtendedColorType::L8),
         (Pixels::RgbaF32 { data, .. }, Some(View::Shade)) => {
             (data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[3])]).collect(), ExtendedColorType::La8)
         }
@@ -181,6 +187,7 @@ impl Stretch {
 fn channels(output: &Output<'_>) -> (&'static [(&'static str, usize)], usize) {
     match (output.pixels, output.view) {
         (Pixels::Depth { .. }, _) => (&[("Z", 0)], 1),
+        (Pixels::Stencil { .. }, _) => (&[("Y", 0)], 1),
         (_, Some(View::Shade)) => (&[("Y", 0), ("A", 3)], 4),
         (_, Some(View::LightDistance | View::ProjectedMap)) => (&[("Z", 0), ("A", 3)], 4),
         _ => (&[("R", 0), ("G", 1), ("B", 2)], 4),
@@ -195,6 +202,7 @@ fn planes(output: &Output<'_>) -> Vec<(&'static str, Vec<f32>)> {
         Pixels::RgbaF32 { data, .. } | Pixels::Depth { data, .. } => {
             data[offset..].iter().step_by(stride).copied().collect()
         }
+        Pixels::Stencil { data, .. } => data.iter().map(|value| f32::from(*value)).collect(),
     };
     channels.iter().map(|(name, offset)| (*name, plane(*offset))).collect()
 }

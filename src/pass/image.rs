@@ -46,16 +46,23 @@ pub enum Format {
     Rgba8,
     Rgba32F,
     Depth(DepthFormat),
+    /// Packed: separate depth and stencil attachments are optional, and llvmpipe has none [GL 4.6, 9.4.2].
+    Depth24Stencil8,
 }
 
 impl Format {
+    /// Whether it is attached as depth.
+    pub fn has_depth(self) -> bool {
+        matches!(self, Self::Depth(_) | Self::Depth24Stencil8)
+    }
+
     /// Bytes of a texel as commonly stored; 24-bit depth takes four.
     pub fn bytes(self) -> u64 {
         match self {
             Self::Rgba8 => 4,
             Self::Rgba32F => 16,
             Self::Depth(DepthFormat::Depth16) => 2,
-            Self::Depth(_) => 4,
+            Self::Depth(_) | Self::Depth24Stencil8 => 4,
         }
     }
 }
@@ -89,6 +96,7 @@ impl fmt::Display for Format {
             Self::Depth(DepthFormat::Depth24) => "DEPTH_COMPONENT24",
             Self::Depth(DepthFormat::Depth32) => "DEPTH_COMPONENT32",
             Self::Depth(DepthFormat::Depth32F) => "DEPTH_COMPONENT32F",
+            Self::Depth24Stencil8 => "DEPTH24_STENCIL8",
         })
     }
 }

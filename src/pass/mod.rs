@@ -9,7 +9,7 @@ mod state;
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use image::{DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
-pub use state::{Compare, DrawState, Face, PolygonOffset};
+pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
 pub(crate) use program::glsl;
 
@@ -75,6 +75,7 @@ pub struct DrawPass {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
+    /// Attached as depth and stencil where its format has both.
     pub depth: Option<ImageId>,
 }
 
@@ -83,13 +84,20 @@ pub struct Target {
 pub struct Clear {
     pub color: Option<[f32; 4]>,
     pub depth: Option<f32>,
+    pub stencil: Option<u8>,
 }
 
 impl Pass {
-    /// The images that the pass reads.
+    /// The images that the pass samples, copies, or adds to without clearing them first.
     pub fn reads(&self) -> Vec<ImageId> {
         match &self.work {
-            Work::Draw(draw) => draw.batches.iter().flat_map(|b| b.inputs.iter().map(|input| input.image)).collect(),
+            Work::Draw(draw) => {
+                let inputs = draw.batches.iter().flat_map(|b| b.inputs.iter().map(|input| input.image));
+                let color = draw.target.color.filter(|_| draw.clear.color.is_none());
+                let tests = draw.state.depth_test.is_some() || draw.state.stencil.is_some();
+                let depth = draw.target.depth.filter(|_| tests && draw.clear.depth.is_none());
+                inputs.chain(color).chain(depth).collect()
+            }
             Work::CopyDepth { from, .. } => vec![*from],
         }
     }
@@ -102,10 +110,17 @@ impl Pass {
         }
     }
 
-    /// The images that the pass writes.
+    /// The images that the pass writes. A pass that only holds its fragments against depth or stencil writes neither.
     pub fn writes(&self) -> Vec<ImageId> {
         match &self.work {
-            Work::Draw(draw) => draw.target.color.iter().chain(&draw.target.depth).copied().collect(),
+            Work::Draw(draw) => {
+                let state = &draw.state;
+                let color = draw.target.color.filter(|_| state.color_write || draw.clear.color.is_some());
+                let counts = state.stencil.is_some_and(|stencil| stencil.write_mask != 0);
+                let clears = draw.clear.depth.is_some() || draw.clear.stencil.is_some();
+                let depth = draw.target.depth.filter(|_| state.depth_write || counts || clears);
+                color.into_iter().chain(depth).collect()
+            }
             Work::CopyDepth { to, .. } => vec![*to],
         }
     }

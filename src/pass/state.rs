@@ -3,9 +3,11 @@
 /// Comparison functions of depth test and depth textures [GL 4.6, tables 8.31 and 17.3.4].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compare {
+    Never,
     Less,
     LessEqual,
     Equal,
+    NotEqual,
     GreaterEqual,
     Greater,
     Always,
@@ -24,6 +26,56 @@ pub struct PolygonOffset {
     pub units: f32,
 }
 
+/// What happens to a stencil value [GL 4.6, 17.3.3]. Values are eight bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StencilOp {
+    Keep,
+    Zero,
+    Replace,
+    /// Stops at 255.
+    Increment,
+    /// Modulo 256.
+    IncrementWrap,
+    /// Stops at 0.
+    Decrement,
+    /// Modulo 256.
+    DecrementWrap,
+    Invert,
+}
+
+/// What each outcome of the tests does to the stencil value of a fragment of one facing (glStencilOpSeparate). With the
+/// depth test off, the depth test passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StencilOps {
+    pub stencil_fail: StencilOp,
+    pub depth_fail: StencilOp,
+    pub pass: StencilOp,
+}
+
+impl StencilOps {
+    pub const KEEP: Self = Self { stencil_fail: StencilOp::Keep, depth_fail: StencilOp::Keep, pass: StencilOp::Keep };
+}
+
+/// The stencil test [GL 4.6, 17.3.3]: `(reference & read_mask) test (stored & read_mask)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stencil {
+    pub test: Compare,
+    pub reference: u8,
+    pub read_mask: u8,
+    pub write_mask: u8,
+    pub front: StencilOps,
+    pub back: StencilOps,
+}
+
+/// How a fragment's colour joins the one that is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blend {
+    /// GL_ONE, GL_ONE; alpha stays as it is.
+    Add,
+    /// By the fragment's alpha over what is there; alpha stays as it is.
+    Over,
+}
+
 /// All of GL's per-fragment and raster state that a pass of ours can set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
@@ -36,6 +88,14 @@ pub struct DrawState {
     pub polygon_offset: Option<PolygonOffset>,
     /// glDepthRange; reversed where the first exceeds the second.
     pub depth_range: [f32; 2],
+    /// GL_DEPTH_CLAMP: no clipping at the near and far planes, depth clamped to the range [GL 4.6, 13.7].
+    pub depth_clamp: bool,
+    /// `None`: the stencil test is off.
+    pub stencil: Option<Stencil>,
+    /// `None`: the fragment's colour replaces what is there.
+    pub blend: Option<Blend>,
+    /// Left, bottom, width and height in pixels of what may be drawn and cleared; `None`: everything.
+    pub scissor: Option<[u32; 4]>,
 }
 
 impl DrawState {
@@ -47,8 +107,16 @@ impl DrawState {
         cull: None,
         polygon_offset: None,
         depth_range: [0.0, 1.0],
+        depth_clamp: false,
+        stencil: None,
+        blend: None,
+        scissor: None,
     };
 
     /// Colour and depth: LESS.
     pub const OPAQUE: Self = Self { color_write: true, ..Self::DEPTH_ONLY };
+
+    /// Colour where depth is already what this draws: EQUAL, no depth writes. Exact only with the same position
+    /// arithmetic as the pass that wrote it [GL 4.6 compatibility, A.3].
+    pub const REPEAT: Self = Self { depth_test: Some(Compare::Equal), depth_write: false, ..Self::OPAQUE };
 }

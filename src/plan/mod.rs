@@ -1,6 +1,9 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
+mod builder;
 mod compose;
+mod counted;
+mod lens;
 mod print;
 mod prune;
 
@@ -8,7 +11,7 @@ use serde::Serialize;
 
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{LeftOut, views::View};
+use crate::techniques::{Chosen, LeftOut, views::View};
 
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]
@@ -84,6 +87,7 @@ pub struct Plan {
     /// In the request's order.
     pub views: Vec<(ViewRequest, ImageId)>,
     pub left_out: Vec<LeftOut>,
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 
@@ -98,6 +102,8 @@ pub enum Error {
     NoMap { view: &'static str, light: usize, why: &'static str },
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
+    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
+    NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
@@ -142,6 +148,7 @@ pub struct Summary {
     /// Vertex and index buffers: each attribute and index order of each mesh that a draw reads, once.
     pub buffer_bytes: u64,
     pub left_out: Vec<LeftOut>,
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 

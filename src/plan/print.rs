@@ -4,7 +4,10 @@ use std::collections::HashSet;
 use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
-use crate::pass::{Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Storage, Work};
+use crate::pass::{
+    Blend, Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil, StencilOp, StencilOps,
+    Storage, Work,
+};
 
 impl Plan {
     /// The plan as values.
@@ -26,6 +29,7 @@ impl Plan {
             images,
             buffer_bytes: self.buffer_bytes(),
             left_out: self.left_out.clone(),
+            chosen: self.chosen.clone(),
             warnings: self.warnings.clone(),
         }
     }
@@ -42,7 +46,9 @@ impl Plan {
                 let mesh = std::sync::Arc::as_ptr(&draw.mesh.0);
                 for attribute in &batch.program.attributes {
                     if seen.insert((mesh, Err(*attribute))) {
-                        bytes += 4 * attribute.components() as u64 * draw.mesh.positions.len() as u64;
+                        let vertices = (draw.mesh.positions.len() + draw.mesh.homogeneous.len()) as u64;
+                        let components = if draw.mesh.homogeneous.is_empty() { attribute.components() } else { 4 };
+                        bytes += 4 * components as u64 * vertices;
                     }
                 }
                 if seen.insert((mesh, Ok(draw.order))) {
@@ -133,9 +139,11 @@ fn push_new(list: &mut Vec<String>, text: String) {
 
 fn compare_name(compare: Compare) -> &'static str {
     match compare {
+        Compare::Never => "NEVER",
         Compare::Less => "LESS",
         Compare::LessEqual => "LEQUAL",
         Compare::Equal => "EQUAL",
+        Compare::NotEqual => "NOTEQUAL",
         Compare::GreaterEqual => "GEQUAL",
         Compare::Greater => "GREATER",
         Compare::Always => "ALWAYS",
@@ -143,13 +151,17 @@ fn compare_name(compare: Compare) -> &'static str {
 }
 
 fn state_words(pass: &DrawPass) -> Vec<String> {
-    let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range } = pass.state;
+    let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range, .. } = pass.state;
+    let DrawState { depth_clamp, stencil, blend, scissor, .. } = pass.state;
     let mut words = Vec::new();
     if let Some([r, g, b, a]) = pass.clear.color {
         words.push(format!("clear colour ({r}, {g}, {b}, {a})"));
     }
     if let Some(depth) = pass.clear.depth {
         words.push(format!("clear depth {depth}"));
+    }
+    if let Some(stencil) = pass.clear.stencil {
+        words.push(format!("clear stencil {stencil}"));
     }
     words.push(depth_test.map_or(String::from("no depth test"), |test| format!("depth {}", compare_name(test))));
     words.push(format!(
@@ -170,7 +182,55 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
     if depth_range != [0.0, 1.0] {
         words.push(format!("depth range ({}, {})", depth_range[0], depth_range[1]));
     }
+    if depth_clamp {
+        words.push(String::from("depth clamp"));
+    }
+    words.extend(stencil.iter().flat_map(stencil_words));
+    match blend {
+        Some(Blend::Add) => words.push(String::from("blend ONE ONE")),
+        Some(Blend::Over) => words.push(String::from("blend SRC_ALPHA ONE_MINUS_SRC_ALPHA")),
+        None => {}
+    }
+    if let Some([left, bottom, width, height]) = scissor {
+        words.push(format!("scissor {width}x{height} at ({left}, {bottom})"));
+    }
     words
+}
+
+fn stencil_words(stencil: &Stencil) -> Vec<String> {
+    let Stencil { test, reference, read_mask, write_mask, front, back } = *stencil;
+    let mut words = vec![match test {
+        Compare::Always => String::from("stencil ALWAYS"),
+        _ if read_mask == 0xFF => format!("stencil {} {reference}", compare_name(test)),
+        _ => format!("stencil {} {reference} & 0x{read_mask:02X}", compare_name(test)),
+    }];
+    let side = |name: &str, ops: StencilOps| {
+        let ops = [("stencil fail", ops.stencil_fail), ("depth fail", ops.depth_fail), ("pass", ops.pass)];
+        let ops: Vec<String> = ops
+            .iter()
+            .filter(|(_, op)| *op != StencilOp::Keep)
+            .map(|(when, op)| format!("{} on {when}", op_name(*op)))
+            .collect();
+        (!ops.is_empty()).then(|| format!("{name} {}", ops.join(" ")))
+    };
+    if write_mask != 0 {
+        words.extend(side("front", front));
+        words.extend(side("back", back));
+    }
+    words
+}
+
+fn op_name(op: StencilOp) -> &'static str {
+    match op {
+        StencilOp::Keep => "KEEP",
+        StencilOp::Zero => "ZERO",
+        StencilOp::Replace => "REPLACE",
+        StencilOp::Increment => "INCR",
+        StencilOp::IncrementWrap => "INCR_WRAP",
+        StencilOp::Decrement => "DECR",
+        StencilOp::DecrementWrap => "DECR_WRAP",
+        StencilOp::Invert => "INVERT",
+    }
 }
 
 impl Display for Summary {
@@ -196,6 +256,12 @@ impl Display for Summary {
         writeln!(f, "\nBuffers: {:.1} MiB; images: {:.1} MiB", mib(self.buffer_bytes), mib(self.image_bytes))?;
         for image in &self.images {
             writeln!(f, "   {} {} {}x{}", image.label, image.format, image.size[0], image.size[1])?;
+        }
+        if !self.chosen.is_empty() {
+            writeln!(f, "\nChosen:")?;
+        }
+        for chosen in &self.chosen {
+            writeln!(f, "   {}: {}: {}", chosen.of, chosen.choice, chosen.why)?;
         }
         writeln!(f, "\nLeft out:")?;
         for left_out in &self.left_out {

@@ -84,6 +84,11 @@ impl Frustum {
         spaces::perspective(self.cone_radians, 1.0, self.near, self.far)
     }
 
+    /// The same pyramid from its very apex to far beyond its far plane: what the light can light.
+    pub fn unbounded(&self) -> Self {
+        Self { near: 1e-3 * self.near, far: 1e3 * self.far, ..self.clone() }
+    }
+
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view() * self.view_from_world()
     }

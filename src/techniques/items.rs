@@ -8,8 +8,8 @@ use glam::DMat4;
 use crate::geometry::{Material, Texture};
 use crate::math::Aabb;
 use crate::pass::{
-    Attribute, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
-    Sampler, Storage, Uniform, Wrap, glsl,
+    Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
+    Program, Sampler, Storage, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 
@@ -17,6 +17,8 @@ use crate::scene::Scene;
 #[derive(Clone, Debug)]
 pub struct Item {
     pub label: String,
+    /// Into [`Scene::objects`].
+    pub object: usize,
     pub mesh: MeshRef,
     pub indices: std::ops::Range<u32>,
     /// In model space.
@@ -34,7 +36,7 @@ pub struct Item {
 pub fn items(scene: &Scene) -> Vec<Item> {
     let mut materials = Materials::default();
     let mut items: Vec<Item> = Vec::new();
-    for object in &scene.objects {
+    for (index, object) in scene.objects.iter().enumerate() {
         let mut last_material: Option<Option<usize>> = None;
         for part in object.mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let own = if object.material.is_some() { None } else { part.material };
@@ -50,6 +52,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
             last_material = Some(own);
             items.push(Item {
                 label: object.name.clone(),
+                object: index,
                 mesh: MeshRef(object.mesh.clone()),
                 indices: part.indices.clone(),
                 bounds: part.bounds,
@@ -170,6 +173,37 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
         out.inputs.push(upload("alpha_map", texture, DECAL_SAMPLER, list));
     }
     out
+}
+
+/// The batches that draw the depth of `items` alone, with holes where the alpha test makes them.
+pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
+    let mut batches: Vec<Batch> = Vec::new();
+    for item in items {
+        let test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
+        let mut vertex = vec![glsl!("common/position.vert")];
+        vertex.extend(test.vertex);
+        vertex.push(glsl!("depth/depth.vert"));
+        let mut fragment = test.fragment;
+        fragment.push(glsl!("depth/depth.frag"));
+        let mut attributes = vec![Attribute::Position];
+        attributes.extend(test.attributes);
+        let program = Program { label: String::from("depth"), defines: test.defines, vertex, fragment, attributes };
+        let draw = item.draw(clip_from_world, Vec::new());
+        match batches
+            .iter_mut()
+            .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
+        {
+            Some(batch) => batch.draws.push(draw),
+            None => batches.push(Batch {
+                program,
+                uniforms: test.uniforms,
+                inputs: test.inputs,
+                cull: None,
+                draws: vec![draw],
+            }),
+        }
+    }
+    batches
 }
 
 /// Binds a texture of the scene; the same one becomes one image however often it is bound.

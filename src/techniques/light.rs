@@ -1,10 +1,17 @@
 //! A light as techniques see it, and what they give the lit pass for it.
 
+use std::ops::Range;
+
 use glam::{DMat4, Vec4};
 
-use super::Item;
+use super::surface::Viewer;
+use super::{Item, items};
+use crate::math::Aabb;
 use crate::math::texgen::{SetUp, Spaces, Split, scale_bias};
-use crate::pass::{Chunk, ImageId, Input, Uniform};
+use crate::pass::{
+    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw,
+    Uniform, glsl,
+};
 use crate::scene::{Frustum, Light, Scene};
 
 /// What a technique may know when it describes its passes for a light.
@@ -81,6 +88,112 @@ pub struct LightTerm {
     pub frustum_from_map: Option<Vec4>,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
+    /// Passes after which the stencil buffer is 0 where the light reaches; `shade` is not asked then.
+    pub counting: Option<Counting>,
+}
+
+/// A light's shadow as a count in the stencil buffer [GDC 2001; techniques C3–C9]: plain data, put into whichever target
+/// and before whichever eye needs the count. What the stencil counts in is drawn first, by the plan.
+#[derive(Clone, Debug)]
+pub struct Counting {
+    pub passes: Vec<CountPass>,
+    /// Whether a frame may keep the count of the one before.
+    pub redraw: Redraw,
+    /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
+    pub infinite: bool,
+    /// Volumes need depth before the near plane: surfaces leave it to them (C8).
+    pub ledge: bool,
+    /// What a picture of the volumes shows: all of their sides and caps.
+    pub volumes: Vec<VolumeDraw>,
+    /// Their possible silhouettes, as lines (C1).
+    pub silhouettes: Vec<VolumeDraw>,
+}
+
+/// Volumes under one draw state. The first pass clears the stencil buffer.
+#[derive(Clone, Debug)]
+pub struct CountPass {
+    pub label: String,
+    /// `depth_range` is the plan's to set.
+    pub state: DrawState,
+    pub layer: Layer,
+    pub draws: Vec<VolumeDraw>,
+}
+
+/// Which depth range volumes are drawn into [techniques C8].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// The surfaces' own.
+    Scene,
+    /// From before the surfaces' near plane on.
+    Ledge,
+    /// At the ledge's very front, whatever their depth: caps on the near plane.
+    LedgeCap,
+}
+
+/// A range of a volume's triangles, or of a silhouette's lines.
+#[derive(Clone, Debug)]
+pub struct VolumeDraw {
+    pub label: String,
+    pub mesh: MeshRef,
+    pub primitive: Primitive,
+    pub indices: Range<u32>,
+    pub space: VolumeSpace,
+    /// Triangles look outwards where they wind clockwise.
+    pub reversed: bool,
+}
+
+/// The space of a volume's vertices.
+#[derive(Clone, Copy, Debug)]
+pub enum VolumeSpace {
+    /// Its caster's own, so that caps are transformed as surfaces are.
+    Model { world_from_model: DMat4 },
+    /// The camera's, for volumes that are cut at its near plane.
+    Eye,
+}
+
+impl Counting {
+    /// The batches that draw `draws`, which `fragment` colours.
+    pub fn batches(
+        draws: &[VolumeDraw],
+        viewer: &Viewer,
+        cull: Option<Face>,
+        fragment: Chunk,
+        uniforms: Vec<Uniform>,
+    ) -> Vec<Batch> {
+        if draws.is_empty() {
+            return Vec::new();
+        }
+        let program = Program {
+            label: String::from("volume"),
+            defines: Vec::new(),
+            vertex: vec![glsl!("common/position.vert"), glsl!("depth/depth.vert")],
+            fragment: vec![fragment],
+            attributes: vec![Attribute::Position],
+        };
+        let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
+        vec![Batch { program, uniforms, inputs: Vec::new(), cull, draws }]
+    }
+}
+
+impl VolumeDraw {
+    fn under(&self, viewer: &Viewer) -> Draw {
+        let clip_from_model = match self.space {
+            VolumeSpace::Model { world_from_model } => viewer.clip_from_world() * world_from_model,
+            VolumeSpace::Eye => viewer.clip_from_eye,
+        };
+        Draw {
+            label: self.label.clone(),
+            mesh: self.mesh.clone(),
+            primitive: self.primitive,
+            indices: self.indices.clone(),
+            order: IndexOrder::File,
+            // Volumes have no end; the technique knows which of them can be seen.
+            bounds: Aabb::EVERYTHING,
+            clip_from_model,
+            mirrored: items::mirrors(&clip_from_model) != self.reversed,
+            uniforms: Vec::new(),
+        }
+    }
 }
 
 impl LightTerm {
@@ -97,6 +210,7 @@ impl LightTerm {
             dimming: 0.0,
             frustum_from_map: None,
             map: None,
+            counting: None,
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod guides;
 pub mod items;
 pub mod light;
 mod shadow_map;
+mod shadow_volume;
 pub mod surface;
 mod unseen;
 mod unshadowed;
@@ -76,12 +77,14 @@ pub struct Axis {
 }
 
 /// Every technique.
-pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap];
+pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap, &shadow_volume::ShadowVolume];
 
 /// What was left out and why, and what the reader of a plan should know besides.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     pub left_out: Vec<LeftOut>,
+    /// What a technique chose by itself, and why.
+    pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }
 
@@ -92,10 +95,31 @@ pub struct LeftOut {
     pub why: String,
 }
 
+/// A choice among several ways.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Chosen {
+    pub of: String,
+    pub choice: String,
+    pub why: String,
+}
+
 impl Notes {
     pub fn left_out(&mut self, what: impl Into<String>, why: impl Into<String>) {
         self.left_out.push(LeftOut { what: what.into(), why: why.into() });
     }
+
+    pub fn chosen(&mut self, of: impl Into<String>, choice: impl Into<String>, why: impl Into<String>) {
+        self.chosen.push(Chosen { of: of.into(), choice: choice.into(), why: why.into() });
+    }
+}
+
+/// Checks the keys that only other techniques read: they may stand, so that `technique` alone can be switched.
+///
+/// # Errors
+///
+/// A key with a wrong value, with its place in the scene file.
+pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+    TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
 }
 
 /// The technique that `[light.shadow]` of a light of this `kind` names; an absent table means none.

@@ -30,8 +30,8 @@ pub fn mesh((points, triangles): &Shape) -> Mesh {
             bounds,
         }],
         indices,
-        materials: Vec::new(),
         bounds,
+        ..Mesh::default()
     }
 }
 

@@ -5,14 +5,14 @@ mod settings;
 use glam::{DMat4, DVec3, Vec4};
 
 use self::settings::{Addressing, Order, Settings, Transfer};
-use super::items::cutout;
+use super::items::depth_batches;
 use super::unseen::Unseen;
 use super::{Axis, Coordinates, Item, LightTerm, LightView, Notes, Technique};
 use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass,
-    PassList, PolygonOffset, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList, PolygonOffset,
+    Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 
@@ -142,7 +142,7 @@ fn depth_passes(
         work: Work::Draw(DrawPass {
             target: Target { color: None, depth: Some(drawn) },
             viewport: [settings.size; 2],
-            clear: Clear { color: None, depth: Some(cleared) },
+            clear: Clear { color: None, depth: Some(cleared), stencil: None },
             state,
             batches,
         }),
@@ -188,36 +188,6 @@ fn raster_from_clip(settings: &Settings) -> DMat4 {
                 * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0))
         }
     }
-}
-
-fn depth_batches(casters: &[&Item], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
-    let mut batches: Vec<Batch> = Vec::new();
-    for item in casters {
-        let test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
-        let mut vertex = vec![glsl!("common/position.vert")];
-        vertex.extend(test.vertex);
-        vertex.push(glsl!("depth/depth.vert"));
-        let mut fragment = test.fragment;
-        fragment.push(glsl!("depth/depth.frag"));
-        let mut attributes = vec![Attribute::Position];
-        attributes.extend(test.attributes);
-        let program = Program { label: String::from("depth"), defines: test.defines, vertex, fragment, attributes };
-        let draw = item.draw(clip_from_world, Vec::new());
-        match batches
-            .iter_mut()
-            .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
-        {
-            Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch {
-                program,
-                uniforms: test.uniforms,
-                inputs: test.inputs,
-                cull: None,
-                draws: vec![draw],
-            }),
-        }
-    }
-    batches
 }
 
 /// How the lit pass compares against `map`.

@@ -1,6 +1,6 @@
-//! No shadow: the light reaches all that its cone holds.
+//! No shadow: the light reaches all that its cone, if it has one, holds.
 
-use super::{Axis, LightTerm, LightView, Notes, TABLE, Technique};
+use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::{PassList, glsl};
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -27,19 +27,17 @@ impl Technique for Unshadowed {
         &[]
     }
 
-    /// Keys of the other techniques may stand, so that `technique` alone can be switched; they are checked all the same.
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-        TABLE.iter().filter(|row| row.name() != self.name()).try_for_each(|row| row.check(settings))
+    fn check(&self, _settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        Ok(())
     }
 
     fn describe(
         &self,
         view: &LightView<'_>,
-        settings: &mut Reader<'_>,
+        _settings: &mut Reader<'_>,
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        self.check(settings)?;
         Ok(LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag")))
     }
 }

@@ -15,6 +15,10 @@ pub enum View {
     LightView,
     LightDistance,
     ProjectedMap,
+    StencilCount,
+    StencilColors,
+    Volume,
+    Silhouette,
 }
 
 /// Name, view, whether it shows one light, what it shows.
@@ -30,6 +34,15 @@ pub const VIEWS: &[(&str, View, bool, &str)] = &[
     ("light-view", View::LightView, true, "the scene as the light sees it, lit and without shadow"),
     ("light-distance", View::LightDistance, true, "r/q: each sample's planar distance from the light"),
     ("projected-map", View::ProjectedMap, true, "the shadow map's depths projected onto the scene"),
+    (
+        "stencil-count",
+        View::StencilCount,
+        true,
+        "the shadow volumes that hold each point, as they are counted: integers",
+    ),
+    ("stencil-colors", View::StencilColors, true, "the same for the eye: green lit, red shadowed, with a legend"),
+    ("volume", View::Volume, true, "the shadow volumes over the scene: outsides orange, insides blue"),
+    ("silhouette", View::Silhouette, true, "the casters' possible silhouettes as the light sees them"),
 ];
 
 impl View {
@@ -46,6 +59,21 @@ impl View {
     /// Whether it needs a shadow map.
     pub fn needs_map(self) -> bool {
         matches!(self, Self::LightDepth | Self::ProjectedMap)
+    }
+
+    /// Whether it shows what shadow volumes count.
+    pub fn needs_count(self) -> bool {
+        matches!(self, Self::StencilCount | Self::StencilColors | Self::Volume | Self::Silhouette)
+    }
+
+    /// Whether it shows a stencil buffer.
+    pub fn is_stencil(self) -> bool {
+        matches!(self, Self::StencilCount | Self::StencilColors)
+    }
+
+    /// Whether a count in the stencil buffer decides what it shows.
+    pub fn depends_on_shade(self) -> bool {
+        self == Self::Shade || self.needs_count()
     }
 }
 
@@ -69,7 +97,13 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
             }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
         }
-        View::Depth | View::LightDepth | View::LightView => return None,
+        View::Depth
+        | View::LightDepth
+        | View::LightView
+        | View::StencilCount
+        | View::StencilColors
+        | View::Volume
+        | View::Silhouette => return None,
     };
     Some((ending, term))
 }

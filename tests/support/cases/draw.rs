@@ -6,7 +6,7 @@ use std::path::Path;
 use glumbra::context::{self, Choice, ContextRequest, Profile};
 use glumbra::device::Measure;
 use glumbra::frame::Renderer;
-use glumbra::pass::{Clear, DrawPass, DrawState, Format, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
+use glumbra::pass::{Clear, DrawPass, DrawState, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
 use glumbra::techniques::views::View;
@@ -123,7 +123,7 @@ fn scrub(renderer: &mut Renderer, plan: &Plan) -> Result<(), String> {
     for (index, desc) in plan.list.images.iter().enumerate() {
         let (color, depth) = match (&desc.storage, desc.format) {
             (Storage::Uploaded(_), _) => continue,
-            (_, Format::Depth(_)) => (None, Some(ImageId(index))),
+            (_, format) if format.has_depth() => (None, Some(ImageId(index))),
             _ => (Some(ImageId(index)), None),
         };
         list.passes.push(Pass {
@@ -132,7 +132,7 @@ fn scrub(renderer: &mut Renderer, plan: &Plan) -> Result<(), String> {
             work: Work::Draw(DrawPass {
                 target: Target { color, depth },
                 viewport: desc.size,
-                clear: Clear { color: color.map(|_| [1.0, 0.0, 1.0, 0.5]), depth: depth.map(|_| 0.123) },
+                clear: Clear { color: color.map(|_| [1.0, 0.0, 1.0, 0.5]), depth: depth.map(|_| 0.123), stencil: None },
                 state: DrawState::OPAQUE,
                 batches: Vec::new(),
             }),

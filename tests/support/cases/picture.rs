@@ -32,6 +32,7 @@ impl Picture {
             }
             Pixels::RgbaF32 { data, .. } => (keep.len(), picked(data)),
             Pixels::Depth { data, .. } => (1, data.clone()),
+            Pixels::Stencil { data, .. } => (1, data.iter().map(|value| f32::from(*value)).collect()),
         };
         Self { size: pixels.size(), channels, data }
     }

@@ -1,0 +1,4 @@
+float shade_@()
+{
+    return 0.0;
+}

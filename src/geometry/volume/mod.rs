@@ -1,0 +1,42 @@
+//! Stencil shadow volumes on the CPU: adjacency, possible silhouettes, extrusion and caps, without GL and without a
+//! scene [GDC 2001, "Stenciled Shadow Volumes"; techniques C1, C4 to C7].
+//!
+//! A caster's volume is a sum of prisms: for each *counted* triangle the points q + t (q - light), q on the triangle,
+//! t >= 0. How often the sum holds a point is the number of counted triangles that the segment from the light to the
+//! point crosses. [`Caster`] is what depends on the mesh alone, [`Outline`] on the light as well, [`Volume`] and
+//! [`CappedVolume`] are triangles to draw.
+//!
+//! # Which triangles count
+//! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards and does not
+//! enclose the light is counted by its light-facing triangles ([`Counting::Facing`]): every way in crosses one of them.
+//! Any other shell (open, non-manifold, inconsistently wound, inside out, around the light) is counted by all of its
+//! triangles, averted ones turned over ([`Counting::All`]), so that an open mesh casts from both its sides. A triangle
+//! in whose plane the light stands never counts.
+//!
+//! # Why it is watertight
+//! Sides stand on the boundary of the chain of counted triangles, edge by edge with signed integer multiplicity
+//! [Aldridge & Woods; Kim, Kim & Turk 2008], and all parts share the welded vertices; so the boundary of caps and sides
+//! together cancels edge by edge, whatever the mesh is. Facing is decided by exact predicates.
+//!
+//! # How orientation is to be read
+//! All work is done in model space with the light transformed there. Triangles run counter-clockwise seen from outside
+//! their volume *in model space*: under a mirroring transform front faces run clockwise, as they do for the mesh itself.
+
+mod caster;
+mod extrude;
+mod loops;
+mod near_cap;
+mod near_plane;
+mod outline;
+mod planes;
+mod seen;
+mod shells;
+mod source;
+
+pub use caster::Caster;
+pub use extrude::{Caps, Extent, Volume};
+pub use near_cap::{CappedVolume, Landing};
+pub use outline::{Outline, OutlineEdge};
+pub use seen::{Casting, Viewer, scissor};
+pub use shells::{Counting, Kind, Shell};
+pub use source::Source;

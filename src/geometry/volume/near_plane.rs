@@ -1,0 +1,125 @@
+//! The near plane z = -near of view space, a light, and where rays from places away from the light meet the plane.
+//!
+//! With h(q) the height of q over the plane (positive ahead of the eye) and l that of the light (for a direction, its
+//! rise), a ray from q lands if q's height lies between 0 and l: beyond the plane it comes down on it (l > 0), before it
+//! it rises through it (l < 0). So an edge is cut in two places: where it meets the plane itself, a point that is its
+//! own projection; and where its rays run parallel to the plane, whose projection is the talk's w = 0 direction.
+
+use glam::DVec3;
+
+use super::Source;
+use super::extrude::at_infinity;
+
+/// A place in view space, and its vertices in the volume once they exist.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub at: DVec3,
+    height: f64,
+    /// l - h w: positive where the ray comes down.
+    fall: f64,
+    pub stand: Stand,
+    pub own: u32,
+    pub projected: u32,
+    pub infinite: u32,
+}
+
+/// Where a place stands, for a light beyond the plane (l >= 0) or before it (l < 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stand {
+    /// On the other side of the plane than the light: past landing.
+    AtPlane,
+    /// Its ray meets the plane.
+    Lands,
+    /// At the light's height or past it: its ray never comes to the plane.
+    Never,
+}
+
+impl Stand {
+    pub fn lands(self) -> bool {
+        self == Self::Lands
+    }
+
+    /// Whether the place itself is in front of the eye.
+    pub fn is_beyond_plane(self, plane: &NearPlane) -> bool {
+        (self == Self::AtPlane) != plane.light_is_beyond()
+    }
+}
+
+impl Place {
+    pub const NONE: u32 = u32::MAX;
+
+    pub fn lands(&self) -> bool {
+        self.stand.lands()
+    }
+}
+
+pub(super) struct NearPlane {
+    source: Source,
+    near: f64,
+    /// l.
+    light_height: f64,
+    w: f64,
+}
+
+impl NearPlane {
+    /// `source` in view space.
+    pub fn new(source: Source, near: f64) -> Self {
+        let light = source.homogeneous();
+        Self { source, near, light_height: -light.z - near * light.w, w: light.w }
+    }
+
+    /// Whether the light stands ahead of the plane, or in it.
+    pub fn light_is_beyond(&self) -> bool {
+        self.light_height >= 0.0
+    }
+
+    pub fn away(&self, point: DVec3) -> DVec3 {
+        self.source.away(point)
+    }
+
+    pub fn place(&self, at: DVec3) -> Place {
+        let height = -at.z - self.near;
+        let fall = self.light_height - height * self.w;
+        let stand = match self.light_is_beyond() {
+            true if height < 0.0 => Stand::AtPlane,
+            true if fall > 0.0 => Stand::Lands,
+            false if height >= 0.0 => Stand::AtPlane,
+            false if fall < 0.0 => Stand::Lands,
+            _ => Stand::Never,
+        };
+        Place { at, height, fall, stand, own: Place::NONE, projected: Place::NONE, infinite: Place::NONE }
+    }
+
+    /// (l q - h light) / (l - h w), for a place whose ray lands.
+    pub fn projected(&self, place: &Place) -> [f32; 4] {
+        let light = self.source.homogeneous().truncate();
+        self.on_plane((self.light_height * place.at - place.height * light) / place.fall)
+    }
+
+    /// Where the edge between two places meets the plane, if they stand on different sides of it. The same bits whichever
+    /// comes first: sums of two commute.
+    pub fn crossing(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
+        let parted = (a.stand == Stand::AtPlane) != (b.stand == Stand::AtPlane);
+        let (ha, hb) = (a.height.abs(), b.height.abs());
+        parted.then(|| self.on_plane((b.at * ha + a.at * hb) / (ha + hb)))
+    }
+
+    /// The direction in the plane in which the projection of the edge between two places runs to infinity, if the rays of
+    /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [C7]. The same bits whichever comes
+    /// first.
+    pub fn direction_between(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
+        let parted = (a.stand == Stand::Never) != (b.stand == Stand::Never);
+        parted.then(|| match self.source {
+            Source::Point(_) => {
+                let direction = self.away(b.at) * a.fall.abs() + self.away(a.at) * b.fall.abs();
+                at_infinity(direction.with_z(0.0))
+            }
+            // Parallel rays part so only where they run along the plane.
+            Source::Direction(_) => at_infinity(self.away(a.at).with_z(0.0)),
+        })
+    }
+
+    fn on_plane(&self, point: DVec3) -> [f32; 4] {
+        point.with_z(-self.near).as_vec3().extend(1.0).to_array()
+    }
+}

@@ -1,0 +1,103 @@
+//! The possible silhouette [GDC 2001; C1]: the boundary of the triangles that count, as directed edges with
+//! multiplicity. All buffers are kept from one light or frame to the next.
+
+use super::{Caster, Counting, Source, loops};
+
+/// Which triangles of a caster count under one light, and the boundary of their sum.
+///
+/// Keep one and call [`Outline::find`] again: nothing is allocated once the buffers are large enough.
+#[derive(Clone, Debug, Default)]
+pub struct Outline {
+    /// Of each triangle of the caster: 1 where it counts as it runs, -1 where it counts turned over, else 0.
+    weights: Vec<i8>,
+    edges: Vec<OutlineEdge>,
+    countings: Vec<Counting>,
+    source: Option<Source>,
+    exact_tests: usize,
+}
+
+/// An edge of the outline. Seen from the light, the counted triangle lies on the left of `from` to `to`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutlineEdge {
+    /// Places of the caster.
+    pub from: u32,
+    pub to: u32,
+    /// How often it is part of the boundary; at least 1.
+    pub multiplicity: u32,
+}
+
+impl Outline {
+    /// Finds the counted triangles of `caster` and their boundary, for a light in the caster's model space.
+    pub fn find(&mut self, caster: &Caster, source: Source) {
+        self.source = Some(source);
+        self.weights.resize(caster.triangles.len(), 0);
+        self.countings.clear();
+        self.exact_tests = 0;
+        for shell in &caster.shells {
+            let range = shell.triangles.start as usize..shell.triangles.end as usize;
+            self.exact_tests += caster.planes.sides(caster, range.clone(), source, &mut self.weights);
+            let counting = caster.counting(shell, source);
+            if counting == Counting::Facing {
+                self.weights[range].iter_mut().for_each(|weight| *weight = (*weight).max(0));
+            }
+            self.countings.push(counting);
+        }
+        self.collect_edges(caster);
+    }
+
+    fn collect_edges(&mut self, caster: &Caster) {
+        self.edges.clear();
+        let weights = &self.weights[..];
+        let plain = &caster.plain;
+        for ([from, to], [first, second]) in plain.places.iter().zip(&plain.triangles) {
+            let (first, second) = (weights[*first as usize], weights[*second as usize]);
+            if first != second {
+                self.edges.extend(directed([*from, *to], i32::from(first) - i32::from(second)));
+            }
+        }
+        for (places, uses) in caster.other.iter() {
+            let of_use = |(triangle, way): &(u32, i8)| i32::from(weights[*triangle as usize]) * i32::from(*way);
+            self.edges.extend(directed(places, uses.iter().map(of_use).sum()));
+        }
+    }
+
+    /// Each edge once, in no particular order.
+    pub fn edges(&self) -> &[OutlineEdge] {
+        &self.edges
+    }
+
+    /// Of each of [`Caster::triangles`]: 1 counted as it runs, -1 counted turned over, 0 not counted.
+    pub fn weights(&self) -> &[i8] {
+        &self.weights
+    }
+
+    /// How each of [`Caster::shells`] counts.
+    pub fn countings(&self) -> &[Counting] {
+        &self.countings
+    }
+
+    /// The light that it was found for; `None` before the first [`Outline::find`].
+    pub fn source(&self) -> Option<Source> {
+        self.source
+    }
+
+    /// How many triangles were too near the light's side to be told without exact arithmetic.
+    pub fn exact_tests(&self) -> usize {
+        self.exact_tests
+    }
+
+    /// The outline as closed loops of places, each edge as often as its multiplicity; the counted triangles lie on the
+    /// left seen from the light. For pictures: it allocates.
+    pub fn loops(&self) -> Vec<Vec<u32>> {
+        loops::closed_walks(&self.edges)
+    }
+}
+
+fn directed([from, to]: [u32; 2], multiplicity: i32) -> Option<OutlineEdge> {
+    let edge = OutlineEdge { from, to, multiplicity: multiplicity.unsigned_abs() };
+    match multiplicity {
+        0 => None,
+        1.. => Some(edge),
+        _ => Some(OutlineEdge { from: to, to: from, ..edge }),
+    }
+}

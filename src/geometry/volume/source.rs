@@ -1,0 +1,44 @@
+//! A light as its shadow volumes see it: a place, or a direction. Knows no scene.
+
+use glam::{DMat4, DVec3, DVec4};
+
+/// Where light comes from, in the space that the context names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// A point or spot light's position.
+    Point(DVec3),
+    /// Of a directional light: the direction *towards* it, of any length above 0.
+    Direction(DVec3),
+}
+
+impl Source {
+    /// The same light in another space; `target_from_self` is affine. Exactness begins after this step: the sides of a
+    /// triangle's plane are decided exactly for the light that comes out of it.
+    pub fn transformed(self, target_from_self: &DMat4) -> Self {
+        match self {
+            Self::Point(position) => Self::Point(target_from_self.transform_point3(position)),
+            Self::Direction(direction) => Self::Direction(target_from_self.transform_vector3(direction)),
+        }
+    }
+
+    /// Homogeneous: w is 1 for a position and 0 for a direction.
+    pub fn homogeneous(self) -> DVec4 {
+        match self {
+            Self::Point(position) => position.extend(1.0),
+            Self::Direction(direction) => direction.extend(0.0),
+        }
+    }
+
+    /// From the light through `point` and on, of any length; 0 where the light stands at the point.
+    pub fn away(self, point: DVec3) -> DVec3 {
+        match self {
+            Self::Point(position) => point - position,
+            Self::Direction(direction) => -direction,
+        }
+    }
+
+    /// Whether all rays are parallel, so that a volume ends in one point at infinity.
+    pub fn is_parallel(self) -> bool {
+        matches!(self, Self::Direction(_))
+    }
+}

@@ -1,0 +1,89 @@
+//! A picture in 8-bit RGB on which legends and captions are drawn.
+
+use std::convert::Infallible;
+
+use embedded_graphics::mono_font::MonoTextStyle;
+use embedded_graphics::mono_font::ascii::FONT_6X10;
+use embedded_graphics::pixelcolor::Rgb888;
+use embedded_graphics::prelude::{Dimensions, DrawTarget, Drawable, OriginDimensions, Pixel, Point, RgbColor, Size};
+use embedded_graphics::text::{Baseline, Text};
+
+/// Width and height of a letter in pixels.
+pub const LETTER: [u32; 2] = [6, 10];
+
+/// RGB, eight bits each.
+pub type Color = [u8; 3];
+
+/// Rows from the top down.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Canvas {
+    size: [u32; 2],
+    bytes: Vec<u8>,
+}
+
+impl Canvas {
+    pub fn new(size: [u32; 2], color: Color) -> Self {
+        let count = size[0] as usize * size[1] as usize;
+        Self { size, bytes: color.iter().copied().cycle().take(3 * count).collect() }
+    }
+
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Red, green and blue of each pixel.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
+    /// Sets one pixel; outside of the picture nothing.
+    pub fn set(&mut self, [x, y]: [u32; 2], color: Color) {
+        if x < self.size[0] && y < self.size[1] {
+            let first = 3 * (y as usize * self.size[0] as usize + x as usize);
+            self.bytes[first..first + 3].copy_from_slice(&color);
+        }
+    }
+
+    /// Fills a rectangle of `size` pixels from its upper left corner.
+    pub fn fill(&mut self, [left, top]: [u32; 2], size: [u32; 2], color: Color) {
+        for y in top..top.saturating_add(size[1]).min(self.size[1]) {
+            for x in left..left.saturating_add(size[0]).min(self.size[0]) {
+                self.set([x, y], color);
+            }
+        }
+    }
+
+    /// Copies another picture to `place`, its upper left corner.
+    pub fn paste(&mut self, place: [u32; 2], other: &Self) {
+        for (index, color) in other.bytes.as_chunks::<3>().0.iter().enumerate() {
+            let (x, y) = (index as u32 % other.size[0], index as u32 / other.size[0]);
+            self.set([place[0] + x, place[1] + y], *color);
+        }
+    }
+
+    /// Writes a line of ASCII, its upper left corner at `place`.
+    pub fn write(&mut self, place: [u32; 2], text: &str, color: Color) {
+        let style = MonoTextStyle::new(&FONT_6X10, Rgb888::new(color[0], color[1], color[2]));
+        let at = Point::new(place[0] as i32, place[1] as i32);
+        let Ok(_) = Text::with_baseline(text, at, style, Baseline::Top).draw(self);
+    }
+}
+
+impl OriginDimensions for Canvas {
+    fn size(&self) -> Size {
+        Size::new(self.size[0], self.size[1])
+    }
+}
+
+impl DrawTarget for Canvas {
+    type Color = Rgb888;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+        let bounds = self.bounding_box();
+        for Pixel(point, color) in pixels.into_iter().filter(|Pixel(point, _)| bounds.contains(*point)) {
+            self.set([point.x as u32, point.y as u32], [color.r(), color.g(), color.b()]);
+        }
+        Ok(())
+    }
+}

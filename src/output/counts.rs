@@ -1,0 +1,76 @@
+//! Stencil counts as colours with a legend [GDC 2001; techniques C11]: green lit, red shadowed, the deeper the darker;
+//! violet what a count below 0 left.
+
+use super::canvas::{Canvas, Color, LETTER};
+
+const LIT: Color = [66, 148, 82];
+const SHADOWED: [Color; 6] = [[240, 120, 96], [222, 78, 62], [196, 44, 42], [160, 26, 36], [120, 16, 32], [84, 10, 28]];
+const BELOW_ZERO: Color = [150, 70, 200];
+
+/// The colour of a count modulo 256; from 128 on it is read as negative.
+fn color(count: u8) -> Color {
+    match count {
+        0 => LIT,
+        1..=127 => SHADOWED[usize::from(count - 1).min(SHADOWED.len() - 1)],
+        _ => BELOW_ZERO,
+    }
+}
+
+/// A row in the legend: its colour, its words, how many pixels have it.
+fn rows(data: &[u8]) -> Vec<(Color, String, usize)> {
+    let count = |from: u8, to: u8| data.iter().filter(|value| (from..=to).contains(*value)).count();
+    let mut rows = vec![(LIT, String::from("0 lit"), count(0, 0))];
+    rows.extend((1..6u8).map(|value| (color(value), format!("{value}"), count(value, value))));
+    rows.push((color(6), String::from("6 and more"), count(6, 127)));
+    rows.push((BELOW_ZERO, String::from("below 0"), count(128, 255)));
+    rows.retain(|(_, _, pixels)| *pixels > 0);
+    rows
+}
+
+/// The picture of a stencil buffer, `size` pixels, rows from the top; small pictures go without a legend.
+pub fn colored(size: [u32; 2], data: &[u8]) -> Canvas {
+    const SWATCH: u32 = 10;
+    const STEP: u32 = LETTER[1] + 4;
+    let mut canvas = Canvas::new(size, [0; 3]);
+    for (index, value) in (0u32..).zip(data) {
+        canvas.set([index % size[0], index / size[0]], color(*value));
+    }
+    let rows = rows(data);
+    let lines: Vec<String> = rows.iter().map(|(_, name, pixels)| format!("{name}: {pixels} px")).collect();
+    let longest = lines.iter().map(|line| line.len() as u32).max().unwrap_or(0);
+    let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * rows.len() as u32 + 8);
+    if width + 8 > size[0] || height + 8 > size[1] {
+        return canvas;
+    }
+    canvas.fill([4, 4], [width, height], [24, 26, 30]);
+    for (row, ((swatch, _, _), line)) in (0u32..).zip(rows.iter().zip(&lines)) {
+        let top = 10 + STEP * row;
+        canvas.fill([10, top], [SWATCH, SWATCH], *swatch);
+        canvas.write([10 + SWATCH + 6, top], line, [230, 230, 230]);
+    }
+    canvas
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_have_their_colours_and_the_legend_lists_those_that_occur() {
+        let size = [200, 100];
+        let mut data = vec![0u8; 20_000];
+        data[19_999] = 1;
+        data[19_998] = 200;
+        let canvas = colored(size, &data);
+        let bytes = canvas.into_bytes();
+        let pixel = |index: usize| [bytes[3 * index], bytes[3 * index + 1], bytes[3 * index + 2]];
+        assert_eq!([pixel(19_999), pixel(19_998), pixel(19_997)], [SHADOWED[0], BELOW_ZERO, LIT]);
+        let names: Vec<String> = rows(&data).into_iter().map(|(_, name, pixels)| format!("{name} {pixels}")).collect();
+        assert_eq!(names, ["0 lit 19998", "1 1", "below 0 1"]);
+    }
+
+    #[test]
+    fn a_picture_too_small_for_the_legend_has_none() {
+        assert_eq!(colored([4, 4], &[0; 16]).into_bytes(), LIT.repeat(16));
+    }
+}

@@ -1,0 +1,219 @@
+//! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
+//! light that needs no count first; then, for each such light, its volumes, and its light where the count is 0, with
+//! depth EQUAL.
+
+use super::Error;
+use super::builder::{Builder, Onto};
+use super::lens::Lens;
+use crate::pass::{
+    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Redraw, Stencil, StencilOps, Target, Uniform, glsl,
+};
+use crate::scene::Scene;
+use crate::techniques::items::depth_batches;
+use crate::techniques::light::{Counting, VolumeDraw};
+use crate::techniques::surface::Ending;
+use crate::techniques::views::{self, View};
+use crate::techniques::{Item, LightTerm};
+
+/// Passes where the count is 0, and leaves it.
+const LIT: Stencil = Stencil {
+    test: Compare::Equal,
+    reference: 0,
+    read_mask: 0xFF,
+    write_mask: 0,
+    front: StencilOps::KEEP,
+    back: StencilOps::KEEP,
+};
+
+impl Builder<'_> {
+    /// The surfaces in all lights, of which some are counted.
+    pub fn counted_picture(&mut self, target: Target, lens: &Lens, terms: &[&LightTerm]) -> Result<(), Error> {
+        let counted: Vec<&LightTerm> = terms.iter().filter(|term| term.counting.is_some()).copied().collect();
+        let keeps = self.keeps_count(&counted);
+        let mut uncounted = self.first("uncounted light", target, lens, self.background());
+        if keeps {
+            self.depth_first(target, lens);
+            self.count_all(target, lens, &counted[..1], Redraw::WhenChanged);
+            uncounted.clear.depth = None;
+            uncounted.state = DrawState { depth_range: lens.depth_range, ..DrawState::REPEAT };
+        }
+        let scene = self.without_count(&counted);
+        let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
+        self.surfaces(&scene, &uncounted, &first, &Ending::Lit)?;
+        for term in &counted {
+            if !keeps {
+                self.count_all(target, lens, &[term], Redraw::Always);
+            }
+            self.add_light(target, lens, term)?;
+        }
+        Ok(())
+    }
+
+    /// Whether depth and count of a frame serve the next: one count, and frames that may use it again.
+    fn keeps_count(&mut self, counted: &[&LightTerm]) -> bool {
+        let [term] = counted else { return false };
+        let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
+        may && self.request.frames > 1 && !self.request.keep_all
+    }
+
+    /// Depth alone, kept from frame to frame.
+    fn depth_first(&mut self, target: Target, lens: &Lens) {
+        let items: Vec<&Item> = self.items.iter().collect();
+        let mut batches = depth_batches(&items, &lens.camera.clip_from_world(), self.list);
+        self.cut_at_far(lens, &mut batches);
+        let pass = DrawPass {
+            target: Target { color: None, ..target },
+            viewport: self.scene.image.size,
+            clear: Clear { depth: Some(1.0), ..Clear::default() },
+            state: DrawState { depth_range: lens.depth_range, ..DrawState::DEPTH_ONLY },
+            batches,
+        };
+        self.push("depth", Redraw::WhenChanged, pass);
+    }
+
+    fn count_all(&mut self, target: Target, lens: &Lens, terms: &[&LightTerm], redraw: Redraw) {
+        for counting in terms.iter().filter_map(|term| term.counting.as_ref()) {
+            self.count(target, lens, counting, "", redraw);
+        }
+    }
+
+    /// The count itself, over depth that is there.
+    fn count(&mut self, target: Target, lens: &Lens, counting: &Counting, prefix: &str, redraw: Redraw) {
+        for (index, pass) in counting.passes.iter().enumerate() {
+            let fragment = glsl!("depth/depth.frag");
+            let batches = Counting::batches(&pass.draws, &lens.viewer(pass.layer), None, fragment, Vec::new());
+            let drawn = DrawPass {
+                target: Target { color: None, ..target },
+                viewport: self.scene.image.size,
+                clear: Clear { stencil: (index == 0).then_some(0), ..Clear::default() },
+                state: lens.state(counting, &pass.state, pass.layer),
+                batches,
+            };
+            self.push(&format!("{prefix}{}", pass.label), redraw, drawn);
+        }
+    }
+
+    /// Adds one light where its count is 0.
+    fn add_light(&mut self, target: Target, lens: &Lens, term: &LightTerm) -> Result<(), Error> {
+        let mut scene = self.scene.clone();
+        scene.shading.ambient = [0.0; 3];
+        let source = &mut scene.lights[term.index];
+        source.ambient = [0.0; 3];
+        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming));
+        let label = format!("light {}", term.index);
+        let onto = Onto {
+            clear: Clear::default(),
+            state: DrawState {
+                stencil: Some(LIT),
+                blend: Some(Blend::Add),
+                depth_range: lens.depth_range,
+                ..DrawState::REPEAT
+            },
+            ..self.first(&label, target, lens, [0.0; 4])
+        };
+        let lit = LightTerm { dimming: 0.0, ..term.clone() };
+        self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
+    }
+
+    /// The scene whose counted lights give only what a shadow leaves of them.
+    fn without_count(&self, counted: &[&LightTerm]) -> Scene {
+        let mut scene = self.scene.clone();
+        for term in counted {
+            let source = &mut scene.lights[term.index];
+            source.specular = [0.0; 3];
+            source.diffuse = source.diffuse.map(|channel| channel * term.dimming);
+        }
+        scene
+    }
+
+    /// A view of a counted light.
+    pub fn counted_view(
+        &mut self,
+        view: View,
+        label: &str,
+        term: &LightTerm,
+        counting: &Counting,
+    ) -> Result<ImageId, Error> {
+        let lens = Lens::for_counts(self.scene, std::iter::once(counting));
+        let target = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
+        match view {
+            View::Volume | View::Silhouette => return self.volume_view(view, label, target, &lens, term, counting),
+            View::StencilCount | View::StencilColors => {
+                let onto = self.first(label, target, &lens, [0.0; 4]);
+                self.surfaces(self.scene, &onto, &[], &Ending::Lit)?;
+                self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
+                return Ok(target.depth.unwrap_or(ImageId(0)));
+            }
+            _ => {}
+        }
+        let Some((ending, lit)) = views::camera_pass(view, term) else { return Ok(ImageId(0)) };
+        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), ..lit.clone() };
+        let onto = self.first(label, target, &lens, [0.0; 4]);
+        self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
+        self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
+        let state = DrawState { stencil: Some(LIT), depth_range: lens.depth_range, ..DrawState::REPEAT };
+        let label = format!("{label}: where the count is 0");
+        let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
+        self.surfaces(self.scene, &onto, &[lit], &ending)?;
+        Ok(target.color.unwrap_or(ImageId(0)))
+    }
+
+    /// Volumes, translucent, or their silhouettes over the unshadowed scene (C11).
+    fn volume_view(
+        &mut self,
+        view: View,
+        label: &str,
+        target: Target,
+        lens: &Lens,
+        term: &LightTerm,
+        counting: &Counting,
+    ) -> Result<ImageId, Error> {
+        let unshadowed = LightTerm { counting: None, ..term.clone() };
+        let onto = self.first(label, target, lens, self.background());
+        self.surfaces(self.scene, &onto, &[unshadowed], &Ending::Lit)?;
+        let (draws, name): (&[VolumeDraw], _) = match view {
+            View::Silhouette => (&counting.silhouettes, "silhouettes"),
+            _ => (&counting.volumes, "volumes"),
+        };
+        // The outside of a volume is warm, its inside cold.
+        let layers: &[(Option<crate::pass::Face>, [f32; 4])] = match view {
+            View::Silhouette => &[(None, [1.0, 0.85, 0.0, 1.0])],
+            _ => &[
+                (Some(crate::pass::Face::Front), [0.1, 0.3, 0.9, 0.25]),
+                (Some(crate::pass::Face::Back), [0.95, 0.55, 0.1, 0.25]),
+            ],
+        };
+        let batches = layers.iter().flat_map(|(cull, color)| {
+            let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
+            Counting::batches(draws, &lens.camera, *cull, glsl!("shadow_volume/colored.frag"), uniforms)
+        });
+        let pass = DrawPass {
+            target,
+            viewport: self.scene.image.size,
+            clear: Clear::default(),
+            state: DrawState {
+                depth_test: Some(Compare::LessEqual),
+                depth_write: false,
+                depth_range: lens.depth_range,
+                blend: Some(Blend::Over),
+                ..DrawState::OPAQUE
+            },
+            batches: batches.collect(),
+        };
+        self.push(&format!("{label}: {name}"), Redraw::Always, pass);
+        Ok(target.color.unwrap_or(ImageId(0)))
+    }
+}
+
+/// What of a light needs no count: a light that is not counted, or what a shadow leaves of one that is.
+fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
+    let source = &scene.lights[term.index];
+    let gives = |color: [f32; 3]| color != [0.0; 3];
+    match term.counting {
+        None => Some(term.clone()),
+        Some(_) if gives(source.ambient) || gives(source.diffuse) => {
+            Some(LightTerm { dimming: 0.0, counting: None, ..term.clone() })
+        }
+        Some(_) => None,
+    }
+}

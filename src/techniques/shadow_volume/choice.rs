@@ -1,0 +1,81 @@
+//! Which way each caster is counted, and which need not be [issue of choice: z-pass costs fewer fragments and no caps,
+//! z-fail is right wherever the eye stands].
+
+use super::casters::Casting;
+use super::settings::{Method, Settings};
+use super::source;
+use crate::geometry::volume::{self, Viewer};
+use crate::math::frustum::{self, Overlap};
+use crate::techniques::{LightView, Notes};
+
+/// How one caster's volume is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    LeftOut,
+    Parity,
+    ZPass,
+    ZPassTwoSided,
+    ZPassCapped,
+    ZFail,
+    ZFailClamped,
+    ZFailTruncated,
+}
+
+/// One way for each caster.
+pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, notes: &mut Notes) -> Vec<Way> {
+    let camera = &view.scene.camera;
+    let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let viewer = Viewer::new(&clip_from_world);
+    let one = |caster: &Casting| {
+        let volume = volume::Casting::new(&caster.bounds, &caster.world_from_model, source(view));
+        if let Some(why) = why_unneeded(view, caster, &volume, &viewer).filter(|_| !view.keep_all) {
+            notes.left_out(format!("the volume of {} for light {}", caster.label, view.index), why);
+            return Way::LeftOut;
+        }
+        match settings.method {
+            Method::Auto => {
+                let (way, name, why) = choose(caster, &volume, &viewer);
+                notes.chosen(format!("{} for light {}", caster.label, view.index), name, why);
+                way
+            }
+            Method::Parity => Way::Parity,
+            Method::ZPass => Way::ZPass,
+            Method::ZPassTwoSided => Way::ZPassTwoSided,
+            Method::ZPassCapped => Way::ZPassCapped,
+            Method::ZFail => Way::ZFail,
+            Method::ZFailClamped => Way::ZFailClamped,
+            Method::ZFailTruncated => Way::ZFailTruncated,
+        }
+    };
+    casting.iter().map(one).collect()
+}
+
+fn why_unneeded(
+    view: &LightView<'_>,
+    caster: &Casting,
+    volume: &volume::Casting,
+    viewer: &Viewer,
+) -> Option<&'static str> {
+    if outside_cone(view, caster) {
+        return Some("the caster is outside the light's cone");
+    }
+    (!volume.may_shadow_view(viewer)).then_some("its shadow falls outside the view")
+}
+
+/// Whether a spotlight's light misses the caster.
+fn outside_cone(view: &LightView<'_>, caster: &Casting) -> bool {
+    view.light().frustum().is_some_and(|frustum| {
+        let clip_from_model = frustum.unbounded().clip_from_world() * caster.world_from_model;
+        frustum::overlap(&clip_from_model, &caster.bounds) == Overlap::Outside
+    })
+}
+
+fn choose(caster: &Casting, volume: &volume::Casting, viewer: &Viewer) -> (Way, &'static str, &'static str) {
+    if caster.has_holes {
+        (Way::ZFail, "z-fail", "through its holes z-pass would see the volume's missing cap")
+    } else if volume.may_hold_near(viewer) {
+        (Way::ZFail, "z-fail", "its volume may hold the eye's near rectangle")
+    } else {
+        (Way::ZPassTwoSided, "z-pass", "its volume cannot meet the pyramid from the light to the near rectangle")
+    }
+}

@@ -1,0 +1,62 @@
+//! The passes that count [techniques C2–C4, C7, C8]: which faces change the stencil value, and when.
+
+use super::choice::Way;
+use super::settings::Settings;
+use super::shapes::Shape;
+use crate::pass::{Compare, DrawState, Face, Stencil, StencilOp, StencilOps};
+use crate::techniques::LightView;
+use crate::techniques::light::{CountPass, Layer, VolumeDraw};
+
+/// The passes for all shapes, way by way. Sums modulo 256 do not care for their order.
+pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
+    let label = |what: &str| format!("light {}: {what}", view.index);
+    let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
+    let sides = |ways: &[Way]| of(ways).iter().map(|shape| shape.sides.clone()).collect::<Vec<_>>();
+    let whole = |ways: &[Way]| of(ways).iter().flat_map(|shape| shape.whole()).collect::<Vec<_>>();
+    let (up, down) = match settings.wrap {
+        true => (StencilOp::IncrementWrap, StencilOp::DecrementWrap),
+        false => (StencilOp::Increment, StencilOp::Decrement),
+    };
+    let keep = StencilOps::KEEP;
+    let pass = |op| StencilOps { pass: op, ..keep };
+    let fail = |op| StencilOps { depth_fail: op, ..keep };
+    let counted = |what: &str, front, back, draws: Vec<VolumeDraw>| CountPass {
+        label: label(what),
+        state: state(front, back, 0xFF),
+        layer: Layer::Scene,
+        draws,
+    };
+    let mut passes = Vec::new();
+    let parity = CountPass {
+        state: state(pass(StencilOp::Invert), pass(StencilOp::Invert), 0x01),
+        ..counted("parity", keep, keep, sides(&[Way::Parity]))
+    };
+    passes.push(parity);
+    let drawn = sides(&[Way::ZPass]);
+    passes.push(culling(Face::Back, counted("z-pass, front faces", pass(up), keep, drawn.clone())));
+    passes.push(culling(Face::Front, counted("z-pass, back faces", keep, pass(down), drawn)));
+    passes.push(counted("z-pass", pass(up), pass(down), sides(&[Way::ZPassTwoSided])));
+    let capped = of(&[Way::ZPassCapped]);
+    let near_caps = capped.iter().flat_map(|shape| shape.caps.clone()).collect();
+    let ledge = counted("z-pass, sides", pass(up), pass(down), sides(&[Way::ZPassCapped]));
+    passes.push(CountPass { layer: Layer::Ledge, ..ledge });
+    let caps = counted("z-pass, near caps", pass(up), pass(down), near_caps);
+    passes.push(CountPass { layer: Layer::LedgeCap, ..caps });
+    passes.push(counted("z-fail", fail(down), fail(up), whole(&[Way::ZFail, Way::ZFailTruncated])));
+    let mut clamped = counted("z-fail, depth clamped", fail(down), fail(up), whole(&[Way::ZFailClamped]));
+    clamped.state.depth_clamp = true;
+    passes.push(clamped);
+    passes.retain(|pass| !pass.draws.is_empty());
+    passes
+}
+
+fn culling(face: Face, mut pass: CountPass) -> CountPass {
+    pass.state.cull = Some(face);
+    pass
+}
+
+/// Depth LESS: far caps lie at exactly 1 and fail against the cleared 1, a surface's own cap fails against itself.
+fn state(front: StencilOps, back: StencilOps, write_mask: u8) -> DrawState {
+    let stencil = Stencil { test: Compare::Always, reference: 0, read_mask: 0xFF, write_mask, front, back };
+    DrawState { depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY }
+}

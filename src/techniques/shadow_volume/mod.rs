@@ -1,0 +1,110 @@
+//! Stencil shadow volumes [GDC 2001, "Stenciled Shadow Volumes"; techniques C1–C12]: how often a point lies in a volume
+//! is counted in the stencil buffer; it is lit where the count is 0.
+
+mod casters;
+mod choice;
+mod counts;
+mod settings;
+mod shapes;
+
+use self::casters::{Casting, casting};
+use self::choice::Way;
+use self::settings::Settings;
+use super::light::Counting;
+use super::{Axis, LightTerm, LightView, Notes, Technique};
+use crate::geometry::volume::{Kind, Source};
+use crate::pass::{PassList, glsl};
+use crate::scene::{LightKind, Reader, SettingsError};
+
+pub struct ShadowVolume;
+
+impl Technique for ShadowVolume {
+    fn name(&self) -> &'static str {
+        "shadow-volume"
+    }
+
+    fn summary(&self) -> &'static str {
+        "volumes behind the casters, counted in the stencil buffer"
+    }
+
+    fn source(&self) -> &'static str {
+        "GDC 2001, Stenciled Shadow Volumes; techniques C1-C12"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        settings::AXES
+    }
+
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(settings).map(|_| ())
+    }
+
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        keys: &mut Reader<'_>,
+        _list: &mut PassList,
+        notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError> {
+        let settings = settings::read(keys)?;
+        let mut term = LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag"));
+        term.dimming = settings.dimming;
+        let casting = casting(view.items);
+        warn(view, &casting, notes);
+        let ways = choice::ways(view, &casting, &settings, notes);
+        if ways.iter().all(|way| *way == Way::LeftOut) {
+            notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
+            return Ok(term);
+        }
+        term.counting = Some(counting(view, &casting, &ways, &settings));
+        Ok(term)
+    }
+}
+
+fn counting(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings) -> Counting {
+    let source = source(view);
+    let shapes = shapes::shapes(view, casting, ways, source, settings);
+    let has = |wanted: Way| ways.contains(&wanted);
+    Counting {
+        passes: counts::passes(view, &shapes, settings),
+        redraw: settings.redraw,
+        infinite: has(Way::ZFail),
+        ledge: has(Way::ZPassCapped),
+        volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
+        silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
+    }
+}
+
+/// Where the light stands, or the direction to it, in world space.
+fn source(view: &LightView<'_>) -> Source {
+    match &view.light().kind {
+        LightKind::Spot(spot) => Source::Point(spot.frustum.position),
+        LightKind::Point(point) => Source::Point(point.position),
+        LightKind::Directional { direction } => Source::Direction(-*direction),
+    }
+}
+
+/// What a reader of the plan should know: holes that volumes do not have, and how soups are counted.
+fn warn(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
+    for caster in casting {
+        if caster.has_holes {
+            notes.warnings.push(format!(
+                "{}: its holes by the alpha test let light {} through, but its shadow volume has none",
+                caster.label, view.index
+            ));
+        }
+        let open = caster.caster.shells().iter().filter(|shell| shell.kind != Kind::Closed).count();
+        if open > 0 {
+            let all = caster.caster.shells().len();
+            notes.chosen(
+                format!("{} for light {}", caster.label, view.index),
+                "counted by all its triangles",
+                format!("{open} of {all} pieces are open, not a manifold, or look inwards"),
+            );
+        }
+    }
+}

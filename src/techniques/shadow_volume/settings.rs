@@ -1,0 +1,77 @@
+//! The keys of `[light.shadow]` that shadow volumes read.
+
+use crate::pass::Redraw;
+use crate::scene::{Reader, SettingsError};
+use crate::techniques::Axis;
+
+/// How volumes are counted [GDC 2001; techniques C2–C8].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// For each caster the cheapest that is right.
+    Auto,
+    /// C2: one bit, inverted. Right only where volumes do not intersect and the eye is outside of them.
+    Parity,
+    /// C3 in two draws. Right only where the eye's near rectangle is outside of all volumes.
+    ZPass,
+    /// C3 in one draw with two-sided stencil operations.
+    ZPassTwoSided,
+    /// C7 with C8's ledge.
+    ZPassCapped,
+    /// C4 with C6, the far plane at infinity.
+    ZFail,
+    /// C4 with C6 under the scene's own projection, with depth clamp.
+    ZFailClamped,
+    /// C5: ends at a finite distance; wrong where a shadow reaches farther.
+    ZFailTruncated,
+}
+
+pub const METHODS: [(&str, Method); 8] = [
+    ("auto", Method::Auto),
+    ("parity", Method::Parity),
+    ("z-pass", Method::ZPass),
+    ("z-pass-two-sided", Method::ZPassTwoSided),
+    ("z-pass-capped", Method::ZPassCapped),
+    ("z-fail", Method::ZFail),
+    ("z-fail-clamped", Method::ZFailClamped),
+    ("z-fail-truncated", Method::ZFailTruncated),
+];
+
+/// Everything that decides how volumes are made and counted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    pub method: Method,
+    /// Whether counts wrap modulo 256 or stop at 0 and 255 (C12).
+    pub wrap: bool,
+    /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
+    pub distance: Option<f64>,
+    pub dimming: f32,
+    pub redraw: Redraw,
+}
+
+pub const AXES: &[Axis] = &[Axis {
+    key: "method",
+    values: &[
+        "\"auto\"",
+        "\"parity\"",
+        "\"z-pass\"",
+        "\"z-pass-two-sided\"",
+        "\"z-pass-capped\"",
+        "\"z-fail\"",
+        "\"z-fail-clamped\"",
+        "\"z-fail-truncated\"",
+    ],
+    quick: &["\"auto\"", "\"z-fail\""],
+}];
+
+/// Reads the settings; what is absent takes the default that the README names.
+pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
+    Ok(Settings {
+        method: keys.choice("method", &METHODS)?.unwrap_or(Method::Auto),
+        wrap: keys.choice("count", &[("wrap", true), ("saturate", false)])?.unwrap_or(true),
+        distance: keys.number("distance", f64::MIN_POSITIVE..=crate::scene::LARGEST)?,
+        dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
+        redraw: keys
+            .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
+            .unwrap_or(Redraw::WhenChanged),
+    })
+}

@@ -1,0 +1,139 @@
+//! The volumes themselves, as meshes to draw [techniques C5–C7], each with the ends that its way of counting needs.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::casters::Casting;
+use super::choice::Way;
+use super::settings::Settings;
+use crate::geometry::Mesh;
+use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
+use crate::pass::{MeshRef, Primitive};
+use crate::techniques::LightView;
+use crate::techniques::light::{VolumeDraw, VolumeSpace};
+
+/// A caster's volume. Ranges that are empty are not drawn.
+pub struct Shape {
+    pub way: Way,
+    pub sides: VolumeDraw,
+    /// At the caster's own surface, or on the near plane; then the same with its front faces reversed; at the far end.
+    pub caps: Vec<VolumeDraw>,
+    pub silhouette: VolumeDraw,
+}
+
+impl Shape {
+    pub fn whole(&self) -> impl Iterator<Item = VolumeDraw> {
+        std::iter::once(&self.sides).chain(&self.caps).cloned()
+    }
+}
+
+/// The shapes of those that are not left out.
+pub fn shapes(
+    view: &LightView<'_>,
+    casting: &[Casting],
+    ways: &[Way],
+    source: Source,
+    settings: &Settings,
+) -> Vec<Shape> {
+    let camera = &view.scene.camera;
+    let viewer = Viewer::new(&(camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()));
+    let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
+    let mut shapes = Vec::new();
+    for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut) {
+        outline.find(&caster.caster, source.transformed(&caster.world_from_model.inverse()));
+        if outline.edges().is_empty() && outline.weights().iter().all(|weight| *weight == 0) {
+            continue;
+        }
+        let name = Name { caster, light: view.index };
+        let silhouette = name.silhouette(&outline);
+        shapes.push(if *way == Way::ZPassCapped {
+            let view_from_model = camera.view_from_world() * caster.world_from_model;
+            capped.cut(&caster.caster, &outline, &view_from_model, camera.near);
+            name.capped(&capped, silhouette)
+        } else {
+            let seen = volume::Casting::new(&caster.bounds, &caster.world_from_model, source);
+            let caps = caps(*way, &seen, &viewer, view.keep_all);
+            let extent = match way {
+                Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
+                _ => Extent::Infinite,
+            };
+            volume.extrude(&caster.caster, &outline, extent, caps);
+            name.volume(*way, &volume, silhouette)
+        });
+    }
+    shapes
+}
+
+/// The caps that can be seen by a way of counting that needs them.
+fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool) -> Caps {
+    match way {
+        Way::ZFailTruncated => Caps::BOTH,
+        Way::ZFail | Way::ZFailClamped => {
+            Caps { light: all || seen.light_cap_may_be_seen(viewer), far: all || seen.far_cap_may_be_seen(viewer) }
+        }
+        _ => Caps::NONE,
+    }
+}
+
+/// The distance that truncated volumes reach, in the caster's model units.
+fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
+    let world = settings.distance.unwrap_or_else(|| 2.0 * view.scene.world_bounds().radius());
+    let scale = caster.world_from_model.determinant().abs().cbrt();
+    world / scale
+}
+
+/// What a draw is called, and where it stands.
+struct Name<'a> {
+    caster: &'a Casting,
+    light: usize,
+}
+
+impl Name<'_> {
+    fn draw(&self, what: &str, mesh: &MeshRef, indices: Range<u32>, space: VolumeSpace) -> VolumeDraw {
+        VolumeDraw {
+            label: format!("{what} of {}", self.caster.label),
+            mesh: mesh.clone(),
+            primitive: Primitive::Triangles,
+            indices,
+            space,
+            reversed: false,
+        }
+    }
+
+    fn model(&self) -> VolumeSpace {
+        VolumeSpace::Model { world_from_model: self.caster.world_from_model }
+    }
+
+    fn mesh(&self, what: &str, homogeneous: Vec<[f32; 4]>, indices: Vec<u32>) -> MeshRef {
+        let name = format!("{what} of {} for light {}", self.caster.label, self.light);
+        MeshRef(Arc::new(Mesh { name, homogeneous, indices, ..Mesh::default() }))
+    }
+
+    fn volume(&self, way: Way, volume: &Volume, silhouette: VolumeDraw) -> Shape {
+        let mesh = self.mesh("volume", volume.vertices().to_vec(), volume.indices().to_vec());
+        let draw = |what, indices| self.draw(what, &mesh, indices, self.model());
+        let reversed = VolumeDraw { reversed: true, ..draw("averted light cap", volume.light_cap_reversed()) };
+        let caps = [draw("light cap", volume.light_cap()), reversed, draw("far cap", volume.far_cap())];
+        let caps = caps.into_iter().filter(|cap| !cap.indices.is_empty()).collect();
+        Shape { way, sides: draw("sides", volume.sides()), caps, silhouette }
+    }
+
+    fn capped(&self, volume: &CappedVolume, silhouette: VolumeDraw) -> Shape {
+        let mesh = self.mesh("volume", volume.vertices().to_vec(), volume.indices().to_vec());
+        let draw = |what, indices| self.draw(what, &mesh, indices, VolumeSpace::Eye);
+        let cap = draw("near cap", volume.near_cap());
+        let caps = if cap.indices.is_empty() { Vec::new() } else { vec![cap] };
+        Shape { way: Way::ZPassCapped, sides: draw("sides", volume.sides()), caps, silhouette }
+    }
+
+    fn silhouette(&self, outline: &Outline) -> VolumeDraw {
+        let positions = self.caster.caster.positions();
+        let ends = outline.edges().iter().flat_map(|edge| [edge.from, edge.to]);
+        let points: Vec<[f32; 4]> =
+            ends.map(|place| positions[place as usize]).map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        let indices: Vec<u32> = (0..points.len() as u32).collect();
+        let count = points.len() as u32;
+        let mesh = self.mesh("silhouette", points, indices);
+        VolumeDraw { primitive: Primitive::Lines, ..self.draw("silhouette", &mesh, 0..count, self.model()) }
+    }
+}
