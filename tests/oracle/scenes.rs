@@ -8,7 +8,9 @@ use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
 use glumbra::oracle::ray::{Answer, Options, Pixel, Truth, trace};
 use glumbra::scene::Origin;
-use glumbra::scene::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Scene, Settings, Shading, Spot};
+use glumbra::scene::{
+    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Settings, Shading, Spot,
+};
 
 pub const SIZE: u32 = 192;
 
@@ -124,6 +126,31 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         specular: [1.0; 3],
         name: String::from("light"),
         shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
+    }
+}
+
+/// A light that shines every way from `position`.
+pub fn point_light(position: DVec3) -> Light {
+    let kind = LightKind::Point(Point { position, near: 0.01, far: 100.0, attenuation: [1.0, 0.0, 0.0] });
+    Light { kind, ..light(position, position + DVec3::X) }
+}
+
+/// Parallel light that travels from `from` to the origin.
+pub fn sun(from: DVec3) -> Light {
+    Light { kind: LightKind::Directional { direction: -from.normalize() }, ..light(from, DVec3::ZERO) }
+}
+
+/// One light of each kind at `position`, or from there.
+pub fn kinds(position: DVec3) -> [Light; 3] {
+    [light(position, DVec3::ZERO), point_light(position), sun(position)]
+}
+
+/// From the light to a point, or any piece of that way.
+pub fn way_of_light(light: &Light, to: DVec3) -> DVec3 {
+    match &light.kind {
+        LightKind::Spot(spot) => to - spot.frustum.position,
+        LightKind::Point(point) => to - point.position,
+        LightKind::Directional { direction } => *direction,
     }
 }
 
