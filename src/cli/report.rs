@@ -14,6 +14,7 @@ use crate::frame::Renderer;
 use crate::report::grid::{self, Grid};
 use crate::report::html::{Goals, Pictures};
 use crate::report::journal::{self, Journal};
+use crate::report::kept;
 use crate::report::results::{Report, VERSION};
 use crate::report::run::{self, Options, Sweep};
 use crate::report::{merge, pictures, write};
@@ -265,10 +266,11 @@ fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals
 fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let load = |path: &PathBuf| merge::load(path).map(|report| (path.clone(), report));
     let parts = arguments.parts.iter().map(load).collect::<Result<Vec<_>, _>>()?;
-    let report = merge::merge(parts)?;
+    let mut report = merge::merge(parts)?;
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
-    write::write_all(&arguments.output, &report, &Pictures::default(), &goals)?;
+    write::write_all(&arguments.output, &report, &pictures, &goals)?;
     println!("{}", arguments.output.join("report.html").display());
     Ok(())
 }
