@@ -1,9 +1,10 @@
 //! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
 //! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13 f].
 
+mod sides;
 mod variant;
 
-use glam::{DMat4, DVec3, Mat3, Vec3, Vec4};
+use glam::{DMat4, Mat3, Vec3, Vec4};
 
 use super::{Item, LightTerm};
 use crate::math::texgen;
@@ -40,9 +41,10 @@ pub fn batches(
         terms.iter().map(|term| light_parts(scene, viewer, term, ending, list)).collect::<Option<_>>()?;
     let mut batches: Vec<Batch> = Vec::new();
     for item in items {
-        let one_sided = shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let (program, uniforms, inputs) = variant::of(scene, item, one_sided, &lights, ending, list);
-        let cull = one_sided.then_some(Face::Back);
+        let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =
             |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
@@ -52,16 +54,6 @@ pub fn batches(
         }
     }
     Some(batches)
-}
-
-/// Whether no back face of the item can be seen: it is declared closed, has no holes by alpha, and all of it lies before
-/// the near plane, so that the viewer is outside of it.
-fn shows_no_back_face(item: &Item, clip_from_model: &DMat4) -> bool {
-    let before_near = |corner: DVec3| {
-        let clip = *clip_from_model * corner.extend(1.0);
-        clip.z > -clip.w
-    };
-    item.closed && !item.needs_alpha_test() && item.bounds.corners().into_iter().all(before_near)
 }
 
 fn draw_uniforms(viewer: &Viewer, item: &Item, program: &Program) -> Vec<Uniform> {

@@ -29,7 +29,7 @@ struct Needs {
     /// Of the point, in the fragment stage.
     position: bool,
     ambient: bool,
-    /// Front faces only, so that normals need not be turned.
+    /// No normal is seen from behind, so that none needs to be turned.
     one_sided: bool,
 }
 
