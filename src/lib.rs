@@ -10,8 +10,9 @@
 //! 6. [`device::Device`] turns the pass list into GL, the only room that does,
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY.
-//! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, and
-//! 10. [`report`] says how far apart the two are, and what that cost.
+//! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, [`oracle::fixed_function`] draws
+//!    the same passes by the driver's own fixed-function pipeline, and
+//! 10. [`report`] says how far apart they are, and what that cost.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -9,6 +9,7 @@ use glumbra::context::{self, Choice, Context, ContextRequest, Error, Profile, Ro
 use glumbra::device::debug::Debug;
 use glumbra::device::probe;
 use glumbra::device::queries::Timer;
+use glumbra::oracle::fixed_function::{Binding, BindingError, raw};
 
 mod support;
 use support::xvfb::Xvfb;
@@ -326,4 +327,29 @@ fn run(mut command: Command) -> Output {
         stdout: String::from_utf8(output.stdout).unwrap(),
         stderr: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+#[test]
+fn every_compatibility_context_has_the_fixed_function_pipeline() {
+    let context = context::open(&COMPATIBILITY).unwrap();
+    let fixed = Binding::load(&*context).unwrap();
+    let mut plane = [0.0; 4];
+    // SAFETY: the context is current. Texture generation keeps the plane times the inverse of the modelview.
+    unsafe {
+        fixed.MatrixMode(raw::MODELVIEW);
+        fixed.LoadIdentity();
+        fixed.Scaled(2.0, 4.0, 8.0);
+        fixed.TexGendv(raw::S, raw::EYE_PLANE, [2.0, 4.0, 8.0, 0.5].as_ptr());
+        fixed.LoadIdentity();
+        fixed.GetTexGenfv(raw::S, raw::EYE_PLANE, plane.as_mut_ptr());
+    }
+    assert_eq!(plane, [1.0, 1.0, 1.0, 0.5]);
+    Debug::new(&*context).check("texture generation").unwrap();
+}
+
+#[test]
+fn a_core_context_has_no_fixed_function_pipeline_and_says_so() {
+    let context = context::open(&CORE).unwrap();
+    let error = Binding::load(&*context).err().unwrap();
+    assert_eq!(error, BindingError::Core { road: context.road().to_owned() });
 }

@@ -1,10 +1,10 @@
-// The camera's far plane, where the projection has none: nothing is drawn whose window depth exceeds far_depth.
+// The camera's far plane, where nothing is clipped by it: 1 / gl_FragCoord.w is the distance along the view.
 #undef main
-uniform float far_depth;
+uniform float view_far;
 
 void main()
 {
-    if (gl_FragCoord.z > far_depth)
+    if (1.0 / gl_FragCoord.w > view_far)
         discard;
     main_before_far();
 }

@@ -10,4 +10,8 @@ invariant gl_Position;
 void set_position()
 {
     gl_Position = clip_from_model * position;
+#ifdef CLIP_NEAR
+    // Under depth clamp the near plane clips all the same: a vertex beside the eye has no usable depth.
+    gl_ClipDistance[0] = gl_Position.z + gl_Position.w;
+#endif
 }

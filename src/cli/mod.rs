@@ -1,10 +1,12 @@
 //! The command line: one file a subcommand; arguments in, calls out, no logic.
 
+mod check;
 mod context_args;
 mod info;
 mod plan;
 mod render;
 mod report;
+mod road;
 pub mod sample;
 mod scene_args;
 mod tune;
@@ -28,6 +30,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Check(check::CheckArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
@@ -41,6 +44,10 @@ enum Command {
 pub enum Error {
     #[error(transparent)]
     Context(#[from] context::Error),
+    #[error("--road fixed-function needs OpenGL's compatibility profile. {0}")]
+    NoFixedFunction(context::Error),
+    #[error(transparent)]
+    FixedFunction(#[from] crate::oracle::fixed_function::Error),
     #[error(transparent)]
     Probe(#[from] probe::Error),
     #[error(transparent)]
@@ -73,6 +80,14 @@ pub enum Error {
     Interrupted { folder: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
+    #[error(transparent)]
+    Filter(#[from] crate::oracle::semantics::UnknownFilter),
+    #[error(transparent)]
+    Waivers(#[from] crate::oracle::semantics::waivers::Error),
+    #[error("JUnit: {0}")]
+    JUnit(#[from] quick_junit::SerializeError),
+    #[error("{path}: {error}", path = .path.display())]
+    WriteFile { path: std::path::PathBuf, error: std::io::Error },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
@@ -80,6 +95,7 @@ pub enum Error {
 /// Runs the command with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
 pub fn run() -> ExitCode {
     let result = match Arguments::parse().command {
+        Command::Check(arguments) => return check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),

@@ -7,9 +7,9 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
+use super::road::Road;
 use super::scene_args::{SceneArgs, parse_view};
 use super::{ContextArgs, Error};
-use crate::context::{self, Profile};
 use crate::frame::{Renderer, Times};
 use crate::output::{self, Output};
 use crate::plan::{Request, Summary, ViewRequest};
@@ -37,6 +37,10 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
+    /// Who draws the passes
+    #[arg(long, value_enum, default_value_t)]
+    road: Road,
+
     #[command(flatten)]
     context: ContextArgs,
 }
@@ -60,6 +64,7 @@ Examples:
   glumbra render model.obj -o model.png --size 800x600 --set camera.fov_y=30
   glumbra render scene.toml -o out.exr --aov shade --aov light-depth
   glumbra render scene.toml --set light.shadow.filter=nearest --set light.shadow.size=256
+  glumbra render data/scenes/hw_shadowmaps_simple.toml --road fixed-function -o by-the-driver.png
   glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
 
 /// What `--json` prints.
@@ -82,7 +87,7 @@ struct TimesReport {
     frames_ms: Vec<f64>,
     /// The median of the frames after the first, or the only one.
     frame_median_ms: f64,
-    /// One more frame with every pass drawn anew and waited for.
+    /// One more frame with every pass drawn anew and waited for; none by fixed function.
     passes: Vec<PassReport>,
 }
 
@@ -108,16 +113,17 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     };
     // A scene that cannot be planned needs no context to be refused.
     crate::plan::make(&loaded.scene, &request)?;
-    let context = context::open(&arguments.context.request(Profile::Core33))?;
+    let context = arguments.road.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(&loaded.scene, &request)?;
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");
     }
     let progress = progress(arguments.frames);
-    let times = renderer.draw_timed(&plan, arguments.frames, arguments.json, || progress.inc(1))?;
+    let (frames, passes) = (arguments.frames, arguments.json);
+    let drawn = arguments.road.draw(context.as_ref(), &mut renderer, &plan, frames, passes, || progress.inc(1));
     progress.finish_and_clear();
-    let frame = renderer.read(&plan)?;
+    let (times, frame) = drawn?;
     let names = arguments.aov.iter().map(|wanted| output::beside(&path, &view_name(wanted)));
     let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
     let views = arguments.aov.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));

@@ -6,9 +6,10 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, ValueEnum};
 
+use super::road::Road;
 use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
-use crate::context::{self, Choice, Profile};
+use crate::context::{Choice, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output::{self, Output};
@@ -53,6 +54,10 @@ struct Arguments {
 
     #[command(flatten)]
     tweaks: TweakArgs,
+
+    /// Who draws
+    #[arg(long, value_enum, default_value_t, requires = "headless")]
+    road: Road,
 
     #[command(flatten)]
     context: ContextArgs,
@@ -135,11 +140,11 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
 /// One picture without a window.
 fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
     request.float_picture = output::check_path(path)?.is_exact();
-    let context = context::open(&arguments.context.request(Profile::Core33))?;
+    let context = arguments.road.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(scene, &request)?;
-    renderer.draw(&plan)?;
-    Ok(renderer.read(&plan)?.picture)
+    let (_, frame) = arguments.road.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
+    Ok(frame.picture)
 }
 
 fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {

@@ -15,7 +15,11 @@ pub struct Loaded {
     pub(super) profile: Profile,
     pub(super) debug_log: Option<DebugLog>,
     pub(super) timer_bits: u32,
+    pub(super) address_of: Box<AddressOf>,
 }
+
+/// Answers with a function of the context that it came with, or null.
+pub(super) type AddressOf = dyn Fn(&CStr) -> *const c_void;
 
 /// Loads the functions of the context that is current, and refuses one that is older than what was asked for.
 ///
@@ -24,7 +28,7 @@ pub struct Loaded {
 pub(super) unsafe fn load(
     road: String,
     request: &ContextRequest,
-    address_of: impl Fn(&CStr) -> *const c_void,
+    address_of: impl Fn(&CStr) -> *const c_void + 'static,
 ) -> Result<Loaded, String> {
     // SAFETY: as the caller promises.
     let version = unsafe { version_string(&address_of) }?;
@@ -42,7 +46,8 @@ pub(super) unsafe fn load(
     // SAFETY: as the caller promises.
     let timer_bits = if has_timer { unsafe { timer_bits(&address_of) } } else { 0 };
     let debug_log = request.debug.then(|| debug_log::attach(&mut gl)).flatten();
-    Ok(Loaded { gl: Rc::new(gl), road, profile: request.profile, debug_log, timer_bits })
+    let (gl, profile) = (Rc::new(gl), request.profile);
+    Ok(Loaded { gl, road, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
 }
 
 /// glGetQueryiv, which glow leaves out.

@@ -14,6 +14,7 @@ mod load;
 mod osmesa;
 pub mod window;
 
+use std::ffi::{CStr, c_void};
 use std::fmt;
 use std::rc::Rc;
 
@@ -127,6 +128,12 @@ pub trait Context {
     /// What the driver reports, where it was asked to and can.
     fn debug_log(&self) -> Option<&DebugLog> {
         self.loaded().debug_log.as_ref()
+    }
+
+    /// A GL function by its name, for bindings beside [`gl`](Self::gl); null where the driver has none. Some drivers answer
+    /// with a stub for any name: what the context's version and profile promise is to be asked for, and no more.
+    fn address_of(&self, name: &CStr) -> *const c_void {
+        (self.loaded().address_of)(name)
     }
 
     /// Bits of the counter of GL_TIME_ELAPSED queries; 0: there is none.

@@ -79,7 +79,7 @@ pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, String>
     let handle = Handle { api, context, pixels: Box::into_raw(pixels).cast() };
     handle.make_current()?;
     // SAFETY: the context is current; OSMesaGetProcAddress answers with its functions or null.
-    let address_of = |name: &CStr| unsafe { (api.get_proc_address)(name.as_ptr()) };
+    let address_of = move |name: &CStr| unsafe { (api.get_proc_address)(name.as_ptr()) };
     let loaded = unsafe { load::load(Road::OsMesa.to_string(), request, address_of) }?;
     Ok(Box::new(OsMesaContext { handle, loaded }))
 }

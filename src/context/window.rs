@@ -197,7 +197,7 @@ fn create(
     let context = create_context(&display, &config, &window, request)?;
     let context = context.make_current(&surface).map_err(|error| error.to_string())?;
     // SAFETY: the context is current; the display answers with its functions or null.
-    let loaded = unsafe { load::load(Road::Window.to_string(), request, |name| display.get_proc_address(name)) }?;
+    let loaded = unsafe { load::load(Road::Window.to_string(), request, move |name| display.get_proc_address(name)) }?;
     Ok(WindowContext { surface, context, loaded, window })
 }
 

@@ -49,7 +49,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
                 DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
-                DepthFormat::Depth32 => super::probe::DEPTH_COMPONENT32,
+                DepthFormat::Depth32 => super::bench::DEPTH_COMPONENT32,
                 DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)

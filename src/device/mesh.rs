@@ -79,7 +79,7 @@ impl GpuMesh {
         Ok(Ok(()))
     }
 
-    fn attribute(&mut self, attribute: Attribute) -> Result<Option<glow::Buffer>, Error> {
+    pub fn attribute(&mut self, attribute: Attribute) -> Result<Option<glow::Buffer>, Error> {
         if let Some(buffer) = self.attributes.get(&attribute) {
             return Ok(Some(*buffer));
         }
@@ -97,7 +97,7 @@ impl GpuMesh {
         Ok(Some(buffer))
     }
 
-    fn index_buffer(&mut self, order: IndexOrder) -> Result<glow::Buffer, Error> {
+    pub fn index_buffer(&mut self, order: IndexOrder) -> Result<glow::Buffer, Error> {
         if let Some(buffer) = self.indices.get(&order) {
             return Ok(*buffer);
         }

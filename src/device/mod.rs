@@ -3,11 +3,13 @@
 //! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
 //! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
+pub mod bench;
 pub mod debug;
 mod error;
 mod framebuffer;
 mod image;
 mod mesh;
+mod parts;
 mod present;
 pub mod probe;
 mod program;
@@ -29,6 +31,7 @@ use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampl
 pub use error::Error;
 pub use readback::Pixels;
 pub use run::{Measure, PassTime};
+pub(crate) use state::compare_code;
 
 /// A GL context's objects, and the passes that they already hold.
 pub struct Device {
@@ -88,17 +91,19 @@ impl Device {
     pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
         self.state = None;
         let name = format.to_string();
-        let known = probe::FORMATS.iter().find(|known| known.name == name);
-        known.map(|known| probe::depth_format(&self.gl, known)).transpose()
+        let known = probe::FORMATS.iter().find(|known| known.name() == name);
+        known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
     }
 
-    /// Forgets which passes their targets hold, so that the next run draws them all.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever
+    /// else has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
+        self.state = None;
     }
 
     /// Any GL error since the last check, as an error of ours with the pass's label.
-    fn check(&self, label: &str) -> Result<(), Error> {
+    pub(crate) fn check(&self, label: &str) -> Result<(), Error> {
         Ok(self.debug.check(label)?)
     }
 }

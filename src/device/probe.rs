@@ -1,47 +1,17 @@
 //! Measured facts of the driver's depth formats: what a specification leaves open, and what drivers do otherwise than
 //! it says. Polygon offset by OpenGL 4.6, 14.6.5: one unit is `r`, at least the least difference that can be told.
 //!
-//! Knows nothing of techniques; draws flat quads with a shader of its own, and leaves the context's bindings changed.
+//! Knows nothing of techniques; draws flat quads on the [`bench`](super::bench), and leaves the context's bindings changed.
 
-mod scratch;
+use std::rc::Rc;
 
-use glow::HasContext;
 use serde::Serialize;
 
-pub use scratch::Error;
-use scratch::{DepthTarget, Program};
-
-/// A depth format as asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Format {
-    pub name: &'static str,
-    /// The sized internal format.
-    pub internal: u32,
-    /// GL_DEPTH_COMPONENT or GL_DEPTH_STENCIL, and a type that goes with it.
-    pub upload: (u32, u32),
-    pub has_stencil: bool,
-}
+pub use super::bench::Error;
+use super::bench::{Bench, Draw, Encoding, Format, Offset, State, Surface, full};
 
 /// The formats that are measured.
-pub const FORMATS: [Format; 6] = [
-    depth("DEPTH_COMPONENT16", glow::DEPTH_COMPONENT16),
-    depth("DEPTH_COMPONENT24", glow::DEPTH_COMPONENT24),
-    depth("DEPTH_COMPONENT32", DEPTH_COMPONENT32),
-    depth("DEPTH_COMPONENT32F", glow::DEPTH_COMPONENT32F),
-    depth_stencil("DEPTH24_STENCIL8", glow::DEPTH24_STENCIL8, glow::UNSIGNED_INT_24_8),
-    depth_stencil("DEPTH32F_STENCIL8", glow::DEPTH32F_STENCIL8, glow::FLOAT_32_UNSIGNED_INT_24_8_REV),
-];
-
-/// GL_DEPTH_COMPONENT32, which OpenGL ES and so glow do not know.
-pub const DEPTH_COMPONENT32: u32 = 0x81A7;
-
-const fn depth(name: &'static str, internal: u32) -> Format {
-    Format { name, internal, upload: (glow::DEPTH_COMPONENT, glow::FLOAT), has_stencil: false }
-}
-
-const fn depth_stencil(name: &'static str, internal: u32, kind: u32) -> Format {
-    Format { name, internal, upload: (glow::DEPTH_STENCIL, kind), has_stencil: true }
-}
+pub const FORMATS: [Format; 6] = Format::DEPTHS;
 
 /// What a format is on this driver.
 #[derive(Clone, Debug, Serialize)]
@@ -107,58 +77,67 @@ const DEPTHS: [f64; 2] = [0.75, 0.1875];
 const MANY_UNITS: f32 = 1024.0;
 
 /// Measures every format. The context must be current.
-pub fn depth_formats(gl: &glow::Context) -> Result<Vec<DepthFacts>, Error> {
-    let program = Program::new(gl)?;
-    FORMATS.iter().map(|format| facts(&program, format)).collect()
+///
+/// # Errors
+///
+/// A driver that cannot even measure.
+pub fn depth_formats(gl: &Rc<glow::Context>) -> Result<Vec<DepthFacts>, Error> {
+    let bench = Bench::new(gl)?;
+    FORMATS.iter().map(|&format| facts(&bench, format)).collect()
 }
 
 /// Measures one format. The context must be current.
-pub fn depth_format(gl: &glow::Context, format: &Format) -> Result<DepthFacts, Error> {
-    facts(&Program::new(gl)?, format)
+///
+/// # Errors
+///
+/// A driver that cannot even measure.
+pub fn depth_format(gl: &Rc<glow::Context>, format: Format) -> Result<DepthFacts, Error> {
+    facts(&Bench::new(gl)?, format)
 }
 
-fn facts(program: &Program, format: &Format) -> Result<DepthFacts, Error> {
-    let (measured, refusal) = match DepthTarget::new(program.gl(), format)? {
-        Ok(target) => (Some(measure(program, &target, format)), None),
-        Err(refusal) => (None, Some(refusal)),
+/// Measures one format on a bench.
+///
+/// # Errors
+///
+/// A driver that cannot even measure.
+pub fn facts(bench: &Bench, format: Format) -> Result<DepthFacts, Error> {
+    let (measured, refusal) = match bench.surface([4, 4], None, Some(format)) {
+        Ok(surface) => (measure(bench, &surface)?, None),
+        Err(Error::Refused { reason, .. }) => (None, Some(reason)),
+        Err(error) => return Err(error),
     };
-    Ok(DepthFacts { format: format.name, measured, refusal })
+    Ok(DepthFacts { format: format.name(), measured, refusal })
 }
 
-fn measure(program: &Program, target: &DepthTarget, format: &Format) -> Measured {
-    let gl = program.gl();
-    // SAFETY: the target's texture is bound; level 0 exists.
-    let level = |name| unsafe { gl.get_tex_level_parameter_i32(glow::TEXTURE_2D, 0, name) };
-    let depth_bits = level(glow::TEXTURE_DEPTH_SIZE).max(0) as u32;
-    let stencil_bits = if format.has_stencil { level(glow::TEXTURE_STENCIL_SIZE).max(0) as u32 } else { 0 };
-    let float = level(glow::TEXTURE_DEPTH_TYPE) == glow::FLOAT as i32;
-    let stored = |depth, units| target.stored(program, depth, units, depth_bits, float);
+fn measure(bench: &Bench, surface: &Surface) -> Result<Option<Measured>, Error> {
+    let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(None) };
+    let Encoding { bits, stencil_bits, float } = encoding;
     let unit = |at_depth: f64| {
-        let depth = (stored(at_depth, MANY_UNITS) - stored(at_depth, 0.0)) / f64::from(MANY_UNITS);
-        OffsetUnit { at_depth, depth, codes: depth / step(at_depth, depth_bits, float) }
+        let difference = stored(bench, surface, at_depth, MANY_UNITS)? - stored(bench, surface, at_depth, 0.0)?;
+        let depth = difference / f64::from(MANY_UNITS);
+        Ok(OffsetUnit { at_depth, depth, codes: depth / encoding.step(at_depth) })
     };
-    Measured {
-        depth_bits,
+    let shows = |depth: f64| Ok(stored(bench, surface, depth, 1.0)? != stored(bench, surface, depth, 0.0)?);
+    let [far, near] = DEPTHS;
+    Ok(Some(Measured {
+        depth_bits: bits,
         stencil_bits,
         float,
-        units: DEPTHS.map(unit),
-        one_unit_shows: DEPTHS.iter().all(|&depth| stored(depth, 1.0) != stored(depth, 0.0)),
-    }
+        units: [unit(far)?, unit(near)?],
+        one_unit_shows: shows(far)? && shows(near)?,
+    }))
 }
 
-/// The least difference of stored depths: of a fixed-point format, or of a float's at `depth` in (0, 1).
-fn step(depth: f64, bits: u32, float: bool) -> f64 {
-    if float { (depth.log2().floor() - 23.0).exp2() } else { 1.0 / (f64::from(bits).exp2() - 1.0) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::step;
-
-    #[test]
-    fn steps_of_formats() {
-        assert_eq!(step(0.75, 32, true), 2f64.powi(-24));
-        assert_eq!(step(0.1875, 32, true), 2f64.powi(-26));
-        assert_eq!(step(0.75, 16, false), 1.0 / 65535.0);
-    }
+/// The depth that is stored for a flat quad at window depth `depth` under glPolygonOffset(0, `units`).
+///
+/// # Errors
+///
+/// GL's.
+pub fn stored(bench: &Bench, surface: &Surface, depth: f64, units: f32) -> Result<f64, Error> {
+    // Without units no offset is asked for at all, so that a driver which adds one of its own is found out.
+    let offset = (units != 0.0).then_some(Offset { factor: 0.0, units, clamp: 0.0 });
+    let state = State { offset, color_write: false, ..State::WRITE };
+    bench.draw(&Draw::plain(surface, state, &full((2.0 * depth - 1.0) as f32)))?;
+    let [x, y] = surface.size.map(|side| side as i32 / 2);
+    Ok(surface.depths_in([x, y, 1, 1]).first().copied().unwrap_or(f64::NAN))
 }

@@ -143,7 +143,7 @@ impl Device {
         Ok(())
     }
 
-    fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
+    pub(super) fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
         let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
         let mut kept = HashSet::new();
         for desc in &list.images {
@@ -220,12 +220,7 @@ impl Device {
     }
 
     fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
-        check_feedback(list, label, pass)?;
-        self.bind_target(list, label, pass.target)?;
-        let [width, height] = pass.viewport.map(|side| side as i32);
-        unsafe { self.gl.viewport(0, 0, width, height) };
-        apply(&self.gl, &pass.state, &mut self.state);
-        self.clear(pass);
+        self.begin_pass(list, label, pass)?;
         for batch in &pass.batches {
             self.draw_batch(&pass.state, batch);
         }
@@ -233,7 +228,18 @@ impl Device {
         Ok(())
     }
 
-    /// Clears through the pass's write masks, which must be open for what is cleared.
+    /// Binds and clears the target under the pass's state.
+    pub(super) fn begin_pass(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
+        check_feedback(list, label, pass)?;
+        self.bind_target(list, label, pass.target)?;
+        let [width, height] = pass.viewport.map(|side| side as i32);
+        unsafe { self.gl.viewport(0, 0, width, height) };
+        apply(&self.gl, &pass.state, &mut self.state);
+        self.clear(pass);
+        Ok(())
+    }
+
+    /// Clears colour and depth through the pass's write masks, which must be open for what is cleared.
     fn clear(&self, pass: &DrawPass) {
         unsafe {
             if let Some(color) = pass.clear.color {
@@ -243,7 +249,10 @@ impl Device {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
             }
             if let Some(stencil) = pass.clear.stencil {
+                // All of it, however few bits the draws write.
+                self.gl.stencil_mask(0xFF);
                 self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
+                self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));
             }
         }
     }
@@ -282,7 +291,7 @@ impl Device {
         }
     }
 
-    fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
+    pub(super) fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
         let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
         self.bind_target(list, label, Target { color: None, depth: Some(from) })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);

@@ -70,7 +70,7 @@ impl Hull {
 
     fn middle(&self) -> DVec3 {
         match self.points.len() {
-            0 => self.directions.iter().map(|way| way.normalize_or_zero()).sum::<DVec3>(),
+            0 => self.directions.iter().map(|way| way.normalize_or_zero()).sum::<DVec3>().normalize_or_zero(),
             count => self.points.iter().sum::<DVec3>() / count as f64,
         }
     }

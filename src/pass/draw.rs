@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{Face, Input, Program, Uniform};
+use super::{Face, Input, Meaning, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -31,6 +31,8 @@ impl Deref for MeshRef {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     pub program: Program,
+    /// What the program computes, for readers without shaders.
+    pub meaning: Meaning,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.

@@ -1,13 +1,15 @@
 //! A frame as data: images, passes, draw state, shader variants, draws. Plain values that can be printed, compared and
-//! run by more than one reader. Knows meshes; no scene, no technique, no GL.
+//! run by more than one reader. Knows meshes and the math of texture coordinates; no scene, no technique, no GL.
 
 mod draw;
 mod image;
+mod meaning;
 mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use image::{DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
+pub use meaning::{AlphaTest, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 

@@ -90,6 +90,8 @@ pub struct DrawState {
     pub depth_range: [f32; 2],
     /// GL_DEPTH_CLAMP: no clipping at the near and far planes, depth clamped to the range [GL 4.6, 13.7].
     pub depth_clamp: bool,
+    /// GL_CLIP_DISTANCE0, which the vertex stage then writes.
+    pub clip_distance: bool,
     /// `None`: the stencil test is off.
     pub stencil: Option<Stencil>,
     /// `None`: the fragment's colour replaces what is there.
@@ -108,6 +110,7 @@ impl DrawState {
         polygon_offset: None,
         depth_range: [0.0, 1.0],
         depth_clamp: false,
+        clip_distance: false,
         stencil: None,
         blend: None,
         scissor: None,

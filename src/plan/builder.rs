@@ -7,8 +7,8 @@ use super::compose::PlannedLight;
 use super::lens::Lens;
 use super::{Error, Request, ViewRequest};
 use crate::pass::{
-    Batch, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Redraw, Storage,
-    Target, Uniform, Work, glsl,
+    Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
+    Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::surface::{self, Ending, Viewer};
@@ -48,7 +48,7 @@ impl Builder<'_> {
             self.surfaces(self.scene, &self.first("lit", target, &lens, self.background()), &terms, &Ending::Lit)?;
         }
         if let Some(batch) = guides::frusta(self.scene, &lens.camera) {
-            let state = DrawState { depth_range: lens.depth_range, ..guides::STATE };
+            let state = lens.of_surfaces(guides::STATE);
             let (viewport, clear) = (self.scene.image.size, Clear::default());
             self.push("guides", Redraw::Always, DrawPass { target, viewport, clear, state, batches: vec![batch] });
         }
@@ -87,7 +87,7 @@ impl Builder<'_> {
         };
         let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
         let lens = Lens::of_viewer(viewer);
-        let term = LightTerm::new(self.scene, index, glsl!("light/unshadowed.frag"));
+        let term = LightTerm::unshadowed(self.scene, index);
         let onto = Onto { viewport: [side; 2], ..self.first(label, target, &lens, self.background()) };
         self.surfaces(self.scene, &onto, &[term], &Ending::Lit)
     }
@@ -105,7 +105,7 @@ impl Builder<'_> {
             viewport: self.scene.image.size,
             lens,
             clear: Clear { color: Some(background), depth: Some(1.0), stencil: None },
-            state: DrawState { depth_range: lens.depth_range, ..DrawState::OPAQUE },
+            state: lens.of_surfaces(DrawState::OPAQUE),
         }
     }
 
@@ -124,27 +124,27 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Where the projection has no far plane and something reaches beyond the scene's, fragments there are discarded.
+    /// Where nothing clips at the scene's far plane and something reaches beyond it, fragments there are discarded.
     pub fn cut_at_far(&self, lens: &Lens, batches: &mut [Batch]) {
         let camera = &self.scene.camera;
         let reaches_beyond = |item: &Item| {
             let eye_from_model = lens.camera.eye_from_world * item.world_from_model;
             item.bounds.corners().iter().any(|corner| -eye_from_model.transform_point3(*corner).z > 0.999 * camera.far)
         };
-        if !lens.infinite || !self.items.iter().any(reaches_beyond) {
+        if !lens.has_no_far_plane() || !self.items.iter().any(reaches_beyond) {
             return;
         }
-        let far_depth = Uniform::new("far_depth", (1.0 - camera.near / camera.far) as f32);
-        let rename =
-            crate::pass::Chunk { name: "main before far".into(), text: "#define main main_before_far\n".into() };
+        let rename = Chunk { name: "main, renamed".into(), text: "#define main main_before_far\n".into() };
         for batch in batches {
             batch.program.fragment.insert(0, rename.clone());
             batch.program.fragment.push(glsl!("common/before_far.frag"));
-            batch.uniforms.push(far_depth.clone());
+            batch.uniforms.push(Uniform::new("view_far", camera.far as f32));
+            batch.meaning = Meaning::Shader("a far plane that cuts fragments where the projection has none");
         }
     }
 
-    pub fn push(&mut self, label: &str, redraw: Redraw, pass: DrawPass) {
+    pub fn push(&mut self, label: &str, redraw: Redraw, mut pass: DrawPass) {
+        Lens::adapt(&pass.state, &mut pass.batches);
         self.list.passes.push(Pass { label: label.to_owned(), redraw, work: Work::Draw(pass) });
     }
 

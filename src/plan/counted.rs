@@ -6,7 +6,8 @@ use super::Error;
 use super::builder::{Builder, Onto};
 use super::lens::Lens;
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Redraw, Stencil, StencilOps, Target, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps, Target,
+    Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;
@@ -35,7 +36,7 @@ impl Builder<'_> {
             self.depth_first(target, lens);
             self.count_all(target, lens, &counted[..1], Redraw::WhenChanged);
             uncounted.clear.depth = None;
-            uncounted.state = DrawState { depth_range: lens.depth_range, ..DrawState::REPEAT };
+            uncounted.state = lens.of_surfaces(DrawState::REPEAT);
         }
         let scene = self.without_count(&counted);
         let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
@@ -65,7 +66,7 @@ impl Builder<'_> {
             target: Target { color: None, ..target },
             viewport: self.scene.image.size,
             clear: Clear { depth: Some(1.0), ..Clear::default() },
-            state: DrawState { depth_range: lens.depth_range, ..DrawState::DEPTH_ONLY },
+            state: lens.of_surfaces(DrawState::DEPTH_ONLY),
             batches,
         };
         self.push("depth", Redraw::WhenChanged, pass);
@@ -81,7 +82,8 @@ impl Builder<'_> {
     fn count(&mut self, target: Target, lens: &Lens, counting: &Counting, prefix: &str, redraw: Redraw) {
         for (index, pass) in counting.passes.iter().enumerate() {
             let fragment = glsl!("depth/depth.frag");
-            let batches = Counting::batches(&pass.draws, &lens.viewer(pass.layer), None, fragment, Vec::new());
+            let (viewer, meaning) = (lens.viewer(pass.layer), Meaning::Depth(Texturing::default()));
+            let batches = Counting::batches(&pass.draws, &viewer, None, fragment, meaning, Vec::new());
             let drawn = DrawPass {
                 target: Target { color: None, ..target },
                 viewport: self.scene.image.size,
@@ -103,12 +105,7 @@ impl Builder<'_> {
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
-            state: DrawState {
-                stencil: Some(LIT),
-                blend: Some(Blend::Add),
-                depth_range: lens.depth_range,
-                ..DrawState::REPEAT
-            },
+            state: lens.of_surfaces(DrawState { stencil: Some(LIT), blend: Some(Blend::Add), ..DrawState::REPEAT }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
         let lit = LightTerm { dimming: 0.0, ..term.clone() };
@@ -147,11 +144,11 @@ impl Builder<'_> {
             _ => {}
         }
         let Some((ending, lit)) = views::camera_pass(view, term) else { return Ok(ImageId(0)) };
-        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), ..lit.clone() };
+        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), meaning: Shade::Dark, ..lit.clone() };
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
         self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
-        let state = DrawState { stencil: Some(LIT), depth_range: lens.depth_range, ..DrawState::REPEAT };
+        let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
         let label = format!("{label}: where the count is 0");
         let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
         self.surfaces(self.scene, &onto, &[lit], &ending)?;
@@ -185,19 +182,19 @@ impl Builder<'_> {
         };
         let batches = layers.iter().flat_map(|(cull, color)| {
             let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
-            Counting::batches(draws, &lens.camera, *cull, glsl!("shadow_volume/colored.frag"), uniforms)
+            let fragment = glsl!("shadow_volume/colored.frag");
+            Counting::batches(draws, &lens.camera, *cull, fragment, Meaning::Constant(*color), uniforms)
         });
         let pass = DrawPass {
             target,
             viewport: self.scene.image.size,
             clear: Clear::default(),
-            state: DrawState {
+            state: lens.of_surfaces(DrawState {
                 depth_test: Some(Compare::LessEqual),
                 depth_write: false,
-                depth_range: lens.depth_range,
                 blend: Some(Blend::Over),
                 ..DrawState::OPAQUE
-            },
+            }),
             batches: batches.collect(),
         };
         self.push(&format!("{label}: {name}"), Redraw::Always, pass);

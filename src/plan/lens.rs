@@ -4,7 +4,7 @@
 
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
-use crate::pass::DrawState;
+use crate::pass::{Batch, DrawState};
 use crate::scene::Scene;
 use crate::techniques::light::{Counting, Layer};
 use crate::techniques::surface::Viewer;
@@ -16,10 +16,12 @@ const DEPTH_BITS: u32 = 24;
 pub struct Lens {
     /// Surfaces, and volumes on [`Layer::Scene`].
     pub camera: Viewer,
-    /// glDepthRange of the surfaces.
-    pub depth_range: [f32; 2],
-    /// The far plane is at infinity: what lies beyond the scene's own far plane must be left out by hand.
-    pub infinite: bool,
+    depth_range: [f32; 2],
+    /// The far plane is at infinity.
+    infinite: bool,
+    /// The far plane does not clip; depth is clamped, of surfaces too: a triangle that is clipped here and not there has
+    /// other depths.
+    clamped: bool,
     ledge: Option<Ledge>,
 }
 
@@ -35,7 +37,7 @@ impl Lens {
 
     /// A viewer's, for pictures in which nothing is counted.
     pub fn of_viewer(camera: Viewer) -> Self {
-        Self { camera, depth_range: [0.0, 1.0], infinite: false, ledge: None }
+        Self { camera, depth_range: [0.0, 1.0], infinite: false, clamped: false, ledge: None }
     }
 
     /// What all of `countings` can be counted under. Where one needs the ledge, no far plane is at infinity: the others
@@ -51,7 +53,19 @@ impl Lens {
             lens.camera.clip_from_eye = infinite_perspective(camera.fov_y_radians, scene.aspect(), camera.near);
             lens.infinite = true;
         }
+        let clamps = |counting: &Counting| counting.clamped || (counting.infinite && !lens.infinite);
+        lens.clamped = countings.clone().any(clamps);
         lens
+    }
+
+    /// State of the surfaces.
+    pub fn of_surfaces(&self, state: DrawState) -> DrawState {
+        DrawState { depth_range: self.depth_range, depth_clamp: self.clamped, clip_distance: self.clamped, ..state }
+    }
+
+    /// Whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
+    pub fn has_no_far_plane(&self) -> bool {
+        self.infinite || self.clamped
     }
 
     /// Projection of a count pass.
@@ -73,6 +87,13 @@ impl Lens {
             _ => self.depth_range,
         };
         let depth_clamp = state.depth_clamp || (counting.infinite && !self.infinite);
-        DrawState { depth_range, depth_clamp, ..*state }
+        DrawState { depth_range, depth_clamp, clip_distance: depth_clamp, ..*state }
+    }
+
+    /// Makes the vertex stage write what `state` clips by.
+    pub fn adapt(state: &DrawState, batches: &mut [Batch]) {
+        for batch in batches.iter_mut().filter(|_| state.clip_distance) {
+            batch.program.defines.push(("CLIP_NEAR".into(), String::new()));
+        }
     }
 }

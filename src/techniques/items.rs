@@ -8,8 +8,8 @@ use glam::DMat4;
 use crate::geometry::{Material, Texture};
 use crate::math::Aabb;
 use crate::pass::{
-    Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, MeshRef, PassList, Primitive,
-    Program, Sampler, Storage, Uniform, Wrap, glsl,
+    AlphaTest, Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, Meaning, MeshRef,
+    PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 
@@ -134,6 +134,8 @@ pub struct Cutout {
     pub attributes: Vec<Attribute>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
+    /// The same in the terms of fixed function.
+    pub meaning: Texturing,
 }
 
 /// A decal repeats and is filtered by mipmaps.
@@ -150,6 +152,15 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
         return out;
     }
     out.vertex.push(glsl!("common/decal.vert"));
+    out.meaning = Texturing {
+        object_linear: material.texgen,
+        alpha_test: tested.then(|| AlphaTest {
+            opacity: material.opacity,
+            decal: item.decal_alpha(),
+            map_in_red: alpha_map.is_some_and(|texture| !texture.has_alpha),
+        }),
+        decal: decal.is_some(),
+    };
     if let Some(texgen) = &material.texgen {
         out.defines.push(("OBJECT_LINEAR".into(), String::new()));
         out.uniforms.push(Uniform::new("object_planes", vec![texgen.s.into(), texgen.t.into()]));
@@ -196,6 +207,7 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
             Some(batch) => batch.draws.push(draw),
             None => batches.push(Batch {
                 program,
+                meaning: Meaning::Depth(test.meaning),
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,

@@ -9,8 +9,8 @@ use super::{Item, items};
 use crate::math::Aabb;
 use crate::math::texgen::{SetUp, Spaces, Split, scale_bias};
 use crate::pass::{
-    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw,
-    Uniform, glsl,
+    Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
+    Redraw, Shade, Uniform, glsl,
 };
 use crate::scene::{Frustum, Light, Scene};
 
@@ -76,6 +76,8 @@ pub struct LightTerm {
     pub index: usize,
     /// Defines `float shade_@()`.
     pub shade: Chunk,
+    /// What that computes, in the terms of fixed function.
+    pub meaning: Shade,
     /// Beside what [`super::surface`] adds for every light; names end in the light's index.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
@@ -101,6 +103,8 @@ pub struct Counting {
     pub redraw: Redraw,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
+    /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
+    pub clamped: bool,
     /// Volumes need depth before the near plane: surfaces leave it to them (C8).
     pub ledge: bool,
     /// What a picture of the volumes shows: all of their sides and caps.
@@ -158,6 +162,7 @@ impl Counting {
         viewer: &Viewer,
         cull: Option<Face>,
         fragment: Chunk,
+        meaning: Meaning,
         uniforms: Vec<Uniform>,
     ) -> Vec<Batch> {
         if draws.is_empty() {
@@ -171,7 +176,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, uniforms, inputs: Vec::new(), cull, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, draws }]
     }
 }
 
@@ -197,12 +202,18 @@ impl VolumeDraw {
 }
 
 impl LightTerm {
+    /// Light `index` of `scene`, which nothing shadows.
+    pub fn unshadowed(scene: &Scene, index: usize) -> Self {
+        Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("light/unshadowed.frag")) }
+    }
+
     /// Light `index` of `scene`, whose shade `shade` finds; with the coordinates that the light's own reach needs: those
-    /// of a spotlight's frustum.
+    /// of a spotlight's frustum. Where texture units find the shade too, its technique sets [`LightTerm::meaning`].
     pub fn new(scene: &Scene, index: usize, shade: Chunk) -> Self {
         Self {
             index,
             shade,
+            meaning: Shade::Shader("a shade that its technique has a shader for"),
             defines: Vec::new(),
             uniforms: Vec::new(),
             inputs: Vec::new(),

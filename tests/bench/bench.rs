@@ -7,6 +7,8 @@ mod floor_gl;
 mod pictures;
 mod rounds;
 mod table;
+mod techniques;
+mod volumes;
 
 use std::process::ExitCode;
 
@@ -38,6 +40,15 @@ pub struct Arguments {
     /// The child's scene, with the model that is drawn
     #[arg(long, hide = true, value_name = "TOML")]
     file: Option<std::path::PathBuf>,
+    /// Shadow volumes on the CPU instead: adjacency, outline, extrusion
+    #[arg(long)]
+    volumes: bool,
+    /// Each technique against the floor's shadow map, instead
+    #[arg(long)]
+    techniques: bool,
+    /// The child's overrides of the scene, as `glumbra render` takes them
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Where the child writes its picture
     #[arg(short, long)]
     output: Option<std::path::PathBuf>,
@@ -78,6 +89,8 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.child {
         Some(who) => child::run(who, &arguments),
+        None if arguments.volumes => volumes::run(&arguments),
+        None if arguments.techniques => techniques::run(&arguments),
         None => rounds::run(&arguments),
     };
     match result {

@@ -89,7 +89,8 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
         Redraw::Once => "light.shadow.redraw=once",
     };
     let file = arguments.file.clone().unwrap_or_else(|| scene_file(scene));
-    let loaded = scene::load(&file, &[String::from(redraw)])?;
+    let sets: Vec<String> = [String::from(redraw)].into_iter().chain(arguments.set.iter().cloned()).collect();
+    let loaded = scene::load(&file, &sets)?;
     let context = context::open(&ContextRequest::default())?;
     let mut renderer = Renderer::new(context.as_ref());
     let request = Request { frames: u32::try_from(arguments.frames)?, ..Request::default() };

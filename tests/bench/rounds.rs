@@ -40,6 +40,11 @@ impl Expected {
 /// Measures each scene and prints its table.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let rounds = if arguments.quick { 3 } else { arguments.rounds.max(1) };
+    for_each_scene(arguments, |bench| bench.run(rounds))
+}
+
+/// Runs `measure` on each scene, whose file lies in a folder that is removed afterwards.
+pub fn for_each_scene(arguments: &Arguments, measure: impl Fn(&Bench) -> Result<()>) -> Result<()> {
     let folder = std::env::temp_dir().join(format!("glumbra-bench-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let scenes = arguments.scene.map_or(vec![Scene::S1, Scene::S2], |scene| vec![scene]);
@@ -51,17 +56,17 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             model: model_file(arguments).canonicalize()?,
         };
         bench.write_scene()?;
-        bench.run(rounds)
+        measure(&bench)
     });
     std::fs::remove_dir_all(&folder)?;
     result
 }
 
-struct Bench {
-    scene: Scene,
-    quick: bool,
-    folder: PathBuf,
-    model: PathBuf,
+pub struct Bench {
+    pub scene: Scene,
+    pub quick: bool,
+    pub folder: PathBuf,
+    pub model: PathBuf,
 }
 
 impl Bench {
@@ -92,11 +97,11 @@ impl Bench {
     /// One process of a round; those that are compared stand side by side.
     fn step(&self, step: usize, round: &mut Round) -> Result<()> {
         match step {
-            0 => round.floor = self.frames_of(Who::Floor, Redraw::Always)?,
-            1 => round.glumbra = self.frames_of(Who::Glumbra, Redraw::Always)?,
-            2 => round.tuned = self.frames_of(Who::Tuned, Redraw::Always)?,
-            3 => round.glumbra_once = self.frames_of(Who::Glumbra, Redraw::Once)?,
-            4 => round.floor_once = self.frames_of(Who::Floor, Redraw::Once)?,
+            0 => round.floor = self.frames_of(Who::Floor, Redraw::Always, &[])?,
+            1 => round.glumbra = self.frames_of(Who::Glumbra, Redraw::Always, &[])?,
+            2 => round.tuned = self.frames_of(Who::Tuned, Redraw::Always, &[])?,
+            3 => round.glumbra_once = self.frames_of(Who::Glumbra, Redraw::Once, &[])?,
+            4 => round.floor_once = self.frames_of(Who::Floor, Redraw::Once, &[])?,
             5 => (round.floor_start, round.floor_start_kib) = self.start(Who::Floor)?,
             6 => round.glumbra_start = self.start_of_command()?,
             7 => round.glumbra_start_kib = self.start(Who::Glumbra)?.1,
@@ -114,8 +119,11 @@ impl Bench {
         }
     }
 
-    fn frames_of(&self, who: Who, redraw: Redraw) -> Result<Sample> {
+    pub fn frames_of(&self, who: Who, redraw: Redraw, sets: &[&str]) -> Result<Sample> {
         let mut command = self.child(who)?;
+        for set in sets {
+            command.args(["--set", set]);
+        }
         command.arg("--frames").arg(self.frames().to_string());
         command.arg("--redraw").arg(if redraw == Redraw::Always { "always" } else { "once" });
         sample(&timed(command)?.1)
@@ -150,7 +158,7 @@ impl Bench {
     }
 
     /// The scene's file with the model's place in it.
-    fn write_scene(&self) -> Result<()> {
+    pub fn write_scene(&self) -> Result<()> {
         let text = std::fs::read_to_string(scene_file(self.scene))?;
         let model = format!("{:?}", self.model.to_str().ok_or("the model's path is no text")?);
         let text = text.replace("\"../meshes/dense.obj\"", &model);

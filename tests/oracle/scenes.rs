@@ -19,7 +19,8 @@ pub type Shape = (Vec<DVec3>, Vec<[u32; 3]>);
 
 pub fn mesh((points, triangles): &Shape) -> Mesh {
     let indices: Vec<u32> = triangles.iter().flatten().copied().collect();
-    let bounds = Aabb::from_points(points.iter().copied());
+    // Of what is drawn: an f32's own place may lie on the other side of a light.
+    let bounds = Aabb::from_points(points.iter().map(|point| point.as_vec3().as_dvec3()));
     Mesh {
         name: String::from("test"),
         positions: points.iter().map(|p| p.as_vec3().to_array()).collect(),

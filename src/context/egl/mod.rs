@@ -146,7 +146,7 @@ fn open_on(
     }
     handles.make_current()?;
     // SAFETY: the context is current; eglGetProcAddress answers with its functions.
-    let loaded = unsafe { load::load(road, request, |name| api::address_of(egl, name)) }?;
+    let loaded = unsafe { load::load(road, request, move |name| api::address_of(egl, name)) }?;
     Ok(Box::new(EglContext { handles, loaded }))
 }
 

@@ -49,11 +49,18 @@ pub(super) struct OtherEdges {
 
 /// One use of an edge: sorted by its two places, then by triangle.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Use {
-    low: u32,
-    high: u32,
-    triangle: u32,
+pub(super) struct Use {
+    /// The smaller place above the larger.
+    places: u64,
+    pub triangle: u32,
+    /// Whether the triangle runs from the smaller to the larger.
     forward: bool,
+}
+
+impl Use {
+    fn places(self) -> [u32; 2] {
+        [(self.places >> 32) as u32, self.places as u32]
+    }
 }
 
 impl Caster {
@@ -78,17 +85,15 @@ impl Caster {
     }
 
     fn from_places(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
-        let order = shells::sorted_by_shell(&triangles);
+        let mut uses = uses(&triangles);
+        let order = shells::sorted_by_shell(triangles.len(), uses.chunk_by(|a, b| a.places == b.places));
         let triangles: Vec<[u32; 3]> = order.iter().map(|(_, triangle)| triangles[*triangle as usize]).collect();
-        let (plain, other) = find_edges(&triangles);
-        let mut caster = Self {
-            planes: Planes::new(&positions, &triangles),
-            positions,
-            triangles,
-            shells: Vec::new(),
-            plain,
-            other,
-        };
+        if !order.is_sorted_by_key(|(_, triangle)| *triangle) {
+            renumber(&mut uses, &order);
+        }
+        let (plain, other) = find_edges(&uses);
+        let planes = Planes::new(&positions, &triangles);
+        let mut caster = Self { positions, triangles, planes, shells: Vec::new(), plain, other };
         caster.shells = shells::describe(&caster, &order);
         caster
     }
@@ -131,24 +136,42 @@ impl Caster {
     }
 }
 
-fn find_edges(triangles: &[[u32; 3]]) -> (PlainEdges, OtherEdges) {
+/// All edges of all triangles, those of one edge together.
+fn uses(triangles: &[[u32; 3]]) -> Vec<Use> {
     let mut uses = Vec::with_capacity(3 * triangles.len());
-    for (triangle, corners) in (0u32..).zip(triangles) {
-        for k in 0..3 {
-            let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            uses.push(Use { low: from.min(to), high: from.max(to), triangle, forward: from < to });
+    for (triangle, [a, b, c]) in (0u32..).zip(triangles) {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let places = (u64::from(*from.min(to)) << 32) | u64::from(*from.max(to));
+            uses.push(Use { places, triangle, forward: from < to });
         }
     }
     uses.sort_unstable();
+    uses
+}
+
+/// For triangles in another order.
+fn renumber(uses: &mut [Use], order: &[(u32, u32)]) {
+    let mut new_from_old = vec![0; order.len()];
+    for (new, (_, old)) in (0u32..).zip(order) {
+        new_from_old[*old as usize] = new;
+    }
+    for each in &mut *uses {
+        each.triangle = new_from_old[each.triangle as usize];
+    }
+    uses.sort_unstable();
+}
+
+fn find_edges(uses: &[Use]) -> (PlainEdges, OtherEdges) {
     let (mut plain, mut other) = (PlainEdges::default(), OtherEdges::default());
-    for edge in uses.chunk_by(|a, b| (a.low, a.high) == (b.low, b.high)) {
+    for edge in uses.chunk_by(|a, b| a.places == b.places) {
+        let [low, high] = edge[0].places();
         match edge {
             [a, b] if a.forward != b.forward => {
-                plain.places.push(if a.forward { [a.low, a.high] } else { [a.high, a.low] });
+                plain.places.push(if a.forward { [low, high] } else { [high, low] });
                 plain.triangles.push([a.triangle, b.triangle]);
             }
             _ => {
-                other.places.push([edge[0].low, edge[0].high]);
+                other.places.push([low, high]);
                 other.uses.extend(edge.iter().map(|each| (each.triangle, if each.forward { 1 } else { -1 })));
                 other.ends.push(other.uses.len() as u32);
             }

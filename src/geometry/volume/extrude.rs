@@ -133,14 +133,21 @@ impl Volume {
 
     fn add_far_cap(&mut self, caster: &Caster, outline: &Outline, end: &End) -> Range<u32> {
         let start = self.index_count();
-        for ([a, b, c], weight) in caster.triangles.iter().zip(outline.weights()) {
+        for (places @ [a, b, c], weight) in caster.triangles.iter().zip(outline.weights()) {
             let corners = match weight {
                 0 => continue,
                 1.. => [*a, *c, *b],
                 _ => [*a, *b, *c],
             };
-            let corners = corners.map(|place| self.far(caster, place, end));
-            self.indices.extend(corners);
+            let [a, b, c] = corners.map(|place| self.far(caster, place, end));
+            match end.middle_of_half_sky(places.map(|place| caster.position(place))) {
+                None => self.indices.extend([a, b, c]),
+                Some(normal) => {
+                    let middle = self.vertices.len() as u32;
+                    self.vertices.push(at_infinity(if *weight > 0 { -normal } else { normal }));
+                    self.indices.extend([a, b, middle, b, c, middle, c, a, middle]);
+                }
+            }
         }
         start..self.index_count()
     }
@@ -168,6 +175,10 @@ impl End {
         self.extent == Extent::Infinite && self.source.is_parallel()
     }
 
+    fn middle_of_half_sky(&self, corners: [DVec3; 3]) -> Option<DVec3> {
+        if self.extent == Extent::Infinite { normal_if_touched(self.source, corners) } else { None }
+    }
+
     fn of(&self, position: DVec3) -> [f32; 4] {
         let away = self.source.away(position);
         match self.extent {
@@ -178,6 +189,30 @@ impl End {
             }
         }
     }
+}
+
+/// The normal of a triangle that the light all but touches: at infinity it covers half the sky, its corners lie all but
+/// on a great circle, and a rounding may turn it into the other half. With a corner in its middle it cannot.
+fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
+    const TOUCHES: f64 = 1.0 / (1 << 10) as f64;
+    if source.is_parallel() {
+        return None;
+    }
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let [a, b, c] = corners.map(|corner| source.away(corner));
+    let surrounds = [(a, b), (b, c), (c, a)].iter().all(|(p, q)| p.cross(*q).dot(normal) >= 0.0);
+    let height = a.dot(normal).abs() / normal.length();
+    let touches = height <= TOUCHES * a.length().max(b.length()).max(c.length());
+    (surrounds && touches).then_some(normal)
+}
+
+/// Whether the light all but touches a counted triangle of `caster`, for which `outline` was found: what it shades is
+/// half the world, and cut by a plane its volume has no vertices that say on which side.
+pub fn light_touches(caster: &Caster, outline: &Outline) -> bool {
+    let Some(source) = outline.source() else { return false };
+    let counted = caster.triangles.iter().zip(outline.weights()).filter(|(_, weight)| **weight != 0);
+    let mut corners = counted.map(|(places, _)| places.map(|place| caster.position(place)));
+    corners.any(|corners| normal_if_touched(source, corners).is_some())
 }
 
 /// The point at infinity in a direction: (direction, 0) scaled by a power of two, so that none is lost to f32's range

@@ -34,7 +34,7 @@ mod shells;
 mod source;
 
 pub use caster::Caster;
-pub use extrude::{Caps, Extent, Volume};
+pub use extrude::{Caps, Extent, Volume, light_touches};
 pub use near_cap::{CappedVolume, Landing};
 pub use outline::{Outline, OutlineEdge};
 pub use seen::{Casting, Viewer, scissor};

@@ -53,8 +53,10 @@ impl Planes {
         let magnitude = (u.abs().max_element() * v.abs().max_element()).max(f64::MIN_POSITIVE);
         // The next power of two above twice the magnitude.
         let scale = (-(magnitude.log2().floor() + 2.0)).exp2();
-        let is_flat = exact::are_collinear(corners);
-        let normal = if is_flat { DVec3::ZERO } else { normal * scale };
+        let normal = normal * scale;
+        // Exact arithmetic only where a normal may be nothing but rounding.
+        let is_flat = normal.abs().max_element() <= ROUNDINGS * ROUNDOFF && exact::are_collinear(corners);
+        let normal = if is_flat { DVec3::ZERO } else { normal };
         let local = a - self.center;
         self.x.push(normal.x);
         self.y.push(normal.y);

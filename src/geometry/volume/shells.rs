@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 use robust::{Coord, orient2d};
 
+use super::caster::Use;
 use super::{Caster, Source};
 use crate::math::Aabb;
 
@@ -100,25 +101,19 @@ impl Caster {
     }
 }
 
-/// The triangles in an order that keeps shells together: (shell, triangle), shells by their first triangle.
-pub(super) fn sorted_by_shell(triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (triangle, [a, b, c]) in (0u32..).zip(triangles) {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            edges.push(((u64::from(*from.min(to)) << 32) | u64::from(*from.max(to)), triangle));
-        }
-    }
-    edges.sort_unstable();
+/// The triangles in an order that keeps shells together: (shell, triangle), shells by their first triangle. `edges`: the
+/// triangles of each edge.
+pub(super) fn sorted_by_shell<'e>(triangles: usize, edges: impl Iterator<Item = &'e [Use]>) -> Vec<(u32, u32)> {
     // Union-find; the smaller triangle stands for both.
-    let mut parents: Vec<u32> = (0..triangles.len() as u32).collect();
-    for edge in edges.chunk_by(|a, b| a.0 == b.0) {
+    let mut parents: Vec<u32> = (0..triangles as u32).collect();
+    for edge in edges {
         for pair in edge.windows(2) {
-            let (a, b) = (find(&mut parents, pair[0].1), find(&mut parents, pair[1].1));
+            let (a, b) = (find(&mut parents, pair[0].triangle), find(&mut parents, pair[1].triangle));
             parents[a.max(b) as usize] = a.min(b);
         }
     }
     let mut order: Vec<(u32, u32)> =
-        (0..triangles.len() as u32).map(|triangle| (find(&mut parents, triangle), triangle)).collect();
+        (0..triangles as u32).map(|triangle| (find(&mut parents, triangle), triangle)).collect();
     order.sort_unstable();
     order
 }

@@ -17,15 +17,7 @@ use glam::DVec3;
 /// share it get exactly opposite signs. Zero counts as inside for both. Returns t with the crossing at
 /// `origin + t * direction`; negative behind the origin.
 pub(super) fn crossing(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> Option<f64> {
-    let size = direction.abs();
-    let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };
-    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-    let (shear_x, shear_y) = (direction[x] / direction[z], direction[y] / direction[z]);
-    let sheared = corners.map(|corner| {
-        let local = corner - origin;
-        [local[x] - shear_x * local[z], local[y] - shear_y * local[z], local[z]]
-    });
-    let [a, b, c] = sheared;
+    let [a, b, c] = sheared(origin, direction, corners);
     let edge = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
     let (u, v, w) = (edge(b, c), edge(c, a), edge(a, b));
     let is_inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
@@ -33,7 +25,36 @@ pub(super) fn crossing(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) ->
     if !is_inside || area == 0.0 {
         return None;
     }
-    Some((u * a[2] + v * b[2] + w * c[2]) / area / direction[z])
+    Some((u * a[2] + v * b[2] + w * c[2]) / area)
+}
+
+/// The corners as the ray sees them: it is the third axis, and its parameter the third coordinate.
+fn sheared(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> [[f64; 3]; 3] {
+    let size = direction.abs();
+    let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };
+    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+    let (shear_x, shear_y) = (direction[x] / direction[z], direction[y] / direction[z]);
+    corners.map(|corner| {
+        let local = corner - origin;
+        [local[x] - shear_x * local[z], local[y] - shear_y * local[z], local[z] / direction[z]]
+    })
+}
+
+/// Where a segment's line crosses a triangle, and just once where it passes an edge or a corner that several triangles
+/// share: as [`crossing`], for a line moved aside by next to nothing.
+pub(super) fn crossing_once(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> Option<f64> {
+    let [a, b, c] = sheared(origin, direction, corners);
+    // Zero is decided by the edge's own way, which the neighbour sees reversed: (dx, dy) aside by (e, e^2) with e > 0.
+    let edge = |p: [f64; 3], q: [f64; 3]| {
+        let value = p[0] * q[1] - p[1] * q[0];
+        let tie = if q[1] == p[1] { p[0] - q[0] } else { q[1] - p[1] };
+        (value, if value == 0.0 { tie } else { value })
+    };
+    let weights = [edge(b, c), edge(c, a), edge(a, b)];
+    let is_inside = weights.iter().all(|(_, side)| *side > 0.0) || weights.iter().all(|(_, side)| *side < 0.0);
+    let [u, v, w] = weights.map(|(value, _)| value);
+    let area = u + v + w;
+    (is_inside && area != 0.0).then(|| (u * a[2] + v * b[2] + w * c[2]) / area)
 }
 
 /// Where a beam's segments come from.
@@ -63,6 +84,9 @@ pub(super) struct Beam {
     pub depth_error: f64,
     /// The fraction of the way from apex to base before which nothing counts; in [0, 1). 0 for parallel beams.
     pub start: f64,
+    /// Whether a corner's error turns the rays past it, so that it grows with the distance from the apex. Shadow volumes
+    /// move each corner along its own ray: there it does not.
+    pub levers: bool,
 }
 
 /// Of three, where one end of the beam decides: surely, or within the error.
@@ -132,7 +156,7 @@ impl Beam {
 
     /// How far a corner's error may move its image on the beam's base, over that error.
     fn lever(&self, corners: &[DVec3; 3]) -> f64 {
-        let Apex::At(apex) = self.apex else { return 1.0 };
+        let (Apex::At(apex), true) = (self.apex, self.levers) else { return 1.0 };
         let axis = self.base - apex;
         // The nearest corner has the longest lever; behind the apex there is none.
         let along = corners.map(|corner| (corner - apex).dot(axis));
@@ -212,6 +236,7 @@ impl Beam {
         let (fraction, distance) = closest(self.origin(), axis, self.start, 1.0 + longer, from, to);
         // The taper between here and the true closest point of the cone is of second order; 1 % holds it.
         let taper = self.taper(fraction);
+        let error = if self.levers { error } else { taper * error };
         let width = taper * self.radius(0.0) * 1.01 + error;
         if distance > width {
             return false;
@@ -285,6 +310,7 @@ mod tests {
             error: 1e-9,
             depth_error: 1e-9,
             start: 0.0,
+            levers: true,
         })
     }
 

@@ -7,8 +7,20 @@ use super::truth::Reason;
 use crate::scene::{Frustum, Light, LightKind, LightShape};
 
 pub(super) struct Lamp {
-    apex: Apex,
+    source: Source,
     shape: Shape,
+}
+
+/// Where light comes from.
+#[derive(Clone, Copy)]
+enum Source {
+    At(DVec3),
+    /// From infinitely far away. `travel`: the way of the light, of unit length; a ball holds all that it may meet.
+    Along {
+        travel: DVec3,
+        center: DVec3,
+        radius: f64,
+    },
 }
 
 /// What the light holds, and how a map of it would be laid out.
@@ -31,55 +43,65 @@ impl Lamp {
                 let right = ahead.cross(up).normalize();
                 let axes = [ahead, right, right.cross(ahead)];
                 let (ends, half_angle_radians) = (spot.shape, 0.5 * cone_radians);
-                Self { apex: Apex::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
+                Self { source: Source::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
             }
             LightKind::Point(point) => {
                 let (near, far) = (point.near, point.far);
-                Self { apex: Apex::At(point.position), shape: Shape::Cube { near, far } }
+                Self { source: Source::At(point.position), shape: Shape::Cube { near, far } }
             }
             LightKind::Directional { direction } => {
                 let travel = direction.normalize();
                 let (right, up) = travel.any_orthonormal_pair();
-                // From any point of the ball, this far back is outside of it.
-                let apex = Apex::Infinity { travel, length: 2.5 * radius };
-                Self { apex, shape: Shape::Square { right, up, center, radius } }
+                Self {
+                    source: Source::Along { travel, center, radius },
+                    shape: Shape::Square { right, up, center, radius },
+                }
             }
         }
     }
 
     pub fn is_finite(&self) -> bool {
-        let apex = match self.apex {
-            Apex::At(position) => position.is_finite(),
-            Apex::Infinity { travel, length } => travel.is_finite() && length.is_finite(),
-        };
-        apex && match &self.shape {
-            Shape::Spot { axes, half_angle_radians, .. } => {
-                axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0
+        let (Source::At(vector) | Source::Along { travel: vector, .. }) = self.source;
+        vector.is_finite()
+            && match &self.shape {
+                Shape::Spot { axes, half_angle_radians, .. } => {
+                    axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0
+                }
+                Shape::Cube { near, far } => 0.0 < *near && near < far,
+                Shape::Square { center, radius, .. } => center.is_finite() && radius.is_finite(),
             }
-            Shape::Cube { near, far } => 0.0 < *near && near < far,
-            Shape::Square { .. } => true,
+    }
+
+    /// Where a beam to `base` comes from.
+    pub fn apex(&self, base: DVec3) -> Apex {
+        match self.source {
+            Source::At(position) => Apex::At(position),
+            // Back to before the ball, however far behind it the base lies.
+            Source::Along { travel, center, radius } => {
+                Apex::Infinity { travel, length: travel.dot(base - center).max(0.0) + 1.5 * radius }
+            }
         }
     }
 
-    /// Where light comes from.
-    pub fn apex(&self) -> Apex {
-        self.apex
+    /// Where it stands; `None`: infinitely far away.
+    pub fn place(&self) -> Option<DVec3> {
+        if let Source::At(position) = self.source { Some(position) } else { None }
     }
 
     /// From a point to the light; of unit length for one that is infinitely far away.
     pub fn towards(&self, point: DVec3) -> DVec3 {
-        match self.apex {
-            Apex::At(position) => position - point,
-            Apex::Infinity { travel, .. } => -travel,
+        match self.source {
+            Source::At(position) => position - point,
+            Source::Along { travel, .. } => -travel,
         }
     }
 
     /// How far rounded coordinates reach that are taken from the light: from its place, or from the middle of the
     /// scene's ball, around which a map of a light without a place would lie.
     pub fn span(&self, point: DVec3) -> f64 {
-        match (self.apex, &self.shape) {
-            (Apex::Infinity { .. }, Shape::Square { center, radius, .. }) => point.distance(*center) + radius,
-            _ => self.towards(point).length(),
+        match &self.shape {
+            Shape::Square { center, radius, .. } => point.distance(*center) + radius,
+            Shape::Spot { .. } | Shape::Cube { .. } => self.towards(point).length(),
         }
     }
 

@@ -26,8 +26,10 @@ mod cutout;
 mod light;
 mod primary;
 mod shadow;
+mod shells;
 mod solid;
 mod truth;
+mod volumes;
 mod world;
 
 use glam::DVec3;
@@ -40,6 +42,7 @@ use cutout::Alpha;
 use light::Lamp;
 use primary::Seen;
 pub use truth::{Answer, Hit, Pixel, Reason, Truth};
+pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
 use world::{Triangle, World};
 
 /// How much doubt is granted.

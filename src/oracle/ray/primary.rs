@@ -51,6 +51,7 @@ impl Tracer<'_> {
             error,
             depth_error: error + self.eye.depth_error(depth, rise),
             start: self.eye.near / depth,
+            levers: true,
         }
     }
 

@@ -88,6 +88,11 @@ impl<'a> World<'a> {
         (0.5 * (min + max), 0.5 * min.distance(max))
     }
 
+    /// An object's mesh, ready for rays.
+    pub fn solid(&self, object: u32) -> &Solid<'a> {
+        &self.solids[self.placed[object as usize].solid]
+    }
+
     pub fn triangle(&self, object: u32, index: u32) -> Triangle<'_> {
         let placed = &self.placed[object as usize];
         let solid = &self.solids[placed.solid];
@@ -171,6 +176,25 @@ impl Triangle<'_> {
         (corner != OPEN).then(|| self.placed.to_world(self.solid.position(corner)))
     }
 
+    /// Whether both have the same three corners, whatever their order.
+    pub fn coincides(&self, other: &Triangle<'_>) -> bool {
+        let corners = |triangle: &Triangle<'_>| triangle.solid.welded[triangle.index as usize];
+        let others = corners(other);
+        self.object == other.object && corners(self).iter().all(|corner| others.contains(corner))
+    }
+
+    /// Whether `other` continues it across an edge that no third triangle shares.
+    pub fn continues_in(&self, other: &Triangle<'_>) -> bool {
+        let own = self.solid.welded[self.index as usize];
+        let others = other.solid.welded[other.index as usize];
+        self.object == other.object
+            && (0..3).any(|k| {
+                self.solid.across[self.index as usize][k] != OPEN
+                    && others.contains(&own[k])
+                    && others.contains(&own[(k + 1) % 3])
+            })
+    }
+
     pub fn is(&self, other: &Triangle<'_>) -> bool {
         self.object == other.object && self.index == other.index
     }
@@ -241,6 +265,15 @@ impl Placed {
     fn to_model(&self, segment: &Segment) -> Segment {
         let origin = self.model_from_world.transform_point3(segment.origin);
         Segment { origin, direction: self.model_from_world.transform_vector3(segment.direction), ..*segment }
+    }
+
+    pub fn to_model_point(&self, point: DVec3) -> DVec3 {
+        self.model_from_world.transform_point3(point)
+    }
+
+    /// Whether its transform turns the winding of triangles around.
+    pub fn mirrors(&self) -> bool {
+        self.world_from_model.determinant() < 0.0
     }
 
     pub fn origin(&self) -> DVec3 {

@@ -7,7 +7,7 @@ use super::surface::Viewer;
 use crate::geometry::{Mesh, Part};
 use crate::math::{Aabb, frustum};
 use crate::pass::{
-    Attribute, Batch, Draw, DrawState, IndexOrder, MeshRef, Primitive, Program, Uniform, UniformValue, glsl,
+    Attribute, Batch, Draw, DrawState, IndexOrder, Meaning, MeshRef, Primitive, Program, Uniform, UniformValue, glsl,
 };
 use crate::scene::{Frustum, Light, Scene};
 
@@ -35,7 +35,8 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
         attributes: vec![Attribute::Position],
     };
     let uniforms = vec![Uniform::new("guide_color", UniformValue::Vec3(YELLOW))];
-    (!draws.is_empty()).then_some(Batch { program, uniforms, inputs: Vec::new(), cull: None, draws })
+    let meaning = Meaning::Constant(YELLOW.extend(1.0).to_array());
+    (!draws.is_empty()).then_some(Batch { program, meaning, uniforms, inputs: Vec::new(), cull: None, draws })
 }
 
 fn frustum_draw(light: &str, seen: &Frustum, viewer: &Viewer) -> Draw {

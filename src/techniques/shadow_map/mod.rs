@@ -12,7 +12,7 @@ use crate::math::frustum::{self, Overlap};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{
     Clear, Compare, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Pass, PassList, PolygonOffset,
-    Sampler, Storage, Target, Work, Wrap, glsl,
+    Sampler, Shade, Storage, Target, Work, Wrap, glsl,
 };
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 
@@ -64,7 +64,7 @@ impl Technique for ShadowMap {
                 format!("the map of light {}", view.index),
                 "no caster in the light's frustum shadows what is seen",
             );
-            let mut term = LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag"));
+            let mut term = LightTerm::unshadowed(view.scene, view.index);
             term.dimming = settings.dimming;
             return Ok(term);
         }
@@ -193,17 +193,20 @@ fn raster_from_clip(settings: &Settings) -> DMat4 {
 /// How the lit pass compares against `map`.
 fn term(view: &LightView<'_>, frustum: &Frustum, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
+    let name = format!("shadow_map_{index}");
+    let clamped = settings.format == DepthFormat::Depth32F;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
+    term.meaning = Shade::Texture { input: name.clone().into(), clamped };
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
         Order::GreaterEqual => Compare::GreaterEqual,
     };
     term.inputs.push(Input {
-        name: format!("shadow_map_{index}").into(),
+        name: name.into(),
         image: map,
         sampler: Sampler { filter: settings.filter, wrap: Wrap::ClampToEdge, compare: Some(compare) },
     });
-    if settings.format == DepthFormat::Depth32F {
+    if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     term.coordinates = Some(Coordinates {

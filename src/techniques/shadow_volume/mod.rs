@@ -13,7 +13,7 @@ use self::settings::Settings;
 use super::light::Counting;
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::geometry::volume::{Kind, Source};
-use crate::pass::{PassList, glsl};
+use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowVolume;
@@ -51,7 +51,7 @@ impl Technique for ShadowVolume {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let mut term = LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag"));
+        let mut term = LightTerm::unshadowed(view.scene, view.index);
         term.dimming = settings.dimming;
         let casting = casting(view.items);
         warn(view, &casting, notes);
@@ -60,19 +60,26 @@ impl Technique for ShadowVolume {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
-        term.counting = Some(counting(view, &casting, &ways, &settings));
+        term.counting = Some(counting(view, &casting, &ways, &settings, notes));
         Ok(term)
     }
 }
 
-fn counting(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings) -> Counting {
+fn counting(
+    view: &LightView<'_>,
+    casting: &[Casting],
+    ways: &[Way],
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Counting {
     let source = source(view);
-    let shapes = shapes::shapes(view, casting, ways, source, settings);
-    let has = |wanted: Way| ways.contains(&wanted);
+    let shapes = shapes::shapes(view, casting, ways, source, settings, notes);
+    let has = |wanted: Way| shapes.iter().any(|shape| shape.way == wanted);
     Counting {
         passes: counts::passes(view, &shapes, settings),
         redraw: settings.redraw,
         infinite: has(Way::ZFail),
+        clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),

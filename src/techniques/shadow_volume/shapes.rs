@@ -9,8 +9,8 @@ use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
 use crate::pass::{MeshRef, Primitive};
-use crate::techniques::LightView;
 use crate::techniques::light::{VolumeDraw, VolumeSpace};
+use crate::techniques::{LightView, Notes};
 
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
@@ -34,6 +34,7 @@ pub fn shapes(
     ways: &[Way],
     source: Source,
     settings: &Settings,
+    notes: &mut Notes,
 ) -> Vec<Shape> {
     let camera = &view.scene.camera;
     let viewer = Viewer::new(&(camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()));
@@ -46,19 +47,25 @@ pub fn shapes(
         }
         let name = Name { caster, light: view.index };
         let silhouette = name.silhouette(&outline);
-        shapes.push(if *way == Way::ZPassCapped {
+        let touches = *way == Way::ZPassCapped && volume::light_touches(&caster.caster, &outline);
+        let way = if touches { Way::ZFailClamped } else { *way };
+        if touches {
+            let why = "the light touches its surface, whose cap on the near plane has no area";
+            notes.chosen(format!("{} for light {}", caster.label, view.index), "z-fail-clamped", why);
+        }
+        shapes.push(if way == Way::ZPassCapped {
             let view_from_model = camera.view_from_world() * caster.world_from_model;
             capped.cut(&caster.caster, &outline, &view_from_model, camera.near);
             name.capped(&capped, silhouette)
         } else {
             let seen = volume::Casting::new(&caster.bounds, &caster.world_from_model, source);
-            let caps = caps(*way, &seen, &viewer, view.keep_all);
+            let caps = caps(way, &seen, &viewer, view.keep_all);
             let extent = match way {
                 Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
                 _ => Extent::Infinite,
             };
             volume.extrude(&caster.caster, &outline, extent, caps);
-            name.volume(*way, &volume, silhouette)
+            name.volume(way, &volume, silhouette)
         });
     }
     shapes

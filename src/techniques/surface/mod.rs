@@ -8,7 +8,10 @@ use glam::{DMat4, Mat3, Vec3, Vec4};
 
 use super::{Item, LightTerm};
 use crate::math::texgen;
-use crate::pass::{Attribute, Batch, Chunk, Face, Filter, Input, PassList, Program, Sampler, Uniform, Wrap, glsl};
+use crate::pass::{
+    Attribute, Batch, Chunk, Face, Filter, Input, LightMeaning, PassList, Program, Projection, Sampler, Uniform, Wrap,
+    glsl,
+};
 use crate::scene::{Light, LightKind, LightShape, Scene};
 pub use variant::Ending;
 
@@ -43,14 +46,18 @@ pub fn batches(
     for item in items {
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
-        let (program, uniforms, inputs) = variant::of(scene, item, one_sided, &lights, ending, list);
+        let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
+        let variant::Variant { program, meaning, uniforms, inputs } = surface;
         let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =
             |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
         match batches.iter_mut().find(joins) {
-            Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch { program, uniforms, inputs, cull, draws: vec![draw] }),
+            Some(batch) => {
+                debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
+                batch.draws.push(draw);
+            }
+            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, draws: vec![draw] }),
         }
     }
     Some(batches)
@@ -79,6 +86,7 @@ pub(super) struct LightParts {
     /// Defines `bool in_reach_@()`.
     reach: Chunk,
     has_coordinates: bool,
+    meaning: LightMeaning,
     has_specular: bool,
     has_ambient: bool,
     /// Whether its direction differs from point to point.
@@ -97,6 +105,15 @@ fn light_parts(
 ) -> Option<LightParts> {
     let source = &scene.lights[term.index];
     let index = term.index;
+    let cone = source.spot().is_some_and(|spot| spot.shape == LightShape::Cone);
+    let projection = match &term.coordinates {
+        Some(coordinates) => {
+            let spaces = coordinates.spaces(viewer.eye_from_world);
+            let texgen = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
+            Some(Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, cone })
+        }
+        None => None,
+    };
     let mut parts = LightParts {
         index,
         defines: term.defines.clone(),
@@ -105,14 +122,17 @@ fn light_parts(
         inputs: term.inputs.clone(),
         reach: if source.spot().is_some() { glsl!("light/reach.frag") } else { glsl!("light/everywhere.frag") }
             .for_light(index),
-        has_coordinates: term.coordinates.is_some(),
+        has_coordinates: projection.is_some(),
+        meaning: meaning(source, viewer, term, projection.clone()),
         has_position: source.position().is_some(),
         has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
         has_specular: source.specular != [0.0; 3],
         has_ambient: source.ambient != [0.0; 3],
     };
-    add_texgen(&mut parts, viewer, term)?;
-    if source.spot().is_some_and(|spot| spot.shape == LightShape::Cone) {
+    if let Some(projection) = &projection {
+        add_texgen(&mut parts, &projection.texgen);
+    }
+    if cone {
         parts.defines.push(format!("CONE_{index}"));
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
@@ -125,11 +145,36 @@ fn light_parts(
     Some(parts)
 }
 
-/// `None` where the coordinates' transform has no inverse.
-fn add_texgen(parts: &mut LightParts, viewer: &Viewer, term: &LightTerm) -> Option<()> {
-    let Some(coordinates) = &term.coordinates else { return Some(()) };
-    let spaces = coordinates.spaces(viewer.eye_from_world);
-    let generated = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
+/// The light in the terms of fixed function.
+fn meaning(source: &Light, viewer: &Viewer, term: &LightTerm, projection: Option<Projection>) -> LightMeaning {
+    let has_image = source.spot().is_some_and(|spot| spot.image.is_some());
+    LightMeaning {
+        index: term.index,
+        position: eye_position(source, viewer).to_array(),
+        ambient: source.ambient,
+        diffuse: source.diffuse,
+        specular: source.specular,
+        attenuation: source.attenuation(),
+        beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
+        dimming: term.dimming,
+        projection,
+        shade: term.meaning.clone(),
+    }
+}
+
+/// Homogeneous: of an infinitely far light, the unit vector to it, and w = 0.
+fn eye_position(source: &Light, viewer: &Viewer) -> Vec4 {
+    let position = match &source.kind {
+        LightKind::Spot(spot) => spot.frustum.position,
+        LightKind::Point(point) => point.position,
+        LightKind::Directional { direction } => {
+            return viewer.eye_from_world.transform_vector3(-*direction).as_vec3().extend(0.0);
+        }
+    };
+    viewer.eye_from_world.transform_point3(position).as_vec3().extend(1.0)
+}
+
+fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     let rows = generated.eye_planes.as_mat4().transpose();
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
     parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
@@ -137,14 +182,16 @@ fn add_texgen(parts: &mut LightParts, viewer: &Viewer, term: &LightTerm) -> Opti
         parts.defines.push(format!("TEXTURE_MATRIX_{}", parts.index));
         parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
     }
-    Some(())
 }
 
 fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
     let index = parts.index;
-    parts.uniforms.push(place(source, viewer, index));
-    if !parts.has_position {
+    let position = eye_position(source, viewer);
+    if parts.has_position {
+        parts.uniforms.push(Uniform::of_light("light_position", index, position.truncate()));
+    } else {
         parts.defines.push(format!("DIRECTIONAL_{index}"));
+        parts.uniforms.push(Uniform::of_light("light_direction", index, position.truncate()));
     }
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
     if parts.has_ambient {
@@ -164,17 +211,4 @@ fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &
         parts.inputs.push(super::items::upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
     }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
-}
-
-/// Where the light stands, or the unit vector to a light that is infinitely far away; in eye space.
-fn place(source: &Light, viewer: &Viewer, index: usize) -> Uniform {
-    let position = match &source.kind {
-        LightKind::Spot(spot) => spot.frustum.position,
-        LightKind::Point(point) => point.position,
-        LightKind::Directional { direction } => {
-            let towards = viewer.eye_from_world.transform_vector3(-*direction).as_vec3();
-            return Uniform::of_light("light_direction", index, towards);
-        }
-    };
-    Uniform::of_light("light_position", index, viewer.eye_from_world.transform_point3(position).as_vec3())
 }

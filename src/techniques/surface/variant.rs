@@ -4,9 +4,9 @@ use std::borrow::Cow;
 
 use glam::Vec3;
 
-use super::LightParts;
+use super::{LightParts, Viewer};
 use crate::geometry::Material;
-use crate::pass::{Attribute, Chunk, Input, PassList, Program, Uniform, glsl};
+use crate::pass::{Attribute, Chunk, Input, LightMeaning, Lit, Meaning, PassList, Program, Sampled, Uniform, glsl};
 use crate::scene::Scene;
 use crate::techniques::Item;
 use crate::techniques::items::{Cutout, cutout};
@@ -33,15 +33,24 @@ struct Needs {
     one_sided: bool,
 }
 
-/// Program, uniforms and inputs for `item`.
+/// What draws an item.
+pub struct Variant {
+    pub program: Program,
+    pub meaning: Meaning,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+/// The variant of `item`.
 pub fn of(
     scene: &Scene,
     item: &Item,
     one_sided: bool,
     lights: &[LightParts],
+    viewer: &Viewer,
     ending: &Ending,
     list: &mut PassList,
-) -> (Program, Vec<Uniform>, Vec<Input>) {
+) -> Variant {
     let lit = *ending == Ending::Lit;
     let cut = if lit || item.needs_alpha_test() { cutout(item, lit, list) } else { Cutout::default() };
     let specular = lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
@@ -78,7 +87,46 @@ pub fn of(
         fragment: fragment(lights, ending, needs, &cut),
         attributes,
     };
-    (program, uniforms, inputs)
+    let meaning = meaning(scene, item, lights, viewer, ending, needs, &cut);
+    Variant { program, meaning, uniforms, inputs }
+}
+
+/// The variant in the terms of fixed function.
+fn meaning(
+    scene: &Scene,
+    item: &Item,
+    lights: &[LightParts],
+    viewer: &Viewer,
+    ending: &Ending,
+    needs: Needs,
+    cut: &Cutout,
+) -> Meaning {
+    let clip_from_eye = viewer.clip_from_eye;
+    let texturing = cut.meaning.clone();
+    let material = &item.material;
+    match (ending, lights.first()) {
+        (Ending::Lit, _) => Meaning::Lit(Box::new(Lit {
+            clip_from_eye,
+            per_vertex: scene.shading.per_vertex,
+            lit: item.lit,
+            scene_ambient: scene_ambient(scene, material).to_array(),
+            ambient: if needs.ambient { material.ambient } else { [0.0; 3] },
+            diffuse: if lights.is_empty() { [0.0; 3] } else { material.diffuse },
+            specular: if needs.specular { material.specular } else { [0.0; 3] },
+            shininess: if needs.specular { material.shininess } else { 0.0 },
+            texturing,
+            lights: lights.iter().map(|light| light.meaning.clone()).collect(),
+        })),
+        (Ending::View { .. }, Some(light)) => {
+            let LightMeaning { projection, shade, .. } = light.meaning.clone();
+            Meaning::Sampled(Box::new(Sampled { clip_from_eye, texturing, projection, shade }))
+        }
+        (Ending::View { .. }, None) => Meaning::Shader("a view of no light"),
+    }
+}
+
+fn scene_ambient(scene: &Scene, material: &Material) -> Vec3 {
+    Vec3::from(scene.shading.ambient) * Vec3::from(material.ambient)
 }
 
 fn is_specular(uniform: &Uniform) -> bool {
@@ -87,7 +135,7 @@ fn is_specular(uniform: &Uniform) -> bool {
 
 fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light: bool) -> Vec<Uniform> {
     let ambient = Vec3::from(material.ambient);
-    let mut uniforms = vec![Uniform::new("scene_ambient", Vec3::from(scene.shading.ambient) * ambient)];
+    let mut uniforms = vec![Uniform::new("scene_ambient", scene_ambient(scene, material))];
     if needs.ambient {
         uniforms.push(Uniform::new("material_ambient", ambient));
     }

@@ -1,7 +1,7 @@
 //! No shadow: the light reaches all that its cone, if it has one, holds.
 
 use super::{Axis, LightTerm, LightView, Notes, Technique};
-use crate::pass::{PassList, glsl};
+use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct Unshadowed;
@@ -38,6 +38,6 @@ impl Technique for Unshadowed {
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        Ok(LightTerm::new(view.scene, view.index, glsl!("light/unshadowed.frag")))
+        Ok(LightTerm::unshadowed(view.scene, view.index))
     }
 }

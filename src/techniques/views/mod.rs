@@ -1,7 +1,7 @@
 //! Arbitrary output variables: the pictures that show how a shadow comes about [Hardware Shadow Mapping, Fig. 2, 4, 5;
 //! techniques A18]. Each is a row of [`VIEWS`].
 
-use crate::pass::{Filter, Input, Sampler, Wrap, glsl};
+use crate::pass::{Filter, Input, Sampler, Shade, Wrap, glsl};
 
 use super::LightTerm;
 use super::surface::Ending;
@@ -84,14 +84,17 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
     let ending = match view {
         View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
         View::LightDistance => {
+            term.meaning = Shade::Shader("r/q as a colour");
             term.inputs.clear();
             term.uniforms.clear();
             Ending::View { chunk: glsl!("views/distance.frag"), shade: false }
         }
         View::ProjectedMap => {
             term.uniforms.clear();
+            let name = format!("depth_map_{}", term.index);
+            term.meaning = Shade::Texture { input: name.clone().into(), clamped: false };
             term.inputs = vec![Input {
-                name: format!("depth_map_{}", term.index).into(),
+                name: name.into(),
                 image: term.map?,
                 sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None },
             }];

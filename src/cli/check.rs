@@ -1,0 +1,135 @@
+//! `glumbra check`: GL's rules for shadows on the driver at hand.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{ContextArgs, Error};
+use crate::context::{self, Context, Profile};
+use crate::oracle::semantics::{self, Checked, Subject, waivers};
+use crate::output;
+
+/// Runs GL's rules for shadows on the driver at hand: does it do what the specification says?
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub struct CheckArgs {
+    /// Only rules with this id, kind or word: C1, s, stencil; may be given again
+    #[arg(long, value_name = "PATTERN")]
+    filter: Vec<String>,
+
+    /// Writes a JUnit report, for continuous integration
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+
+    /// Writes everything that was measured, as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+
+    /// Known deviations (TOML), in place of those that come with glumbra
+    #[arg(long, value_name = "FILE")]
+    waivers: Option<PathBuf>,
+
+    /// Lists what passes, too
+    #[arg(short, long)]
+    verbose: bool,
+
+    /// Asks for a core context, where rules of the fixed-function pipeline cannot be tested
+    #[arg(long)]
+    core: bool,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+const HELP: &str = "\
+A rule passes, has a quality warning (it is allowed, but good drivers do better), fails, or cannot be
+tested here. Verdicts come from bounds on what the specification allows, never from a picture.
+
+Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
+F framebuffers.
+
+A waiver names a deviation that is known, by driver and version and to the letter:
+  [[waiver]]
+  renderer = \"llvmpipe\"         # a part of GL_RENDERER
+  version = \"Mesa 22.3.6\"       # a part of GL_VERSION
+  rule = \"O1\"
+  message = \"DEPTH_COMPONENT32: one unit: leaves the stored depth as it is\"
+  reason = \"f32 has 24 bits\"
+One that no longer applies is a failure.
+
+Exit status: 0 nothing fails, 1 a rule fails, 2 nothing could be run.
+
+Examples:
+  glumbra check
+  glumbra check --filter stencil --filter O1 --verbose
+  glumbra check --junit out/check.xml --json out/check.json
+  GALLIUM_DRIVER=softpipe glumbra check --context egl";
+
+/// Checks, prints, writes.
+pub fn run(arguments: &CheckArgs) -> ExitCode {
+    match check(arguments) {
+        Ok(checked) if checked.is_empty() => ExitCode::from(2),
+        Ok(checked) => ExitCode::from(u8::from(checked.fails())),
+        // A reader that has seen enough (`glumbra check | head`) is no error.
+        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
+    let rules = semantics::choose(&arguments.filter)?;
+    let waivers = waivers::load(arguments.waivers.as_deref())?;
+    let context = open(arguments)?;
+    let subject = Subject::new(context.as_ref(), None)?;
+    let bar = ProgressBar::new(rules.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
+        bar.set_style(style);
+    }
+    let mut outcomes = semantics::run(&subject, &rules, |outcome| {
+        bar.inc(1);
+        bar.set_message(format!("{} {}: {}", outcome.id, outcome.title, outcome.verdict));
+    });
+    bar.finish_and_clear();
+    let stale_waivers = waivers::apply(&waivers, &subject.info, &mut outcomes);
+    let checked = Checked { context: subject.info, outcomes, stale_waivers };
+    write(arguments, &checked)?;
+    print(&checked, arguments.verbose)?;
+    Ok(checked)
+}
+
+/// A compatibility context, or a core one where there is none.
+fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
+    if !arguments.core
+        && let Ok(context) = context::open(&arguments.context.request(Profile::Compatibility))
+    {
+        return Ok(context);
+    }
+    Ok(context::open(&arguments.context.request(Profile::Core33))?)
+}
+
+fn print(checked: &Checked, verbose: bool) -> Result<(), Error> {
+    use std::io::Write;
+    const UNKNOWN_WIDTH: u16 = 160;
+    let width = terminal_size::terminal_size().map_or(UNKNOWN_WIDTH, |(width, _)| width.0);
+    let mut out = std::io::stdout().lock();
+    Ok(out.write_all(semantics::print(checked, width, verbose).as_bytes())?)
+}
+
+/// The files that were asked for, or none of them.
+fn write(arguments: &CheckArgs, checked: &Checked) -> Result<(), Error> {
+    let mut files: Vec<(&Path, String)> = Vec::new();
+    if let Some(path) = &arguments.json {
+        files.push((path, semantics::json(checked)?));
+    }
+    if let Some(path) = &arguments.junit {
+        files.push((path, semantics::junit(checked)?));
+    }
+    let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
+    let written = output::whole::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
+    written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })
+}

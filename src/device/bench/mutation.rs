@@ -1,0 +1,90 @@
+//! Mistakes that a test makes the bench commit, to see that a rule notices. Pure; no command line knows of it.
+
+use super::image::Sampling;
+use super::state::{Compare, Offset, State, StencilOp};
+
+/// One mistake, made at every draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mutation {
+    /// LEQUAL for LESS, GEQUAL for GREATER and the other way round, in depth textures.
+    CompareSwapped,
+    /// Stencil values saturate in place of wrapping.
+    IncrementForIncrementWrap,
+    OneOffsetUnitLess,
+    OffsetClampIgnored,
+    /// Texgen planes given column by column.
+    PlanesTransposed,
+    /// Eye planes given while the modelview is another.
+    PlanesUnderWrongModelview,
+    /// Depths are filtered, then compared.
+    FilterThenCompare,
+    FrontAndBackSwapped,
+    DepthRangeReversed,
+    DepthClampIgnored,
+    StencilMaskIgnored,
+    /// Depth copies start one texel off.
+    CopyShifted,
+    ClipPlanesIgnored,
+    BlendIgnored,
+}
+
+impl Mutation {
+    /// Each of them.
+    pub const ALL: [Self; 14] = [
+        Self::CompareSwapped,
+        Self::IncrementForIncrementWrap,
+        Self::OneOffsetUnitLess,
+        Self::OffsetClampIgnored,
+        Self::PlanesTransposed,
+        Self::PlanesUnderWrongModelview,
+        Self::FilterThenCompare,
+        Self::FrontAndBackSwapped,
+        Self::DepthRangeReversed,
+        Self::DepthClampIgnored,
+        Self::StencilMaskIgnored,
+        Self::CopyShifted,
+        Self::ClipPlanesIgnored,
+        Self::BlendIgnored,
+    ];
+
+    pub(super) fn state(self, mut state: State) -> State {
+        match self {
+            Self::IncrementForIncrementWrap => {
+                for op in state.stencil.iter_mut().flatten().flat_map(|side| &mut side.ops) {
+                    *op = if *op == StencilOp::IncrementWrap { StencilOp::Increment } else { *op };
+                }
+            }
+            Self::OneOffsetUnitLess => {
+                state.offset = state.offset.map(|offset| Offset { units: offset.units - 1.0, ..offset });
+            }
+            Self::OffsetClampIgnored => state.offset = state.offset.map(|offset| Offset { clamp: 0.0, ..offset }),
+            Self::FrontAndBackSwapped => state.clockwise = !state.clockwise,
+            Self::DepthRangeReversed => state.depth_range.reverse(),
+            Self::DepthClampIgnored => state.depth_clamp = false,
+            Self::StencilMaskIgnored => {
+                for side in state.stencil.iter_mut().flatten() {
+                    side.write_mask = 0xFF;
+                }
+            }
+            Self::ClipPlanesIgnored => state.clip_distances = 0,
+            Self::BlendIgnored => state.blend = None,
+            _ => {}
+        }
+        state
+    }
+
+    pub(super) fn sampling(self, sampling: Sampling) -> Sampling {
+        let swapped = |compare| match compare {
+            Compare::Less => Compare::LessEqual,
+            Compare::LessEqual => Compare::Less,
+            Compare::Greater => Compare::GreaterEqual,
+            Compare::GreaterEqual => Compare::Greater,
+            other => other,
+        };
+        match self {
+            Self::CompareSwapped => Sampling { compare: sampling.compare.map(swapped), ..sampling },
+            Self::FilterThenCompare => Sampling { compare: None, ..sampling },
+            _ => sampling,
+        }
+    }
+}

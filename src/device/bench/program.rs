@@ -1,0 +1,124 @@
+//! The bench's shaders: a snippet each stage between lines that are always the same.
+
+use std::rc::Rc;
+
+use glow::HasContext;
+
+use super::{Bench, Error, no};
+
+/// Bodies of the two main functions, and what they declare.
+///
+/// The vertex body sets gl_Position from `position`, and `passed`; it may read `value`. The fragment body sets
+/// `result` from `passed`, and may call `compare(vec3)`, `compare_proj(vec4)` and `compare_lod(vec3, float)`, which
+/// read the image bound as `shadow`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Shader {
+    /// Before both bodies; VERTEX is defined before the vertex shader's.
+    pub declarations: &'static str,
+    pub vertex: &'static str,
+    pub fragment: &'static str,
+}
+
+impl Shader {
+    /// Clip-space positions as they come; the fragment's value is its colour.
+    pub const PLAIN: Self =
+        Self { declarations: "", vertex: "gl_Position = position; passed = value;", fragment: "result = passed;" };
+}
+
+const VERTEX_HEAD: &str = "#version 150
+#define VERTEX
+in vec4 position;
+in vec4 value;
+out vec4 passed;
+";
+
+const FRAGMENT_HEAD: &str = "#version 150
+in vec4 passed;
+out vec4 result;
+uniform sampler2D map;
+";
+
+const COMPARE: &str = "
+uniform sampler2DShadow shadow;
+float compare(vec3 at) { return texture(shadow, at); }
+float compare_proj(vec4 at) { return textureProj(shadow, at); }
+float compare_lod(vec3 at, float lod) { return textureLod(shadow, at, lod); }
+";
+
+/// The mistake of filtering before comparing.
+const FILTER_THEN_COMPARE: &str = "
+uniform sampler2D shadow;
+uniform int shadow_function;
+float decide(float reference, float depth) {
+    bool less = reference < depth, equal = reference == depth;
+    bool holds = (less && (shadow_function & 1) != 0) || (equal && (shadow_function & 2) != 0)
+        || (!less && !equal && (shadow_function & 4) != 0);
+    return holds ? 1.0 : 0.0;
+}
+float compare(vec3 at) { return decide(at.z, texture(shadow, at.xy).r); }
+float compare_proj(vec4 at) { return decide(at.z / at.w, texture(shadow, at.xy / at.w).r); }
+float compare_lod(vec3 at, float lod) { return decide(at.z, textureLod(shadow, at.xy, lod).r); }
+";
+
+/// A linked program, deleted on drop.
+pub(crate) struct Program {
+    gl: Rc<glow::Context>,
+    pub(crate) name: glow::Program,
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // SAFETY: the program is the bench's own and is not used again.
+        unsafe { self.gl.delete_program(self.name) };
+    }
+}
+
+impl Bench {
+    /// Compiled once.
+    pub(super) fn program(&self, shader: Shader, filter_first: bool) -> Result<glow::Program, Error> {
+        let key = (shader, filter_first);
+        if let Some(known) = self.programs.borrow().get(&key) {
+            return Ok(known.name);
+        }
+        let declarations = shader.declarations;
+        let vertex = format!("{VERTEX_HEAD}{declarations}\nvoid main() {{\n{}\n}}\n", shader.vertex);
+        let compare = if filter_first { FILTER_THEN_COMPARE } else { COMPARE };
+        let fragment = format!("{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
+        let program = build(&self.gl, &vertex, &fragment)?;
+        let name = program.name;
+        self.programs.borrow_mut().insert(key, program);
+        Ok(name)
+    }
+}
+
+/// Whole sources, linked.
+pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<Program, Error> {
+    // SAFETY: the context is current; the program deletes itself, also on failure.
+    unsafe {
+        let program = Program { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
+        attach(gl, program.name, glow::VERTEX_SHADER, vertex)?;
+        attach(gl, program.name, glow::FRAGMENT_SHADER, fragment)?;
+        gl.bind_attrib_location(program.name, 0, "position");
+        gl.bind_attrib_location(program.name, 1, "value");
+        gl.link_program(program.name);
+        if gl.get_program_link_status(program.name) {
+            Ok(program)
+        } else {
+            Err(Error::Shader(gl.get_program_info_log(program.name)))
+        }
+    }
+}
+
+unsafe fn attach(gl: &glow::Context, program: glow::Program, stage: u32, source: &str) -> Result<(), Error> {
+    // SAFETY: as the caller's; the shader lives on as long as the program it is attached to.
+    unsafe {
+        let shader = gl.create_shader(stage).map_err(no("shader"))?;
+        gl.shader_source(shader, source);
+        gl.compile_shader(shader);
+        let compiled = gl.get_shader_compile_status(shader);
+        let log = if compiled { String::new() } else { gl.get_shader_info_log(shader) };
+        gl.attach_shader(program, shader);
+        gl.delete_shader(shader);
+        if compiled { Ok(()) } else { Err(Error::Shader(log)) }
+    }
+}

@@ -1,0 +1,82 @@
+//! Which rules are meant: `--filter`.
+
+use super::{Rule, TABLE};
+
+/// A pattern that no rule answers to.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no rule is called `{pattern}`: did you mean {}? The rules are {}", nearest.join(" or "), ids.join(", "))]
+pub struct UnknownFilter {
+    pub pattern: String,
+    pub nearest: Vec<&'static str>,
+    pub ids: Vec<&'static str>,
+}
+
+/// The rules that `patterns` name, in the table's order: each pattern is an id, a part of one or of a title, in capitals
+/// or not. All of them without a pattern.
+///
+/// # Errors
+///
+/// A pattern that matches nothing, with the nearest ids.
+pub fn choose(patterns: &[String]) -> Result<Vec<&'static Rule>, UnknownFilter> {
+    for pattern in patterns {
+        if !TABLE.iter().any(|rule| matches(rule, pattern)) {
+            return Err(unknown(pattern));
+        }
+    }
+    let wanted = |rule: &&Rule| patterns.is_empty() || patterns.iter().any(|pattern| matches(rule, pattern));
+    Ok(TABLE.iter().filter(wanted).collect())
+}
+
+fn matches(rule: &Rule, pattern: &str) -> bool {
+    let pattern = pattern.trim().to_lowercase();
+    let (id, title) = (rule.id.to_lowercase(), rule.title.to_lowercase());
+    // An id is meant as it stands: C1 is not C10.
+    !pattern.is_empty()
+        && (id == pattern
+            || (pattern.len() == 1 && id.starts_with(&pattern))
+            || (pattern.len() > 2 && title.contains(&pattern)))
+}
+
+fn unknown(pattern: &str) -> UnknownFilter {
+    let far = |rule: &Rule| {
+        let pattern = pattern.trim().to_lowercase();
+        let words = rule.title.to_lowercase();
+        let words = words.split_whitespace().map(str::to_owned).chain([rule.id.to_lowercase()]);
+        words.map(|word| strsim::damerau_levenshtein(&word, &pattern)).min().unwrap_or(usize::MAX)
+    };
+    let mut rules: Vec<&Rule> = TABLE.iter().collect();
+    rules.sort_by_key(|rule| far(rule));
+    UnknownFilter {
+        pattern: pattern.to_owned(),
+        nearest: rules.iter().take(2).map(|rule| rule.id).collect(),
+        ids: TABLE.iter().map(|rule| rule.id).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::choose;
+
+    fn ids(patterns: &[&str]) -> Vec<&'static str> {
+        let patterns: Vec<String> = patterns.iter().map(|pattern| (*pattern).to_owned()).collect();
+        choose(&patterns).unwrap().iter().map(|rule| rule.id).collect()
+    }
+
+    #[test]
+    fn patterns_name_ids_kinds_and_words() {
+        assert_eq!(ids(&["c1"]), ["C1"]);
+        assert_eq!(ids(&["S3", "C1"]), ["C1", "S3"]);
+        assert_eq!(ids(&["s"]), ["S1", "S2", "S3"]);
+        assert!(ids(&["stencil"]).contains(&"S1"));
+        assert_eq!(ids(&[]).len(), super::TABLE.len());
+    }
+
+    #[test]
+    fn a_pattern_without_a_rule_names_the_nearest() {
+        let error = choose(&["C9".to_owned()]).unwrap_err();
+        assert!(error.nearest.iter().all(|id| id.starts_with('C')), "{error}");
+        assert!(error.to_string().starts_with("no rule is called `C9`: did you mean C"), "{error}");
+        let error = choose(&["stensil".to_owned()]).unwrap_err();
+        assert!(error.nearest[0].starts_with('S'), "{error}");
+    }
+}

@@ -1,0 +1,154 @@
+//! `glumbra check`: on a sound driver no rule fails, each mistake that a test makes the bench commit turns the rules red
+//! that are about it, and the command's files, waivers and exit codes are what they say.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use assert_cmd::cargo::CommandCargoExt;
+use glumbra::context::{self, ContextRequest, Profile};
+use glumbra::device::bench::Mutation;
+use glumbra::oracle::semantics::{self, Outcome, Subject, Verdict, waivers};
+
+/// All rules on the default context of a profile, with one mistake or none; known deviations waived.
+fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<Outcome> {
+    let context = context::open(&ContextRequest { profile, ..ContextRequest::default() }).unwrap();
+    let subject = Subject::new(context.as_ref(), mutation).unwrap();
+    let mut outcomes = semantics::run(&subject, &semantics::choose(&[]).unwrap(), |_| {});
+    waivers::apply(&waivers::load(None).unwrap(), &subject.info, &mut outcomes);
+    outcomes
+}
+
+fn with(outcomes: &[Outcome], verdict: Verdict) -> Vec<&'static str> {
+    outcomes.iter().filter(|outcome| outcome.verdict == verdict).map(|outcome| outcome.id).collect()
+}
+
+#[test]
+fn without_a_mistake_no_rule_fails() {
+    for (profile, untestable) in [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["C6", "T1"])] {
+        let outcomes = outcomes(profile, None);
+        let failing: Vec<_> = outcomes
+            .iter()
+            .flat_map(|outcome| &outcome.findings)
+            .filter(|finding| finding.verdict == Verdict::Fail)
+            .map(|finding| finding.message())
+            .collect();
+        assert!(failing.is_empty(), "{profile:?}: {failing:#?}");
+        assert_eq!(with(&outcomes, Verdict::Untestable), untestable, "{profile:?}");
+        assert!(outcomes.iter().all(|outcome| !outcome.findings.is_empty()));
+    }
+}
+
+/// Each mistake, and exactly the rules that it turns red.
+const MUTATIONS: [(Mutation, &[&str]); 14] = [
+    (Mutation::CompareSwapped, &["C1", "C2"]),
+    (Mutation::IncrementForIncrementWrap, &["S1", "S3"]),
+    (Mutation::OneOffsetUnitLess, &["O1", "O2"]),
+    (Mutation::OffsetClampIgnored, &["O1"]),
+    (Mutation::PlanesTransposed, &["T1"]),
+    (Mutation::PlanesUnderWrongModelview, &["T1"]),
+    (Mutation::FilterThenCompare, &["C2", "C3", "C4", "C5", "C6", "T1", "T2"]),
+    (Mutation::FrontAndBackSwapped, &["O2", "S2"]),
+    (Mutation::DepthRangeReversed, &["T3", "T4", "D2", "D3", "D5", "O1", "S3"]),
+    (Mutation::DepthClampIgnored, &["D3"]),
+    (Mutation::StencilMaskIgnored, &["S1"]),
+    (Mutation::CopyShifted, &["F1"]),
+    (Mutation::ClipPlanesIgnored, &["R2"]),
+    (Mutation::BlendIgnored, &["F4"]),
+];
+
+#[test]
+fn every_mistake_turns_its_rules_red() {
+    assert_eq!(MUTATIONS.map(|(mutation, _)| mutation), Mutation::ALL);
+    let wrong: Vec<String> = MUTATIONS
+        .iter()
+        .map(|(mutation, due)| (mutation, due, outcomes(Profile::Compatibility, Some(*mutation))))
+        .map(|(mutation, due, outcomes)| (mutation, due, with(&outcomes, Verdict::Fail)))
+        .filter(|(_, due, red)| red != *due)
+        .map(|(mutation, due, red)| format!("{mutation:?} turns {red:?} red, and {due:?} is due"))
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+fn check(folder: &Path, arguments: &[&str]) -> Output {
+    Command::cargo_bin("glumbra").unwrap().current_dir(folder).arg("check").args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_run_is_printed_and_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = check(
+        folder.path(),
+        &["--verbose", "--filter", "C1", "--filter", "o1", "--json", "c.json", "--junit", "c.xml"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    for part in ["C1 compare", "8 functions", "tolerance", "r, one unit of polygon offset", "2 rules: "] {
+        assert!(table.contains(part), "no `{part}` in {table}");
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&read("c.json")).unwrap();
+    let ids: Vec<_> = json["outcomes"].as_array().unwrap().iter().map(|outcome| outcome["id"].clone()).collect();
+    assert_eq!(ids, ["C1", "O1"]);
+    assert!(json["context"]["renderer"].is_string());
+    let xml = read("c.xml");
+    for part in ["<testsuite ", "tests=\"2\"", "failures=\"0\"", "name=\"C1 compare function\""] {
+        assert!(xml.contains(part), "no `{part}` in {xml}");
+    }
+}
+
+#[test]
+fn a_run_that_tests_nothing_ends_with_2() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = check(folder.path(), &["--core", "--filter", "C6"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stdout).contains("core profile"), "{}", text(&output.stdout));
+    let cases: [(&[&str], &str); 5] = [
+        (&["--filter", "C9"], "no rule is called `C9`: did you mean C1"),
+        (&["--filter", ""], "no rule is called ``"),
+        (&["--waivers", "none.toml"], "none.toml: "),
+        (&["--filter", "C1", "--json", "no/such/folder.json"], "no/such/folder.json: "),
+        (&["--context", "window"], "no OpenGL context can be had"),
+    ];
+    for (arguments, error) in cases {
+        let mut command = Command::cargo_bin("glumbra").unwrap();
+        let output = command
+            .current_dir(folder.path())
+            .arg("check")
+            .args(arguments)
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let said = text(&output.stderr);
+        assert!(said.contains(&format!("error: {error}")), "{arguments:?}: {said}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// A waiver of this driver that nothing needs, and on llvmpipe 22.3.6 a known deviation without its waiver.
+#[test]
+fn waivers_decide_the_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let stale =
+        "[[waiver]]\nrenderer = \"\"\nversion = \"\"\nrule = \"C1\"\nmessage = \"no: such\"\nreason = \"none\"\n";
+    std::fs::write(folder.path().join("stale.toml"), stale).unwrap();
+    std::fs::write(folder.path().join("empty.toml"), "").unwrap();
+    let output = check(folder.path(), &["--filter", "C1", "--waivers", "stale.toml", "--junit", "c.xml"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stdout).contains("no longer applies"), "{}", text(&output.stdout));
+    assert!(std::fs::read_to_string(folder.path().join("c.xml")).unwrap().contains("failures=\"1\""));
+    // The rule that it names is not run: nothing can be said of it.
+    let output = check(folder.path(), &["--filter", "S2", "--waivers", "stale.toml"]);
+    assert_eq!(output.status.code(), Some(0));
+    let output = check(folder.path(), &["--filter", "O1", "--waivers", "empty.toml"]);
+    let said = text(&output.stdout);
+    if said.contains("llvmpipe") && said.contains("Mesa 22.3.6") {
+        assert_eq!(output.status.code(), Some(1));
+        assert!(said.contains("FAIL: DEPTH_COMPONENT32: one"), "{said}");
+    }
+}

@@ -1,0 +1,82 @@
+//! Draws a scene's stencil count and holds it against the oracle's.
+
+use glumbra::context::{self, Context, ContextRequest};
+use glumbra::device::Pixels;
+use glumbra::frame::Renderer;
+use glumbra::oracle::ray::{Count, Options, VolumeCounts, volume_count};
+use glumbra::plan::{Request, ViewRequest};
+use glumbra::scene::{self, Scene};
+use glumbra::techniques::views::View;
+
+/// Every method, and those that claim to be right wherever the eye stands.
+pub const RIGHT: [&str; 4] = ["auto", "z-fail", "z-fail-clamped", "z-pass-capped"];
+
+/// The oracle's band may be any share of these pictures, which are made to be hard; what it tells is told exactly.
+pub fn truth(scene: &Scene) -> VolumeCounts {
+    volume_count(scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap()
+}
+
+/// What a picture and the truth say of each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Held {
+    /// Pixels at which the oracle is sure.
+    pub told: usize,
+    /// Of these, pixels in some volume.
+    pub inside: usize,
+    /// Of these, pixels at which the stencil says otherwise, modulo 256.
+    pub different: usize,
+}
+
+/// A context and its renderer.
+pub struct Bench {
+    // Dropped in this order.
+    renderer: Renderer,
+    _context: Box<dyn Context>,
+}
+
+impl Bench {
+    pub fn new() -> Self {
+        let context = context::open(&ContextRequest::default()).unwrap();
+        Self { renderer: Renderer::new(context.as_ref()), _context: context }
+    }
+
+    /// The stencil count by `settings`, the inside of `[light.shadow]` but for its technique.
+    pub fn count(&mut self, scene: &Scene, settings: &str) -> Vec<u8> {
+        let mut scene = scene.clone();
+        let inside = format!("technique = \"shadow-volume\", {settings}");
+        scene.lights[0].shadow = scene::shadow_settings(&inside).unwrap();
+        let views = vec![ViewRequest { view: View::StencilCount, light: 0 }];
+        let plan = match self.renderer.plan(&scene, &Request { views, ..Request::default() }) {
+            Ok(plan) => plan,
+            // No volume can matter to the picture.
+            Err(error) if error.to_string().contains("counts no volumes") => {
+                return vec![0; (scene.image.size[0] * scene.image.size[1]) as usize];
+            }
+            Err(error) => panic!("{error}"),
+        };
+        self.renderer.draw(&plan).unwrap();
+        match self.renderer.read(&plan).unwrap().views.pop() {
+            Some(Pixels::Stencil { data, .. }) => data,
+            other => panic!("{other:?} is no stencil"),
+        }
+    }
+
+    pub fn hold(&mut self, scene: &Scene, truth: &VolumeCounts, settings: &str) -> Held {
+        compare(truth, &self.count(scene, settings))
+    }
+}
+
+pub fn compare(truth: &VolumeCounts, stencil: &[u8]) -> Held {
+    let mut held = Held::default();
+    for (pixel, counted) in truth.pixels.iter().zip(stencil) {
+        let Count::Exactly(expected) = pixel.count else { continue };
+        // A spotlight's volumes matter inside its beam.
+        if pixel.hit.is_none_or(|hit| hit.in_map.abs().max_element() >= 1.0) {
+            continue;
+        }
+        held.told += 1;
+        held.inside += usize::from(expected > 0);
+        held.different += usize::from(expected % 256 != u32::from(*counted));
+    }
+    held
+}

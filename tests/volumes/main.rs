@@ -1,0 +1,12 @@
+//! Shadow volumes on the CPU, without GL: closure, counts against brute force and against the oracle, caps.
+
+mod closure;
+mod counts;
+mod homogeneous;
+mod near_plane;
+mod oracle;
+#[path = "../oracle/scenes.rs"]
+#[allow(dead_code)]
+mod scenes;
+mod seen;
+mod shapes;
