@@ -5,7 +5,8 @@ use std::rc::Rc;
 use glow::HasContext;
 
 use super::Error;
-use super::image::ImageName;
+use super::image::{ImageName, face_code};
+use crate::pass::{CubeFace, Target};
 
 /// A framebuffer object, deleted on drop.
 pub struct Framebuffer {
@@ -21,12 +22,12 @@ impl Drop for Framebuffer {
 
 /// Makes a framebuffer of the attachments and checks that the driver can draw into it. It is left bound for drawing
 /// and reading. Without colour its draw and read buffers are GL_NONE. `depth` comes with where it is attached: as depth,
-/// or as depth and stencil. `level` is that of textures.
+/// or as depth and stencil. Level and face are those of `target`.
 pub fn create(
     gl: &Rc<glow::Context>,
     color: Option<ImageName>,
     depth: Option<(ImageName, u32)>,
-    level: u32,
+    target: Target,
     describe: impl Fn() -> (String, String),
 ) -> Result<Framebuffer, Error> {
     unsafe {
@@ -34,13 +35,13 @@ pub fn create(
         let framebuffer = Framebuffer { gl: gl.clone(), name };
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(name));
         if let Some(image) = color {
-            attach(gl, glow::COLOR_ATTACHMENT0, image, level);
+            attach(gl, glow::COLOR_ATTACHMENT0, image, target);
         } else {
             gl.draw_buffers(&[glow::NONE]);
             gl.read_buffer(glow::NONE);
         }
         if let Some((image, point)) = depth {
-            attach(gl, point, image, level);
+            attach(gl, point, image, target);
         }
         let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
         if status == glow::FRAMEBUFFER_COMPLETE {
@@ -51,11 +52,16 @@ pub fn create(
     }
 }
 
-fn attach(gl: &glow::Context, point: u32, image: ImageName, level: u32) {
+fn attach(gl: &glow::Context, point: u32, image: ImageName, target: Target) {
+    let level = target.level as i32;
     match image {
         ImageName::Texture(texture) => unsafe {
-            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture), level as i32);
+            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture), level);
         },
+        ImageName::Cube(texture) => {
+            let face = face_code(target.face.unwrap_or(CubeFace::PositiveX));
+            unsafe { gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, face, Some(texture), level) };
+        }
         ImageName::Renderbuffer(buffer) => unsafe {
             gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, point, glow::RENDERBUFFER, Some(buffer));
         },

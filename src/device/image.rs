@@ -7,7 +7,7 @@ use glow::HasContext;
 use super::Error;
 use super::debug::error_name;
 use super::state::compare_code;
-use crate::pass::{DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
+use crate::pass::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
 /// A texture or renderbuffer, deleted on drop.
 pub struct GpuImage {
@@ -18,6 +18,7 @@ pub struct GpuImage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageName {
     Texture(glow::Texture),
+    Cube(glow::Texture),
     Renderbuffer(glow::Renderbuffer),
 }
 
@@ -25,16 +26,26 @@ impl ImageName {
     /// GL's number for it; textures and renderbuffers are told apart by the sign bit.
     pub fn number(self) -> u32 {
         match self {
-            Self::Texture(texture) => texture.0.get(),
+            Self::Texture(texture) | Self::Cube(texture) => texture.0.get(),
             Self::Renderbuffer(buffer) => buffer.0.get() | 1 << 31,
         }
     }
+
+    /// What it is bound to as a texture.
+    pub fn binding(self) -> u32 {
+        if let Self::Cube(_) = self { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D }
+    }
+}
+
+/// The target of one face.
+pub fn face_code(face: CubeFace) -> u32 {
+    glow::TEXTURE_CUBE_MAP_POSITIVE_X + face as u32
 }
 
 impl Drop for GpuImage {
     fn drop(&mut self) {
         match self.name {
-            ImageName::Texture(texture) => unsafe { self.gl.delete_texture(texture) },
+            ImageName::Texture(texture) | ImageName::Cube(texture) => unsafe { self.gl.delete_texture(texture) },
             ImageName::Renderbuffer(buffer) => unsafe { self.gl.delete_renderbuffer(buffer) },
         }
     }
@@ -63,6 +74,7 @@ pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Erro
     let name = match &desc.storage {
         Storage::Renderbuffer => create_renderbuffer(gl, desc)?,
         Storage::Texture => create_texture(gl, desc, None, 1)?,
+        Storage::Cube(cube) => create_cube(gl, desc, cube)?,
         Storage::Mipmapped(levels) => create_texture(gl, desc, None, *levels)?,
         Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba), 1)?,
     };
@@ -109,6 +121,25 @@ fn create_texture(
         }
         gl.bind_texture(glow::TEXTURE_2D, None);
         Ok(ImageName::Texture(texture))
+    }
+}
+
+/// The faces that are drawn are left undefined, the others filled.
+fn create_cube(gl: &glow::Context, desc: &ImageDesc, cube: &Cube) -> Result<ImageName, Error> {
+    let (internal, format, kind) = codes(desc.format);
+    let [width, height] = desc.size.map(|side| side as i32);
+    let rest = if cube.drawn == [true; 6] { Vec::new() } else { vec![cube.rest; width as usize * height as usize] };
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::Create)?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_CUBE_MAP, Some(texture));
+        for (face, drawn) in CubeFace::ALL.into_iter().zip(cube.drawn) {
+            let pixels = glow::PixelUnpackData::Slice((!drawn).then(|| bytemuck::cast_slice(&rest)));
+            gl.tex_image_2d(face_code(face), 0, internal as i32, width, height, 0, format, kind, pixels);
+        }
+        gl.tex_parameter_i32(glow::TEXTURE_CUBE_MAP, glow::TEXTURE_MAX_LEVEL, 0);
+        gl.bind_texture(glow::TEXTURE_CUBE_MAP, None);
+        Ok(ImageName::Cube(texture))
     }
 }
 

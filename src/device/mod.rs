@@ -50,6 +50,8 @@ pub struct Device {
 impl Device {
     /// A device on `context`, which is current on this thread. It must be dropped before the context is.
     pub fn new(context: &dyn Context) -> Self {
+        // Filters of cube maps look across the faces' seams [GL 4.6, 8.14.1]; for good, as nothing of ours wants it off.
+        unsafe { context.gl().enable(glow::TEXTURE_CUBE_MAP_SEAMLESS) };
         Self {
             gl: context.gl().clone(),
             meshes: HashMap::new(),

@@ -36,7 +36,7 @@ impl Device {
     /// Does the work of a pass that draws nothing.
     pub(crate) fn copy(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
         match &pass.work {
-            Work::CopyDepth { from, to } => self.copy_depth(list, &pass.label, *from, *to),
+            Work::CopyDepth { .. } => self.copy_depth(list, pass),
             Work::Draw(_) => Ok(()),
         }
     }
@@ -45,7 +45,7 @@ impl Device {
     pub(crate) fn texture(&self, image: ImageId) -> Option<glow::Texture> {
         match self.gpu_image(image) {
             ImageName::Texture(texture) => Some(texture),
-            ImageName::Renderbuffer(_) => None,
+            ImageName::Cube(_) | ImageName::Renderbuffer(_) => None,
         }
     }
 

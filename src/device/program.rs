@@ -114,7 +114,10 @@ impl GpuProgram {
             let Some(uniform) = (unsafe { self.gl.get_active_uniform(self.name, index) }) else { continue };
             let Some(location) = (unsafe { self.gl.get_uniform_location(self.name, &uniform.name) }) else { continue };
             let name = uniform.name.trim_end_matches("[0]").to_owned();
-            let is_sampler = matches!(uniform.utype, glow::SAMPLER_2D | glow::SAMPLER_2D_SHADOW);
+            let is_sampler = matches!(
+                uniform.utype,
+                glow::SAMPLER_2D | glow::SAMPLER_2D_SHADOW | glow::SAMPLER_CUBE | glow::SAMPLER_CUBE_SHADOW
+            );
             if is_sampler { &mut self.samplers } else { &mut self.uniforms }.insert(name, location);
         }
     }

@@ -3,7 +3,7 @@
 use glow::HasContext;
 
 use super::{Device, Error};
-use crate::pass::{Format, ImageId, PassList, Target};
+use crate::pass::{Cube, CubeFace, Format, ImageId, PassList, Storage, Target};
 
 /// An image's texels, rows from the top down.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,11 +38,14 @@ impl Device {
     /// GL errors, and images that the driver cannot read.
     pub fn read(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
         let desc = list.desc(image);
+        if let Storage::Cube(cube) = desc.storage {
+            return self.read_cross(list, image, cube);
+        }
         let label = format!("reading {}", desc.label);
         let target = if desc.format.has_depth() {
-            Target { color: None, depth: Some(image), level: 0 }
+            Target { color: None, depth: Some(image), level: 0, face: None }
         } else {
-            Target { color: Some(image), depth: None, level: 0 }
+            Target { color: Some(image), depth: None, level: 0, face: None }
         };
         self.bind_target(list, &label, target)?;
         let [width, height] = desc.size;
@@ -71,6 +74,31 @@ impl Device {
         Ok(pixels)
     }
 
+    /// The faces of a cube map as the cross that they unfold to, each as GL has its first row on top:
+    ///
+    /// ```text
+    ///    +y
+    /// -x +z +x -z
+    ///    -y
+    /// ```
+    fn read_cross(&mut self, list: &PassList, image: ImageId, cube: Cube) -> Result<Pixels, Error> {
+        const PLACES: [[usize; 2]; 6] = [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]];
+        let desc = list.desc(image);
+        let label = format!("reading {}", desc.label);
+        let side = desc.size[0] as usize;
+        let mut cross = vec![cube.rest; 4 * side * 3 * side];
+        let mut data = vec![0.0_f32; side * side];
+        for (face, [column, row]) in CubeFace::ALL.into_iter().zip(PLACES) {
+            self.bind_target(list, &label, Target { color: None, depth: Some(image), level: 0, face: Some(face) })?;
+            self.read_into(desc.size, glow::DEPTH_COMPONENT, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
+            for (y, texels) in data.chunks_exact(side).enumerate() {
+                cross[(row * side + y) * 4 * side + column * side..][..side].copy_from_slice(texels);
+            }
+        }
+        self.check(&label)?;
+        Ok(Pixels::Depth { size: [4 * desc.size[0], 3 * desc.size[0]], data: cross })
+    }
+
     /// Reads the stencil values of an image of the list that was run last. Waits until it is drawn.
     ///
     /// # Errors
@@ -79,7 +107,7 @@ impl Device {
     pub fn read_stencil(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
         let desc = list.desc(image);
         let label = format!("reading the stencil of {}", desc.label);
-        self.bind_target(list, &label, Target { color: None, depth: Some(image), level: 0 })?;
+        self.bind_target(list, &label, Target { color: None, depth: Some(image), level: 0, face: None })?;
         let mut data = vec![0; desc.size[0] as usize * desc.size[1] as usize];
         self.read_into(desc.size, glow::STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut data);
         flip_rows(&mut data, desc.size[0] as usize);

@@ -116,7 +116,7 @@ impl Device {
     fn draw_pass(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
         match &pass.work {
             Work::Draw(draw) => self.draw(list, &pass.label, draw)?,
-            Work::CopyDepth { from, to } => self.copy_depth(list, &pass.label, *from, *to)?,
+            Work::CopyDepth { .. } => self.copy_depth(list, pass)?,
         }
         self.check(&pass.label)
     }
@@ -215,7 +215,7 @@ impl Device {
             _ => glow::DEPTH_ATTACHMENT,
         };
         let depth = depth.zip(target.depth.map(point));
-        let framebuffer = framebuffer::create(&self.gl, color, depth, target.level, describe)?;
+        let framebuffer = framebuffer::create(&self.gl, color, depth, target, describe)?;
         self.framebuffers.insert(key, framebuffer);
         Ok(())
     }
@@ -263,11 +263,12 @@ impl Device {
         apply(&self.gl, &DrawState { cull: batch.cull.or(state.cull), ..*state }, &mut self.state);
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
-            let ImageName::Texture(texture) = self.gpu_image(input.image) else { continue };
+            let image = self.gpu_image(input.image);
+            let (ImageName::Texture(texture) | ImageName::Cube(texture)) = image else { continue };
             let sampler = self.samplers.get(&input.sampler).map(|sampler| sampler.name);
             unsafe {
                 self.gl.active_texture(glow::TEXTURE0 + unit);
-                self.gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+                self.gl.bind_texture(image.binding(), Some(texture));
                 self.gl.bind_sampler(unit, sampler);
                 self.gl.uniform_1_i32(program.sampler(&input.name), unit as i32);
             }
@@ -292,15 +293,18 @@ impl Device {
         }
     }
 
-    pub(super) fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
-        let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
-        self.bind_target(list, label, Target { color: None, depth: Some(from), level: 0 })?;
+    pub(super) fn copy_depth(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
+        let Work::CopyDepth { from, to, face } = pass.work else { return Ok(()) };
+        let (ImageName::Texture(texture) | ImageName::Cube(texture)) = self.gpu_image(to) else { return Ok(()) };
+        let binding = self.gpu_image(to).binding();
+        let place = face.map_or(binding, image::face_code);
+        self.bind_target(list, &pass.label, Target { color: None, depth: Some(from), level: 0, face: None })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);
         unsafe {
             self.gl.active_texture(glow::TEXTURE0);
-            self.gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-            self.gl.copy_tex_sub_image_2d(glow::TEXTURE_2D, 0, 0, 0, 0, 0, width, height);
-            self.gl.bind_texture(glow::TEXTURE_2D, None);
+            self.gl.bind_texture(binding, Some(texture));
+            self.gl.copy_tex_sub_image_2d(place, 0, 0, 0, 0, 0, width, height);
+            self.gl.bind_texture(binding, None);
         }
         Ok(())
     }

@@ -42,6 +42,19 @@ pub fn infinite_perspective(fov_y_radians: f64, aspect: f64, near: f64) -> DMat4
     )
 }
 
+/// `clip_from_view` of a parallel projection (glOrtho) of the box from `min` to `max`, whose depth runs from max.z, before
+/// the viewer, to min.z.
+pub fn orthographic(min: DVec3, max: DVec3) -> DMat4 {
+    let size = max - min;
+    let middle = -(max + min) / size;
+    DMat4::from_cols(
+        DVec4::new(2.0 / size.x, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 2.0 / size.y, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, -2.0 / size.z, 0.0),
+        DVec4::new(middle.x, middle.y, -middle.z, 1.0),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

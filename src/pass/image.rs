@@ -27,6 +27,8 @@ pub enum Storage {
     Texture,
     /// The same with so many mipmap levels, at least one, each drawn by a pass of its own.
     Mipmapped(u32),
+    /// A cube map, six square faces of the image's size.
+    Cube(Cube),
     /// A renderbuffer: drawn into, never sampled.
     Renderbuffer,
     /// A texture filled from the CPU, with mipmaps.
@@ -34,6 +36,11 @@ pub enum Storage {
 }
 
 impl Storage {
+    /// The faces of a cube map; otherwise 1.
+    pub fn layers(&self) -> u64 {
+        if let Self::Cube(_) = self { 6 } else { 1 }
+    }
+
     /// Whether there are texels of smaller levels beside those of the image's size.
     pub fn is_mipmapped(&self) -> bool {
         matches!(self, Self::Uploaded(_) | Self::Mipmapped(2..))
@@ -45,9 +52,40 @@ impl PartialEq for Storage {
         match (self, other) {
             (Self::Texture, Self::Texture) | (Self::Renderbuffer, Self::Renderbuffer) => true,
             (Self::Mipmapped(a), Self::Mipmapped(b)) => a == b,
+            (Self::Cube(a), Self::Cube(b)) => a == b,
             (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
+    }
+}
+
+/// Which faces of a cube map passes draw, and what the others hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cube {
+    /// In the order of [`CubeFace::ALL`].
+    pub drawn: [bool; 6],
+    /// The depth of every texel of a face that none draws.
+    pub rest: f32,
+}
+
+/// A face of a cube map, in GL's order; named by the axis that it is looked along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CubeFace {
+    PositiveX,
+    NegativeX,
+    PositiveY,
+    NegativeY,
+    PositiveZ,
+    NegativeZ,
+}
+
+impl CubeFace {
+    pub const ALL: [Self; 6] =
+        [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
+
+    /// `+x` and so on.
+    pub fn name(self) -> &'static str {
+        ["+x", "-x", "+y", "-y", "+z", "-z"][self as usize]
     }
 }
 

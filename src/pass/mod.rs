@@ -8,8 +8,8 @@ mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
-pub use image::{DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
-pub use meaning::{AlphaTest, Lit, Meaning, PointLight, Projection, Sampled, Shade, Texturing};
+pub use image::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
+pub use meaning::{AlphaTest, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
@@ -59,6 +59,8 @@ pub enum Work {
     CopyDepth {
         from: ImageId,
         to: ImageId,
+        /// Of `to`, where that is a cube map.
+        face: Option<CubeFace>,
     },
 }
 
@@ -81,6 +83,8 @@ pub struct Target {
     pub depth: Option<ImageId>,
     /// Of the images that have several levels.
     pub level: u32,
+    /// Of `depth`, where that is a cube map.
+    pub face: Option<CubeFace>,
 }
 
 /// What is cleared before the draws.

@@ -10,7 +10,7 @@ use crate::pass::{
     Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, Pass, PassList, Redraw,
     Storage, Target, Uniform, Work, glsl,
 };
-use crate::scene::Scene;
+use crate::scene::{LightKind, Scene};
 use crate::techniques::surface::{self, Ending, Viewer};
 use crate::techniques::views::{self, View};
 use crate::techniques::{Item, LightTerm, Notes, guides};
@@ -76,6 +76,7 @@ impl Builder<'_> {
             color: Some(image(label.to_owned(), format)),
             depth: Some(image(format!("{label} depth"), depth)),
             level: 0,
+            face: None,
         }
     }
 
@@ -85,9 +86,13 @@ impl Builder<'_> {
             let view = format!("{}@{index}", View::LightView.name());
             return Err(Error::NoSuchLight { view, count: self.scene.lights.len() });
         };
-        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
+        let Some(frustum) = source.frustum() else {
+            let (view, why) = (View::LightView.name(), "has no one frustum to look through");
+            return Err(Error::NoView { view, light: index, kind: source.kind.name(), why });
+        };
+        let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
         let lens = Lens::of_viewer(viewer);
-        let term = LightTerm::unshadowed(index);
+        let term = LightTerm::unshadowed(self.scene, index);
         let onto = Onto { viewport: [side; 2], ..self.first(label, target, &lens, self.background()) };
         self.surfaces(self.scene, &onto, &[term], &Ending::Lit)
     }
@@ -117,7 +122,7 @@ impl Builder<'_> {
         ending: &Ending,
     ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
-        let mut batches = batches.ok_or_else(|| self.singular(terms))?;
+        let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
         self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
@@ -148,10 +153,8 @@ impl Builder<'_> {
         self.list.passes.push(Pass { label: label.to_owned(), redraw, work: Work::Draw(pass) });
     }
 
-    fn singular(&self, terms: &[LightTerm]) -> Error {
-        let light = terms.first().map_or(0, |term| term.index);
-        let (near, far) = self.scene.lights.get(light).map_or((0.0, 0.0), |l| (l.near, l.far));
-        Error::Singular { light, near, far }
+    fn singular(terms: &[LightTerm]) -> Error {
+        Error::Singular { light: terms.first().map_or(0, |term| term.index) }
     }
 
     /// The image that a requested view ends in.
@@ -166,6 +169,16 @@ impl Builder<'_> {
         if wanted.view.needs_map() && term.map.is_none() {
             let why = "its technique draws none, or no caster lies in its frustum";
             return Err(Error::NoMap { view: name, light: wanted.light, why });
+        }
+        let kind = &self.scene.lights[wanted.light].kind;
+        let why = match (wanted.view, kind) {
+            (View::LightDistance, LightKind::Point(_)) => Some("has no plane to measure distance from"),
+            (View::LightDistance, _) if term.coordinates.is_none() => Some("draws no map to measure distance from"),
+            (View::ProjectedMap, LightKind::Point(_)) => Some("looks its map up by direction, not by projection"),
+            _ => None,
+        };
+        if let Some(why) = why {
+            return Err(Error::NoView { view: name, light: wanted.light, kind: kind.name(), why });
         }
         let label = format!("view: {name} of light {}", wanted.light);
         if wanted.view == View::LightView {

@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
 use crate::pass::{
-    Blend, Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil, StencilOp, StencilOps,
-    Work,
+    Blend, Compare, CubeFace, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil, StencilOp,
+    StencilOps, Work,
 };
 
 impl Plan {
@@ -20,7 +20,7 @@ impl Plan {
                 label: desc.label.clone(),
                 format: desc.format.to_string(),
                 size: desc.size,
-                bytes: image_bytes(desc.format, desc.size, desc.storage.is_mipmapped()),
+                bytes: desc.storage.layers() * image_bytes(desc.format, desc.size, desc.storage.is_mipmapped()),
             })
             .collect();
         Summary {
@@ -66,10 +66,10 @@ impl Plan {
         };
         let label = pass.label.clone();
         match &pass.work {
-            Work::CopyDepth { from, to } => PassSummary {
+            Work::CopyDepth { from, to, face } => PassSummary {
                 label,
                 redraw,
-                target: vec![format!("{} by glCopyTexSubImage2D", self.list.desc(*to).label)],
+                target: vec![format!("{}{} by glCopyTexSubImage2D", self.list.desc(*to).label, face_words(*face))],
                 size: self.list.desc(*to).size,
                 state: Vec::new(),
                 shaders: Vec::new(),
@@ -86,7 +86,7 @@ impl Plan {
         let target = pass.target.color.iter().chain(&pass.target.depth).map(|id| {
             let desc = self.list.desc(*id);
             let level = if pass.target.level > 0 { format!(", level {}", pass.target.level) } else { String::new() };
-            format!("{} ({}{level})", desc.label, desc.format)
+            format!("{}{} ({}{level})", desc.label, face_words(pass.target.face), desc.format)
         });
         let mut summary = PassSummary {
             label,
@@ -131,6 +131,10 @@ impl Plan {
         let lod = input.sampler.lod_halves.map_or(String::new(), |lod| format!(", LOD {}", 0.5 * f64::from(lod)));
         format!("{} = {} ({:?}{compare}{lod})", input.name, desc.label, input.sampler.filter)
     }
+}
+
+fn face_words(face: Option<CubeFace>) -> String {
+    face.map_or(String::new(), |face| format!(", face {}", face.name()))
 }
 
 fn push_new(list: &mut Vec<String>, text: String) {

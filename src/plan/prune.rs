@@ -109,7 +109,7 @@ fn drop_unused_images(plan: &mut Plan) {
     plan.views.iter_mut().for_each(|(_, image)| new(image));
     for pass in &mut plan.list.passes {
         match &mut pass.work {
-            Work::CopyDepth { from, to } => {
+            Work::CopyDepth { from, to, .. } => {
                 new(from);
                 new(to);
             }

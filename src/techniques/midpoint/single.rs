@@ -47,7 +47,7 @@ pub fn fill(
         label: format!("light {}: single layer", view.index),
         redraw: settings.redraw,
         work: Work::Draw(DrawPass {
-            target: Target { color: None, depth: Some(map), level: 0 },
+            target: Target { color: None, depth: Some(map), level: 0, face: None },
             viewport: [settings.size; 2],
             // All of it is drawn over; cleared, it is not read before.
             clear: Clear { depth: Some(1.0), ..Clear::default() },

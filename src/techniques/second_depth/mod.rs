@@ -14,7 +14,7 @@ use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit, term};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{Face, PassList, PolygonOffset};
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct SecondDepth;
 
@@ -37,6 +37,10 @@ impl Technique for SecondDepth {
         "Hardware Shadow Mapping, Wang and Molnar; techniques A15"
     }
 
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        shadow_map::spots_alone(kind)
+    }
+
     fn axes(&self) -> &'static [Axis] {
         AXES
     }
@@ -53,8 +57,9 @@ impl Technique for SecondDepth {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
-        let mut casters = casters(view, &settings, notes);
-        settings.crop = fit::crop(view, &mut casters, &settings, notes);
+        let projector = shadow_map::of_spot(view, keys)?;
+        let mut casters = casters(view, &projector, &settings, notes);
+        settings.crop = fit::crop(view, &projector, &mut casters, &settings, notes);
         if !is_assumed {
             refuse_open(&casters, keys)?;
         }
@@ -63,9 +68,9 @@ impl Technique for SecondDepth {
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
-        let map = depth::draw(view, &layer, &settings, list, notes);
+        let map = depth::draw(view, &projector, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        Ok(term::term(view, map, &settings, 0.0))
+        Ok(term::term(view, &projector, map, &settings, 0.0))
     }
 }
 

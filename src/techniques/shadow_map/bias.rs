@@ -1,10 +1,10 @@
 //! How far a map and what is compared with it are held apart, so that no surface shades itself.
 
-use glam::{DMat4, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 
+use super::projector::{Projector, Rays};
 use super::settings::{Bias, Mipmaps, Offset, Settings};
 use crate::pass::{DepthFormat, Filter, PolygonOffset};
-use crate::scene::Light;
 
 /// How far a lookup reaches from its place along each axis, in texels: the kernel's taps, and of each its filter: the
 /// half texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
@@ -50,17 +50,27 @@ fn default_offset(settings: &Settings) -> Offset {
     Offset { polygon: PolygonOffset { factor: factor as f32, units }, texels: width * texels + moved }
 }
 
-/// The width of a texel, along its longer side, at a distance of 1 along the light's axis.
-pub fn texel_at_one(light: &Light, settings: &Settings) -> f64 {
-    2.0 * settings.crop.half().max_element() / (light.clip_from_view().x_axis.x * f64::from(settings.size))
+/// The width of a texel, along its longer side, at a distance of 1 along the light's axis; of parallel light, anywhere.
+pub fn texel_at_one(projector: &Projector, settings: &Settings) -> f64 {
+    settings.crop.half().max_element() * projector.extent(1.0) / f64::from(settings.size)
 }
 
 /// Light clip space with every point moved towards the light, along its ray, by `texels` widths of a texel where it
 /// is: by the same share of its distance everywhere. A perspective projection has `z = A w - B`; of a distance that
-/// shrinks to `1 / (1 + g)` it makes `z = A w - (1 + g) B`, less the common factor.
-pub fn moved_to_light(light: &Light, texels: f64, settings: &Settings) -> DMat4 {
-    let share = (texels * texel_at_one(light, settings)).min(0.5);
-    let g = share / (1.0 - share);
-    let a = -light.clip_from_view().z_axis.z;
+/// shrinks to `1 / (1 + g)` it makes `z = A w - (1 + g) B`, less the common factor. Of parallel light, z is the distance.
+pub fn moved_to_light(projector: &Projector, texels: f64, settings: &Settings) -> DMat4 {
+    let width = texels * texel_at_one(projector, settings);
+    let z_axis = projector.clip_from_light.z_axis;
+    if let Rays::Along(_) = projector.rays {
+        return DMat4::from_translation(DVec3::new(0.0, 0.0, width * z_axis.z));
+    }
+    let g = growth(width);
+    let a = -z_axis.z;
     DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0 + g, 0.0), DVec4::new(0.0, 0.0, -g * a, 1.0))
+}
+
+/// By how much `1 / distance` grows where a point is moved towards the light by `share` of its distance.
+pub fn growth(share: f64) -> f64 {
+    let share = share.min(0.5);
+    share / (1.0 - share)
 }

@@ -1,16 +1,24 @@
 //! Which of the scene's items are drawn into a light's map.
 
+use glam::{DMat4, DVec4};
+
 use super::bias;
+use super::projector::{Projector, Rays};
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::frustum::{self, Overlap};
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{Item, LightView, Notes};
 
 /// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
-pub fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
-    let mut casters = in_frustum(view, notes);
+pub fn casters<'a>(
+    view: &LightView<'a>,
+    projector: &Projector,
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Vec<&'a Item> {
+    let mut casters = in_frustum(view, projector, notes);
     if !view.shown_whole && !view.keep_all {
-        let unseen = Unseen::new(view, settings.size, reach(settings));
+        let unseen = Unseen::new(view, projector, settings.size, reach(settings));
         casters.retain(|item| {
             let is_unseen = unseen.shadow_of(item);
             if is_unseen {
@@ -23,7 +31,7 @@ pub fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes)
 }
 
 /// What kernels, normal offsets and the coarser of two levels reach beside a filter's own, in texels.
-fn reach(settings: &Settings) -> f64 {
+pub fn reach(settings: &Settings) -> f64 {
     let kernel = bias::reach_texels(settings) - bias::filter_reach(settings);
     match (settings.mipmaps, settings.bias) {
         (Mipmaps::None, Bias::NormalOffset) => kernel + std::f64::consts::SQRT_2 * bias::reach_texels(settings),
@@ -34,8 +42,8 @@ fn reach(settings: &Settings) -> f64 {
 }
 
 /// The items that can stand in the light's way inside its frustum.
-pub fn in_frustum<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
-    let clip_from_world = view.clip_from_world();
+pub fn in_frustum<'a>(view: &LightView<'a>, projector: &Projector, notes: &mut Notes) -> Vec<&'a Item> {
+    let clip_from_world = projector.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
         let clip_from_model = clip_from_world * item.world_from_model;
@@ -44,28 +52,30 @@ pub fn in_frustum<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> 
         } else if !view.keep_all && frustum::overlap(&clip_from_model, &item.bounds) == Overlap::Outside {
             notes.left_out(in_the_map(item, view), "outside the light's frustum");
         } else {
-            warn_of_near(view, item, notes);
+            warn_of_near(view, projector, item, notes);
             casters.push(item);
         }
     }
     casters
 }
 
-fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
+pub fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
     format!("{} in the map of light {}", item.label, view.index)
 }
 
-/// A caster between the light and its near plane casts no shadow from what is cut off: say so.
-fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
-    let mut cut_off = view.light().clone();
-    (cut_off.near, cut_off.far) = (1e-3 * cut_off.near, cut_off.near);
-    let clip_from_model = cut_off.clip_from_view() * cut_off.view_from_world() * item.world_from_model;
-    if frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside {
-        notes.warnings.push(format!(
-            "{} may come nearer to light {} than its near plane at {}: what lies before that plane casts no shadow",
-            item.label,
-            view.index,
-            view.light().near
-        ));
+/// A caster between the light and its near plane casts no shadow from what is cut off: say so. Parallel light has none.
+pub fn warn_of_near(view: &LightView<'_>, projector: &Projector, item: &Item, notes: &mut Notes) {
+    let Rays::From { near, .. } = projector.rays else { return };
+    // The pyramid's tip, by the map's own sides.
+    let clip = projector.clip_from_light;
+    let tip = DMat4::from_cols(clip.x_axis, clip.y_axis, DVec4::new(0.0, 0.0, -1.002, -1.0), DVec4::Z * -2e-3 * near);
+    if frustum::overlap(&(tip * projector.light_from_world * item.world_from_model), &item.bounds) != Overlap::Outside {
+        let warning = format!(
+            "{} may come nearer to light {} than its near plane at {near}: what lies before that plane casts no shadow",
+            item.label, view.index,
+        );
+        if !notes.warnings.contains(&warning) {
+            notes.warnings.push(warning);
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::DMat4;
 
+use super::projector::Projector;
 use super::settings::{Mipmaps, Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
@@ -37,6 +38,7 @@ pub struct Ending {
 /// Draws a layer and, by the copy road, copies it. Returns the depth texture.
 pub fn draw(
     view: &LightView<'_>,
+    projector: &Projector,
     layer: &Layer<'_>,
     settings: &Settings,
     list: &mut PassList,
@@ -50,7 +52,7 @@ pub fn draw(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
-    let batches = batches(layer, &map_clip_from_world(view, settings), list);
+    let batches = batches(layer, &map_clip_from_world(projector, settings), list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let (state, cleared) = state(settings, layer.offset);
@@ -59,7 +61,7 @@ pub fn draw(
             label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },
             redraw: settings.redraw,
             work: Work::Draw(DrawPass {
-                target: Target { color: None, depth: Some(drawn), level },
+                target: Target { color: None, depth: Some(drawn), level, face: None },
                 viewport: [(settings.size >> level).max(1); 2],
                 clear: Clear { depth: Some(cleared), ..Clear::default() },
                 state,
@@ -69,14 +71,18 @@ pub fn draw(
     }
     if settings.transfer == Transfer::Copy {
         let label = format!("{label}, copied");
-        list.passes.push(Pass { label, redraw: settings.redraw, work: Work::CopyDepth { from: drawn, to: map } });
+        list.passes.push(Pass {
+            label,
+            redraw: settings.redraw,
+            work: Work::CopyDepth { from: drawn, to: map, face: None },
+        });
     }
     map
 }
 
 /// Raster, crop, and the light's own clip space.
-fn map_clip_from_world(view: &LightView<'_>, settings: &Settings) -> DMat4 {
-    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
+pub fn map_clip_from_world(projector: &Projector, settings: &Settings) -> DMat4 {
+    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * projector.clip_from_world()
 }
 
 /// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].
@@ -119,7 +125,7 @@ pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset
 }
 
 /// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
-fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
+pub fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
     let mut batches = depth_batches(layer.casters, clip_from_world, list);
     let Some(ending) = &layer.ending else { return batches };
     for batch in &mut batches {

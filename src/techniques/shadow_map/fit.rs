@@ -7,6 +7,7 @@
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
 
 use super::bias;
+use super::projector::{Projector, Rays};
 use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
@@ -59,11 +60,18 @@ impl Crop {
 
 /// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
 /// frustum the map covers.
-pub fn crop(view: &LightView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
-    if settings.fit == Fit::None {
+pub fn crop(
+    view: &LightView<'_>,
+    projector: &Projector,
+    casters: &mut Vec<&Item>,
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Crop {
+    let is_parallel = matches!(projector.rays, Rays::Along(_));
+    if settings.fit == Fit::None && !is_parallel {
         return Crop::WHOLE;
     }
-    let unseen = Unseen::new(view, settings.size, 0.0);
+    let unseen = Unseen::new(view, projector, settings.size, 0.0);
     casters.retain(|item| {
         let idle = unseen.shadows_nothing(item);
         if idle {
@@ -72,8 +80,11 @@ pub fn crop(view: &LightView<'_>, casters: &mut Vec<&Item>, settings: &Settings,
         }
         !idle
     });
-    let needed = of_casters(view, &unseen);
-    let needed = if settings.fit == Fit::View { needed.within(of_sight(view)) } else { needed };
+    if settings.fit == Fit::None {
+        return Crop::WHOLE;
+    }
+    let needed = of_casters(view, projector, &unseen);
+    let needed = if settings.fit == Fit::View { needed.within(of_sight(view, projector)) } else { needed };
     if needed.is_empty() {
         return Crop::WHOLE;
     }
@@ -87,8 +98,8 @@ pub fn crop(view: &LightView<'_>, casters: &mut Vec<&Item>, settings: &Settings,
 }
 
 /// Around every caster in the frustum, so that what else is left out moves no texel.
-fn of_casters(view: &LightView<'_>, unseen: &Unseen) -> Crop {
-    let clip_from_world = view.clip_from_world();
+fn of_casters(view: &LightView<'_>, projector: &Projector, unseen: &Unseen) -> Crop {
+    let clip_from_world = projector.clip_from_world();
     let mut crop = Crop::NOTHING;
     for item in view.items.iter().filter(|item| item.casts_shadow && !unseen.shadows_nothing(item)) {
         let clip_from_model = clip_from_world * item.world_from_model;
@@ -108,7 +119,7 @@ fn of_casters(view: &LightView<'_>, unseen: &Unseen) -> Crop {
 
 /// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
-fn of_sight(view: &LightView<'_>) -> Crop {
+fn of_sight(view: &LightView<'_>, projector: &Projector) -> Crop {
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let seen =
@@ -121,7 +132,7 @@ fn of_sight(view: &LightView<'_>) -> Crop {
     let bounds = Aabb::from_points(points);
     let slack = DVec3::splat(1e-6 * bounds.radius());
     let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
-    let light_clip = view.clip_from_world();
+    let light_clip = projector.clip_from_world();
     // The light's sides alone: it lights from its very position on.
     let light_sides: Vec<DVec4> = frustum::planes(&light_clip)[..4].to_vec();
     let camera_sides = frustum::planes(&camera_clip);
@@ -157,9 +168,17 @@ fn sides(bounds: &Aabb) -> [DVec4; 6] {
     ]
 }
 
-/// `needed` with a rim that a lookup cannot reach across: the kernel's and the filter's texels, those of a normal
-/// offset, twice as wide ones of a second level, and one for the rounding of positions.
+/// `needed` with a rim that a lookup cannot reach across.
 fn widened(needed: Crop, settings: &Settings) -> Crop {
+    // A texel is the size-th part of the widened map.
+    let share = (1.0 - 2.0 * rim_texels(settings) / f64::from(settings.size)).max(0.25);
+    let (center, half) = (needed.center(), needed.half() / share);
+    Crop { min: center - half, max: center + half }
+}
+
+/// A rim that a lookup cannot reach across, in texels: the kernel's and the filter's, those of a normal offset, twice as
+/// wide ones of a second level, and one for the rounding of positions.
+pub fn rim_texels(settings: &Settings) -> f64 {
     let mut texels = bias::reach_texels(settings);
     if settings.bias == Bias::NormalOffset {
         texels *= 1.0 + std::f64::consts::SQRT_2;
@@ -167,9 +186,5 @@ fn widened(needed: Crop, settings: &Settings) -> Crop {
     if settings.mipmaps != Mipmaps::None {
         texels *= 2.0;
     }
-    let texels = texels + 1.0;
-    // A texel is the size-th part of the widened map.
-    let share = (1.0 - 2.0 * texels / f64::from(settings.size)).max(0.25);
-    let (center, half) = (needed.center(), needed.half() / share);
-    Crop { min: center - half, max: center + half }
+    texels + 1.0
 }

@@ -1,19 +1,24 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10];
+//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A16];
 //! its parts are what every technique with a map is made of.
 
 pub(super) mod bias;
 pub(super) mod casters;
+mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
+mod parallel;
+pub(super) mod projector;
 pub(super) mod settings;
 pub(super) mod term;
 mod texel;
 
 use self::casters::casters;
 use self::depth::Layer;
+use self::projector::Projector;
+use self::settings::Settings;
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
 
@@ -27,7 +32,11 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12"
+        "Hardware Shadow Mapping; techniques A1-A10, A12, A16"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -49,19 +58,59 @@ impl Technique for ShadowMap {
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let mut settings = settings::read(keys)?;
-        let mut casters = casters(view, &settings, notes);
-        settings.crop = fit::crop(view, &mut casters, &settings, notes);
-        if casters.is_empty() && !view.keep_all {
-            return Ok(without_casters(view, settings.dimming, notes));
+        let settings = settings::read(keys)?;
+        let projector = match &view.light().kind {
+            LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
+            LightKind::Directional { direction } => {
+                parallel::refuse(&settings, keys)?;
+                parallel::projector(view, *direction, &settings, notes)
+            }
+            LightKind::Point(point) => {
+                cube::refuse(&settings, keys)?;
+                return Ok(cube::describe(view, point, &settings, list, notes));
+            }
+        };
+        match projector {
+            Some(projector) => Ok(one_map(view, &projector, settings, list, notes)),
+            None => Ok(without_casters(view, settings.dimming, notes)),
         }
-        let offset = bias::offset(&settings);
-        let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
-        let fewer: Vec<&Item> = fewer.iter().collect();
-        let casters = if settings.simplified { &fewer } else { &casters };
-        let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
-        let map = depth::draw(view, &layer, &settings, list, notes);
-        Ok(term::term(view, map, &settings, offset.texels))
+    }
+}
+
+/// A light with one square map.
+fn one_map(
+    view: &LightView<'_>,
+    projector: &Projector,
+    mut settings: Settings,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> LightTerm {
+    let mut casters = casters(view, projector, &settings, notes);
+    settings.crop = fit::crop(view, projector, &mut casters, &settings, notes);
+    if casters.is_empty() && !view.keep_all {
+        return without_casters(view, settings.dimming, notes);
+    }
+    let offset = bias::offset(&settings);
+    let fewer =
+        if settings.simplified { texel::simplified(view, projector, &casters, &settings, notes) } else { Vec::new() };
+    let fewer: Vec<&Item> = fewer.iter().collect();
+    let casters = if settings.simplified { &fewer } else { &casters };
+    let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
+    let map = depth::draw(view, projector, &layer, &settings, list, notes);
+    term::term(view, projector, map, &settings, offset.texels)
+}
+
+/// The frustum of a spotlight, for techniques that serve no other light.
+pub(super) fn of_spot(view: &LightView<'_>, keys: &Reader<'_>) -> Result<Projector, SettingsError> {
+    let frustum = view.light().frustum();
+    frustum.map(Projector::of_frustum).ok_or_else(|| keys.error("technique", "draws the map of a spotlight's frustum"))
+}
+
+/// What such techniques say of a light's kind.
+pub(super) fn spots_alone(kind: &LightKind) -> Result<(), &'static str> {
+    match kind {
+        LightKind::Spot(_) => Ok(()),
+        LightKind::Point(_) | LightKind::Directional { .. } => Err("draws the map of a spotlight's frustum"),
     }
 }
 
@@ -69,7 +118,7 @@ impl Technique for ShadowMap {
 pub(super) fn without_casters(view: &LightView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
-    let mut term = LightTerm::unshadowed(view.index);
+    let mut term = LightTerm::unshadowed(view.scene, view.index);
     term.dimming = dimming;
     term
 }

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use super::bias;
+use super::projector::{Projector, Rays};
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::pass::MeshRef;
@@ -12,14 +13,20 @@ use crate::techniques::{Item, LightView, Notes};
 const FEWEST: u32 = 200;
 
 /// `casters` with fewer triangles, where that moves their surface by less than half a texel.
-pub fn simplified(view: &LightView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
+pub fn simplified(
+    view: &LightView<'_>,
+    projector: &Projector,
+    casters: &[&Item],
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Vec<Item> {
     let of = |item: &&Item| {
         let mut item = (*item).clone();
         let before = (item.indices.end - item.indices.start) / 3;
         if before < FEWEST || item.needs_alpha_test() {
             return item;
         }
-        let mesh = cached(&item, allowed_error(view, &item, settings));
+        let mesh = cached(&item, allowed_error(projector, &item, settings));
         let after = mesh.triangle_count() as u32;
         if after < before {
             notes.left_out(
@@ -41,12 +48,15 @@ pub fn simplified(view: &LightView<'_>, casters: &[&Item], settings: &Settings, 
 
 /// A quarter of a texel by quadrics, which take the mean of what bends: half of one at most places. In the item's own
 /// units: of the texels that it meets, those nearest to the light are the smallest.
-fn allowed_error(view: &LightView<'_>, item: &Item, settings: &Settings) -> f64 {
-    let light = view.light();
-    let light_from_model = light.view_from_world() * item.world_from_model;
+fn allowed_error(projector: &Projector, item: &Item, settings: &Settings) -> f64 {
+    let light_from_model = projector.light_from_world * item.world_from_model;
     let corners = item.bounds.corners().into_iter();
     let nearest = corners.map(|corner| -light_from_model.transform_point3(corner).z).fold(f64::INFINITY, f64::min);
-    let quarter = 0.25 * bias::texel_at_one(light, settings) * nearest.max(light.near);
+    let distance = match projector.rays {
+        Rays::From { near, .. } => nearest.max(near),
+        Rays::Along(_) => 1.0,
+    };
+    let quarter = 0.25 * bias::texel_at_one(projector, settings) * distance;
     let axes = [item.world_from_model.x_axis, item.world_from_model.y_axis, item.world_from_model.z_axis];
     quarter / axes.map(|axis| axis.truncate().length()).into_iter().fold(0.0, f64::max)
 }

@@ -1,0 +1,229 @@
+//! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [Hardware Shadow Mapping;
+//! techniques A16].
+//!
+//! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are
+//! cleared to, so that what looks it up, or reaches into it across a seam, is lit.
+
+use glam::{DMat4, DVec3, Vec2};
+
+use super::bias;
+use super::casters::{in_the_map, warn_of_near};
+use super::depth::{self, Layer};
+use super::projector::Projector;
+use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
+use super::term::{sampler, texture_from_light_clip};
+use crate::math::frustum::{self, Overlap};
+use crate::pass::{
+    Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Storage, Target, Uniform, Work, glsl,
+};
+use crate::scene::{Frustum, Point, Reader, SettingsError};
+use crate::techniques::unseen::Unseen;
+use crate::techniques::{Coordinates, Item, LightTerm, LightView, Notes};
+
+/// How far beyond a face's sides something may lie that looks it up across a seam, in texels: a filter's neighbour and
+/// rounding.
+const SEAM_TEXELS: f64 = 4.0;
+
+/// What a cube map cannot do.
+///
+/// # Errors
+///
+/// The key, and why.
+pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    let refused = [
+        (settings.kernel != 1, "kernel", "steps from texel to texel of a square map"),
+        (settings.bias != Bias::Offset, "bias", "reckons with the texels of a square map"),
+        (settings.mipmaps != Mipmaps::None, "mipmaps", "are of square maps"),
+        (settings.fit != Fit::None, "fit", "moves the texels of a square map"),
+        (settings.simplified, "casters", "= \"texel\" reckons with the texels of a square map"),
+        (settings.addressing != Addressing::OpenGl, "addressing", "= \"direct3d\" is of square maps"),
+    ];
+    match refused.iter().find(|(is_set, ..)| *is_set) {
+        Some((_, key, why)) => Err(keys.error(key, format_args!("{why}; a point light's is a cube"))),
+        None => Ok(()),
+    }
+}
+
+/// Adds the passes of the faces that are needed, and says how the cube is looked up.
+pub fn describe(
+    view: &LightView<'_>,
+    point: &Point,
+    settings: &Settings,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> LightTerm {
+    let casters = casters(view, point, settings, notes);
+    let faces: Vec<(CubeFace, Projector, Vec<&Item>)> =
+        CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
+    if faces.is_empty() {
+        return super::without_casters(view, settings.dimming, notes);
+    }
+    let map = draw(view, &faces, settings, list, notes);
+    term(view, point, map, settings)
+}
+
+/// The items whose shadow can be seen.
+fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+    let any_face = projector(point, CubeFace::PositiveX);
+    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(view, &any_face, settings.size, 0.0));
+    let mut casters = Vec::new();
+    for item in view.items {
+        if !item.casts_shadow {
+            notes.left_out(in_the_map(item, view), "casts_shadow = false");
+        } else if unseen.as_ref().is_some_and(|unseen| unseen.shadow_of(item)) {
+            notes.left_out(in_the_map(item, view), "the camera sees nothing that it shadows");
+        } else {
+            casters.push(item);
+        }
+    }
+    casters
+}
+
+/// A face with its casters, if it must be drawn.
+fn needed<'a>(
+    view: &LightView<'a>,
+    point: &Point,
+    face: CubeFace,
+    casters: &[&'a Item],
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Option<(CubeFace, Projector, Vec<&'a Item>)> {
+    let projector = projector(point, face);
+    let what = format!("face {} of the map of light {}", face.name(), view.index);
+    let clip_from_world = projector.clip_from_world();
+    let holds = |item: &&&Item| {
+        view.keep_all || frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
+    };
+    let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
+    casters.iter().for_each(|item| warn_of_near(view, &projector, item, notes));
+    if inside.is_empty() {
+        notes.left_out(what, "no caster that matters stands in it");
+        return None;
+    }
+    if !view.keep_all && !view.shown_whole && !is_seen(view, point, face, settings) {
+        notes.left_out(what, "the camera sees nothing in it");
+        return None;
+    }
+    Some((face, projector, inside))
+}
+
+/// Whether the camera may see something that looks the face up.
+fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
+    let half_angle = (1.0 + 2.0 * SEAM_TEXELS / f64::from(settings.size)).atan();
+    let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
+    let face_clip = frustum.unbounded().clip_from_world();
+    let camera = &view.scene.camera;
+    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
+    let in_both = |item: &Item| {
+        [&face_clip, &camera_clip]
+            .iter()
+            .all(|clip| frustum::overlap(&(**clip * item.world_from_model), &item.bounds) != Overlap::Outside)
+    };
+    frustum::may_meet(&face_clip, &corners(&face_clip), &camera_clip, &corners(&camera_clip))
+        && view.items.iter().any(in_both)
+}
+
+/// The frustum of a face, turned as cube maps have their texels [GL 4.6, table 8.19].
+fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
+    let (direction, up) = match face {
+        CubeFace::PositiveX => (DVec3::X, -DVec3::Y),
+        CubeFace::NegativeX => (-DVec3::X, -DVec3::Y),
+        CubeFace::PositiveY => (DVec3::Y, DVec3::Z),
+        CubeFace::NegativeY => (-DVec3::Y, -DVec3::Z),
+        CubeFace::PositiveZ => (DVec3::Z, -DVec3::Y),
+        CubeFace::NegativeZ => (-DVec3::Z, -DVec3::Y),
+    };
+    let Point { position, near, far, .. } = *point;
+    // So far away that the target's coordinates round to another point, on the axis still.
+    let target = position + direction * position.abs().max_element().max(1.0);
+    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
+}
+
+fn projector(point: &Point, face: CubeFace) -> Projector {
+    Projector::of_frustum(&frustum_of(point, face))
+}
+
+/// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
+fn draw(
+    view: &LightView<'_>,
+    faces: &[(CubeFace, Projector, Vec<&Item>)],
+    settings: &Settings,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> ImageId {
+    let index = view.index;
+    let (state, cleared) = depth::state(settings, bias::offset(settings).polygon);
+    let drawn = CubeFace::ALL.map(|face| faces.iter().any(|(other, ..)| *other == face));
+    let map = list.image(depth::desc(view, "map", settings, Storage::Cube(Cube { drawn, rest: cleared })));
+    let buffer = (settings.transfer == Transfer::Copy)
+        .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
+    notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
+    for (face, projector, casters) in faces {
+        let layer =
+            Layer { name: "depth", image: "map", ending: None, offset: bias::offset(settings).polygon, casters };
+        let batches = depth::batches(&layer, &depth::map_clip_from_world(projector, settings), list);
+        let label = format!("light {index}: depth, face {}", face.name());
+        let target = Target {
+            color: None,
+            depth: Some(buffer.unwrap_or(map)),
+            level: 0,
+            face: buffer.is_none().then_some(*face),
+        };
+        list.passes.push(Pass {
+            label: label.clone(),
+            redraw: settings.redraw,
+            work: Work::Draw(DrawPass {
+                target,
+                viewport: [settings.size; 2],
+                clear: Clear { depth: Some(cleared), ..Clear::default() },
+                state,
+                batches,
+            }),
+        });
+        if let Some(from) = buffer {
+            list.passes.push(Pass {
+                label: format!("{label}, copied"),
+                redraw: settings.redraw,
+                work: Work::CopyDepth { from, to: map, face: Some(*face) },
+            });
+        }
+    }
+    map
+}
+
+/// How the lit pass looks the cube up.
+fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
+    let index = view.index;
+    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
+    term.coordinates = Some(Coordinates {
+        texture_from_light_clip: DMat4::IDENTITY,
+        light_clip_from_light: DMat4::IDENTITY,
+        light_from_world: DMat4::from_translation(-point.position),
+        set_up: settings.set_up,
+        split: settings.split,
+    });
+    term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler: sampler(settings) });
+    term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
+    if settings.filter == Filter::Linear {
+        term.defines.push(format!("LINEAR_{index}"));
+        // Half a texel of the seam, of which a face has 2 / size; rounding may bring a lookup nearer.
+        let seam = (1.0 - 1.01 / f64::from(settings.size)).max(0.0);
+        term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
+    }
+    term.dimming = settings.dimming;
+    term.map = Some(map);
+    term
+}
+
+/// `r = x - y / depth`, by every face's projection `z / w = a - b / depth`, with what is compared moved towards the light
+/// (see [`bias::moved_to_light`]), and by `S`.
+fn face_depth(point: &Point, settings: &Settings) -> Vec2 {
+    let Point { near, far, .. } = *point;
+    let (a, b) = ((far + near) / (far - near), 2.0 * far * near / (far - near));
+    let any_face = projector(point, CubeFace::PositiveX);
+    let moved = bias::offset(settings).texels * bias::texel_at_one(&any_face, settings);
+    let texture = texture_from_light_clip(settings);
+    let (scale, offset) = (texture.z_axis.z, texture.w_axis.z);
+    Vec2::new((scale * a + offset) as f32, (scale * b * (1.0 + bias::growth(moved))) as f32)
+}

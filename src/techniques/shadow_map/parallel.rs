@@ -1,0 +1,169 @@
+//! The map of a directional light: an orthographic box around what casts, as far as something lies behind it that it can
+//! shadow [techniques A1]. The box depends on the scene alone, never on the camera.
+//!
+//! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's
+//! width is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light
+//! the box holds the casters; what lies behind them all is compared at depth 1, and is behind all the same.
+//!
+//! Nothing outside the box is shadowed, and no shader has to ask: what is looked up there meets the texels at the rim
+//! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end, and where the box ends before its casters do, nothing
+//! beyond lies behind them.
+
+use glam::DVec3;
+
+use super::fit::rim_texels;
+use super::projector::{Projector, Rays};
+use super::settings::{Bias, Mipmaps, Settings};
+use crate::math::{Aabb, spaces};
+use crate::scene::{Reader, SettingsError};
+use crate::techniques::{Item, LightView, Notes};
+
+/// Widths of a texel in a factor of 2.
+const STEPS: f64 = 8.0;
+
+/// What a directional light's map cannot do.
+///
+/// # Errors
+///
+/// A key that reckons with a light at a finite distance, or a map too small for its own rim.
+pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    if settings.bias == Bias::NormalOffset {
+        return Err(keys.error("bias", "= \"normal-offset\" reckons with a perspective map, not a directional light's"));
+    }
+    if settings.mipmaps == Mipmaps::All {
+        return Err(keys.error(
+            "mipmaps",
+            "= true does not go with a directional light, whose map has an end: of the smallest level one texel reaches \
+             across it; \"8-tap\" does",
+        ));
+    }
+    let least = 4 * rim(settings);
+    if settings.size < least {
+        return Err(
+            keys.error("size", format_args!("must be at least {least} for a directional light's map with its rim"))
+        );
+    }
+    Ok(())
+}
+
+/// What a lookup reaches across, in whole texels, Direct3D's half texel included.
+fn rim(settings: &Settings) -> u32 {
+    rim_texels(settings).ceil() as u32 + 1
+}
+
+/// The box; `None` where nothing casts a shadow on anything.
+pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, notes: &mut Notes) -> Option<Projector> {
+    let up = if direction.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z };
+    let light_from_world = spaces::view_from_world(DVec3::ZERO, direction, up);
+    let boxes: Vec<Aabb> =
+        view.items.iter().map(|item| item.bounds.transformed(&(light_from_world * item.world_from_model))).collect();
+    let needed = needed(view.items, &boxes)?;
+    let (min, max) = whole_texels(&needed, settings);
+    let size = max - min;
+    notes.chosen(
+        format!("the map of light {}", view.index),
+        format!("a box of {:.4} x {:.4} x {:.4}", size.x, size.y, size.z),
+        "around what casts, as far as something lies behind it",
+    );
+    let clip_from_light = spaces::orthographic(min, max);
+    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
+}
+
+/// Around every caster as far as other items, or itself where it is not flat, reach behind it; in light space, where z
+/// falls along the rays. In z, around the whole of these casters.
+fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
+    let mut needed = Aabb::EMPTY;
+    for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
+        let own = boxes[index];
+        let is_flat = (caster.bounds.max - caster.bounds.min).min_element() == 0.0;
+        let behind = boxes
+            .iter()
+            .enumerate()
+            .filter(|(other, bounds)| (*other != index || !is_flat) && bounds.min.z <= own.max.z);
+        let behind = behind.fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
+        let mut shadowed = Aabb { min: own.min.max(behind.min), max: own.max.min(behind.max) };
+        (shadowed.min.z, shadowed.max.z) = (own.min.z, own.max.z);
+        if !shadowed.is_empty() {
+            needed = needed.union(shadowed);
+        }
+    }
+    (!needed.is_empty() && needed.min.is_finite() && needed.max.is_finite()).then_some(needed)
+}
+
+/// `needed` with its rim, in whole texels of a grid through the world's origin.
+fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
+    let (size, rim) = (f64::from(settings.size), f64::from(rim(settings)));
+    let extent = needed.max - needed.min;
+    // Of what is flat across the light, and not below what f32 resolves at its place.
+    let reach = needed.min.abs().max(needed.max.abs()).max_element();
+    let least = (1e-3 * extent.max_element()).max(1e-5 * reach).max(f64::MIN_POSITIVE);
+    let axis = |min: f64, extent: f64| {
+        // One texel more for the place of the first on the grid.
+        let texel = extent.max(least) / (size - 2.0 * rim - 1.0);
+        let texel = ((texel.log2() * STEPS).ceil() / STEPS).exp2();
+        let start = ((min / texel).floor() - rim) * texel;
+        (start, start + size * texel)
+    };
+    let (x, y) = (axis(needed.min.x, extent.x), axis(needed.min.y, extent.y));
+    // Room for the offset of the farthest caster, which must not reach what is cleared.
+    let room = (extent.z / 16.0).max(least);
+    (DVec3::new(x.0, y.0, needed.min.z - room), DVec3::new(x.1, y.1, needed.max.z + room))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+    use crate::techniques::items::items;
+
+    fn scene_of(objects: &str, shadow: &str) -> scene::Scene {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let light = format!(
+            "[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n[light.shadow]\ntechnique = \"shadow-map\"\n{shadow}\n"
+        );
+        std::fs::write(&path, light + objects).unwrap();
+        scene::load(&path, &[]).unwrap().scene
+    }
+
+    fn box_of(objects: &str, shadow: &str) -> Option<Aabb> {
+        let scene = scene_of(objects, shadow);
+        let items = items(&scene);
+        let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
+        let view = LightView { scene: &scene, items: &items, index: 0, shown_whole: false, keep_all: false };
+        let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;
+        Some(Aabb::from_points(crate::math::frustum::corners(&found.clip_from_world().inverse())))
+    }
+
+    const FLOOR: &str = "[[object]]\nmesh = \"quad\"\nscale = [50.0, 1.0, 50.0]\n";
+
+    #[test]
+    fn the_box_holds_casters_with_a_rim_and_no_more_of_the_floor() {
+        let column = "[[object]]\nmesh = \"box\"\ntranslate = [3.0, 2.0, -7.0]\n";
+        let found = box_of(&format!("{FLOOR}{column}"), "size = 256").unwrap();
+        // Side 2, a rim of 3 texels of 256, at most one step of 2^(1/8) and one texel of the grid.
+        let least = DVec3::new(2.0, 3.0, -8.0);
+        assert!(found.min.cmplt(least).all() && found.max.cmpgt(DVec3::new(4.0, 3.0, -6.0)).all(), "{found:?}");
+        let size = found.max - found.min;
+        assert!(size.x < 2.0 * 1.0905 * 256.0 / 249.0 && size.z == size.x, "{size}");
+        // Of the floor only its own height, which nothing lies behind.
+        assert!(found.min.y < 1.0 && found.min.y > 0.8, "{found:?}");
+        assert_eq!(box_of(FLOOR, "size = 256"), None, "a floor alone shadows nothing");
+    }
+
+    #[test]
+    fn a_caster_that_moves_by_less_than_a_texel_moves_the_box_by_whole_texels() {
+        let place = |x: f64| {
+            box_of(&format!("{FLOOR}[[object]]\nmesh = \"box\"\ntranslate = [{x:?}, 2.0, 0.3]\n"), "size = 64")
+        };
+        let (first, texel) = (place(0.0).unwrap(), (place(0.0).unwrap().max.x - place(0.0).unwrap().min.x) / 64.0);
+        for x in [1e-4, 0.01, 0.02, 0.1, 0.777, 5.3, 1e3] {
+            let moved = place(x).unwrap();
+            for (a, b) in [(first.min.x, moved.min.x), (first.max.x, moved.max.x)] {
+                let texels = (b - a) / texel;
+                assert!((texels - texels.round()).abs() < 1e-6, "{x}: {texels}");
+            }
+            assert_eq!((moved.min.z, moved.max.z), (first.min.z, first.max.z));
+        }
+    }
+}
