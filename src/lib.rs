@@ -29,6 +29,7 @@
 pub mod cli;
 pub mod context;
 pub mod device;
+pub mod figures;
 pub mod frame;
 pub mod geometry;
 pub mod math;

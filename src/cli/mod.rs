@@ -2,6 +2,7 @@
 
 mod check;
 mod context_args;
+mod figures;
 mod info;
 mod plan;
 mod render;
@@ -31,6 +32,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::CheckArgs),
+    Figures(figures::FiguresArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
@@ -60,6 +62,8 @@ pub enum Error {
     Viewer(#[from] crate::viewer::Error),
     #[error(transparent)]
     File(#[from] crate::output::Error),
+    #[error(transparent)]
+    Figures(#[from] crate::figures::Error),
     #[error(transparent)]
     Tune(#[from] crate::report::tune::Error),
     #[error(transparent)]
@@ -96,6 +100,7 @@ pub enum Error {
 pub fn run() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Check(arguments) => return check::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),

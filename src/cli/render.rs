@@ -53,6 +53,7 @@ Views for --aov:
   light-view      the scene as the light sees it
   light-distance  r/q, each sample's planar distance from the light
   projected-map   the shadow map projected onto the scene
+  texels-per-pixel  texels of the shadow map that a pixel's side shows; a PNG has them as colours with a legend
   stencil-count   the shadow volumes that hold each point, as counted: gray values are the integers
   stencil-colors  the same for the eye: green lit, red shadowed, with a legend
   volume          the shadow volumes over the scene: outsides orange, insides blue

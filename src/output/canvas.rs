@@ -2,14 +2,62 @@
 
 use std::convert::Infallible;
 
+use embedded_graphics::mono_font::MonoFont;
 use embedded_graphics::mono_font::MonoTextStyle;
-use embedded_graphics::mono_font::ascii::FONT_6X10;
+use embedded_graphics::mono_font::ascii::{FONT_6X10, FONT_7X13, FONT_9X18_BOLD};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::{Dimensions, DrawTarget, Drawable, OriginDimensions, Pixel, Point, RgbColor, Size};
 use embedded_graphics::text::{Baseline, Text};
+use image::RgbImage;
+use image::imageops::{FilterType, resize};
 
 /// Width and height of a letter in pixels.
 pub const LETTER: [u32; 2] = [6, 10];
+
+/// A size of letters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Font {
+    Small,
+    Text,
+    Title,
+}
+
+impl Font {
+    /// Width and height of a letter in pixels.
+    pub fn letter(self) -> [u32; 2] {
+        match self {
+            Self::Small => LETTER,
+            Self::Text => [7, 13],
+            Self::Title => [9, 18],
+        }
+    }
+
+    fn letters(self) -> &'static MonoFont<'static> {
+        match self {
+            Self::Small => &FONT_6X10,
+            Self::Text => &FONT_7X13,
+            Self::Title => &FONT_9X18_BOLD,
+        }
+    }
+
+    /// `text` in lines of at most `width` pixels, broken at spaces.
+    pub fn wrap(self, text: &str, width: u32) -> Vec<String> {
+        let most = (width / self.letter()[0]).max(1) as usize;
+        let mut lines = vec![String::new()];
+        for word in text.split_whitespace() {
+            let last = lines.last_mut();
+            match last {
+                Some(line) if line.is_empty() => line.push_str(word),
+                Some(line) if line.len() + 1 + word.len() <= most => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        lines
+    }
+}
 
 /// RGB, eight bits each.
 pub type Color = [u8; 3];
@@ -27,8 +75,32 @@ impl Canvas {
         Self { size, bytes: color.iter().copied().cycle().take(3 * count).collect() }
     }
 
+    /// From red, green and blue of each pixel; what is missing is black.
+    pub fn of_bytes(size: [u32; 2], mut bytes: Vec<u8>) -> Self {
+        bytes.resize(3 * size[0] as usize * size[1] as usize, 0);
+        Self { size, bytes }
+    }
+
     pub fn size(&self) -> [u32; 2] {
         self.size
+    }
+
+    /// Red, green and blue of each pixel.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// As large as `most` allows, in its own proportions: averaged when it shrinks, in squares when it grows.
+    pub fn fitted(&self, most: [u32; 2]) -> Self {
+        let scale = (f64::from(most[0]) / f64::from(self.size[0])).min(f64::from(most[1]) / f64::from(self.size[1]));
+        let size = self.size.map(|side| ((f64::from(side) * scale).round() as u32).max(1));
+        let filter = if scale < 1.0 { FilterType::Triangle } else { FilterType::Nearest };
+        match RgbImage::from_raw(self.size[0], self.size[1], self.bytes.clone()) {
+            Some(image) if size != self.size => {
+                Self { size, bytes: resize(&image, size[0], size[1], filter).into_raw() }
+            }
+            _ => self.clone(),
+        }
     }
 
     /// Red, green and blue of each pixel.
@@ -63,7 +135,12 @@ impl Canvas {
 
     /// Writes a line of ASCII, its upper left corner at `place`.
     pub fn write(&mut self, place: [u32; 2], text: &str, color: Color) {
-        let style = MonoTextStyle::new(&FONT_6X10, Rgb888::new(color[0], color[1], color[2]));
+        self.write_in(Font::Small, place, text, color);
+    }
+
+    /// The same in another font.
+    pub fn write_in(&mut self, font: Font, place: [u32; 2], text: &str, color: Color) {
+        let style = MonoTextStyle::new(font.letters(), Rgb888::new(color[0], color[1], color[2]));
         let at = Point::new(place[0] as i32, place[1] as i32);
         let Ok(_) = Text::with_baseline(text, at, style, Baseline::Top).draw(self);
     }

@@ -3,6 +3,7 @@
 
 pub mod canvas;
 mod counts;
+mod density;
 pub(crate) mod whole;
 
 use std::fs;
@@ -133,6 +134,9 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
             let gray = data.iter().flat_map(|depth| to_u16(stretch.apply(*depth)).to_ne_bytes());
             (gray.collect(), ExtendedColorType::L16)
         }
+        (Pixels::RgbaF32 { size, data }, Some(View::TexelsPerPixel)) => {
+            (density::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
+        }
         (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
             (counts::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
         }
@@ -151,6 +155,45 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
             ExtendedColorType::Rgb8,
         ),
     }
+}
+
+/// The picture as its PNG has it; what is transparent lies on dark blue.
+pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
+    const BEHIND: [f32; 3] = [44.0, 50.0, 64.0];
+    let (bytes, kind) = png_bytes(&Output { path: Path::new(""), pixels, view });
+    let over = |gray: f32, alpha: f32| BEHIND.map(|behind| (behind + alpha * (255.0 * gray - behind)).round() as u8);
+    let short = |pair: &[u8]| f32::from(u16::from_ne_bytes([pair[0], pair[1]])) / 65535.0;
+    let rgb: Vec<u8> = match kind {
+        ExtendedColorType::L8 => bytes.iter().flat_map(|gray| [*gray; 3]).collect(),
+        ExtendedColorType::L16 => bytes.chunks_exact(2).flat_map(|pair| over(short(pair), 1.0)).collect(),
+        ExtendedColorType::La8 => {
+            bytes.chunks_exact(2).flat_map(|p| over(f32::from(p[0]) / 255.0, f32::from(p[1]) / 255.0)).collect()
+        }
+        ExtendedColorType::La16 => bytes.chunks_exact(4).flat_map(|p| over(short(&p[..2]), short(&p[2..]))).collect(),
+        _ => bytes,
+    };
+    canvas::Canvas::of_bytes(pixels.size(), rgb)
+}
+
+/// Writes canvases as PNG, and texts; all of them, or none.
+///
+/// # Errors
+///
+/// As [`write_all`].
+pub fn write_sheets(sheets: &[(PathBuf, canvas::Canvas)], texts: &[(PathBuf, String)]) -> Result<(), Error> {
+    let paths: Vec<&Path> =
+        sheets.iter().map(|(path, _)| path.as_path()).chain(texts.iter().map(|(path, _)| path.as_path())).collect();
+    let written = whole::write_all(&paths, |index, temporary| match sheets.get(index) {
+        Some((_, sheet)) => {
+            let [width, height] = sheet.size();
+            let file = BufWriter::new(fs::File::create(temporary)?);
+            PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive)
+                .write_image(sheet.bytes(), width, height, ExtendedColorType::Rgb8)
+                .map_err(io::Error::other)
+        }
+        None => fs::write(temporary, &texts[index - sheets.len()].1),
+    });
+    written.map_err(|(index, error)| failed(paths[index], &error))
 }
 
 /// Rounds as GL does (GL 4.6, 2.3.5.2).
@@ -188,7 +231,7 @@ fn channels(output: &Output<'_>) -> (&'static [(&'static str, usize)], usize) {
     match (output.pixels, output.view) {
         (Pixels::Depth { .. }, _) => (&[("Z", 0)], 1),
         (Pixels::Stencil { .. }, _) => (&[("Y", 0)], 1),
-        (_, Some(View::Shade)) => (&[("Y", 0), ("A", 3)], 4),
+        (_, Some(View::Shade | View::TexelsPerPixel)) => (&[("Y", 0), ("A", 3)], 4),
         (_, Some(View::LightDistance | View::ProjectedMap)) => (&[("Z", 0), ("A", 3)], 4),
         _ => (&[("R", 0), ("G", 1), ("B", 2)], 4),
     }

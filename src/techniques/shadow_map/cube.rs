@@ -205,6 +205,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     });
     term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler: sampler(settings) });
     term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
+    term.defines.push(format!("CUBE_{index}"));
     if settings.filter == Filter::Linear {
         term.defines.push(format!("LINEAR_{index}"));
         // Half a texel of the seam, of which a face has 2 / size; rounding may bring a lookup nearer.

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec4};
 
 use super::bias;
 use super::fit::Crop;
-use super::projector::Projector;
+use super::projector::{Projector, Rays};
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
@@ -32,7 +32,10 @@ pub fn term(view: &LightView<'_>, projector: &Projector, map: ImageId, settings:
         set_up: settings.set_up,
         split: settings.split,
     });
-    term.frustum_from_map = frustum_from_map(settings);
+    // Parallel light reaches everywhere: nothing asks where a frustum ends.
+    if let Rays::From { .. } = projector.rays {
+        term.frustum_from_map = frustum_from_map(settings);
+    }
     term.dimming = settings.dimming;
     term.map = Some(map);
     look_up(&mut term, projector, &texture_from_light_clip, settings);

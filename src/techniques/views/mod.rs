@@ -1,7 +1,7 @@
 //! Arbitrary output variables: the pictures that show how a shadow comes about [Hardware Shadow Mapping, Fig. 2, 4, 5;
-//! techniques A18]. Each is a row of [`VIEWS`].
+//! techniques A17, A18]. Each is a row of [`VIEWS`].
 
-use crate::pass::{Filter, Input, Sampler, Shade, Wrap, glsl};
+use crate::pass::{Filter, ImageId, Input, Sampler, Shade, Wrap, glsl};
 
 use super::LightTerm;
 use super::surface::Ending;
@@ -15,6 +15,7 @@ pub enum View {
     LightView,
     LightDistance,
     ProjectedMap,
+    TexelsPerPixel,
     StencilCount,
     StencilColors,
     Volume,
@@ -34,6 +35,12 @@ pub const VIEWS: &[(&str, View, bool, &str)] = &[
     ("light-view", View::LightView, true, "the scene as the light sees it, lit and without shadow"),
     ("light-distance", View::LightDistance, true, "r/q: each sample's planar distance from the light"),
     ("projected-map", View::ProjectedMap, true, "the shadow map's depths projected onto the scene"),
+    (
+        "texels-per-pixel",
+        View::TexelsPerPixel,
+        true,
+        "the side, in texels of the shadow map, of what a pixel shows: below 1 texels are seen one by one",
+    ),
     (
         "stencil-count",
         View::StencilCount,
@@ -58,7 +65,7 @@ impl View {
 
     /// Whether it needs a shadow map.
     pub fn needs_map(self) -> bool {
-        matches!(self, Self::LightDepth | Self::ProjectedMap)
+        matches!(self, Self::LightDepth | Self::ProjectedMap | Self::TexelsPerPixel)
     }
 
     /// Whether it shows what shadow volumes count.
@@ -93,12 +100,14 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
             term.uniforms.clear();
             let name = format!("depth_map_{}", term.index);
             term.meaning = Shade::Texture { input: name.clone().into(), clamped: false };
-            term.inputs = vec![Input {
-                name: name.into(),
-                image: term.map?,
-                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None },
-            }];
+            term.inputs = vec![Input { name: name.into(), ..uncompared(term.map?) }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
+        }
+        View::TexelsPerPixel => {
+            term.uniforms.clear();
+            term.meaning = Shade::Shader("texels per pixel");
+            term.inputs = vec![Input { name: format!("counted_map_{}", term.index).into(), ..uncompared(term.map?) }];
+            Ending::View { chunk: glsl!("views/texels_per_pixel.frag"), shade: false }
         }
         View::Depth
         | View::LightDepth
@@ -109,4 +118,10 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
         | View::Silhouette => return None,
     };
     Some((ending, term))
+}
+
+/// A map for its depths as they are; the name is the caller's.
+fn uncompared(image: ImageId) -> Input {
+    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    Input { name: "".into(), image, sampler }
 }

@@ -1,0 +1,69 @@
+//! `glumbra figures`: the documents' figures from our own scenes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{ContextArgs, Error};
+use crate::context::{self, Profile};
+use crate::figures::{self, FIGURES};
+use crate::frame::Renderer;
+use crate::output;
+
+/// Draws every figure of the documents that shows a result, from our own scenes, as contact sheets with captions.
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub struct FiguresArgs {
+    /// The folder for the sheets and index.md; made if it is not there
+    #[arg(short, long, value_name = "DIR", default_value = "figures")]
+    output: PathBuf,
+
+    /// Draws this figure; may be given again
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+
+    /// Lists the figures and draws none
+    #[arg(long)]
+    list: bool,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+const HELP: &str = "\
+Examples:
+  glumbra figures -o out/figures
+  glumbra figures --only hsm-6-dueling-frusta --only gdc-volumes -o out";
+
+/// Draws and writes.
+pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
+    use std::io::Write;
+    let chosen = figures::chosen(&arguments.only)?;
+    if arguments.list {
+        let mut out = std::io::stdout().lock();
+        for figure in FIGURES {
+            writeln!(out, "{:22} {}", figure.name, figure.title)?;
+        }
+        return Ok(());
+    }
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).map_err(|reason| figures::Error::Folder { folder: folder.clone(), reason })?;
+    let context = context::open(&arguments.context.request(Profile::Core33))?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let bar = ProgressBar::new(chosen.iter().map(|figure| figure.panels.len() as u64).sum());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} panels, {eta} left  {msg}") {
+        bar.set_style(style);
+    }
+    let mut sheets = Vec::new();
+    for figure in &chosen {
+        bar.set_message(figure.name);
+        let sheet = figure.draw(&mut renderer, || bar.inc(1))?;
+        sheets.push((folder.join(format!("{}.png", figure.name)), sheet));
+    }
+    bar.finish_and_clear();
+    let index = folder.join("index.md");
+    output::write_sheets(&sheets, &[(index.clone(), figures::index(&chosen))])?;
+    writeln!(std::io::stdout(), "{}", index.display())?;
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! The figures of the documents that show a result, drawn from our own scenes as contact sheets with captions. A figure
+//! is data (`table.rs`): panels, each a scene with what is changed in it and what of it is shown. Knows scenes, plans and
+//! frames; no technique by more than a scene's keys, no GL.
+
+mod sheet;
+mod table;
+
+use crate::frame::{self, Renderer};
+use crate::output::{self, canvas::Canvas};
+use crate::plan::{Request, ViewRequest};
+use crate::scene::{self, Embedded, Scene};
+use crate::techniques::views::View;
+
+pub use table::FIGURES;
+
+/// One contact sheet.
+#[derive(Clone, Copy, Debug)]
+pub struct Figure {
+    /// Of its file, and for `--only`.
+    pub name: &'static str,
+    pub title: &'static str,
+    /// The document and its figure or slide.
+    pub source: &'static str,
+    pub scene: Embedded,
+    /// Panels in a row.
+    pub columns: u32,
+    pub panels: &'static [Panel],
+    pub caption: &'static str,
+}
+
+/// One picture of a figure.
+#[derive(Clone, Copy, Debug)]
+pub struct Panel {
+    pub title: &'static str,
+    /// Overrides, as `--set` takes them.
+    pub set: &'static [&'static str],
+    /// Of the first light; `None`: the picture itself.
+    pub view: Option<View>,
+}
+
+/// Why a figure could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("there is no figure \"{name}\": {hint}")]
+    Unknown { name: String, hint: String },
+    #[error(transparent)]
+    Scene(#[from] scene::Error),
+    #[error(transparent)]
+    Frame(#[from] frame::Error),
+    #[error(transparent)]
+    File(#[from] output::Error),
+    #[error("{folder}: cannot be made: {reason}", folder = .folder.display())]
+    Folder { folder: std::path::PathBuf, reason: std::io::Error },
+}
+
+/// The figures of these names, all where there are none.
+///
+/// # Errors
+///
+/// A name that no figure has.
+pub fn chosen(names: &[String]) -> Result<Vec<&'static Figure>, Error> {
+    let find = |name: &String| {
+        FIGURES.iter().find(|figure| figure.name == *name).ok_or_else(|| Error::Unknown {
+            name: name.clone(),
+            hint: scene::suggest(name, FIGURES.iter().map(|figure| figure.name)),
+        })
+    };
+    if names.is_empty() { Ok(FIGURES.iter().collect()) } else { names.iter().map(find).collect() }
+}
+
+impl Figure {
+    /// A panel's scene.
+    ///
+    /// # Errors
+    ///
+    /// An override that does not fit the scene.
+    pub fn scene_of(&self, panel: &Panel) -> Result<Scene, Error> {
+        let overrides: Vec<String> = panel.set.iter().map(|text| (*text).to_owned()).collect();
+        Ok(scene::load_embedded(&self.scene, &overrides)?.scene)
+    }
+
+    /// Draws the sheet; `tick` is called once a panel.
+    ///
+    /// # Errors
+    ///
+    /// A scene that cannot be planned, or a driver that cannot draw it.
+    pub fn draw(&self, renderer: &mut Renderer, mut tick: impl FnMut()) -> Result<Canvas, Error> {
+        let mut pictures = Vec::new();
+        for panel in self.panels {
+            pictures.push(draw(&self.scene_of(panel)?, panel.view, renderer)?);
+            tick();
+        }
+        Ok(sheet::compose(self, &pictures))
+    }
+}
+
+fn draw(scene: &Scene, view: Option<View>, renderer: &mut Renderer) -> Result<Canvas, Error> {
+    let views = view.map(|view| ViewRequest { view, light: 0 }).into_iter().collect();
+    let plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
+    renderer.draw(&plan)?;
+    let frame = renderer.read(&plan)?;
+    Ok(output::to_canvas(frame.views.first().unwrap_or(&frame.picture), view))
+}
+
+/// A page that lists the figures with their captions.
+pub fn index(figures: &[&Figure]) -> String {
+    let mut text = String::from("# Figures\n\nThe results that the documents show, from our own scenes.\n");
+    for Figure { name, title, source, caption, .. } in figures {
+        text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n");
+    }
+    text
+}

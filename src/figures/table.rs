@@ -1,0 +1,260 @@
+//! Every figure. Captions say what is to be seen; `tests/figures.rs` holds pixels of them against it.
+
+use super::{Figure, Panel};
+use crate::scene::Embedded;
+use crate::techniques::views::View;
+
+macro_rules! embedded {
+    ($name:literal) => {
+        Embedded {
+            path: concat!("data/figures/", $name),
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/figures/", $name)),
+            pictures: &[
+                ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
+                ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
+            ],
+        }
+    };
+}
+
+const WORKSHOP: Embedded = embedded!("workshop.toml");
+const LAMP: Embedded = embedded!("lamp.toml");
+const BOXES: Embedded = embedded!("boxes.toml");
+const NESTED: Embedded = embedded!("nested.toml");
+
+const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
+    Panel { title, set, view }
+}
+
+/// Over the light's shoulder, and against the light.
+const BESIDE: [&str; 2] = ["light.position=[2.9, 3.9, 6.6]", "light.cone=50"];
+const AGAINST: [&str; 2] = ["light.position=[-2.2, 2.6, -5.6]", "light.cone=50"];
+
+/// In the order of the documents.
+pub const FIGURES: &[Figure] = &[
+    Figure {
+        name: "hsm-2-eye-view",
+        title: "The eye's view without and with shadows",
+        source: "Hardware Shadow Mapping, Figure 2",
+        scene: WORKSHOP,
+        columns: 2,
+        panels: &[
+            panel("unshadowed", &["light.shadow.technique=none"], None),
+            panel("shadowed by a depth map of 1024 x 1024", &[], None),
+        ],
+        caption: "Without shadows nothing tells whether the objects stand on the floor or float. The shadow map changes no \
+                  geometry: one more texture in the same lit pass.",
+    },
+    Figure {
+        name: "hsm-4-light-view",
+        title: "How a shadow map comes about",
+        source: "Hardware Shadow Mapping, Figure 4",
+        scene: WORKSHOP,
+        columns: 2,
+        panels: &[
+            panel("the scene as the light sees it", &[], Some(View::LightView)),
+            panel("the shadow map: depth from the light", &[], Some(View::LightDepth)),
+            panel("each point's own distance from the light, r/q", &[], Some(View::LightDistance)),
+            panel("the map projected onto the scene", &[], Some(View::ProjectedMap)),
+        ],
+        caption: "What the light sees is lit. Its depths (b) projected back onto the scene (d) equal each point's own distance \
+                  (c) where the light reaches, and are less where something nearer stands in its way: those points are in \
+                  shadow. Depths and distances are stretched, near dark and far bright; blue: outside the light's cone.",
+    },
+    Figure {
+        name: "hsm-5-filtering",
+        title: "NEAREST beside LINEAR on a coarse map",
+        source: "Hardware Shadow Mapping, Figure 5",
+        scene: WORKSHOP,
+        columns: 3,
+        panels: &[
+            panel(
+                "64 x 64, NEAREST: 0 or 1",
+                &["light.shadow.size=64", "light.shadow.filter=nearest", "camera.fov_y=20"],
+                None,
+            ),
+            panel("64 x 64, LINEAR: four comparisons", &["light.shadow.size=64", "camera.fov_y=20"], None),
+            panel("1024 x 1024, LINEAR", &["camera.fov_y=20"], None),
+        ],
+        caption: "A linear filter on a depth texture weighs the results of four comparisons, never depths. It softens the \
+                  steps of a coarse map to a ramp of one texel; finer shapes come only from more texels.",
+    },
+    Figure {
+        name: "hsm-6-dueling-frusta",
+        title: "Sampling frequency: dueling frusta",
+        source: "Hardware Shadow Mapping, Figure 6",
+        scene: WORKSHOP,
+        columns: 3,
+        panels: &[
+            panel("the light over the eye's shoulder", &[BESIDE[0], BESIDE[1], "light.shadow.size=512"], None),
+            panel(
+                "texels of the map a pixel of the eye's view",
+                &[BESIDE[0], BESIDE[1], "light.shadow.size=512"],
+                Some(View::TexelsPerPixel),
+            ),
+            panel(
+                "from the light: pixels of the eye a pixel here",
+                &[
+                    "camera.eye=[2.9, 3.9, 6.6]",
+                    "camera.target=[0.1, 0.3, -0.1]",
+                    "camera.fov_y=50",
+                    "light.position=[2.3, 3.1, 6.2]",
+                    "light.target=[0.1, 0.5, 0.0]",
+                    "light.cone=46.8",
+                    "light.shape=frustum",
+                    "light.shadow.size=400",
+                ],
+                Some(View::TexelsPerPixel),
+            ),
+            panel("the light opposite the eye", &[AGAINST[0], AGAINST[1], "light.shadow.size=512"], None),
+            panel(
+                "texels of the map a pixel of the eye's view",
+                &[AGAINST[0], AGAINST[1], "light.shadow.size=512"],
+                Some(View::TexelsPerPixel),
+            ),
+            panel(
+                "from the light: pixels of the eye a pixel here",
+                &[
+                    "camera.eye=[-2.2, 2.6, -5.6]",
+                    "camera.target=[0.1, 0.3, -0.1]",
+                    "camera.fov_y=50",
+                    "light.position=[2.3, 3.1, 6.2]",
+                    "light.target=[0.1, 0.5, 0.0]",
+                    "light.cone=46.8",
+                    "light.shape=frustum",
+                    "light.shadow.size=400",
+                ],
+                Some(View::TexelsPerPixel),
+            ),
+        ],
+        caption: "One map of 512 x 512. Where eye and light look the same way, texels are spent evenly (b, c). Where they face \
+                  each other, the floor that is nearest to the eye is farthest from the light: it has the fewest texels \
+                  where the most pixels look (e, warm), and far away texels crowd that no pixel needs (e, cold). The last \
+                  column swaps the two roles: there a warm colour is what the eye hardly uses.",
+    },
+    Figure {
+        name: "lec-dimming",
+        title: "Dimming: how much diffuse light a shadow leaves",
+        source: "Projective Texturing and Shadow Maps, lecture: Advice for Shadowed Illumination Model",
+        scene: WORKSHOP,
+        columns: 3,
+        panels: &[
+            panel("dimming 0: ambient light alone", &["light.shadow.dimming=0.0"], None),
+            panel("dimming 40 %", &["light.shadow.dimming=0.4"], None),
+            panel("dimming 100 %: highlights alone are shadowed", &["light.shadow.dimming=1.0"], None),
+        ],
+        caption: "diffuseShade = dimming + (1 - dimming) shade. Forty percent keep the shape of what lies in shadow; specular \
+                  light is taken away whole in every case.",
+    },
+    Figure {
+        name: "lec-back-projection",
+        title: "Back projection: q <= 0 must not be lit",
+        source: "Hardware Shadow Mapping and the lecture: a projector shines one way only",
+        scene: LAMP,
+        columns: 2,
+        panels: &[
+            panel("q > 0 alone is lit", &[], None),
+            panel("what q < 0 would add on the left", &["light.1.color=[1.5, 1.4, 1.2]"], None),
+        ],
+        caption: "The lamp shines at the right wall. Behind it s/q and t/q are in [0, 1] again, with q below 0: the projective \
+                  texture would appear on the left wall, too. (b) is that mistake, drawn by a second projector that looks \
+                  the other way; the lit pass rejects q <= 0 per fragment (a).",
+    },
+    Figure {
+        name: "gdc-volumes",
+        title: "Stencil shadow volumes",
+        source: "GDC 2001, Shadow Volumes: the volume, its silhouette, the count",
+        scene: BOXES,
+        columns: 2,
+        panels: &[
+            panel("the picture", &[], None),
+            panel("the volumes: outsides orange, insides blue", &[], Some(View::Volume)),
+            panel("possible silhouettes, as the light sees them", &[], Some(View::Silhouette)),
+            panel("the stencil count: green lit, red shadowed", &[], Some(View::StencilColors)),
+        ],
+        caption: "From each edge between a face turned to the light and one turned away a quad is extruded away from the light. \
+                  Entering a volume counts up, leaving it down; where the count is 0 at a visible point, nothing stands \
+                  between it and the light. Where both volumes overlap the count is 2.",
+    },
+    Figure {
+        name: "gdc-truncated",
+        title: "Volumes that end too early",
+        source: "GDC 2001, Shadow Volumes: no distance is large enough",
+        scene: BOXES,
+        columns: 2,
+        panels: &[
+            panel(
+                "failure: extruded by 1.5",
+                &[
+                    "light.shadow.method=z-fail-truncated",
+                    "light.shadow.distance=1.5",
+                    "light.position=[-1.2, 1.9, 0.2]",
+                ],
+                None,
+            ),
+            panel(
+                "cure: vertices at infinity, w = 0",
+                &["light.shadow.method=z-fail", "light.position=[-1.2, 1.9, 0.2]"],
+                None,
+            ),
+        ],
+        caption: "The lower the light and the nearer to its occluder, the longer the shadow: a volume of a fixed length ends in \
+                  mid air, and the floor behind is lit. Vertices at w = 0 end at infinity and need no length; the projection \
+                  has its far plane there.",
+    },
+    Figure {
+        name: "gdc-parity",
+        title: "Parity counts modulo two",
+        source: "GDC 2001, Shadow Volumes: parity and counting",
+        scene: BOXES,
+        columns: 2,
+        panels: &[
+            panel("failure: one bit, inverted", &["light.shadow.method=parity"], None),
+            panel("cure: counted", &["light.shadow.method=z-pass"], None),
+        ],
+        caption: "Where two volumes overlap, a bit that each of them inverts is 0 again: the floor in both shadows is lit. \
+                  Counting up and down keeps 2 apart from 0.",
+    },
+    Figure {
+        name: "gdc-eye-inside",
+        title: "The eye inside a shadow volume",
+        source: "GDC 2001, Shadow Volumes: z-pass, near-plane caps, z-fail",
+        scene: BOXES,
+        columns: 3,
+        panels: &[
+            panel(
+                "failure: plain z-pass",
+                &["light.shadow.method=z-pass", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]],
+                None,
+            ),
+            panel(
+                "cure: z-pass, capped at the near plane",
+                &["light.shadow.method=z-pass-capped", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]],
+                None,
+            ),
+            panel("cure: z-fail", &["light.shadow.method=z-fail", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]], None),
+        ],
+        caption: "With the eye in a shadow the way into the volume lies behind the near plane and is not counted: light and \
+                  shadow change places. Caps on the near plane count the way in; z-fail counts behind the visible surface, \
+                  where the eye's place does not matter.",
+    },
+    Figure {
+        name: "gdc-stencil-width",
+        title: "300 nested volumes in eight bits",
+        source: "GDC 2001, Shadow Volumes: how many bits of stencil",
+        scene: NESTED,
+        columns: 2,
+        panels: &[
+            panel("INCR, DECR: stop at 255", &["light.shadow.count=saturate"], None),
+            panel("INCR_WRAP, DECR_WRAP: modulo 256", &["light.shadow.count=wrap"], None),
+            panel("the count, saturating", &["light.shadow.count=saturate"], Some(View::StencilColors)),
+            panel("the count, wrapping", &["light.shadow.count=wrap"], Some(View::StencilColors)),
+        ],
+        caption: "All 300 ways in are counted before all ways out. Counts that stop at 255 lose 45 of them for good: where the \
+                  eye's ray has left all volumes but a few, too little is left and the rim of the shadow is lit. Wrapping \
+                  counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
+    },
+];
+
+/// Within the right box's shadow, looking out of it over the lit floor.
+const EYE_INSIDE: [&str; 3] = ["camera.eye=[1.25, 0.22, -0.35]", "camera.target=[3.6, 0.0, 1.4]", "camera.near=0.02"];

@@ -1,0 +1,135 @@
+//! Maps of point and directional lights against ray-traced truth: every face, edge and corner of a cube, parallel light
+//! from many ways, and what of a cube is left out.
+
+use std::path::Path;
+
+use glam::DVec3;
+use glumbra::context::{self, ContextRequest};
+use glumbra::frame::Renderer;
+use glumbra::oracle::ray;
+use glumbra::plan::{self, Request};
+use glumbra::report::metrics::{Band, Metrics, compare};
+use glumbra::report::run::draw_shade;
+use glumbra::scene::{self, Scene};
+
+fn load(name: &str, set: &[String]) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(name);
+    scene::load(&path, set).unwrap().scene
+}
+
+/// Where the shade differs from the truth, within two texels of the map around edges and beyond.
+fn errors(scene: &Scene, texels: u32, renderer: &mut Renderer) -> Metrics {
+    let truth = ray::trace(scene, 0, &ray::Options::default()).unwrap();
+    let shade = draw_shade(scene, 0, renderer).unwrap();
+    compare(&truth, &shade, &Band { texels: 2.0, map_size: [texels; 2] }).unwrap()
+}
+
+/// The 26 ways to the faces, edges and corners of a cube.
+fn directions() -> impl Iterator<Item = DVec3> {
+    let steps = [-1.0, 0.0, 1.0];
+    let all = steps.into_iter().flat_map(move |x| {
+        steps.into_iter().flat_map(move |y| steps.into_iter().map(move |z| DVec3::new(x, y, z)))
+    });
+    all.filter(|way| *way != DVec3::ZERO)
+}
+
+/// A light in a closed room of columns: beyond the edge band no pixel is wrong in any direction. The room's walls are in
+/// the map, so that a wrong seam would shade them by themselves; LINEAR looks across seams, NEAREST does not.
+#[test]
+fn a_cube_is_right_on_every_face_edge_and_corner() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let (mut compared, mut shadowed) = (0, 0);
+    for filter in ["linear", "nearest"] {
+        for way in directions() {
+            let eye = DVec3::new(0.35, 0.1, 0.25);
+            let target = eye + way + DVec3::new(0.01, 0.02, 0.03);
+            let set = [
+                format!("camera.target=[{:?}, {:?}, {:?}]", target.x, target.y, target.z),
+                format!("light.shadow.filter={filter}"),
+            ];
+            let found = errors(&load("room.toml", &set), 256, &mut renderer).all;
+            println!("{filter} {way}: {} wrong beyond the band", found.false_shadow.outside + found.leak.outside);
+            assert_eq!((found.false_shadow.outside, found.leak.outside), (0, 0), "{filter} {way}: {found:?}");
+            compared += found.compared;
+            shadowed += found.compared_in_band;
+        }
+    }
+    assert!(compared > 600_000 && shadowed > 10_000, "{compared} {shadowed}: too little to see");
+}
+
+/// The texel of a directional light's map is at most so many times that of a map around the whole scene's ball, by which
+/// the band is measured: the box is no larger than the ball, but for its rim and a step of its texel's width.
+const COARSER: f64 = 1.25;
+
+#[test]
+fn parallel_light_is_right_from_every_way() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let ways = [[0.4, -1.0, -0.3], [0.0, -1.0, 0.0], [-1.0, -0.5, 0.8], [0.3, -0.12, -1.0], [-0.7, -1.0, 1.4]];
+    for direction in ways {
+        for (filter, format) in [("linear", "depth24"), ("nearest", "depth16"), ("linear", "depth32f")] {
+            let set = [format!(
+                "light.0={{ kind = \"directional\", direction = {direction:?}, shadow = {{ technique = \"shadow-map\", \
+                 size = 512, filter = \"{filter}\", format = \"{format}\" }} }}"
+            )];
+            for name in ["box.toml", "sphere.toml"] {
+                let found = errors(&load(name, &set), (512.0 / COARSER) as u32, &mut renderer).all;
+                let wrong = (found.false_shadow.outside, found.leak.outside);
+                println!("{name} {direction:?} {filter} {format}: {wrong:?}, in the band {}", found.compared_in_band);
+                assert_eq!(wrong, (0, 0), "{name} {direction:?} {filter} {format}: {found:?}");
+                assert!(found.compared_in_band > 50, "too little to see");
+            }
+        }
+    }
+}
+
+fn faces_drawn(scene: &Scene) -> Vec<String> {
+    let plan = plan::make(scene, &Request::default()).unwrap();
+    let labels = plan.list.passes.iter().map(|pass| pass.label.clone());
+    labels.filter(|label| label.contains("face")).collect()
+}
+
+#[test]
+fn a_cube_has_the_faces_that_are_needed() {
+    // All casters below the light, the camera sees them: one face.
+    let light = "light.0={ kind = \"point\", position = [0.0, 6.0, 0.0], shadow = { technique = \"shadow-map\" } }";
+    let below = ["object.0.scale=[3.0, 1.0, 3.0]", light].map(String::from);
+    assert_eq!(faces_drawn(&load("box.toml", &below)), ["light 0: depth, face -y"]);
+    // By the copy road it is drawn and copied.
+    let copied = [below.as_slice(), &[String::from("light.shadow.transfer=copy")]].concat();
+    let expected = ["light 0: depth, face -y", "light 0: depth, face -y, copied"];
+    assert_eq!(faces_drawn(&load("box.toml", &copied)), expected);
+    // In the room the camera looks along +x with 60 degrees from nearly where the light is: what lies behind is not seen.
+    let seen = faces_drawn(&load("room.toml", &[]));
+    assert!(seen.contains(&String::from("light 0: depth, face +x")), "{seen:?}");
+    assert!(!seen.contains(&String::from("light 0: depth, face -x")), "{seen:?}");
+    let plan = plan::make(&load("room.toml", &[]), &Request::default()).unwrap();
+    let left = plan.left_out.iter().find(|left| left.what == "face -x of the map of light 0").unwrap();
+    assert_eq!(left.why, "the camera sees nothing in it");
+}
+
+/// What is left out of a cube changes no pixel, in whichever way the camera looks.
+#[test]
+fn faces_that_are_left_out_change_no_pixel() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut draw = |scene: &Scene, keep_all: bool| {
+        let plan = renderer.plan(scene, &Request { keep_all, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        let faces = plan.list.passes.iter().filter(|pass| pass.label.contains("face")).count();
+        (renderer.read(&plan).unwrap().picture, faces)
+    };
+    let mut fewer = 0;
+    for way in directions() {
+        let target = DVec3::new(0.35, 0.1, 0.25) + way;
+        let scene =
+            load("room.toml", &[format!("camera.target=[{:?}, {:?}, {:?}]", target.x, target.y, target.z + 0.01)]);
+        let (pruned, faces) = draw(&scene, false);
+        let (whole, all) = draw(&scene, true);
+        assert_eq!(all, 6);
+        assert!(pruned == whole, "{way}: {faces} faces");
+        fewer += all - faces;
+    }
+    assert!(fewer > 26, "only {fewer} faces were left out");
+}
