@@ -26,6 +26,9 @@ const fn panel(title: &'static str, set: &'static [&'static str], view: Option<V
     Panel { title, set, view }
 }
 
+/// At the teapot's shadow on the floor.
+const CLOSE: [&str; 3] = ["camera.eye=[4.3, 3.4, 3.6]", "camera.target=[1.15, 0.2, -0.45]", "camera.fov_y=26"];
+
 /// Over the light's shoulder, and against the light.
 const BESIDE: [&str; 2] = ["light.position=[2.9, 3.9, 6.6]", "light.cone=50"];
 const AGAINST: [&str; 2] = ["light.position=[-2.2, 2.6, -5.6]", "light.cone=50"];
@@ -70,11 +73,11 @@ pub const FIGURES: &[Figure] = &[
         panels: &[
             panel(
                 "64 x 64, NEAREST: 0 or 1",
-                &["light.shadow.size=64", "light.shadow.filter=nearest", "camera.fov_y=20"],
+                &["light.shadow.size=64", "light.shadow.filter=nearest", CLOSE[0], CLOSE[1], CLOSE[2]],
                 None,
             ),
-            panel("64 x 64, LINEAR: four comparisons", &["light.shadow.size=64", "camera.fov_y=20"], None),
-            panel("1024 x 1024, LINEAR", &["camera.fov_y=20"], None),
+            panel("64 x 64, LINEAR: four comparisons", &["light.shadow.size=64", CLOSE[0], CLOSE[1], CLOSE[2]], None),
+            panel("1024 x 1024, LINEAR", &CLOSE, None),
         ],
         caption: "A linear filter on a depth texture weighs the results of four comparisons, never depths. It softens the \
                   steps of a coarse map to a ramp of one texel; finer shapes come only from more texels.",
@@ -247,8 +250,6 @@ pub const FIGURES: &[Figure] = &[
         panels: &[
             panel("INCR, DECR: stop at 255", &["light.shadow.count=saturate"], None),
             panel("INCR_WRAP, DECR_WRAP: modulo 256", &["light.shadow.count=wrap"], None),
-            panel("the count, saturating", &["light.shadow.count=saturate"], Some(View::StencilColors)),
-            panel("the count, wrapping", &["light.shadow.count=wrap"], Some(View::StencilColors)),
         ],
         caption: "All 300 ways in are counted before all ways out. Counts that stop at 255 lose 45 of them for good: where the \
                   eye's ray has left all volumes but a few, too little is left and the rim of the shadow is lit. Wrapping \
