@@ -1,50 +1,146 @@
-//! The scene with a dense closed model: how many lit pixels are wrongly dark, against ray-traced truth.
+//! A dense closed model on a floor: how many lit pixels are wrongly dark, against ray-traced truth.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::draw_shade;
-use glumbra::scene::{self, Scene};
+use glumbra::oracle::ray::{self, Hit, Truth};
+use glumbra::report::metrics::{Band, Errors, ShadeImage, compare};
+use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::scene::{self, Camera, Image, Scene};
 
-fn scene(overrides: &[&str]) -> Scene {
+/// data/scenes/example.toml with the dense model, the whole of it `scale` times as large.
+fn scene(scale: f64) -> Scene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut all = vec![format!("object.1.mesh={:?}", root.join("data/meshes/dense.obj"))];
-    all.extend(overrides.iter().map(|text| (*text).to_owned()));
-    scene::load(&root.join("data/scenes/example.toml"), &all).unwrap().scene
+    let point = |[x, y, z]: [f64; 3]| format!("[{:?}, {:?}, {:?}]", x * scale, y * scale, z * scale);
+    let keys = [
+        format!("object.1.mesh={:?}", root.join("data/meshes/dense.obj")),
+        format!("object.1.scale={scale:?}"),
+        format!("object.0.scale={}", point([4.0, 1.0, 4.0])),
+        format!("camera.eye={}", point([3.0, 2.5, 4.0])),
+        format!("camera.target={}", point([0.0, 0.6, 0.0])),
+        format!("camera.near={:?}", 0.1 * scale),
+        format!("camera.far={:?}", 50.0 * scale),
+        format!("light.position={}", point([2.0, 4.0, 3.0])),
+        format!("light.target={}", point([0.0, 0.5, 0.0])),
+        format!("light.near={:?}", 0.5 * scale),
+        format!("light.far={:?}", 20.0 * scale),
+    ];
+    scene::load(&root.join("data/scenes/example.toml"), &keys).unwrap().scene
 }
 
-fn measure(size: u32, offset: [f64; 2], truth: &ray::Truth, renderer: &mut Renderer) -> Metrics {
-    let [factor, units] = offset;
-    let scene = scene(&[
-        &format!("light.shadow.size={size}"),
-        &format!("light.shadow.offset={{factor={factor}, units={units}}}"),
-    ]);
-    let band = Band { texels: 2.0, map_size: [size; 2] };
-    compare(truth, &draw_shade(&scene, 0, renderer).unwrap(), &band).unwrap()
+/// A scene, its truth, and where the light sees a surface break off.
+struct Judge {
+    scene: Scene,
+    truth: Truth,
+    rims: HashMap<(usize, u32), bool>,
 }
 
-/// With the documents' offset what is left lies in the edge band (two texels), but for facets that are steeper than the
-/// neighbours whose depth their texel holds: 4 to 8 pixels in 100,000, as measured on llvmpipe, 1 to 3 at factor 2.
+impl Judge {
+    fn new(scale: f64) -> Self {
+        let scene = scene(scale);
+        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        Self { scene, truth, rims: HashMap::new() }
+    }
+
+    /// The errors on surfaces that face the light, and how many of its lit pixels beyond the edge band are dark of
+    /// themselves.
+    fn acne(&mut self, size: u32, more: &str, renderer: &mut Renderer) -> (Errors, usize) {
+        let keys = format!("technique = \"shadow-map\", size = {size}{more}");
+        let scene = with_shadow(&self.scene, 0, &scene::shadow_settings(&keys).unwrap());
+        let shade = draw_shade(&scene, 0, renderer).unwrap();
+        let errors = self.errors(&shade, size);
+        if errors.false_shadow.outside > 50 {
+            return (errors, errors.false_shadow.outside); // not worth looking at one by one
+        }
+        let texels = |hit: &Hit| 0.5 * hit.in_map * f64::from(size);
+        let pixels =
+            || self.truth.pixels.iter().enumerate().filter_map(|(index, pixel)| Some((index, pixel, pixel.hit?)));
+        let shadowed: Vec<_> =
+            pixels().filter(|(_, p, _)| p.lit_at_center == Some(false)).map(|p| texels(&p.2)).collect();
+        // At least those beyond the band: it is taken from stretches between pixels, this from the pixels.
+        let far = |hit: &Hit| shadowed.iter().all(|at| at.distance(texels(hit)) > 1.0);
+        let dark = pixels().filter(|(index, ..)| shade.covered[*index] && shade.shade[*index] < 0.5);
+        let dark = dark.filter(|(_, pixel, hit)| pixel.lit_at_center == Some(true) && hit.faces_light() && far(hit));
+        let mut found: Vec<usize> = dark.map(|(index, ..)| index).collect();
+        let mut cured = shade.clone();
+        found.retain(|pixel| self.is_rim(*pixel, size));
+        found.iter().for_each(|pixel| cured.shade[*pixel] = 1.0);
+        (errors, self.errors(&cured, size).false_shadow.outside)
+    }
+
+    fn errors(&self, shade: &ShadeImage, size: u32) -> Errors {
+        compare(&self.truth, shade, &Band { texels: 2.0, map_size: [size; 2] }).unwrap().facing
+    }
+
+    /// Whether within two texels around what a pixel shows the surface that the light sees falls by more than two
+    /// texels' widths within an eighth of a texel: a silhouette, or a slope of more than 86 degrees.
+    fn is_rim(&mut self, pixel: usize, size: u32) -> bool {
+        if let Some(known) = self.rims.get(&(pixel, size)) {
+            return *known;
+        }
+        let (light, hit) = (self.scene.lights[0].frustum().unwrap(), self.truth.pixels[pixel].hit.unwrap());
+        let texel = 2.0 * (0.5 * light.cone_radians).tan() / f64::from(size);
+        let distance = hit.position.distance(light.position);
+        let mut seen_by_light = self.scene.clone();
+        seen_by_light.image = Image { size: [32; 2], background: [0.0; 3] };
+        seen_by_light.camera = Camera {
+            eye: light.position,
+            target: hit.position,
+            up: light.up,
+            fov_y_radians: 2.0 * (2.0 * texel).atan(),
+            near: light.near,
+            far: light.far,
+        };
+        let anything = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
+        let around = ray::trace(&seen_by_light, 0, &anything).unwrap();
+        let depth = |x: u32, y: u32| around.at(x, y).and_then(|p| p.hit).map_or(f64::INFINITY, |hit| hit.distance);
+        let falls = |a: f64, b: f64| (a - b).abs() > 2.0 * texel * distance;
+        let breaks = |x, y| falls(depth(x, y), depth(x + 1, y)) || falls(depth(x, y), depth(x, y + 1));
+        let is_rim = (0..31).any(|y| (0..31).any(|x| breaks(x, y)));
+        self.rims.insert((pixel, size), is_rim);
+        is_rim
+    }
+}
+
+/// Without an offset of one's own none is needed: at every size of map and of scene and in every format, no pixel that
+/// faces the light is dark of itself.
+///
+/// The edge band knows the shadow edges that the picture shows. Where a silhouette, as the light sees it, hides behind
+/// another surface of the picture, the band does not know it; GL_LINEAR does, and darkens lit pixels within half a texel
+/// of it: four pixels at 512, whose occluder is 12 to 17 texels' widths nearer to the light. The oracle, looking from
+/// the light, tells those by the surface that breaks off beside them.
+///
+/// Beside it the documents' offset: what it leaves lies on facets that are steeper than the neighbours whose depth
+/// their texel holds. And none at all, which must show acne, or nothing is shown by this.
 #[test]
-fn triangles_that_face_the_light_show_no_acne() {
+fn the_default_offset_leaves_no_acne() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    let truth = ray::trace(&scene(&[]), 0, &ray::Options::default()).unwrap();
-    for size in [512, 1024, 2048] {
-        let mut percents = Vec::new();
-        for offset in [[0.0, 0.0], [1.1, 4.0]] {
-            let found = measure(size, offset, &truth, &mut renderer).facing;
-            println!(
-                "map {size}, offset {offset:?}: wrongly dark {:.4} % ({:.4} % outside the edge band), leak {:.4} %, of {} pixels that face the light",
-                found.false_shadow_percent, found.false_shadow.outside_percent, found.leak_percent, found.compared
-            );
-            assert!(found.compared > 100_000, "{}", found.compared);
-            percents.push(found.false_shadow.outside_percent);
+    for scale in [1.0, 1e-3, 1e3] {
+        let mut judge = Judge::new(scale);
+        for size in [512, 1024, 2048] {
+            for format in ["depth16", "depth24", "depth32f"] {
+                let mut measure = |more: &str| {
+                    let (errors, acne) = judge.acne(size, &format!(", format = \"{format}\"{more}"), &mut renderer);
+                    assert!(errors.compared > 100_000, "{}", errors.compared);
+                    println!(
+                        "scale {scale}, map {size}, {format}{more}: {} pixels beyond the band, {acne} of them acne; leak {:.4} %",
+                        errors.false_shadow.outside, errors.leak_percent
+                    );
+                    (errors, acne)
+                };
+                let (errors, acne) = measure("");
+                assert_eq!(acne, 0);
+                assert!(errors.false_shadow.outside <= 4, "{}", errors.false_shadow.outside);
+                if scale == 1.0 && format == "depth24" {
+                    let (bare, _) = measure(", offset = {}");
+                    assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (semantics T4)");
+                    let (documents, acne) = measure(", offset = { factor = 1.1, units = 4 }");
+                    assert!(documents.false_shadow.outside_percent < 0.02 && acne > 0);
+                }
+            }
         }
-        assert!(percents[0] > 40.0, "without an offset a lit surface shows acne (semantics T4): {} %", percents[0]);
-        assert!(percents[1] < 0.02, "map {size}: {} % wrongly dark", percents[1]);
     }
 }

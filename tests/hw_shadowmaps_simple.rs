@@ -151,7 +151,11 @@ struct Run {
 
 /// The program without a display, whatever this machine has; `display` gives it one.
 fn sample(arguments: &[&str], display: Option<&str>) -> Run {
-    let mut command = Command::cargo_bin("hw_shadowmaps_simple").unwrap();
+    run("hw_shadowmaps_simple", arguments, display)
+}
+
+fn run(program: &str, arguments: &[&str], display: Option<&str>) -> Run {
+    let mut command = Command::cargo_bin(program).unwrap();
     command.args(arguments);
     for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
         command.env_remove(name);
@@ -290,4 +294,27 @@ fn help_teaches_the_keys() {
     for part in ["space", "view all", "q Esc", "left drag", "polygon offset bias", "--headless"] {
         assert!(run.stdout.contains(part), "no `{part}` in {}", run.stdout);
     }
+}
+
+/// hw_woo_shadowmaps is the same scene: with the midpoint map at first, with polygon offset by a key.
+#[test]
+fn the_woo_sample_is_the_same_scene_with_a_midpoint_map() {
+    let files = Files::new();
+    let path = files.path("woo.png");
+    let woo = |set: &[&str]| {
+        let arguments = [&["--headless", "-o", path.to_str().unwrap()], set].concat();
+        let done = run("hw_woo_shadowmaps", &arguments, None);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{set:?}");
+        image::open(&path).unwrap().into_rgb8()
+    };
+    let (midpoint, offset) = (woo(&[]), woo(&["--set", "light.shadow.technique=shadow-map"]));
+    assert!(offset == files.headless(&[]) && midpoint != offset);
+    assert!(midpoint == files.headless(&["--set", "light.shadow.technique=midpoint"]));
+    // Both show the same shadow but for its rim.
+    let unequal = midpoint.pixels().zip(offset.pixels()).filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 8));
+    let unequal = unequal.count();
+    println!("{unequal} of 262144 pixels differ");
+    assert!(unequal > 0 && unequal < 2600, "{unequal}");
+    assert!(run("hw_woo_shadowmaps", &["--help"], None).stdout.contains("m               next shadow technique"));
+    assert!(!sample(&["--help"], None).stdout.contains("next shadow technique"));
 }

@@ -161,3 +161,16 @@ fn only_what_changed_is_drawn_again() {
     // The map was let go when nothing needed it, and on some drivers its name goes to another.
     assert_eq!(step(&state, "with shadows again", &all), first);
 }
+
+#[test]
+fn the_next_technique_is_that_of_every_light() {
+    let mut state = state().with_techniques(&["midpoint", "shadow-map"]);
+    assert!(state.status().contains("| shadow-map |"), "{}", state.status());
+    for name in ["midpoint", "shadow-map", "midpoint"] {
+        assert_eq!(state.apply(Command::NextTechnique), Reaction::Redraw);
+        assert!(state.status().contains(&format!("| {name} |")), "{}", state.status());
+    }
+    let mut alone = self::state();
+    alone.apply(Command::NextTechnique);
+    assert!(!alone.status().contains("shadow-map"), "{}", alone.status());
+}

@@ -11,6 +11,9 @@ void illuminate_@(Surface surface, inout Lit lit)
 {
     Lit own = lighting_@(surface);
     lit.ambient += own.ambient;
+#ifdef DERIVATIVES_@
+    derive_shade_@();
+#endif
     if (!in_reach_@())
         return;
     float shade = shade_@();

@@ -6,6 +6,9 @@ void main()
 #ifdef ALPHA_TEST
     alpha_test();
 #endif
+#ifdef DERIVATIVES_@
+    derive_shade_@();
+#endif
     bool reached = in_reach_@();
     fragment = reached ? vec4(vec3(shade_@()), 1.0) : vec4(0.0);
 }

@@ -18,6 +18,7 @@ const SAMPLE: Sample = Sample {
             ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
         ],
     },
+    techniques: &[],
 };
 
 fn main() -> ExitCode {

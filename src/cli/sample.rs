@@ -23,6 +23,9 @@ pub struct Sample {
     pub name: &'static str,
     pub about: &'static str,
     pub scene: Embedded,
+    /// Shadow techniques to choose from, in place of the scene's own; the first is the one to begin with. None: the
+    /// scene's own alone.
+    pub techniques: &'static [&'static str],
 }
 
 #[derive(Debug, Parser)]
@@ -103,7 +106,8 @@ impl From<ModeName> for Mode {
 
 /// Runs a sample program with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
 pub fn run(sample: &Sample) -> ExitCode {
-    let mut command = Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help());
+    let mut command =
+        Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help(sample.techniques));
     let matches = command.get_matches_mut();
     let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let chosen = arguments.context.request(Profile::Core33);
@@ -117,7 +121,7 @@ pub fn run(sample: &Sample) -> ExitCode {
 fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     let file = arguments.output.as_ref().or(arguments.capture.as_ref());
     file.map(|path| output::check_path(path)).transpose()?;
-    let loaded = scene::load_embedded(&sample.scene, &arguments.overrides())?;
+    let loaded = scene::load_embedded(&sample.scene, &arguments.overrides(sample))?;
     for warning in &loaded.warnings {
         eprintln!("warning: {warning}");
     }
@@ -130,7 +134,7 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
         return write(path, &draw(&scene, request, path, arguments)?);
     }
     let shown = Shown { title: sample.name.to_owned(), capture: arguments.capture.is_some() };
-    let captured = viewer::run(State::new(loaded.scene, mode), shown)?;
+    let captured = viewer::run(State::new(loaded.scene, mode).with_techniques(sample.techniques), shown)?;
     match (&arguments.capture, captured) {
         (Some(path), Some(pixels)) => write(path, &pixels),
         _ => Ok(()),
@@ -152,8 +156,9 @@ fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {
 }
 
 impl Arguments {
-    /// In order: size and tweaks, then `--set`.
-    fn overrides(&self) -> Vec<String> {
+    /// In order: the sample's technique, size and tweaks, then `--set`.
+    fn overrides(&self, sample: &Sample) -> Vec<String> {
+        let technique = sample.techniques.first().map(|name| format!("light.shadow.technique={name}"));
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
         let tweaks = [
             ("r.scale", self.tweaks.r_scale),
@@ -163,6 +168,6 @@ impl Arguments {
         ];
         let tweaks =
             tweaks.into_iter().filter_map(|(key, value)| value.map(|value| format!("light.shadow.{key}={value:?}")));
-        size.into_iter().chain(tweaks).chain(self.set.iter().cloned()).collect()
+        technique.into_iter().chain(size).chain(tweaks).chain(self.set.iter().cloned()).collect()
     }
 }

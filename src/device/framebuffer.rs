@@ -21,11 +21,12 @@ impl Drop for Framebuffer {
 
 /// Makes a framebuffer of the attachments and checks that the driver can draw into it. It is left bound for drawing
 /// and reading. Without colour its draw and read buffers are GL_NONE. `depth` comes with where it is attached: as depth,
-/// or as depth and stencil.
+/// or as depth and stencil. `level` is that of textures.
 pub fn create(
     gl: &Rc<glow::Context>,
     color: Option<ImageName>,
     depth: Option<(ImageName, u32)>,
+    level: u32,
     describe: impl Fn() -> (String, String),
 ) -> Result<Framebuffer, Error> {
     unsafe {
@@ -33,13 +34,13 @@ pub fn create(
         let framebuffer = Framebuffer { gl: gl.clone(), name };
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(name));
         if let Some(image) = color {
-            attach(gl, glow::COLOR_ATTACHMENT0, image);
+            attach(gl, glow::COLOR_ATTACHMENT0, image, level);
         } else {
             gl.draw_buffers(&[glow::NONE]);
             gl.read_buffer(glow::NONE);
         }
         if let Some((image, point)) = depth {
-            attach(gl, point, image);
+            attach(gl, point, image, level);
         }
         let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
         if status == glow::FRAMEBUFFER_COMPLETE {
@@ -50,10 +51,10 @@ pub fn create(
     }
 }
 
-fn attach(gl: &glow::Context, point: u32, image: ImageName) {
+fn attach(gl: &glow::Context, point: u32, image: ImageName, level: u32) {
     match image {
         ImageName::Texture(texture) => unsafe {
-            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture), 0);
+            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture), level as i32);
         },
         ImageName::Renderbuffer(buffer) => unsafe {
             gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, point, glow::RENDERBUFFER, Some(buffer));

@@ -62,8 +62,9 @@ fn codes(format: Format) -> (u32, u32, u32) {
 pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Error> {
     let name = match &desc.storage {
         Storage::Renderbuffer => create_renderbuffer(gl, desc)?,
-        Storage::Texture => create_texture(gl, desc, None)?,
-        Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba))?,
+        Storage::Texture => create_texture(gl, desc, None, 1)?,
+        Storage::Mipmapped(levels) => create_texture(gl, desc, None, *levels)?,
+        Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba), 1)?,
     };
     let image = GpuImage { gl: gl.clone(), name };
     match unsafe { gl.get_error() } {
@@ -83,19 +84,28 @@ fn create_renderbuffer(gl: &glow::Context, desc: &ImageDesc) -> Result<ImageName
     }
 }
 
-fn create_texture(gl: &glow::Context, desc: &ImageDesc, texels: Option<&[u8]>) -> Result<ImageName, Error> {
+/// A texture of `levels` levels; with `texels`, of all that there are.
+fn create_texture(
+    gl: &glow::Context,
+    desc: &ImageDesc,
+    texels: Option<&[u8]>,
+    levels: u32,
+) -> Result<ImageName, Error> {
     let (internal, format, kind) = codes(desc.format);
-    let [width, height] = desc.size.map(|side| side as i32);
     unsafe {
         let texture = gl.create_texture().map_err(Error::Create)?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        let pixels = glow::PixelUnpackData::Slice(texels);
-        gl.tex_image_2d(glow::TEXTURE_2D, 0, internal as i32, width, height, 0, format, kind, pixels);
+        for level in 0..levels.max(1) {
+            let [width, height] = desc.size.map(|side| (side >> level).max(1) as i32);
+            let (level, internal) = (level as i32, internal as i32);
+            let pixels = glow::PixelUnpackData::Slice(texels);
+            gl.tex_image_2d(glow::TEXTURE_2D, level, internal, width, height, 0, format, kind, pixels);
+        }
         if texels.is_some() {
             gl.generate_mipmap(glow::TEXTURE_2D);
         } else {
-            gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, 0);
+            gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, levels as i32 - 1);
         }
         gl.bind_texture(glow::TEXTURE_2D, None);
         Ok(ImageName::Texture(texture))
@@ -134,6 +144,10 @@ pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSam
         if let Some(compare) = sampler.compare {
             gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE as i32);
             gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_FUNC, compare_code(compare) as i32);
+        }
+        if let Some(halves) = sampler.lod_halves {
+            gl.sampler_parameter_f32(name, glow::TEXTURE_MIN_LOD, 0.5 * f32::from(halves));
+            gl.sampler_parameter_f32(name, glow::TEXTURE_MAX_LOD, 0.5 * f32::from(halves));
         }
         Ok(GpuSampler { gl: gl.clone(), name })
     }

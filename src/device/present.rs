@@ -15,7 +15,7 @@ impl Device {
     /// GL errors, and images that the driver cannot read.
     pub fn present(&mut self, list: &PassList, image: ImageId, window: [u32; 2]) -> Result<(), Error> {
         const LABEL: &str = "presenting";
-        self.bind_target(list, LABEL, Target { color: Some(image), depth: None })?;
+        self.bind_target(list, LABEL, Target { color: Some(image), depth: None, level: 0 })?;
         let size = list.desc(image).size;
         let [width, height] = [0, 1].map(|axis| size[axis].min(window[axis]) as i32);
         unsafe {

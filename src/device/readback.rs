@@ -40,9 +40,9 @@ impl Device {
         let desc = list.desc(image);
         let label = format!("reading {}", desc.label);
         let target = if desc.format.has_depth() {
-            Target { color: None, depth: Some(image) }
+            Target { color: None, depth: Some(image), level: 0 }
         } else {
-            Target { color: Some(image), depth: None }
+            Target { color: Some(image), depth: None, level: 0 }
         };
         self.bind_target(list, &label, target)?;
         let [width, height] = desc.size;
@@ -79,7 +79,7 @@ impl Device {
     pub fn read_stencil(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
         let desc = list.desc(image);
         let label = format!("reading the stencil of {}", desc.label);
-        self.bind_target(list, &label, Target { color: None, depth: Some(image) })?;
+        self.bind_target(list, &label, Target { color: None, depth: Some(image), level: 0 })?;
         let mut data = vec![0; desc.size[0] as usize * desc.size[1] as usize];
         self.read_into(desc.size, glow::STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut data);
         flip_rows(&mut data, desc.size[0] as usize);

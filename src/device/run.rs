@@ -214,7 +214,8 @@ impl Device {
             Format::Depth24Stencil8 => glow::DEPTH_STENCIL_ATTACHMENT,
             _ => glow::DEPTH_ATTACHMENT,
         };
-        let framebuffer = framebuffer::create(&self.gl, color, depth.zip(target.depth.map(point)), describe)?;
+        let depth = depth.zip(target.depth.map(point));
+        let framebuffer = framebuffer::create(&self.gl, color, depth, target.level, describe)?;
         self.framebuffers.insert(key, framebuffer);
         Ok(())
     }
@@ -293,7 +294,7 @@ impl Device {
 
     pub(super) fn copy_depth(&mut self, list: &PassList, label: &str, from: ImageId, to: ImageId) -> Result<(), Error> {
         let ImageName::Texture(texture) = self.gpu_image(to) else { return Ok(()) };
-        self.bind_target(list, label, Target { color: None, depth: Some(from) })?;
+        self.bind_target(list, label, Target { color: None, depth: Some(from), level: 0 })?;
         let [width, height] = list.desc(to).size.map(|side| side as i32);
         unsafe {
             self.gl.active_texture(glow::TEXTURE0);

@@ -8,6 +8,7 @@ mod mtl;
 mod normals;
 mod obj;
 mod primitives;
+mod simplify;
 mod text;
 mod texture;
 pub mod topology;

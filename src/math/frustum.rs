@@ -67,6 +67,37 @@ pub fn corners(world_from_clip: &DMat4) -> [DVec3; 8] {
     cube.corners().map(|corner| world_from_clip.project_point3(corner))
 }
 
+/// The clip volume's planes in world space, their normals inwards and of unit length: `dot(plane, (x, y, z, 1)) >= 0`
+/// inside. Left, right, bottom, top, near, far.
+pub fn planes(clip_from_world: &DMat4) -> [DVec4; 6] {
+    let rows = clip_from_world.transpose();
+    let (x, y, z, w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
+    [w + x, w - x, w + y, w - y, w + z, w - z].map(|plane| plane / plane.truncate().length())
+}
+
+/// The faces of a box, or of what a box is projected to, by its corners as [`Aabb::corners`] numbers them.
+pub fn faces(corners: &[DVec3; 8]) -> [[DVec3; 4]; 6] {
+    [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]]
+        .map(|face| face.map(|corner| corners[corner]))
+}
+
+/// What of a convex polygon lies on the inner side of `plane` [Sutherland and Hodgman].
+pub fn clip_polygon(polygon: &[DVec3], plane: &DVec4) -> Vec<DVec3> {
+    let distance = |point: DVec3| plane.dot(point.extend(1.0));
+    let mut clipped = Vec::with_capacity(polygon.len() + 1);
+    for (index, &point) in polygon.iter().enumerate() {
+        let next = polygon[(index + 1) % polygon.len()];
+        let (here, there) = (distance(point), distance(next));
+        if here >= 0.0 {
+            clipped.push(point);
+        }
+        if (here >= 0.0) != (there >= 0.0) {
+            clipped.push(point.lerp(next, here / (here - there)));
+        }
+    }
+    clipped
+}
+
 /// Whether two convex volumes, each given by its `clip_from_world` and world-space corners, may meet: false only where
 /// a clip plane of one has all corners of the other beyond it.
 pub fn may_meet(a_clip: &DMat4, a_corners: &[DVec3; 8], b_clip: &DMat4, b_corners: &[DVec3; 8]) -> bool {
@@ -109,6 +140,19 @@ mod tests {
             (DVec3::new(0.0, -111.0, 0.0), 100.0, Overlap::Outside),
         ] {
             assert_eq!(overlap(&clip, &cube_at(center, half)), expected, "{center} {half}");
+        }
+    }
+
+    #[test]
+    fn a_square_is_clipped_at_a_corner() {
+        let square = faces(&Aabb { min: DVec3::ZERO, max: DVec3::ONE }.corners())[4];
+        let clipped = clip_polygon(&square, &DVec4::new(-1.0, -1.0, 0.0, 1.5));
+        assert_eq!(clipped.len(), 5);
+        assert!(clipped.iter().all(|p| p.x + p.y <= 1.5 + 1e-12 && p.min_element() >= 0.0 && p.max_element() <= 1.0));
+        assert!(clip_polygon(&square, &DVec4::new(1.0, 0.0, 0.0, -2.0)).is_empty());
+        for face in faces(&Aabb { min: DVec3::ZERO, max: DVec3::ONE }.corners()) {
+            let normal = (face[1] - face[0]).cross(face[3] - face[0]);
+            assert!(normal.length() == 1.0 && (face[2] - face[0]).dot(normal) == 0.0, "{face:?}");
         }
     }
 

@@ -25,16 +25,26 @@ pub struct ImageDesc {
 pub enum Storage {
     /// A texture that passes draw or copy into and sample.
     Texture,
+    /// The same with so many mipmap levels, at least one, each drawn by a pass of its own.
+    Mipmapped(u32),
     /// A renderbuffer: drawn into, never sampled.
     Renderbuffer,
     /// A texture filled from the CPU, with mipmaps.
     Uploaded(Arc<Texture>),
 }
 
+impl Storage {
+    /// Whether there are texels of smaller levels beside those of the image's size.
+    pub fn is_mipmapped(&self) -> bool {
+        matches!(self, Self::Uploaded(_) | Self::Mipmapped(2..))
+    }
+}
+
 impl PartialEq for Storage {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Texture, Self::Texture) | (Self::Renderbuffer, Self::Renderbuffer) => true,
+            (Self::Mipmapped(a), Self::Mipmapped(b)) => a == b,
             (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
@@ -116,6 +126,9 @@ pub struct Sampler {
     pub wrap: Wrap,
     /// GL_TEXTURE_COMPARE_MODE = GL_COMPARE_REF_TO_TEXTURE with this function; `None`: GL_NONE.
     pub compare: Option<Compare>,
+    /// Where GL_TEXTURE_MIN_LOD and GL_TEXTURE_MAX_LOD both stand, in halves of a level; `None`: at GL's defaults, which
+    /// clamp nothing.
+    pub lod_halves: Option<u8>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

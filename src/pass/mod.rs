@@ -73,12 +73,14 @@ pub struct DrawPass {
     pub batches: Vec<Batch>,
 }
 
-/// Framebuffer attachments, all of one size.
+/// Framebuffer attachments, all of one size at their level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
     /// Attached as depth and stencil where its format has both.
     pub depth: Option<ImageId>,
+    /// Of the images that have several levels.
+    pub level: u32,
 }
 
 /// What is cleared before the draws.

@@ -12,6 +12,14 @@ pub struct Chunk {
 }
 
 impl Chunk {
+    /// Both as one chunk.
+    pub fn followed_by(&self, next: &Self) -> Self {
+        Self {
+            name: format!("{} + {}", self.name, next.name).into(),
+            text: format!("{}\n{}", self.text, next.text).into(),
+        }
+    }
+
     /// The chunk for light `index`: every `@` in it becomes that number.
     pub fn for_light(&self, index: usize) -> Self {
         Self {

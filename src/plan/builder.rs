@@ -72,7 +72,11 @@ impl Builder<'_> {
         let depth = if stencil { Format::Depth24Stencil8 } else { Format::Depth(DepthFormat::Depth24) };
         let mut image =
             |label: String, format| self.list.image(ImageDesc { label, size, format, storage: Storage::Renderbuffer });
-        Target { color: Some(image(label.to_owned(), format)), depth: Some(image(format!("{label} depth"), depth)) }
+        Target {
+            color: Some(image(label.to_owned(), format)),
+            depth: Some(image(format!("{label} depth"), depth)),
+            level: 0,
+        }
     }
 
     /// The scene as a light sees it, lit by it alone and unshadowed, in a square of `side` pixels.

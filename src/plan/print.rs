@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Write};
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
 use crate::pass::{
     Blend, Compare, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil, StencilOp, StencilOps,
-    Storage, Work,
+    Work,
 };
 
 impl Plan {
@@ -20,7 +20,7 @@ impl Plan {
                 label: desc.label.clone(),
                 format: desc.format.to_string(),
                 size: desc.size,
-                bytes: image_bytes(desc.format, desc.size, matches!(desc.storage, Storage::Uploaded(_))),
+                bytes: image_bytes(desc.format, desc.size, desc.storage.is_mipmapped()),
             })
             .collect();
         Summary {
@@ -85,7 +85,8 @@ impl Plan {
     fn draw_summary(&self, label: String, redraw: &'static str, pass: &DrawPass) -> PassSummary {
         let target = pass.target.color.iter().chain(&pass.target.depth).map(|id| {
             let desc = self.list.desc(*id);
-            format!("{} ({})", desc.label, desc.format)
+            let level = if pass.target.level > 0 { format!(", level {}", pass.target.level) } else { String::new() };
+            format!("{} ({}{level})", desc.label, desc.format)
         });
         let mut summary = PassSummary {
             label,
@@ -127,7 +128,8 @@ impl Plan {
     fn input_words(&self, input: &Input) -> String {
         let desc = self.list.desc(input.image);
         let compare = input.sampler.compare.map_or(String::new(), |c| format!(", compare {}", compare_name(c)));
-        format!("{} = {} ({:?}{compare})", input.name, desc.label, input.sampler.filter)
+        let lod = input.sampler.lod_halves.map_or(String::new(), |lod| format!(", LOD {}", 0.5 * f64::from(lod)));
+        format!("{} = {} ({:?}{compare}{lod})", input.name, desc.label, input.sampler.filter)
     }
 }
 

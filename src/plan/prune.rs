@@ -113,7 +113,7 @@ fn drop_unused_images(plan: &mut Plan) {
                 new(from);
                 new(to);
             }
-            Work::Draw(DrawPass { target: Target { color, depth }, batches, .. }) => {
+            Work::Draw(DrawPass { target: Target { color, depth, .. }, batches, .. }) => {
                 color.iter_mut().chain(depth.iter_mut()).for_each(new);
                 let inputs = batches.iter_mut().flat_map(|batch| batch.inputs.iter_mut());
                 inputs.for_each(|Input { image, .. }| new(image));

@@ -139,7 +139,8 @@ pub struct Cutout {
 }
 
 /// A decal repeats and is filtered by mipmaps.
-pub const DECAL_SAMPLER: Sampler = Sampler { filter: Filter::Trilinear, wrap: Wrap::Repeat, compare: None };
+pub const DECAL_SAMPLER: Sampler =
+    Sampler { filter: Filter::Trilinear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
 
 /// The alpha test of `item`, and texture coordinates where it or (with `decal`) the lit pass needs them.
 pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {

@@ -1,6 +1,6 @@
 //! A light as techniques see it, and what they give the lit pass for it.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
@@ -12,7 +12,7 @@ use crate::pass::{
     Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
     Redraw, Shade, Uniform, glsl,
 };
-use crate::scene::{Frustum, Light, Scene};
+use crate::scene::{Frustum, Light, Reader, Scene, SettingsError};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +27,42 @@ pub struct LightView<'a> {
     pub keep_all: bool,
 }
 
-impl LightView<'_> {
-    pub fn light(&self) -> &Light {
+impl<'a> LightView<'a> {
+    pub fn light(&self) -> &'a Light {
         &self.scene.lights[self.index]
+    }
+
+    /// The light in the frustum that it has.
+    ///
+    /// # Errors
+    ///
+    /// A light that has none: one that a technique does not serve which asks for it.
+    pub fn in_its_frustum(&self, keys: &Reader<'_>) -> Result<FrustumView<'a>, SettingsError> {
+        let frustum = self.light().frustum().cloned();
+        let frustum = frustum.ok_or_else(|| keys.error("technique", "draws the map of a light with a frustum"))?;
+        Ok(FrustumView { light_view: *self, frustum })
+    }
+}
+
+/// A light as a map of one frustum sees it: a spotlight's own, or one that a technique made.
+#[derive(Clone, Debug)]
+pub struct FrustumView<'a> {
+    pub light_view: LightView<'a>,
+    pub frustum: Frustum,
+}
+
+impl<'a> Deref for FrustumView<'a> {
+    type Target = LightView<'a>;
+
+    fn deref(&self) -> &LightView<'a> {
+        &self.light_view
+    }
+}
+
+impl FrustumView<'_> {
+    /// `P_light · L⁻¹`.
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.frustum.clip_from_world()
     }
 }
 
@@ -78,7 +111,7 @@ pub struct LightTerm {
     pub shade: Chunk,
     /// What that computes, in the terms of fixed function.
     pub meaning: Shade,
-    /// Beside what [`super::surface`] adds for every light; names end in the light's index.
+    /// Beside what [`super::surface`] adds for every light; names end in the light's index, a value may follow.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,

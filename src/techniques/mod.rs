@@ -11,6 +11,8 @@
 pub mod guides;
 pub mod items;
 pub mod light;
+mod midpoint;
+mod second_depth;
 mod shadow_map;
 mod shadow_volume;
 pub mod surface;
@@ -21,7 +23,7 @@ pub mod views;
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError, suggest};
 pub use items::Item;
-pub use light::{Coordinates, LightTerm, LightView};
+pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 
 /// A way to find out which points a light reaches.
 pub trait Technique: Sync {
@@ -43,6 +45,11 @@ pub trait Technique: Sync {
 
     /// What a report varies, and how.
     fn axes(&self) -> &'static [Axis];
+
+    /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
+    fn more_axes(&self) -> &'static [&'static [Axis]] {
+        &[]
+    }
 
     /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
     ///
@@ -77,7 +84,13 @@ pub struct Axis {
 }
 
 /// Every technique.
-pub const TABLE: &[&dyn Technique] = &[&unshadowed::Unshadowed, &shadow_map::ShadowMap, &shadow_volume::ShadowVolume];
+pub const TABLE: &[&dyn Technique] = &[
+    &unshadowed::Unshadowed,
+    &shadow_map::ShadowMap,
+    &midpoint::Midpoint,
+    &second_depth::SecondDepth,
+    &shadow_volume::ShadowVolume,
+];
 
 /// What was left out and why, and what the reader of a plan should know besides.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

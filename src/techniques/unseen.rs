@@ -5,14 +5,14 @@
 //! corners and of where they then are holds the shadow. Where that hull, grown by what a filter can reach, lies beyond
 //! one of the camera's planes, no visible point looks the caster up.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 
-use super::{Item, LightView};
+use super::{FrustumView, Item};
 use crate::math::Aabb;
-use crate::scene::Frustum;
+use crate::math::frustum::planes;
 
-/// How far from its own place a lookup reaches: a linear filter's neighbour, Direct3D's half texel and rounding, in
-/// texels.
+/// How far from its own place one comparison's lookup reaches: a linear filter's neighbour, Direct3D's half texel and
+/// rounding, in texels.
 const REACH_TEXELS: f64 = 4.0;
 
 /// Tells which casters of one light matter to the picture.
@@ -21,20 +21,20 @@ pub struct Unseen {
     light: DVec3,
     /// World space; the normals, of unit length, point inwards.
     camera_planes: [DVec4; 6],
-    /// What [`REACH_TEXELS`] measure at a distance of 1 from the light.
+    /// What the texels that a lookup reaches measure at a distance of 1 from the light.
     reach_at_one: f64,
 }
 
 impl Unseen {
-    /// For a map of `frustum` with `texels` a side.
-    pub fn new(view: &LightView<'_>, frustum: &Frustum, texels: u32) -> Self {
+    /// For a map of `texels` a side, looked up within `reach` texels beside a filter's own.
+    pub fn new(view: &FrustumView<'_>, texels: u32, reach: f64) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
         Self {
             scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
-            light: frustum.position,
+            light: view.frustum.position,
             camera_planes: planes(&clip_from_world),
-            reach_at_one: REACH_TEXELS * 2.0 * (0.5 * frustum.cone_radians).tan() / f64::from(texels),
+            reach_at_one: (REACH_TEXELS + reach) * 2.0 * (0.5 * view.frustum.cone_radians).tan() / f64::from(texels),
         }
     }
 
@@ -51,6 +51,13 @@ impl Unseen {
                 plane.dot(point.extend(1.0)) < -reach - slack
             })
         })
+    }
+
+    /// Whether `item` is flat and nothing of the scene lies behind it: what it could shadow is itself, and that it cannot.
+    pub fn shadows_nothing(&self, item: &Item) -> bool {
+        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+        let is_flat = (item.bounds.max - item.bounds.min).min_element() == 0.0;
+        is_flat && self.end_of_shadow(&corners).is_some_and(|end| end <= 1e-9)
     }
 
     /// The least t by which all corners have crossed some face of the scene's bounds; `None` if there is none.
@@ -73,11 +80,4 @@ impl Unseen {
 
 fn world_bounds(item: &Item) -> Aabb {
     Aabb::from_points(item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)))
-}
-
-/// The clip volume's planes in world space, `dot(plane, (x, y, z, 1)) >= 0` inside.
-fn planes(clip_from_world: &DMat4) -> [DVec4; 6] {
-    let rows = clip_from_world.transpose();
-    let (x, y, z, w) = (rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis);
-    [w + x, w - x, w + y, w - y, w + z, w - z].map(|plane| plane / plane.truncate().length())
 }

@@ -6,6 +6,8 @@ use super::Handle;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Command {
     NextMode,
+    /// Of the sample's shadow techniques.
+    NextTechnique,
     ViewAll,
     Reset,
     /// What the mouse turns and moves from now on.
@@ -20,6 +22,7 @@ pub enum Command {
 /// Keys by the names that the window gives them, what they do, and a line of help.
 const KEYS: &[(&[&str], Command, &str)] = &[
     (&["space"], Command::NextMode, "next picture: with shadows, without, from the light"),
+    (&["m"], Command::NextTechnique, "next shadow technique: Woo's midpoint map, polygon offset"),
     (&["v"], Command::ViewAll, "view all: the camera steps back until it sees everything"),
     (&["Home"], Command::Reset, "camera, light, object and tweaks as they were at first"),
     (&["c"], Command::Hold(Handle::Camera), "the mouse holds the camera"),
@@ -39,9 +42,10 @@ pub fn command(name: &str) -> Option<Command> {
     KEYS.iter().find(|(names, ..)| names.iter().any(|known| known.eq_ignore_ascii_case(name))).map(|row| row.1)
 }
 
-/// Keys and mouse, for a person.
-pub fn help() -> String {
-    let rows = KEYS.iter().map(|(names, _, what)| format!("  {:<14}  {what}", names.join(" ")));
+/// Keys and mouse, for a person, where there are so many techniques to choose from.
+pub fn help(techniques: &[&str]) -> String {
+    let used = |row: &&(&[&str], Command, &str)| techniques.len() > 1 || row.1 != Command::NextTechnique;
+    let rows = KEYS.iter().filter(used).map(|(names, _, what)| format!("  {:<14}  {what}", names.join(" ")));
     let mouse = [
         ("left drag", "turns what the mouse holds"),
         ("right drag", "moves it nearer or farther"),
@@ -71,6 +75,7 @@ mod tests {
         assert_eq!(command("Q"), Some(Command::Quit));
         assert_eq!(command("space"), Some(Command::NextMode));
         assert_eq!(command("x"), None);
-        assert!(help().contains("q Esc"));
+        assert!(help(&[]).contains("q Esc") && !help(&[]).contains("technique"));
+        assert!(help(&["midpoint", "shadow-map"]).contains("technique"));
     }
 }

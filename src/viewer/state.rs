@@ -8,7 +8,7 @@ use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
 use crate::plan::{Request, Subject};
-use crate::scene::{Frustum, Light, LightKind, Scene};
+use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
 
 /// The sample's display modes [techniques E].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,13 +85,24 @@ pub struct State {
     held: Handle,
     tweak: usize,
     size: [u32; 2],
+    techniques: &'static [&'static str],
 }
 
 impl State {
     /// A walk that begins with `scene` as it is.
     pub fn new(scene: Scene, mode: Mode) -> Self {
         let size = scene.image.size;
-        Self { first: scene.clone(), scene, mode, held: Handle::default(), tweak: 0, size }
+        Self { first: scene.clone(), scene, mode, held: Handle::default(), tweak: 0, size, techniques: &[] }
+    }
+
+    /// The same walk with shadow techniques to choose from, by their names in `[light.shadow]`.
+    #[must_use]
+    pub fn with_techniques(self, techniques: &'static [&'static str]) -> Self {
+        Self { techniques, ..self }
+    }
+
+    pub fn techniques(&self) -> &'static [&'static str] {
+        self.techniques
     }
 
     /// As changed so far.
@@ -113,7 +124,7 @@ impl State {
         self.mode.frame(&self.scene, self.size)
     }
 
-    /// One line: mode, what the mouse holds, the current tweak.
+    /// One line: mode, the technique where there is a choice, what the mouse holds, the current tweak.
     pub fn status(&self) -> String {
         let mode = match self.mode {
             Mode::Camera => "without shadows",
@@ -126,12 +137,14 @@ impl State {
             Handle::Object => "object",
         };
         let tweak = self.scene.lights.first().map_or(String::new(), |light| self.tweak().in_words(&light.shadow));
-        format!("{mode} | mouse: {held} | {tweak} | h: help")
+        let technique = if self.techniques.len() > 1 { format!(" | {}", self.technique()) } else { String::new() };
+        format!("{mode}{technique} | mouse: {held} | {tweak} | h: help")
     }
 
     pub fn apply(&mut self, command: Command) -> Reaction {
         match command {
             Command::NextMode => self.mode = self.mode.next(),
+            Command::NextTechnique => self.next_technique(),
             Command::ViewAll => self.view_all(),
             Command::Reset => self.scene = self.first.clone(),
             Command::Hold(handle) => {
@@ -150,6 +163,24 @@ impl State {
             Command::Quit => return Reaction::Quit,
         }
         Reaction::Redraw
+    }
+
+    /// The first light's.
+    fn technique(&self) -> &str {
+        match self.scene.lights.first().and_then(|light| light.shadow.get("technique")).map(|entry| &entry.value) {
+            Some(Value::String(name)) => name,
+            _ => "none",
+        }
+    }
+
+    /// Every light has the technique that follows the first one's.
+    fn next_technique(&mut self) {
+        let place = self.techniques.iter().position(|name| *name == self.technique()).map_or(0, |place| place + 1);
+        let Some(next) = self.techniques.get(place).or(self.techniques.first()) else { return };
+        for light in &mut self.scene.lights {
+            let value = Value::String((*next).to_owned());
+            light.shadow.set("technique", Entry { value, origin: Origin::BuiltIn });
+        }
     }
 
     fn tweak(&self) -> &'static Tweak {

@@ -127,7 +127,7 @@ impl App {
                 self.redraw();
             }
             Reaction::Retitle => self.tell(),
-            Reaction::Help => say(&help()),
+            Reaction::Help => say(&help(self.state.techniques())),
             Reaction::Quit => event_loop.exit(),
         }
     }
@@ -173,7 +173,7 @@ impl ApplicationHandler for App {
         let opened = self.open(event_loop).map(|live| self.live = Some(live));
         self.redraw();
         if opened.is_ok() && !self.shown.capture {
-            say(&format!("{}\n{}", self.title(), help()));
+            say(&format!("{}\n{}", self.title(), help(self.state.techniques())));
         }
         self.end(event_loop, opened);
     }

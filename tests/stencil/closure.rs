@@ -51,7 +51,7 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
     };
     let nothing = Chunk { name: "nothing".into(), text: "void main() {}\n".into() };
     let pass = DrawPass {
-        target: Target { color: None, depth: Some(ImageId(0)) },
+        target: Target { color: None, depth: Some(ImageId(0)), level: 0 },
         viewport: SIZE,
         clear: Clear { stencil: Some(0), ..Clear::default() },
         state: DrawState { depth_test: None, depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY },

@@ -22,13 +22,12 @@ pub fn corners(vertices: &[[f32; 4]], indices: &[u32], range: std::ops::Range<u3
     indices[range.start as usize..range.end as usize].as_chunks::<3>().0.iter().map(|t| t.map(vertex)).collect()
 }
 
-/// Ways out less ways in along the ray from `origin`: what z-fail counts. `limit`: only those nearer than this many
-/// lengths of `way`, with the sign turned: what z-pass counts.
+/// Ways out less ways in along the ray from `origin`: what z-fail counts.
 pub fn exits(triangles: &[Triangle], origin: DVec3, way: DVec3) -> i32 {
     triangles.iter().map(|triangle| crossing(triangle, origin, way).map_or(0, |(_, sign)| sign)).sum()
 }
 
-/// Ways in less ways out on the segment from `origin` to `origin + way`.
+/// Ways in less ways out on the segment from `origin` to `origin + way`: what z-pass counts.
 pub fn entries(triangles: &[Triangle], origin: DVec3, way: DVec3) -> i32 {
     let crossings = triangles.iter().filter_map(|triangle| crossing(triangle, origin, way));
     crossings.filter(|(t, _)| *t < 1.0).map(|(_, sign)| -sign).sum()
@@ -74,7 +73,7 @@ pub fn blockers(mesh: &Mesh, source: Source, point: DVec3, facing_only: bool) ->
         let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(way) / (1.0 + n.length()) / way.length());
         let is_near = volumes.iter().all(|v| *v > -MARGIN) || volumes.iter().all(|v| *v < MARGIN);
         let t = height / rise;
-        if !is_near || t < -MARGIN || t > 1.0 + MARGIN {
+        if !is_near || !(-MARGIN..=1.0 + MARGIN).contains(&t) {
             continue;
         }
         if volumes.iter().any(|v| v.abs() < MARGIN) || t.abs() < MARGIN || (t - 1.0).abs() < MARGIN || t.is_nan() {

@@ -81,7 +81,8 @@ impl Caster {
 
     /// All triangles of a mesh.
     pub fn of_mesh(mesh: &Mesh) -> Self {
-        Self::new(mesh, &[0..mesh.indices.len() as u32])
+        let all = 0..mesh.indices.len() as u32;
+        Self::new(mesh, std::slice::from_ref(&all))
     }
 
     fn from_places(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {

@@ -38,6 +38,10 @@ impl Casting {
     pub fn new(bounds: &Aabb, world_from_model: &DMat4, source: Source) -> Self {
         let body = Hull::parallelepiped(bounds, world_from_model);
         let away: Vec<DVec3> = match source {
+            // Inside or all but touching: which way the shadow falls is left to rounding.
+            Source::Point(_) if touches(bounds, source.transformed(&world_from_model.inverse())) => {
+                [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]).collect()
+            }
             Source::Point(_) => body.points.iter().map(|corner| source.away(*corner)).collect(),
             Source::Direction(direction) => vec![-direction],
         };
@@ -70,6 +74,14 @@ impl Casting {
     pub fn may_matter_within(&self, reach: &Hull) -> bool {
         !hull::are_apart(&self.body, reach)
     }
+}
+
+/// Whether a light stands in the box, or as near to it as f32 transforms may be off.
+fn touches(bounds: &Aabb, source: Source) -> bool {
+    let Source::Point(light) = source else { return false };
+    let size = light.abs().max(bounds.min.abs()).max(bounds.max.abs()).max_element();
+    let slack = DVec3::splat(size / f64::from(1 << 20));
+    light.cmpge(bounds.min - slack).all() && light.cmple(bounds.max + slack).all()
 }
 
 /// The pixels that the convex hull of `points` (world space) may cover: `[x, y, width, height]` as for glScissor, y up,
@@ -137,6 +149,17 @@ mod tests {
                 casting.far_cap_may_be_seen(&viewer),
             ];
             assert_eq!(found, expected, "{case}");
+        }
+    }
+
+    #[test]
+    fn a_light_that_touches_may_shadow_everything() {
+        let viewer = Viewer::new(&camera(DVec3::new(0.0, 3.0, 0.01), DVec3::new(0.0, 9.0, 0.0)));
+        for (y, expected) in [(1.0 + 1e-7, true), (1.0 - 1e-7, true), (1.001, false)] {
+            let light = Source::Point(DVec3::new(0.2, y, 0.3));
+            let casting = Casting::new(&cube(), &DMat4::IDENTITY, light);
+            assert_eq!(casting.far_cap_may_be_seen(&viewer), expected, "{y}");
+            assert_eq!(casting.may_shadow_view(&viewer), expected, "{y}");
         }
     }
 

@@ -112,7 +112,7 @@ fn looks_outwards(solid: &Solid<'_>, triangles: &[u32]) -> bool {
 
 /// How often closed triangles wind around a point: ways out less ways in along a ray of no special direction.
 fn winding(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> i32 {
-    let ray = DVec3::new(0.612_372_4, 0.353_553_3, 0.707_106_7);
+    let ray = DVec3::new(0.573, 0.319, 0.811);
     let sign = |triangle: &u32| {
         let [a, b, c] = corners(solid, *triangle);
         match crossing_once(point, ray, &[a, b, c]) {

@@ -236,7 +236,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         let crossed = crossing_once(beam.origin(), beam.axis(), &triangle.corners);
         let is_crossed = crossed.is_some_and(|at| 0.0 < at && at < 1.0);
         Share {
-            center: u32::from(is_crossed && counts && !(own && !is_fold)),
+            center: u32::from(is_crossed && counts && (is_fold || !own)),
             reason: fold.or(at_base.then_some(Reason::Contact)).or(at_light.then_some(Reason::GrazingLight)),
         }
     }

@@ -1,8 +1,9 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
+use super::fit::Crop;
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
 
 /// How the depth texture gets its texels [techniques A2].
@@ -31,6 +32,50 @@ pub enum Addressing {
     Direct3d,
 }
 
+/// Which levels a map has, and how they are met [techniques A11].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mipmaps {
+    /// One level.
+    None,
+    /// Every level; which two are met the size of a pixel decides.
+    All,
+    /// Two levels, and halfway between them everywhere: eight taps.
+    EightTaps,
+}
+
+/// What keeps a surface from shading itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bias {
+    /// glPolygonOffset while the map is drawn [techniques A8].
+    Offset,
+    /// The reference follows the receiver's plane to each tap, and gives way by the reach of the tap's filter.
+    ReceiverPlane,
+    /// The receiver is looked up a little off its surface.
+    NormalOffset,
+    /// The reference is the receiver's plane at each texel's centre [Dou et al. 2014].
+    Adaptive,
+}
+
+/// What of the light's frustum the map covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fit {
+    /// All of it.
+    None,
+    /// What holds casters.
+    Casters,
+    /// Of that, what is lit and seen: the map then follows the camera.
+    View,
+}
+
+/// `offset`, as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offset {
+    /// While the map is drawn.
+    pub polygon: PolygonOffset,
+    /// When it is compared: how far the receiver is moved towards the light, in texels' widths where it is.
+    pub texels: f64,
+}
+
 /// Everything that decides how a map is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -40,7 +85,17 @@ pub struct Settings {
     pub transfer: Transfer,
     pub filter: Filter,
     pub order: Order,
-    pub offset: PolygonOffset,
+    /// `None`: see [`super::bias`].
+    pub offset: Option<Offset>,
+    pub bias: Bias,
+    /// Comparisons a side, 1..=7.
+    pub kernel: u32,
+    pub mipmaps: Mipmaps,
+    pub fit: Fit,
+    /// Whether casters are drawn with no more triangles than the map's texels show.
+    pub simplified: bool,
+    /// What `fit` comes to in a scene; the whole until [`super::fit::crop`] was asked.
+    pub crop: Crop,
     pub cull: Option<Face>,
     pub set_up: SetUp,
     pub split: Split,
@@ -72,6 +127,31 @@ pub const AXES: &[Axis] = &[
     Axis { key: "transfer", values: &["\"fbo\"", "\"copy\""], quick: &["\"fbo\""] },
 ];
 
+/// Under the default offset: kernels, what else there is against acne, mipmaps.
+pub const MORE_AXES: &[&[Axis]] = &[
+    &[
+        Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
+        Axis { key: "kernel", values: &["1", "\"3x3\"", "\"5x5\""], quick: &["1", "\"3x3\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis {
+            key: "bias",
+            values: &["\"receiver-plane\"", "\"normal-offset\"", "\"adaptive\""],
+            quick: &["\"receiver-plane\"", "\"normal-offset\"", "\"adaptive\""],
+        },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis { key: "mipmaps", values: &["true", "\"8-tap\""], quick: &["\"8-tap\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis { key: "fit", values: &["\"casters\"", "\"view\""], quick: &["\"view\""] },
+        Axis { key: "casters", values: &["\"full\"", "\"texel\""], quick: &["\"texel\""] },
+    ],
+];
+
 /// Reads the keys, each with its default.
 ///
 /// # Errors
@@ -88,8 +168,14 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         [("eye", SetUp::Eye), ("world", SetUp::World), ("light", SetUp::Light), ("identity", SetUp::Identity)];
     let splits = [("identity", Split::Planes), ("scale-bias", Split::ScaleBias), ("projection", Split::Projection)];
     let orders = [("lequal", Order::LessEqual), ("gequal", Order::GreaterEqual)];
+    let biases = [
+        ("offset", Bias::Offset),
+        ("receiver-plane", Bias::ReceiverPlane),
+        ("normal-offset", Bias::NormalOffset),
+        ("adaptive", Bias::Adaptive),
+    ];
     let (r_scale, r_bias) = read_r(keys)?;
-    Ok(Settings {
+    let settings = Settings {
         size: keys.integer("size", 1..=16384)?.map_or(1024, |size| size as u32),
         format: keys.choice("format", &formats)?.unwrap_or(DepthFormat::Depth24),
         transfer: keys
@@ -100,6 +186,14 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
             .unwrap_or(Filter::Linear),
         order: keys.choice("compare", &orders)?.unwrap_or(Order::LessEqual),
         offset: read_offset(keys)?,
+        bias: keys.choice("bias", &biases)?.unwrap_or(Bias::Offset),
+        kernel: read_kernel(keys)?,
+        mipmaps: read_mipmaps(keys)?,
+        fit: keys
+            .choice("fit", &[("none", Fit::None), ("casters", Fit::Casters), ("view", Fit::View)])?
+            .unwrap_or(Fit::None),
+        simplified: keys.choice("casters", &[("full", false), ("texel", true)])?.unwrap_or(false),
+        crop: Crop::WHOLE,
         cull: keys
             .choice("cull", &[("none", None), ("back", Some(Face::Back)), ("front", Some(Face::Front))])?
             .unwrap_or(None),
@@ -115,17 +209,58 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         redraw: keys
             .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
             .unwrap_or(Redraw::WhenChanged),
-    })
+    };
+    check_mipmaps(&settings, keys)?;
+    Ok(settings)
 }
 
-/// `offset = { factor, units }`; (1.1, 4) where absent, 0 for a key that the table leaves out.
-fn read_offset(keys: &mut Reader<'_>) -> Result<PolygonOffset, SettingsError> {
-    let Some(table) = keys.table("offset")? else { return Ok(PolygonOffset { factor: 1.1, units: 4.0 }) };
+/// `kernel = 1` or `"1x1"` to `"7x7"`.
+fn read_kernel(keys: &mut Reader<'_>) -> Result<u32, SettingsError> {
+    if let Some(Value::Integer(_)) = keys.entry("kernel").map(|entry| &entry.value) {
+        return Ok(keys.integer("kernel", 1..=7)?.map_or(1, |side| side as u32));
+    }
+    let names = [("1x1", 1), ("2x2", 2), ("3x3", 3), ("4x4", 4), ("5x5", 5), ("6x6", 6), ("7x7", 7)];
+    Ok(keys.choice("kernel", &names)?.unwrap_or(1))
+}
+
+/// `mipmaps = true`, `false` or `"8-tap"`.
+fn read_mipmaps(keys: &mut Reader<'_>) -> Result<Mipmaps, SettingsError> {
+    if let Some(Value::String(_)) = keys.entry("mipmaps").map(|entry| &entry.value) {
+        return Ok(keys.choice("mipmaps", &[("8-tap", Mipmaps::EightTaps)])?.unwrap_or(Mipmaps::None));
+    }
+    Ok(if keys.boolean("mipmaps")? == Some(true) { Mipmaps::All } else { Mipmaps::None })
+}
+
+/// What mipmaps do not go with.
+fn check_mipmaps(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    if settings.mipmaps == Mipmaps::None {
+        return Ok(());
+    }
+    let why = if settings.filter != Filter::Linear {
+        "need filter = \"linear\""
+    } else if settings.transfer != Transfer::Fbo {
+        "need transfer = \"fbo\": each level is drawn into"
+    } else if settings.addressing != Addressing::OpenGl {
+        "need addressing = \"opengl\": half a texel is another length at every level"
+    } else if settings.bias != Bias::Offset {
+        "need bias = \"offset\": the others reckon with the texels of one level"
+    } else if settings.mipmaps == Mipmaps::All && settings.fit != Fit::None {
+        "need fit = \"none\", or \"8-tap\": of the smallest level one texel reaches across the map"
+    } else {
+        return Ok(());
+    };
+    Err(keys.error("mipmaps", why))
+}
+
+/// `offset = { factor, units, texels }`; 0 for a key that the table leaves out.
+fn read_offset(keys: &mut Reader<'_>) -> Result<Option<Offset>, SettingsError> {
+    let Some(table) = keys.table("offset")? else { return Ok(None) };
     let mut offset = table.read();
     let factor = offset.number("factor", -1e6..=1e6)?.unwrap_or(0.0) as f32;
     let units = offset.number("units", -1e9..=1e9)?.unwrap_or(0.0) as f32;
+    let texels = offset.number("texels", 0.0..=1e3)?.unwrap_or(0.0);
     offset.finish()?;
-    Ok(PolygonOffset { factor, units })
+    Ok(Some(Offset { polygon: PolygonOffset { factor, units }, texels }))
 }
 
 /// `r = { scale, bias }`; the document's halves where absent.

@@ -4,6 +4,7 @@
 mod casters;
 mod choice;
 mod counts;
+mod ends;
 mod settings;
 mod shapes;
 

@@ -94,7 +94,8 @@ pub(super) struct LightParts {
     has_attenuation: bool,
 }
 
-const SPOT_IMAGE_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None };
+const SPOT_IMAGE_SAMPLER: Sampler =
+    Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
 
 fn light_parts(
     scene: &Scene,

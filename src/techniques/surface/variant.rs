@@ -172,7 +172,10 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
     let mut defines: Vec<Define> = cut.defines.clone();
     defines.extend(flags.iter().filter(|(_, set)| *set).map(|(name, _)| (Cow::Borrowed(*name), String::new())));
     for light in lights {
-        defines.extend(light.defines.iter().map(|name| (Cow::Owned(name.clone()), String::new())));
+        defines.extend(light.defines.iter().map(|define| {
+            let (name, value) = define.split_once(' ').unwrap_or((define, ""));
+            (Cow::Owned(name.to_owned()), value.to_owned())
+        }));
     }
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();

@@ -96,7 +96,7 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
             term.inputs = vec![Input {
                 name: name.into(),
                 image: term.map?,
-                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None },
+                sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None },
             }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
         }

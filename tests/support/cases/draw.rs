@@ -130,7 +130,7 @@ fn scrub(renderer: &mut Renderer, plan: &Plan) -> Result<(), String> {
             label: format!("scrub {index}"),
             redraw: Redraw::Always,
             work: Work::Draw(DrawPass {
-                target: Target { color, depth },
+                target: Target { color, depth, level: 0 },
                 viewport: desc.size,
                 clear: Clear { color: color.map(|_| [1.0, 0.0, 1.0, 0.5]), depth: depth.map(|_| 0.123), stencil: None },
                 state: DrawState::OPAQUE,

@@ -1,0 +1,22 @@
+// Percentage-closer filtering with a reference on the receiver's own plane at each tap [Isidoro 2006], moved towards the
+// light by what that plane falls away within the reach of the tap's filter.
+uniform sampler2DShadow shadow_map_@;
+uniform float filter_reach_@; // of one tap along each axis, in texels
+uniform float towards_light_@; // 1, or -1 where depth is reversed
+
+float shade_@()
+{
+    vec3 at = light_coord_@.xyz / light_coord_@.w;
+    vec2 texel = 1.0 / vec2(textureSize(shadow_map_@, 0));
+    vec2 slope = receiver_slope_@ * texel;
+    float reach = towards_light_@ * filter_reach_@ * (abs(slope.x) + abs(slope.y));
+    const float FIRST = 0.5 * float(1 - KERNEL_@);
+    float lit = 0.0;
+    for (int y = 0; y < KERNEL_@; ++y)
+        for (int x = 0; x < KERNEL_@; ++x) {
+            vec2 tap = FIRST + vec2(x, y);
+            float reference = clamp(at.z + dot(slope, tap) - reach, 0.0, 1.0);
+            lit += texture(shadow_map_@, vec3(at.xy + tap * texel, reference));
+        }
+    return lit / float(KERNEL_@ * KERNEL_@);
+}

@@ -1,0 +1,26 @@
+//! hw_woo_shadowmaps: the scene of hw_shadowmaps_simple shadowed by Woo's midpoint map, which needs no polygon offset; a
+//! key goes over to polygon offset and back. After the sample program of that name (NVSDK), of which the white paper
+//! tells the idea alone [Hardware Shadow Mapping, "Advantages and Limitations"; techniques A14, E].
+
+use std::process::ExitCode;
+
+use glumbra::cli::sample::{self, Sample};
+use glumbra::scene::Embedded;
+
+const SAMPLE: Sample = Sample {
+    name: "hw_woo_shadowmaps",
+    about: "A teapot in a projected spotlight, shadowed by Woo's midpoint map or by one with polygon offset.",
+    scene: Embedded {
+        path: "data/scenes/hw_shadowmaps_simple.toml",
+        text: include_str!("../../data/scenes/hw_shadowmaps_simple.toml"),
+        pictures: &[
+            ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
+            ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
+        ],
+    },
+    techniques: &["midpoint", "shadow-map"],
+};
+
+fn main() -> ExitCode {
+    sample::run(&SAMPLE)
+}

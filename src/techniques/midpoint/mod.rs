@@ -1,0 +1,160 @@
+//! Woo's midpoint map, in two passes by depth peeling [Hardware Shadow Mapping, "Advantages and Limitations";
+//! techniques A14].
+//!
+//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects by the texture unit's
+//! comparison what that map holds, and stores the middle between the nearest depth and its own; the nearest fragment
+//! that is left is the second layer. A surface's own depth then lies half a caster's thickness before what it is
+//! compared with, and no polygon offset is needed.
+//!
+//! # Pitfalls that the document does not mention
+//! - A depth is rounded when it is stored, the reference of a comparison is not [GL 4.6, 8.23.1]: half of a first layer
+//!   lies behind itself. The reference is moved towards the light by two codes of the format, which no rounding reaches;
+//!   float maps keep the fragment's own bits. Both passes compute positions by the same arithmetic.
+//! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
+//!   `tests/midpoint.rs`) and costs nothing, so it is taken wherever the scene allows it.
+//! - A caster that is left out of the map because nothing that it shadows is seen may be the second layer of one that
+//!   is not: here every caster in the frustum is drawn.
+
+mod settings;
+mod single;
+
+use self::settings::{Average, Settings, Single};
+use super::shadow_map::casters::in_frustum;
+use super::shadow_map::depth::{self, Ending, Layer};
+use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
+use super::shadow_map::{self, bias, term};
+use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
+use crate::pass::{
+    Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
+};
+use crate::scene::{LightKind, Reader, SettingsError};
+
+pub struct Midpoint;
+
+impl Technique for Midpoint {
+    fn name(&self) -> &'static str {
+        "midpoint"
+    }
+
+    fn summary(&self) -> &'static str {
+        "a map of the middle between the nearest and the second layer; no polygon offset"
+    }
+
+    fn source(&self) -> &'static str {
+        "Hardware Shadow Mapping, Woo; techniques A14"
+    }
+
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        shadow_map::has_one_frustum(kind)
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        settings::AXES
+    }
+
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(settings).map(|_| ())
+    }
+
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        keys: &mut Reader<'_>,
+        list: &mut PassList,
+        notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError> {
+        let settings = settings::read(keys)?;
+        let view = &view.in_its_frustum(keys)?;
+        refuse(&settings.map, keys)?;
+        let casters = in_frustum(view, notes);
+        if casters.is_empty() && !view.keep_all {
+            return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
+        }
+        let mut draw = |name, image, ending, offset| {
+            let layer = Layer { name, image, ending, offset, casters: &casters };
+            depth::draw(view, &layer, &settings.map, list, notes)
+        };
+        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET);
+        let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET);
+        let first = match settings.single.unwrap_or_else(|| needed(view)) {
+            Single::Far => None,
+            Single::First => Some(nearest),
+            Single::FirstOffset => {
+                let offset = bias::offset(&settings.map).polygon;
+                Some(draw("offset layer", "offset layer", None, offset))
+            }
+        };
+        let map = match first {
+            Some(first) => single::fill(view, first, midpoint, &settings.map, list),
+            None => {
+                let what = format!("the nearest layer in texels with one layer alone, light {}", view.index);
+                notes.left_out(what, "nothing lies behind it that it could shadow");
+                midpoint
+            }
+        };
+        Ok(term::term(view, map, &settings.map, 0.0))
+    }
+}
+
+/// What the second pass cannot do: it looks its own texel up, in a map of one level; and what a fitted map leaves out
+/// may be the second layer.
+fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    let message = "goes with technique = \"shadow-map\" or \"second-depth\", not with \"midpoint\"";
+    match (map.mipmaps, map.fit) {
+        (Mipmaps::None, Fit::None) => Ok(()),
+        (Mipmaps::None, _) => Err(keys.error("fit", message)),
+        _ => Err(keys.error("mipmaps", message)),
+    }
+}
+
+const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
+
+/// What texels with one layer alone must store. Behind a layer that is the last in the map only what is not drawn into
+/// the map can be shadowed: what does not cast, and what lies beyond the light's far plane.
+fn needed(view: &FrustumView<'_>) -> Single {
+    let clip_from_world = view.clip_from_world();
+    let all_is_drawn = view.items.iter().all(|item| {
+        let corners = item.bounds.corners().map(|corner| clip_from_world * item.world_from_model * corner.extend(1.0));
+        item.casts_shadow && corners.iter().all(|clip| clip.z <= clip.w)
+    });
+    if all_is_drawn { Single::Far } else { Single::FirstOffset }
+}
+
+/// How the second pass ends its fragments.
+fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
+    let (sign, behind) = match settings.map.order {
+        Order::LessEqual => (1.0, Compare::Greater),
+        Order::GreaterEqual => (-1.0, Compare::Less),
+    };
+    let sampler = |compare| Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare, lod_halves: None };
+    let mut ending = Ending {
+        label: "peel",
+        fragment: glsl!("midpoint/peel.frag"),
+        defines: Vec::new(),
+        uniforms: vec![Uniform::new("margin", sign * margin(settings.map.format))],
+        inputs: vec![
+            Input { name: "nearest_compared".into(), image: nearest, sampler: sampler(Some(behind)) },
+            Input { name: "nearest".into(), image: nearest, sampler: sampler(None) },
+        ],
+    };
+    if settings.average == Average::EyeLinear {
+        let (near, far) = (view.frustum.near, view.frustum.far);
+        ending.defines.push("EYE_LINEAR");
+        ending.uniforms.push(Uniform::new("near_over_range", (near / (far - near)) as f32));
+        if settings.map.order == Order::GreaterEqual {
+            ending.defines.push("REVERSED");
+        }
+    }
+    ending
+}
+
+/// Two codes of a format of fixed point, one for the rounding when a depth is stored [GL 4.6, 2.3.5.2: either of the
+/// two nearest], one for that when it is fetched; at 32 bits, of the float that drivers compute it in. A float format
+/// stores the fragment's depth as it is.
+fn margin(format: DepthFormat) -> f32 {
+    match format {
+        DepthFormat::Depth16 => 2.0 / 65535.0,
+        DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0 / 16_777_215.0,
+        DepthFormat::Depth32F => 0.0,
+    }
+}

@@ -1,0 +1,52 @@
+//! The keys of `[light.shadow]` that midpoint maps read beside those of shadow maps.
+
+use crate::scene::{Reader, SettingsError};
+use crate::techniques::Axis;
+use crate::techniques::shadow_map::settings::{self as map, Settings as Map};
+
+/// What lies in the middle of two layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Average {
+    /// The mean of both window depths: the document's. It lies nearer to the light than the middle point.
+    Window,
+    /// The window depth of the point midway between the layers.
+    EyeLinear,
+}
+
+/// What a texel with one layer alone stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Single {
+    /// That layer: it shades itself as a map without polygon offset does.
+    First,
+    /// The far plane: it shades nothing. Right where all that can be seen behind a caster is drawn into the map too.
+    Far,
+    /// That layer under the polygon offset of an ordinary map.
+    FirstOffset,
+}
+
+pub struct Settings {
+    pub map: Map,
+    pub average: Average,
+    /// `None`: as the scene needs it.
+    pub single: Option<Single>,
+}
+
+pub const AXES: &[Axis] = &[
+    Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
+    Axis { key: "average", values: &["\"window\"", "\"eye-linear\""], quick: &["\"window\""] },
+];
+
+/// Reads the keys, each with its default.
+///
+/// # Errors
+///
+/// A value of the wrong type or out of its range, with its place.
+pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
+    let averages = [("window", Average::Window), ("eye-linear", Average::EyeLinear)];
+    let singles = [("first", Single::First), ("far", Single::Far), ("first+offset", Single::FirstOffset)];
+    Ok(Settings {
+        map: map::read(keys)?,
+        average: keys.choice("average", &averages)?.unwrap_or(Average::Window),
+        single: keys.choice("single", &singles)?,
+    })
+}

@@ -1,0 +1,77 @@
+//! What texels with one layer alone store, where that is not the far plane: a pass over the whole map that puts the
+//! nearest layer there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DMat4, DVec4};
+
+use crate::geometry::{Mesh, primitive};
+use crate::pass::{
+    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, Meaning, MeshRef,
+    Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+};
+use crate::techniques::FrustumView;
+use crate::techniques::shadow_map::depth;
+use crate::techniques::shadow_map::settings::{Order, Settings};
+
+/// Joins both maps to a third one.
+pub fn fill(
+    view: &FrustumView<'_>,
+    nearest: ImageId,
+    midpoint: ImageId,
+    settings: &Settings,
+    list: &mut PassList,
+) -> ImageId {
+    let map = list.image(depth::desc(view, "map", settings, Storage::Texture));
+    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    let input = |name: &'static str, image| Input { name: name.into(), image, sampler };
+    let defines = match settings.order {
+        Order::LessEqual => Vec::new(),
+        Order::GreaterEqual => vec![("REVERSED".into(), String::new())],
+    };
+    let batch = Batch {
+        program: Program {
+            label: String::from("single layer"),
+            defines,
+            vertex: vec![glsl!("common/position.vert"), glsl!("depth/depth.vert")],
+            fragment: vec![glsl!("midpoint/single.frag")],
+            attributes: vec![Attribute::Position],
+        },
+        meaning: Meaning::Shader("one map where another has no second layer"),
+        uniforms: Vec::new(),
+        inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
+        cull: None,
+        draws: vec![whole_target()],
+    };
+    list.passes.push(Pass {
+        label: format!("light {}: single layer", view.index),
+        redraw: settings.redraw,
+        work: Work::Draw(DrawPass {
+            target: Target { color: None, depth: Some(map), level: 0 },
+            viewport: [settings.size; 2],
+            // All of it is drawn over; cleared, it is not read before.
+            clear: Clear { depth: Some(1.0), ..Clear::default() },
+            state: DrawState { depth_test: Some(Compare::Always), ..DrawState::DEPTH_ONLY },
+            batches: vec![batch],
+        }),
+    });
+    map
+}
+
+/// The square of side 2 in x and z, stood up in clip space. One mesh for all, so that it is uploaded once.
+fn whole_target() -> Draw {
+    static SQUARE: OnceLock<Arc<Mesh>> = OnceLock::new();
+    let mesh = SQUARE.get_or_init(|| Arc::new(primitive("quad").unwrap_or_default())).clone();
+    let clip_from_model = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
+    Draw {
+        label: String::from("every texel"),
+        primitive: Primitive::Triangles,
+        indices: 0..mesh.indices.len() as u32,
+        order: IndexOrder::File,
+        bounds: mesh.bounds,
+        mesh: MeshRef(mesh),
+        clip_from_model,
+        mirrored: false,
+        uniforms: Vec::new(),
+    }
+}

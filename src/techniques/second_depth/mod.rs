@@ -1,0 +1,109 @@
+//! Second-depth shadow maps: only the faces that look away from the light are drawn into the map [Hardware Shadow
+//! Mapping, Wang and Molnar; techniques A15].
+//!
+//! What is lit is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
+//! offset. What looks away from the light is compared with itself, and errs; by its shading it is dark in any case. A
+//! caster that is open has no far side and would lose its shadow: it is refused by name, or with `closed = "assume"`
+//! drawn as it is.
+
+use std::sync::Arc;
+
+use super::shadow_map::casters::casters;
+use super::shadow_map::depth::{self, Layer};
+use super::shadow_map::settings::{self as map, Settings};
+use super::shadow_map::{self, fit, term};
+use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use crate::pass::{Face, PassList, PolygonOffset};
+use crate::scene::{LightKind, Reader, SettingsError};
+
+pub struct SecondDepth;
+
+const AXES: &[Axis] = &[
+    Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
+    // Floors and other open receivers lose a shadow that falls on nothing.
+    Axis { key: "closed", values: &["\"assume\""], quick: &["\"assume\""] },
+];
+
+impl Technique for SecondDepth {
+    fn name(&self) -> &'static str {
+        "second-depth"
+    }
+
+    fn summary(&self) -> &'static str {
+        "a map of the faces turned away from the light, for closed casters; no polygon offset"
+    }
+
+    fn source(&self) -> &'static str {
+        "Hardware Shadow Mapping, Wang and Molnar; techniques A15"
+    }
+
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        shadow_map::has_one_frustum(kind)
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        AXES
+    }
+
+    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        read(settings).map(|_| ())
+    }
+
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        keys: &mut Reader<'_>,
+        list: &mut PassList,
+        notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError> {
+        let (mut settings, is_assumed) = read(keys)?;
+        let view = &view.in_its_frustum(keys)?;
+        let mut casters = casters(view, &settings, notes);
+        settings.crop = fit::crop(view, &mut casters, &settings, notes);
+        if !is_assumed {
+            refuse_open(&casters, keys)?;
+        }
+        if casters.is_empty() && !view.keep_all {
+            return Ok(shadow_map::without_casters(view, settings.dimming, notes));
+        }
+        let offset = PolygonOffset { factor: 0.0, units: 0.0 };
+        let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
+        let map = depth::draw(view, &layer, &settings, list, notes);
+        notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
+        Ok(term::term(view, map, &settings, 0.0))
+    }
+}
+
+/// The map's keys, with the faces towards the light left out, and whether casters are taken to be closed unseen.
+fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
+    let is_assumed = keys.choice("closed", &[("assume", true), ("check", false)])?.unwrap_or(false);
+    Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
+}
+
+/// Refuses casters without a far side, each by its name.
+fn refuse_open(casters: &[&Item], keys: &Reader<'_>) -> Result<(), SettingsError> {
+    let mut open: Vec<&str> = Vec::new();
+    let mut seen: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
+    for item in casters {
+        let mesh = Arc::as_ptr(&item.mesh.0);
+        let is_closed = match seen.iter().find(|(known, _)| *known == mesh) {
+            _ if item.needs_alpha_test() => false,
+            _ if item.closed => true,
+            Some((_, is_closed)) => *is_closed,
+            None => item.mesh.is_closed() && item.mesh.signed_volume() > 0.0,
+        };
+        seen.push((mesh, is_closed));
+        if !is_closed && !open.contains(&item.label.as_str()) {
+            open.push(&item.label);
+        }
+    }
+    if open.is_empty() {
+        return Ok(());
+    }
+    let message = format!(
+        "= \"second-depth\" needs closed casters whose faces look outwards; open: {}. Give them casts_shadow = false, \
+         or draw their back faces alone with closed = \"assume\" (--set light.shadow.closed=assume)",
+        open.join(", ")
+    );
+    Err(keys.error("technique", message))
+}

@@ -1,0 +1,66 @@
+//! How far a map and what is compared with it are held apart, so that no surface shades itself.
+
+use glam::{DMat4, DVec4};
+
+use super::settings::{Bias, Mipmaps, Offset, Settings};
+use crate::pass::{DepthFormat, Filter, PolygonOffset};
+use crate::scene::Frustum;
+
+/// How far a lookup reaches from its place along each axis, in texels: the kernel's taps, and of each its filter: the
+/// half texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
+pub fn reach_texels(settings: &Settings) -> f64 {
+    0.5 * f64::from(settings.kernel - 1) + filter_reach(settings)
+}
+
+/// Of one tap.
+pub fn filter_reach(settings: &Settings) -> f64 {
+    if settings.filter == Filter::Nearest { 0.5 } else { 1.0 }
+}
+
+/// The offset as written, or by default the one with the least leak of those that leave no acne (`tests/acne.rs`).
+///
+/// Three things bring a surface before its own texels, and each is met in its own measure, so that the default holds at
+/// any resolution, filter, format and size of a scene:
+/// - its slope, over the reach of the lookup: by the polygon offset's factor. Where a plane falls away along one axis,
+///   as many slopes as texels are reached are enough; down a diagonal it is twice as many for the last taps, of which
+///   none has much weight, and
+/// - a texel may hold the depth of a neighbouring facet that is less steep: its offset is too small for the steeper
+///   one, by less than a facet's width, which in a dense mesh is about a texel's. That is what `texels` is for, and it
+///   takes in what the diagonal lacks. A wider kernel looks at more facets at once and needs less of it;
+/// - rounding: by units, of which one is at least the format's least step.
+///
+/// Beyond these nothing is left but silhouettes, where no offset helps.
+pub fn offset(settings: &Settings) -> Offset {
+    settings.offset.unwrap_or_else(|| default_offset(settings))
+}
+
+fn default_offset(settings: &Settings) -> Offset {
+    let units = if settings.format == DepthFormat::Depth16 { 1.0 } else { 4.0 };
+    let slopes = reach_texels(settings).max(1.0);
+    let (factor, texels) = match settings.bias {
+        Bias::Offset => (slopes, 1.0 / slopes),
+        // The slope is met where it is compared; what is left is the neighbouring facet.
+        Bias::ReceiverPlane | Bias::NormalOffset => (0.0, 0.5),
+        Bias::Adaptive => (0.0, 1.0),
+    };
+    // A texel of the coarser level is as wide as two; that of any level, where all may be met, as many: see the report.
+    let width = if settings.mipmaps == Mipmaps::None { 1.0 } else { 2.0 };
+    // A simplified caster lies a quarter of a texel before the surface that is lit, here and there.
+    let moved = if settings.simplified { 0.25 } else { 0.0 };
+    Offset { polygon: PolygonOffset { factor: factor as f32, units }, texels: width * texels + moved }
+}
+
+/// The width of a texel, along its longer side, at a distance of 1 along the light's axis.
+pub fn texel_at_one(light: &Frustum, settings: &Settings) -> f64 {
+    2.0 * settings.crop.half().max_element() / (light.clip_from_view().x_axis.x * f64::from(settings.size))
+}
+
+/// Light clip space with every point moved towards the light, along its ray, by `texels` widths of a texel where it
+/// is: by the same share of its distance everywhere. A perspective projection has `z = A w - B`; of a distance that
+/// shrinks to `1 / (1 + g)` it makes `z = A w - (1 + g) B`, less the common factor.
+pub fn moved_to_light(light: &Frustum, texels: f64, settings: &Settings) -> DMat4 {
+    let share = (texels * texel_at_one(light, settings)).min(0.5);
+    let g = share / (1.0 - share);
+    let a = -light.clip_from_view().z_axis.z;
+    DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0 + g, 0.0), DVec4::new(0.0, 0.0, -g * a, 1.0))
+}

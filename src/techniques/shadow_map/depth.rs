@@ -1,0 +1,135 @@
+//! The passes that draw the casters' depth from the light [Hardware Shadow Mapping, "How To Do It"; techniques A1-A4].
+
+use glam::DMat4;
+
+use super::settings::{Mipmaps, Order, Settings, Transfer};
+use super::term::raster_from_clip;
+use crate::pass::{
+    Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
+    PolygonOffset, Storage, Target, Uniform, Work,
+};
+use crate::techniques::items::depth_batches;
+use crate::techniques::{FrustumView, Item, Notes};
+
+/// One pass of depth over the casters.
+pub struct Layer<'a> {
+    /// Of the pass, behind the light's number.
+    pub name: &'static str,
+    /// Of the image, likewise.
+    pub image: &'static str,
+    /// `None`: the depth of a fragment is written, and that is all.
+    pub ending: Option<Ending>,
+    /// The polygon offset of the pass.
+    pub offset: PolygonOffset,
+    pub casters: &'a [&'a Item],
+}
+
+/// What a fragment of a layer does once it has passed the alpha test.
+pub struct Ending {
+    pub label: &'static str,
+    /// Has `main`.
+    pub fragment: Chunk,
+    pub defines: Vec<&'static str>,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+/// Draws a layer and, by the copy road, copies it. Returns the depth texture.
+pub fn draw(
+    view: &FrustumView<'_>,
+    layer: &Layer<'_>,
+    settings: &Settings,
+    list: &mut PassList,
+    notes: &mut Notes,
+) -> ImageId {
+    let Layer { name, image, .. } = layer;
+    let levels = levels(settings);
+    let storage = if levels > 1 { Storage::Mipmapped(levels) } else { Storage::Texture };
+    let map = list.image(desc(view, image, settings, storage));
+    let drawn = match settings.transfer {
+        Transfer::Fbo => map,
+        Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
+    };
+    let batches = batches(layer, &map_clip_from_world(view, settings), list);
+    let label = format!("light {}: {name}", view.index);
+    notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
+    let (state, cleared) = state(settings, layer.offset);
+    for level in 0..levels {
+        list.passes.push(Pass {
+            label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },
+            redraw: settings.redraw,
+            work: Work::Draw(DrawPass {
+                target: Target { color: None, depth: Some(drawn), level },
+                viewport: [(settings.size >> level).max(1); 2],
+                clear: Clear { depth: Some(cleared), ..Clear::default() },
+                state,
+                batches: batches.clone(),
+            }),
+        });
+    }
+    if settings.transfer == Transfer::Copy {
+        let label = format!("{label}, copied");
+        list.passes.push(Pass { label, redraw: settings.redraw, work: Work::CopyDepth { from: drawn, to: map } });
+    }
+    map
+}
+
+/// Raster, crop, and the light's own clip space.
+fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
+    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
+}
+
+/// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].
+fn levels(settings: &Settings) -> u32 {
+    match settings.mipmaps {
+        Mipmaps::None => 1,
+        Mipmaps::EightTaps => settings.size.ilog2().min(1) + 1,
+        Mipmaps::All => settings.size.ilog2() + 1,
+    }
+}
+
+/// An image of the map's size and format.
+pub fn desc(view: &FrustumView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
+    ImageDesc {
+        label: format!("light {} {name}", view.index),
+        size: [settings.size; 2],
+        format: Format::Depth(settings.format),
+        storage,
+    }
+}
+
+/// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
+pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset) -> (DrawState, f32) {
+    let offset = |sign: f32| {
+        (factor != 0.0 || units != 0.0).then_some(PolygonOffset { factor: sign * factor, units: sign * units })
+    };
+    let plain = DrawState { cull: settings.cull, ..DrawState::DEPTH_ONLY };
+    match settings.order {
+        Order::LessEqual => (DrawState { polygon_offset: offset(1.0), ..plain }, 1.0),
+        Order::GreaterEqual => {
+            let reversed = DrawState {
+                depth_test: Some(Compare::Greater),
+                depth_range: [1.0, 0.0],
+                polygon_offset: offset(-1.0),
+                ..plain
+            };
+            (reversed, 0.0)
+        }
+    }
+}
+
+/// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
+fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
+    let mut batches = depth_batches(layer.casters, clip_from_world, list);
+    let Some(ending) = &layer.ending else { return batches };
+    for batch in &mut batches {
+        batch.meaning = Meaning::Shader(ending.label);
+        batch.program.label = ending.label.to_owned();
+        batch.program.fragment.pop();
+        batch.program.fragment.push(ending.fragment.clone());
+        batch.program.defines.extend(ending.defines.iter().map(|name| ((*name).into(), String::new())));
+        batch.uniforms.extend(ending.uniforms.iter().cloned());
+        batch.inputs.extend(ending.inputs.iter().cloned());
+    }
+    batches
+}

@@ -1,0 +1,175 @@
+//! The part of a light's frustum that its map needs to cover: what holds casters, and of that what is seen in the light
+//! (`fit`). The light's own reach stays what it is; only texels are moved to where they are looked at.
+//!
+//! What is looked up beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE), which lie a filter's reach
+//! away from every caster and hold nothing; or else nothing that is seen lies there, or no light does.
+
+use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
+
+use super::bias;
+use super::settings::{Bias, Fit, Mipmaps, Settings};
+use crate::math::Aabb;
+use crate::math::frustum::{self, Overlap, clip_polygon};
+use crate::techniques::unseen::Unseen;
+use crate::techniques::{FrustumView, Item, Notes};
+
+/// A rectangle of a light's normalised device coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crop {
+    min: DVec2,
+    max: DVec2,
+}
+
+impl Crop {
+    pub const WHOLE: Self = Self { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    const NOTHING: Self = Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
+
+    fn center(&self) -> DVec2 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Half its size; (1, 1) of the whole.
+    pub fn half(&self) -> DVec2 {
+        0.5 * (self.max - self.min)
+    }
+
+    fn with(self, point: DVec2) -> Self {
+        Self { min: self.min.min(point), max: self.max.max(point) }
+    }
+
+    fn within(self, other: Self) -> Self {
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.min.cmpge(self.max).any()
+    }
+
+    /// The map's clip space from the light's.
+    pub fn map_clip_from_light_clip(&self) -> DMat4 {
+        DMat4::from_scale(self.half().recip().extend(1.0)) * DMat4::from_translation(-self.center().extend(0.0))
+    }
+
+    /// Scale and offset from (s, t) over the cropped square to (s, t) over the frustum's.
+    pub fn frustum_from_map(&self) -> Vec4 {
+        let (scale, offset) = (self.half(), 0.5 + 0.5 * self.min);
+        Vec4::new(scale.x as f32, scale.y as f32, offset.x as f32, offset.y as f32)
+    }
+}
+
+/// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
+/// frustum the map covers.
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+    if settings.fit == Fit::None {
+        return Crop::WHOLE;
+    }
+    let unseen = Unseen::new(view, settings.size, 0.0);
+    casters.retain(|item| {
+        let idle = unseen.shadows_nothing(item);
+        if idle {
+            let what = format!("{} in the map of light {}", item.label, view.index);
+            notes.left_out(what, "it is flat, and nothing lies behind it");
+        }
+        !idle
+    });
+    let needed = of_casters(view, &unseen);
+    let needed = if settings.fit == Fit::View { needed.within(of_sight(view)) } else { needed };
+    if needed.is_empty() {
+        return Crop::WHOLE;
+    }
+    let fitted = widened(needed, settings).within(Crop::WHOLE);
+    let share = fitted.half().element_product();
+    notes.left_out(
+        format!("{:.1} % of light {}'s frustum in its map", 100.0 * (1.0 - share), view.index),
+        format!("nothing that is seen there can be shadowed: {:.2} times the texels a pixel", 1.0 / share),
+    );
+    fitted
+}
+
+/// Around every caster in the frustum, so that what else is left out moves no texel.
+fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
+    let clip_from_world = view.clip_from_world();
+    let mut crop = Crop::NOTHING;
+    for item in view.items.iter().filter(|item| item.casts_shadow && !unseen.shadows_nothing(item)) {
+        let clip_from_model = clip_from_world * item.world_from_model;
+        if frustum::overlap(&clip_from_model, &item.bounds) == Overlap::Outside {
+            continue;
+        }
+        for corner in item.bounds.corners() {
+            let clip = clip_from_model * corner.extend(1.0);
+            if clip.w <= 0.0 {
+                return Crop::WHOLE;
+            }
+            crop = crop.with(clip.truncate().truncate() / clip.w);
+        }
+    }
+    crop.within(Crop::WHOLE)
+}
+
+/// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
+/// bounds and camera hold leaves it through one of its faces: so these are enough.
+fn of_sight(view: &FrustumView<'_>) -> Crop {
+    let camera = &view.scene.camera;
+    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let seen =
+        |item: &&Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let points = view
+        .items
+        .iter()
+        .filter(seen)
+        .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
+    let bounds = Aabb::from_points(points);
+    let slack = DVec3::splat(1e-6 * bounds.radius());
+    let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
+    let light_clip = view.clip_from_world();
+    // The light's sides alone: it lights from its very position on.
+    let light_sides: Vec<DVec4> = frustum::planes(&light_clip)[..4].to_vec();
+    let camera_sides = frustum::planes(&camera_clip);
+    let bounds_sides = sides(&bounds);
+    let camera_faces = frustum::faces(&frustum::corners(&camera_clip.inverse()));
+    let bounds_faces = frustum::faces(&bounds.corners());
+    let mut crop = Crop::NOTHING;
+    for (faces, others) in [(camera_faces, &bounds_sides), (bounds_faces, &camera_sides)] {
+        for face in faces {
+            let clipped = others.iter().chain(&light_sides).fold(face.to_vec(), |face, side| clip_polygon(&face, side));
+            for point in clipped {
+                let clip = light_clip * point.extend(1.0);
+                // All sides of the light meet in its position: there, any direction may be meant.
+                if clip.w <= 0.0 {
+                    return Crop::WHOLE;
+                }
+                crop = crop.with(clip.truncate().truncate() / clip.w);
+            }
+        }
+    }
+    crop
+}
+
+fn sides(bounds: &Aabb) -> [DVec4; 6] {
+    let (min, max) = (bounds.min, bounds.max);
+    [
+        DVec4::new(1.0, 0.0, 0.0, -min.x),
+        DVec4::new(-1.0, 0.0, 0.0, max.x),
+        DVec4::new(0.0, 1.0, 0.0, -min.y),
+        DVec4::new(0.0, -1.0, 0.0, max.y),
+        DVec4::new(0.0, 0.0, 1.0, -min.z),
+        DVec4::new(0.0, 0.0, -1.0, max.z),
+    ]
+}
+
+/// `needed` with a rim that a lookup cannot reach across: the kernel's and the filter's texels, those of a normal
+/// offset, twice as wide ones of a second level, and one for the rounding of positions.
+fn widened(needed: Crop, settings: &Settings) -> Crop {
+    let mut texels = bias::reach_texels(settings);
+    if settings.bias == Bias::NormalOffset {
+        texels *= 1.0 + std::f64::consts::SQRT_2;
+    }
+    if settings.mipmaps != Mipmaps::None {
+        texels *= 2.0;
+    }
+    let texels = texels + 1.0;
+    // A texel is the size-th part of the widened map.
+    let share = (1.0 - 2.0 * texels / f64::from(settings.size)).max(0.25);
+    let (center, half) = (needed.center(), needed.half() / share);
+    Crop { min: center - half, max: center + half }
+}

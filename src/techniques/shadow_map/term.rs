@@ -1,0 +1,144 @@
+//! How the lit pass looks a map up: its sampler, its texture matrix, and where in it the light's frustum lies.
+
+use glam::{DMat4, DVec3, Vec4};
+
+use super::bias;
+use super::fit::Crop;
+use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
+use crate::math::texgen::{direct3d_scale_bias, scale_bias};
+use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
+use crate::techniques::{Coordinates, FrustumView, LightTerm};
+
+/// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
+pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
+    let index = view.index;
+    let name = format!("shadow_map_{index}");
+    let clamped = settings.format == DepthFormat::Depth32F;
+    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
+    term.meaning = Shade::Texture { input: name.clone().into(), clamped };
+    let compare = match settings.order {
+        Order::LessEqual => Compare::LessEqual,
+        Order::GreaterEqual => Compare::GreaterEqual,
+    };
+    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(settings, compare) });
+    if clamped {
+        term.defines.push(format!("CLAMP_REFERENCE_{index}"));
+    }
+    let mut coordinates = Coordinates {
+        texture_from_light_clip: texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip(),
+        set_up: settings.set_up,
+        split: settings.split,
+        ..Coordinates::of_frustum(&view.frustum)
+    };
+    if texels > 0.0 {
+        coordinates.texture_from_light_clip *= bias::moved_to_light(&view.frustum, texels, settings);
+    }
+    term.frustum_from_map = frustum_from_map(settings);
+    term.dimming = settings.dimming;
+    term.map = Some(map);
+    look_up(&mut term, &coordinates, view, settings);
+    term.coordinates = Some(coordinates);
+    term
+}
+
+/// Scale and offset from (s, t) of the map to those of the light's whole frustum, where they differ.
+fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
+    let crop = settings.crop.frustum_from_map();
+    match settings.addressing {
+        Addressing::Direct3d => {
+            let half_texel = 0.5 / settings.size as f32;
+            let [x, y] = [-half_texel, 1.0 + half_texel];
+            Some(Vec4::new(crop.x, -crop.y, crop.x * x + crop.z, crop.y * y + crop.w))
+        }
+        Addressing::OpenGl => (settings.crop != Crop::WHOLE).then_some(crop),
+    }
+}
+
+fn sampler(settings: &Settings, compare: Compare) -> Sampler {
+    // Where the shader weighs the texels itself, it asks for them one by one.
+    let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
+    let plain = Sampler { filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
+    match settings.mipmaps {
+        Mipmaps::None => plain,
+        Mipmaps::All => Sampler { filter: Filter::Trilinear, ..plain },
+        Mipmaps::EightTaps => Sampler { filter: Filter::Trilinear, lod_halves: Some(1), ..plain },
+    }
+}
+
+/// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
+fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
+    let index = term.index;
+    if settings.kernel == 1 && settings.bias == Bias::Offset {
+        return;
+    }
+    term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
+    term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
+    let of_light = |name, value: f32| Uniform::of_light(name, index, value);
+    match settings.bias {
+        Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
+        Bias::ReceiverPlane => {
+            let sign = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
+            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/receiver_plane.frag"));
+            term.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
+            term.uniforms.push(of_light("towards_light", sign));
+        }
+        Bias::Adaptive => {
+            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/adaptive.frag"));
+            if settings.filter == Filter::Linear {
+                term.defines.push(format!("LINEAR_{index}"));
+            }
+        }
+        Bias::NormalOffset => {
+            term.shade = glsl!("shadow_map/normal_offset.frag");
+            let (texture, light_clip) = (coordinates.texture_from_light_clip, coordinates.light_clip_from_light);
+            let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
+            let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
+            let radius =
+                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(&view.frustum, settings);
+            term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
+            let texture_from_light = (texture * light_clip).as_mat4();
+            term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light));
+            term.uniforms.push(of_light("offset_radius", radius as f32));
+        }
+    }
+    if settings.bias != Bias::Offset {
+        term.defines.push(format!("DERIVATIVES_{index}"));
+    }
+    // These clamp the reference themselves, whatever the format.
+    if settings.bias != Bias::Offset {
+        term.defines.retain(|name| !name.starts_with("CLAMP_REFERENCE"));
+    }
+}
+
+/// `S`, by the rules of the addressing, with r's tweaks and bias; mirrored in r for GEQUAL.
+fn texture_from_light_clip(settings: &Settings) -> DMat4 {
+    let mirrored = match settings.order {
+        Order::LessEqual => DMat4::IDENTITY,
+        Order::GreaterEqual => DMat4::from_translation(DVec3::Z) * DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)),
+    };
+    let ordinary = scale_bias(settings.r_scale, settings.r_bias);
+    let texture = match settings.addressing {
+        Addressing::OpenGl => DMat4::from_translation(DVec3::new(0.0, 0.0, settings.matrix_bias)) * ordinary,
+        Addressing::Direct3d => {
+            // Direct3D's clip z is in [0, w]; its depth counts codes, GL's texture unit compares in [0, 1].
+            let direct3d_from_gl = DMat4::from_translation(DVec3::new(0.0, 0.0, settings.r_bias))
+                * DMat4::from_scale(DVec3::new(1.0, 1.0, settings.r_scale));
+            let bits = settings.format.bits();
+            let depth_from_codes = DMat4::from_scale(DVec3::new(1.0, 1.0, 1.0 / (2.0_f64.powi(bits as i32) - 1.0)));
+            depth_from_codes * direct3d_scale_bias(settings.size, bits, settings.matrix_bias) * direct3d_from_gl
+        }
+    };
+    mirrored * texture
+}
+
+/// Direct3D's raster on GL's: half a pixel right and down, rows from the top. Identity for OpenGL addressing.
+pub fn raster_from_clip(settings: &Settings) -> DMat4 {
+    match settings.addressing {
+        Addressing::OpenGl => DMat4::IDENTITY,
+        Addressing::Direct3d => {
+            let half_pixel = 1.0 / f64::from(settings.size);
+            DMat4::from_translation(DVec3::new(half_pixel, half_pixel, 0.0))
+                * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0))
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Casters at the map's resolution (`casters = "texel"`): triangles that no texel shows are not drawn.
+
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+
+use super::bias;
+use super::settings::Settings;
+use crate::geometry::Mesh;
+use crate::pass::MeshRef;
+use crate::techniques::{FrustumView, Item, Notes};
+
+/// Fewer triangles are not worth looking at.
+const FEWEST: u32 = 200;
+
+/// `casters` with fewer triangles, where that moves their surface by less than half a texel.
+pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
+    let of = |item: &&Item| {
+        let mut item = (*item).clone();
+        let before = (item.indices.end - item.indices.start) / 3;
+        if before < FEWEST || item.needs_alpha_test() {
+            return item;
+        }
+        let mesh = cached(&item, allowed_error(view, &item, settings));
+        let after = mesh.triangle_count() as u32;
+        if after < before {
+            notes.left_out(
+                format!(
+                    "{} of {before} triangles of {} in the map of light {}",
+                    before - after,
+                    item.label,
+                    view.index
+                ),
+                "no texel shows them: the surface moves by less than half of one",
+            );
+            item.indices = 0..mesh.indices.len() as u32;
+            item.mesh = MeshRef(mesh);
+        }
+        item
+    };
+    casters.iter().map(of).collect()
+}
+
+/// A quarter of a texel by quadrics, which take the mean of what bends: half of one at most places. In the item's own
+/// units: of the texels that it meets, those nearest to the light are the smallest.
+fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
+    let light = &view.frustum;
+    let light_from_model = light.view_from_world() * item.world_from_model;
+    let corners = item.bounds.corners().into_iter();
+    let nearest = corners.map(|corner| -light_from_model.transform_point3(corner).z).fold(f64::INFINITY, f64::min);
+    let quarter = 0.25 * bias::texel_at_one(light, settings) * nearest.max(light.near);
+    let axes = [item.world_from_model.x_axis, item.world_from_model.y_axis, item.world_from_model.z_axis];
+    quarter / axes.map(|axis| axis.truncate().length()).into_iter().fold(0.0, f64::max)
+}
+
+/// A simplified range of a mesh and the exponent of its error, kept as long as the mesh lives: a plan is made for every
+/// frame, and the same caster stands in many places.
+struct Entry {
+    source: Weak<Mesh>,
+    indices: std::ops::Range<u32>,
+    exponent: i32,
+    mesh: Arc<Mesh>,
+}
+
+static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
+
+/// With the error rounded down to a power of two, so that casters at all distances share a few meshes.
+fn cached(item: &Item, error: f64) -> Arc<Mesh> {
+    let exponent = error.log2().floor().clamp(-120.0, 120.0) as i32;
+    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
+    cache.retain(|entry| entry.source.strong_count() > 0);
+    let is_it = |entry: &&Entry| {
+        entry.exponent == exponent
+            && entry.indices == item.indices
+            && std::ptr::eq(entry.source.as_ptr(), Arc::as_ptr(&item.mesh.0))
+    };
+    if let Some(entry) = cache.iter().find(is_it) {
+        return entry.mesh.clone();
+    }
+    let mesh = Arc::new(item.mesh.simplified(item.indices.clone(), (f64::from(exponent)).exp2() as f32));
+    let (source, indices) = (Arc::downgrade(&item.mesh.0), item.indices.clone());
+    cache.push(Entry { source, indices, exponent, mesh: mesh.clone() });
+    mesh
+}
