@@ -53,6 +53,8 @@ pub struct LightTerm {
     pub inputs: Vec<Input>,
     /// `S`: texture space from the light's clip space.
     pub texture_from_light_clip: DMat4,
+    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    pub receiver_bias: DMat4,
     pub set_up: SetUp,
     pub split: Split,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
@@ -189,6 +191,7 @@ impl LightTerm {
             uniforms: Vec::new(),
             inputs: Vec::new(),
             texture_from_light_clip: scale_bias(0.5, 0.5),
+            receiver_bias: DMat4::IDENTITY,
             set_up: SetUp::World,
             split: Split::Planes,
             dimming: 0.0,

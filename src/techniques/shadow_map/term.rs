@@ -28,7 +28,7 @@ pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64
     term.texture_from_light_clip = texture_from_light_clip(settings);
     term.texture_from_light_clip *= settings.crop.map_clip_from_light_clip();
     if texels > 0.0 {
-        term.texture_from_light_clip *= bias::moved_to_light(view.light(), texels, settings);
+        term.receiver_bias = bias::moved_to_light(view.light(), texels, settings);
     }
     term.frustum_from_map = frustum_from_map(settings);
     term.set_up = settings.set_up;
@@ -88,7 +88,7 @@ fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
         }
         Bias::NormalOffset => {
             term.shade = glsl!("shadow_map/normal_offset.frag");
-            let (texture, light_clip) = (term.texture_from_light_clip, light.clip_from_view());
+            let (texture, light_clip) = (term.texture_from_light_clip * term.receiver_bias, light.clip_from_view());
             let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
             let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
             let radius = std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(light, settings);

@@ -155,7 +155,7 @@ fn eye_position(source: &Light, viewer: &Viewer) -> Vec3 {
 
 fn texgen(source: &Light, viewer: &Viewer, term: &LightTerm) -> Option<texgen::Texgen> {
     let spaces = texgen::Spaces {
-        texture_from_light_clip: term.texture_from_light_clip,
+        texture_from_light_clip: term.texture_from_light_clip * term.receiver_bias,
         light_clip_from_light: source.clip_from_view(),
         light_from_world: source.view_from_world(),
         eye_from_world: viewer.eye_from_world,
