@@ -16,6 +16,10 @@ pub enum Extent {
     /// C5: each vertex moved by this distance, in model units, along its own ray. Wrong by design where a shadow
     /// reaches farther.
     Truncated(f64),
+    /// To the plane `normal · x = distance`, each vertex along its own ray; one that is beyond stays. For all points
+    /// before the plane, seen from before it, the sides are those of the infinite volume. `normal` in model space,
+    /// of any length, at less than a right angle to every ray.
+    ToPlane { normal: DVec3, distance: f64 },
 }
 
 /// Which ends are wanted.
@@ -186,6 +190,10 @@ impl End {
             Extent::Truncated(distance) => {
                 let end = position + distance * away.normalize_or_zero();
                 end.as_vec3().extend(1.0).to_array()
+            }
+            Extent::ToPlane { normal, distance } => {
+                let way = ((distance - normal.dot(position)) / normal.dot(away)).max(0.0);
+                (position + way * away).as_vec3().extend(1.0).to_array()
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::casters::Casting;
 use super::settings::{Method, Settings};
-use super::source;
+use super::{ends, source};
 use crate::geometry::volume::{self, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::scene::LightKind;
@@ -60,7 +60,11 @@ fn why_unneeded(
     if outside_cone(view, caster) {
         return Some("the caster is outside the light's cone");
     }
-    (!volume.may_shadow_view(viewer)).then_some("its shadow falls outside the view")
+    if !volume.may_shadow_view(viewer) {
+        return Some("its shadow falls outside the view");
+    }
+    ends::is_flat_before_all(view, caster, source(view))
+        .then_some("it is flat, and all that is seen is on its lit side")
 }
 
 /// Whether a spotlight's light misses the caster.

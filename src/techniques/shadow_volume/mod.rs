@@ -4,6 +4,7 @@
 mod casters;
 mod choice;
 mod counts;
+mod ends;
 mod settings;
 mod shapes;
 
@@ -77,6 +78,7 @@ fn counting(
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
+        scissor: None,
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }

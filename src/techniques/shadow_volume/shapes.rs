@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::casters::Casting;
 use super::choice::Way;
+use super::ends;
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
@@ -62,6 +63,7 @@ pub fn shapes(
             let caps = caps(way, &seen, &viewer, view.keep_all);
             let extent = match way {
                 Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
+                Way::ZPass | Way::ZPassTwoSided | Way::Parity => end(view, caster, source),
                 _ => Extent::Infinite,
             };
             volume.extrude(&caster.caster, &outline, extent, caps);
@@ -80,6 +82,16 @@ fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool) -> Caps {
         }
         _ => Caps::NONE,
     }
+}
+
+/// Where a volume may end that is counted before what is seen only: beyond all that is seen and the eye, as far as one
+/// plane tells. Sides that go on behind the floor are fragments for nothing.
+fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
+    let Some(end) = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all) else { return Extent::Infinite };
+    let model_from_world = caster.world_from_model.transpose();
+    let normal = model_from_world.transform_vector3(end.normal);
+    let distance = end.distance - end.normal.dot(caster.world_from_model.w_axis.truncate());
+    Extent::ToPlane { normal, distance }
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.

@@ -1,0 +1,85 @@
+//! What lies beyond all that is seen: where volumes may end, and which casters shadow nothing. Conservative, from
+//! bounding boxes in world space.
+
+use glam::{DMat4, DVec3};
+
+use super::casters::Casting;
+use crate::geometry::volume::Source;
+use crate::math::frustum::{self, Overlap};
+use crate::math::{Aabb, frustum::corners};
+use crate::techniques::LightView;
+
+/// `normal · x = distance`; beyond it is where the dot product is greater.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    pub normal: DVec3,
+    pub distance: f64,
+}
+
+/// What f32 transforms may be off by, relative to the coordinates that meet.
+const SLACK: f64 = 1.0 / (1 << 20) as f64;
+
+/// A ray nearer than this to a plane's own direction takes too long to reach it.
+const STEEPNESS: f64 = 1e-2;
+
+/// A plane beyond the eye, the near rectangle and all that is seen, which every ray from the light through the caster's
+/// box crosses: the one of six that cuts the volume shortest. `None`: none of the six does.
+pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Option<Plane> {
+    let bounds = seen_bounds(view);
+    let margin = 1e-3 * bounds.radius() + SLACK * bounds.min.abs().max(bounds.max.abs()).max_element();
+    let box_corners = caster.bounds.corners().map(|corner| caster.world_from_model.transform_point3(corner));
+    let faces = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
+        [(axis, axis.dot(bounds.max)), (-axis, -axis.dot(bounds.min))]
+            .map(|(normal, distance)| Plane { normal, distance: distance + margin })
+    });
+    let length = |plane: &Plane| {
+        let ways = box_corners.iter().map(|corner| {
+            let away = source.away(*corner);
+            let steepness = plane.normal.dot(away) / away.length();
+            let gap = (plane.distance - plane.normal.dot(*corner)).max(0.0);
+            if steepness > STEEPNESS { gap / steepness } else { f64::INFINITY }
+        });
+        ways.fold(0.0, f64::max)
+    };
+    let shortest = faces.map(|plane| (length(&plane), plane)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    shortest.0.is_finite().then_some(shortest.1)
+}
+
+/// The eye, the near rectangle, and the boxes of all that is in view.
+fn seen_bounds(view: &LightView<'_>) -> Aabb {
+    let clip_from_world = camera(view);
+    let near = corners(&clip_from_world.inverse()).into_iter().take(4).chain([view.scene.camera.eye]);
+    let seen = view
+        .items
+        .iter()
+        .filter(|item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside);
+    seen.fold(Aabb::from_points(near), |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
+}
+
+fn camera(view: &LightView<'_>) -> DMat4 {
+    view.scene.camera.clip_from_view(view.scene.aspect()) * view.scene.camera.view_from_world()
+}
+
+/// Whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
+/// nothing that is seen, itself included.
+pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source) -> bool {
+    let extent = caster.bounds.max - caster.bounds.min;
+    let Some(axis) = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|axis| axis.dot(extent) == 0.0) else {
+        return false;
+    };
+    let normal = caster.world_from_model.inverse().transpose().transform_vector3(axis).normalize();
+    let middle = caster.world_from_model.transform_point3(caster.bounds.center());
+    let height = |point: DVec3| normal.dot(point - middle);
+    let above = -normal.dot(source.away(middle)); // the light's height, or for a direction its rise
+    let side = above.signum();
+    let slack = |point: DVec3| SLACK * (point.abs().max_element() + middle.abs().max_element());
+    let is_before = |point: DVec3| side * height(point) >= -slack(point);
+    let clear = |point: DVec3| side * height(point) > slack(point);
+    let near = corners(&camera(view).inverse()).into_iter().take(4);
+    let light_is_clear = side * above > SLACK * source.away(middle).length();
+    let others = view
+        .items
+        .iter()
+        .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
+    light_is_clear && clear(view.scene.camera.eye) && { near }.all(clear) && { others }.all(is_before)
+}
