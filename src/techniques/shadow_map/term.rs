@@ -66,6 +66,9 @@ fn sampler(settings: &Settings, compare: Compare) -> Sampler {
 /// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
 fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
     let index = term.index;
+    if settings.mipmaps != Mipmaps::None {
+        term.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
+    }
     if settings.kernel == 1 && settings.bias == Bias::Offset {
         return;
     }
