@@ -80,19 +80,18 @@ impl Judge {
         if let Some(known) = self.rims.get(&(pixel, size)) {
             return *known;
         }
-        let (light, hit) = (&self.scene.lights[0], self.truth.pixels[pixel].hit.unwrap());
-        let frustum = light.frustum().unwrap();
-        let texel = 2.0 * (0.5 * frustum.cone_radians).tan() / f64::from(size);
-        let distance = hit.position.distance(frustum.position);
+        let (light, hit) = (self.scene.lights[0].frustum().unwrap(), self.truth.pixels[pixel].hit.unwrap());
+        let texel = 2.0 * (0.5 * light.cone_radians).tan() / f64::from(size);
+        let distance = hit.position.distance(light.position);
         let mut seen_by_light = self.scene.clone();
         seen_by_light.image = Image { size: [32; 2], background: [0.0; 3] };
         seen_by_light.camera = Camera {
-            eye: frustum.position,
+            eye: light.position,
             target: hit.position,
-            up: frustum.up,
+            up: light.up,
             fov_y_radians: 2.0 * (2.0 * texel).atan(),
-            near: frustum.near,
-            far: frustum.far,
+            near: light.near,
+            far: light.far,
         };
         let anything = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
         let around = ray::trace(&seen_by_light, 0, &anything).unwrap();

@@ -240,9 +240,10 @@ impl Device {
         Ok(())
     }
 
-    /// Clears colour and depth through the pass's write masks, which must be open for what is cleared.
+    /// Clears the whole target, colour and depth through the pass's write masks, which must be open for what is cleared.
     fn clear(&self, pass: &DrawPass) {
         unsafe {
+            self.gl.disable(glow::SCISSOR_TEST);
             if let Some(color) = pass.clear.color {
                 self.gl.clear_buffer_f32_slice(glow::COLOR, 0, &color);
             }
@@ -254,6 +255,9 @@ impl Device {
                 self.gl.stencil_mask(0xFF);
                 self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
                 self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));
+            }
+            if pass.state.scissor.is_some() {
+                self.gl.enable(glow::SCISSOR_TEST);
             }
         }
     }

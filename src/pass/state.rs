@@ -96,7 +96,7 @@ pub struct DrawState {
     pub stencil: Option<Stencil>,
     /// `None`: the fragment's colour replaces what is there.
     pub blend: Option<Blend>,
-    /// Left, bottom, width and height in pixels of what may be drawn and cleared; `None`: everything.
+    /// Left, bottom, width and height in pixels of what may be drawn; `None`: everything. Clears do not heed it.
     pub scissor: Option<[u32; 4]>,
 }
 

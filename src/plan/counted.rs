@@ -105,7 +105,12 @@ impl Builder<'_> {
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
-            state: lens.of_surfaces(DrawState { stencil: Some(LIT), blend: Some(Blend::Add), ..DrawState::REPEAT }),
+            state: lens.of_surfaces(DrawState {
+                stencil: Some(LIT),
+                blend: Some(Blend::Add),
+                scissor: term.counting.as_ref().and_then(|counting| counting.scissor),
+                ..DrawState::REPEAT
+            }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
         let lit = LightTerm { dimming: 0.0, ..term.clone() };

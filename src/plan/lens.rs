@@ -87,7 +87,7 @@ impl Lens {
             _ => self.depth_range,
         };
         let depth_clamp = state.depth_clamp || (counting.infinite && !self.infinite);
-        DrawState { depth_range, depth_clamp, clip_distance: depth_clamp, ..*state }
+        DrawState { depth_range, depth_clamp, clip_distance: depth_clamp, scissor: counting.scissor, ..*state }
     }
 
     /// Makes the vertex stage write what `state` clips by.

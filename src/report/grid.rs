@@ -54,14 +54,14 @@ impl Grid {
 }
 
 fn standard(quick: bool, serves: impl Fn(&dyn Technique) -> bool) -> Vec<Setting> {
-    let of = |technique: &&dyn Technique| {
-        let values = |axis: &Axis| {
-            let values = if quick { axis.quick } else { axis.values };
-            (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
-        };
-        let grids = [technique.axes()].into_iter().chain(technique.more_axes().iter().copied());
-        let of_grid = |axes: &[Axis]| product(technique.name(), &axes.iter().map(values).collect::<Vec<_>>());
-        grids.flat_map(of_grid).collect::<Vec<_>>()
+    let values = |axis: &Axis| {
+        let values = if quick { axis.quick } else { axis.values };
+        (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
+    };
+    let of = |technique: &&'static dyn Technique| {
+        let (name, grids) =
+            (technique.name(), [technique.axes()].into_iter().chain(technique.more_axes().iter().copied()));
+        grids.flat_map(move |axes| product(name, &axes.iter().map(values).collect::<Vec<_>>()))
     };
     TABLE.iter().filter(|technique| serves(**technique)).flat_map(of).collect()
 }

@@ -1,9 +1,10 @@
 //! A light as techniques see it, and what they give the lit pass for it.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
+use super::projector::Projector;
 use super::surface::Viewer;
 use super::{Item, items};
 use crate::math::Aabb;
@@ -12,7 +13,7 @@ use crate::pass::{
     Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
     Redraw, Shade, Uniform, glsl,
 };
-use crate::scene::{Frustum, Light, Scene};
+use crate::scene::{Frustum, Light, Reader, Scene, SettingsError};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +28,42 @@ pub struct LightView<'a> {
     pub keep_all: bool,
 }
 
-impl LightView<'_> {
-    pub fn light(&self) -> &Light {
+impl<'a> LightView<'a> {
+    pub fn light(&self) -> &'a Light {
         &self.scene.lights[self.index]
+    }
+
+    /// The light in the frustum that it has.
+    ///
+    /// # Errors
+    ///
+    /// A light that has none: one that a technique does not serve which asks for it.
+    pub fn in_its_frustum(&self, keys: &Reader<'_>) -> Result<FrustumView<'a>, SettingsError> {
+        let frustum = self.light().frustum();
+        let frustum = frustum.ok_or_else(|| keys.error("technique", "draws the map of a light with a frustum"))?;
+        Ok(FrustumView { light_view: *self, projector: Projector::of_frustum(frustum) })
+    }
+}
+
+/// A light as one map sees it: from a spotlight's own frustum, or from what a technique made.
+#[derive(Clone, Debug)]
+pub struct FrustumView<'a> {
+    pub light_view: LightView<'a>,
+    pub projector: Projector,
+}
+
+impl<'a> Deref for FrustumView<'a> {
+    type Target = LightView<'a>;
+
+    fn deref(&self) -> &LightView<'a> {
+        &self.light_view
+    }
+}
+
+impl FrustumView<'_> {
+    /// `P_light · L⁻¹`.
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.projector.clip_from_world()
     }
 }
 
@@ -38,6 +72,8 @@ impl LightView<'_> {
 pub struct Coordinates {
     /// `S`: texture space from the light's clip space.
     pub texture_from_light_clip: DMat4,
+    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    pub receiver_bias: DMat4,
     /// `P_light`, of whatever the technique draws from the light.
     pub light_clip_from_light: DMat4,
     /// `L⁻¹`.
@@ -51,6 +87,7 @@ impl Coordinates {
     pub fn of_frustum(frustum: &Frustum) -> Self {
         Self {
             texture_from_light_clip: scale_bias(0.5, 0.5),
+            receiver_bias: DMat4::IDENTITY,
             light_clip_from_light: frustum.clip_from_view(),
             light_from_world: frustum.view_from_world(),
             set_up: SetUp::World,
@@ -61,7 +98,7 @@ impl Coordinates {
     /// What texgen makes them from, for an eye.
     pub fn spaces(&self, eye_from_world: DMat4) -> Spaces {
         Spaces {
-            texture_from_light_clip: self.texture_from_light_clip,
+            texture_from_light_clip: self.texture_from_light_clip * self.receiver_bias,
             light_clip_from_light: self.light_clip_from_light,
             light_from_world: self.light_from_world,
             eye_from_world,
@@ -107,6 +144,8 @@ pub struct Counting {
     pub clamped: bool,
     /// Volumes need depth before the near plane: surfaces leave it to them (C8).
     pub ledge: bool,
+    /// The pixels that the light may reach, as [`DrawState::scissor`]; `None`: any.
+    pub scissor: Option<[u32; 4]>,
     /// What a picture of the volumes shows: all of their sides and caps.
     pub volumes: Vec<VolumeDraw>,
     /// Their possible silhouettes, as lines (C1).

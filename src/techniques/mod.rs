@@ -12,6 +12,7 @@ pub mod guides;
 pub mod items;
 pub mod light;
 mod midpoint;
+mod projector;
 mod second_depth;
 mod shadow_map;
 mod shadow_volume;
@@ -23,7 +24,7 @@ pub mod views;
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError, suggest};
 pub use items::Item;
-pub use light::{Coordinates, LightTerm, LightView};
+pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 
 /// A way to find out which points a light reaches.
 pub trait Technique: Sync {

@@ -7,8 +7,8 @@
 
 use glam::{DVec3, DVec4};
 
-use super::shadow_map::projector::{Projector, Rays};
-use super::{Item, LightView};
+use super::projector::Rays;
+use super::{FrustumView, Item};
 use crate::math::Aabb;
 use crate::math::frustum::planes;
 
@@ -28,14 +28,14 @@ pub struct Unseen {
 
 impl Unseen {
     /// For a map of `texels` a side, looked up within `reach` texels beside a filter's own.
-    pub fn new(view: &LightView<'_>, projector: &Projector, texels: u32, reach: f64) -> Self {
+    pub fn new(view: &FrustumView<'_>, texels: u32, reach: f64) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
         Self {
             scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
-            rays: projector.rays,
+            rays: view.projector.rays,
             camera_planes: planes(&clip_from_world),
-            reach: (REACH_TEXELS + reach) * projector.extent(1.0) / f64::from(texels),
+            reach: (REACH_TEXELS + reach) * view.projector.extent(1.0) / f64::from(texels),
         }
     }
 

@@ -27,6 +27,7 @@ pub fn cases() -> Vec<Case> {
         shape("torus", turned(torus(DVec3::ZERO, 1.0, 0.4, 24, 12)), true),
         shape("torus knot", torus_knot(160, 12), true),
         shape("nested boxes", nested_boxes(300), true),
+        shape("low-polygon figure", figure(), true),
         shape("inside out", turned(cuboid(-DVec3::ONE, DVec3::ONE)), false),
         shape("two triangles back to back", doubled(true), false),
         shape("a triangle twice", doubled(false), false),
@@ -79,6 +80,19 @@ fn joined(shapes: impl Iterator<Item = Shape>) -> Shape {
         triangles.extend(indices.into_iter().map(|triangle| triangle.map(|k| first + k)));
         (points, triangles)
     })
+}
+
+/// Body, head, arms and legs of a game's figure: boxes that stand in one another.
+fn figure() -> Shape {
+    let parts = [
+        ([-0.3, -0.3, -0.15], [0.3, 0.5, 0.15]),
+        ([-0.15, 0.45, -0.15], [0.15, 0.8, 0.15]),
+        ([-0.8, 0.25, -0.1], [-0.25, 0.45, 0.1]),
+        ([0.25, 0.2, -0.1], [0.45, 0.45, 0.7]),
+        ([-0.28, -1.0, -0.12], [-0.04, -0.25, 0.12]),
+        ([0.04, -1.0, -0.3], [0.28, -0.2, 0.0]),
+    ];
+    joined(parts.into_iter().map(|(min, max)| cuboid(DVec3::from_array(min), DVec3::from_array(max))))
 }
 
 pub fn turned((points, triangles): Shape) -> Shape {

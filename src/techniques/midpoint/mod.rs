@@ -21,10 +21,9 @@ mod single;
 use self::settings::{Average, Settings, Single};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
-use super::shadow_map::projector::Projector;
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias, term};
-use super::{Axis, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
@@ -46,7 +45,7 @@ impl Technique for Midpoint {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::spots_alone(kind)
+        shadow_map::has_one_frustum(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -65,19 +64,19 @@ impl Technique for Midpoint {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let projector = shadow_map::of_spot(view, keys)?;
+        let view = &view.in_its_frustum(keys)?;
         refuse(&settings.map, keys)?;
-        let casters = in_frustum(view, &projector, notes);
+        let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
         }
         let mut draw = |name, image, ending, offset| {
             let layer = Layer { name, image, ending, offset, casters: &casters };
-            depth::draw(view, &projector, &layer, &settings.map, list, notes)
+            depth::draw(view, &layer, &settings.map, list, notes)
         };
         let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET);
         let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET);
-        let first = match settings.single.unwrap_or_else(|| needed(view, &projector)) {
+        let first = match settings.single.unwrap_or_else(|| needed(view)) {
             Single::Far => None,
             Single::First => Some(nearest),
             Single::FirstOffset => {
@@ -93,7 +92,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        Ok(term::term(view, &projector, map, &settings.map, 0.0))
+        Ok(term::term(view, map, &settings.map, 0.0))
     }
 }
 
@@ -112,8 +111,8 @@ const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
 
 /// What texels with one layer alone must store. Behind a layer that is the last in the map only what is not drawn into
 /// the map can be shadowed: what does not cast, and what lies beyond the light's far plane.
-fn needed(view: &LightView<'_>, projector: &Projector) -> Single {
-    let clip_from_world = projector.clip_from_world();
+fn needed(view: &FrustumView<'_>) -> Single {
+    let clip_from_world = view.clip_from_world();
     let all_is_drawn = view.items.iter().all(|item| {
         let corners = item.bounds.corners().map(|corner| clip_from_world * item.world_from_model * corner.extend(1.0));
         item.casts_shadow && corners.iter().all(|clip| clip.z <= clip.w)
@@ -122,7 +121,7 @@ fn needed(view: &LightView<'_>, projector: &Projector) -> Single {
 }
 
 /// How the second pass ends its fragments.
-fn peel(view: &LightView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
+fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),

@@ -38,7 +38,7 @@ impl Technique for SecondDepth {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::spots_alone(kind)
+        shadow_map::has_one_frustum(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -57,9 +57,9 @@ impl Technique for SecondDepth {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
-        let projector = shadow_map::of_spot(view, keys)?;
-        let mut casters = casters(view, &projector, &settings, notes);
-        settings.crop = fit::crop(view, &projector, &mut casters, &settings, notes);
+        let view = &view.in_its_frustum(keys)?;
+        let mut casters = casters(view, &settings, notes);
+        settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if !is_assumed {
             refuse_open(&casters, keys)?;
         }
@@ -68,9 +68,9 @@ impl Technique for SecondDepth {
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
-        let map = depth::draw(view, &projector, &layer, &settings, list, notes);
+        let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        Ok(term::term(view, &projector, map, &settings, 0.0))
+        Ok(term::term(view, map, &settings, 0.0))
     }
 }
 

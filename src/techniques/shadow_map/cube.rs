@@ -9,7 +9,6 @@ use glam::{DMat4, DVec3, Vec2};
 use super::bias;
 use super::casters::{in_the_map, warn_of_near};
 use super::depth::{self, Layer};
-use super::projector::Projector;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::term::{sampler, texture_from_light_clip};
 use crate::math::frustum::{self, Overlap};
@@ -17,8 +16,9 @@ use crate::pass::{
     Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
+use crate::techniques::projector::Projector;
 use crate::techniques::unseen::Unseen;
-use crate::techniques::{Coordinates, Item, LightTerm, LightView, Notes};
+use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, Notes};
 
 /// How far beyond a face's sides something may lie that looks it up across a seam, in texels: a filter's neighbour and
 /// rounding.
@@ -53,7 +53,7 @@ pub fn describe(
     notes: &mut Notes,
 ) -> LightTerm {
     let casters = casters(view, point, settings, notes);
-    let faces: Vec<(CubeFace, Projector, Vec<&Item>)> =
+    let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Item>)> =
         CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
     if faces.is_empty() {
         return super::without_casters(view, settings.dimming, notes);
@@ -64,8 +64,8 @@ pub fn describe(
 
 /// The items whose shadow can be seen.
 fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
-    let any_face = projector(point, CubeFace::PositiveX);
-    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(view, &any_face, settings.size, 0.0));
+    let any_face = seen_from(view, point, CubeFace::PositiveX);
+    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(&any_face, settings.size, 0.0));
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
@@ -87,15 +87,15 @@ fn needed<'a>(
     casters: &[&'a Item],
     settings: &Settings,
     notes: &mut Notes,
-) -> Option<(CubeFace, Projector, Vec<&'a Item>)> {
-    let projector = projector(point, face);
+) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Item>)> {
+    let face_view = seen_from(view, point, face);
     let what = format!("face {} of the map of light {}", face.name(), view.index);
-    let clip_from_world = projector.clip_from_world();
+    let clip_from_world = face_view.clip_from_world();
     let holds = |item: &&&Item| {
         view.keep_all || frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
     };
     let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
-    casters.iter().for_each(|item| warn_of_near(view, &projector, item, notes));
+    casters.iter().for_each(|item| warn_of_near(&face_view, item, notes));
     if inside.is_empty() {
         notes.left_out(what, "no caster that matters stands in it");
         return None;
@@ -104,7 +104,7 @@ fn needed<'a>(
         notes.left_out(what, "the camera sees nothing in it");
         return None;
     }
-    Some((face, projector, inside))
+    Some((face, face_view, inside))
 }
 
 /// Whether the camera may see something that looks the face up.
@@ -140,14 +140,14 @@ fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
     Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
 }
 
-fn projector(point: &Point, face: CubeFace) -> Projector {
-    Projector::of_frustum(&frustum_of(point, face))
+fn seen_from<'a>(view: &LightView<'a>, point: &Point, face: CubeFace) -> FrustumView<'a> {
+    FrustumView { light_view: *view, projector: Projector::of_frustum(&frustum_of(point, face)) }
 }
 
 /// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
 fn draw(
     view: &LightView<'_>,
-    faces: &[(CubeFace, Projector, Vec<&Item>)],
+    faces: &[(CubeFace, FrustumView<'_>, Vec<&Item>)],
     settings: &Settings,
     list: &mut PassList,
     notes: &mut Notes,
@@ -159,10 +159,10 @@ fn draw(
     let buffer = (settings.transfer == Transfer::Copy)
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
-    for (face, projector, casters) in faces {
+    for (face, face_view, casters) in faces {
         let layer =
             Layer { name: "depth", image: "map", ending: None, offset: bias::offset(settings).polygon, casters };
-        let batches = depth::batches(&layer, &depth::map_clip_from_world(projector, settings), list);
+        let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
             color: None,
@@ -198,6 +198,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
     term.coordinates = Some(Coordinates {
         texture_from_light_clip: DMat4::IDENTITY,
+        receiver_bias: DMat4::IDENTITY,
         light_clip_from_light: DMat4::IDENTITY,
         light_from_world: DMat4::from_translation(-point.position),
         set_up: settings.set_up,
@@ -222,7 +223,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
 fn face_depth(point: &Point, settings: &Settings) -> Vec2 {
     let Point { near, far, .. } = *point;
     let (a, b) = ((far + near) / (far - near), 2.0 * far * near / (far - near));
-    let any_face = projector(point, CubeFace::PositiveX);
+    let any_face = Projector::of_frustum(&frustum_of(point, CubeFace::PositiveX));
     let moved = bias::offset(settings).texels * bias::texel_at_one(&any_face, settings);
     let texture = texture_from_light_clip(settings);
     let (scale, offset) = (texture.z_axis.z, texture.w_axis.z);

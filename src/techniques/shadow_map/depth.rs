@@ -2,7 +2,6 @@
 
 use glam::DMat4;
 
-use super::projector::Projector;
 use super::settings::{Mipmaps, Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
@@ -10,7 +9,7 @@ use crate::pass::{
     PolygonOffset, Storage, Target, Uniform, Work,
 };
 use crate::techniques::items::depth_batches;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, LightView, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
@@ -37,8 +36,7 @@ pub struct Ending {
 
 /// Draws a layer and, by the copy road, copies it. Returns the depth texture.
 pub fn draw(
-    view: &LightView<'_>,
-    projector: &Projector,
+    view: &FrustumView<'_>,
     layer: &Layer<'_>,
     settings: &Settings,
     list: &mut PassList,
@@ -52,7 +50,7 @@ pub fn draw(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
-    let batches = batches(layer, &map_clip_from_world(projector, settings), list);
+    let batches = batches(layer, &map_clip_from_world(view, settings), list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let (state, cleared) = state(settings, layer.offset);
@@ -81,8 +79,8 @@ pub fn draw(
 }
 
 /// Raster, crop, and the light's own clip space.
-pub fn map_clip_from_world(projector: &Projector, settings: &Settings) -> DMat4 {
-    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * projector.clip_from_world()
+pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
+    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
 /// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].

@@ -7,12 +7,12 @@
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
 
 use super::bias;
-use super::projector::{Projector, Rays};
 use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
+use crate::techniques::projector::Rays;
 use crate::techniques::unseen::Unseen;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// A rectangle of a light's normalised device coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,18 +60,12 @@ impl Crop {
 
 /// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
 /// frustum the map covers.
-pub fn crop(
-    view: &LightView<'_>,
-    projector: &Projector,
-    casters: &mut Vec<&Item>,
-    settings: &Settings,
-    notes: &mut Notes,
-) -> Crop {
-    let is_parallel = matches!(projector.rays, Rays::Along(_));
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+    let is_parallel = matches!(view.projector.rays, Rays::Along(_));
     if settings.fit == Fit::None && !is_parallel {
         return Crop::WHOLE;
     }
-    let unseen = Unseen::new(view, projector, settings.size, 0.0);
+    let unseen = Unseen::new(view, settings.size, 0.0);
     casters.retain(|item| {
         let idle = unseen.shadows_nothing(item);
         if idle {
@@ -83,8 +77,8 @@ pub fn crop(
     if settings.fit == Fit::None {
         return Crop::WHOLE;
     }
-    let needed = of_casters(view, projector, &unseen);
-    let needed = if settings.fit == Fit::View { needed.within(of_sight(view, projector)) } else { needed };
+    let needed = of_casters(view, &unseen);
+    let needed = if settings.fit == Fit::View { needed.within(of_sight(view)) } else { needed };
     if needed.is_empty() {
         return Crop::WHOLE;
     }
@@ -98,8 +92,8 @@ pub fn crop(
 }
 
 /// Around every caster in the frustum, so that what else is left out moves no texel.
-fn of_casters(view: &LightView<'_>, projector: &Projector, unseen: &Unseen) -> Crop {
-    let clip_from_world = projector.clip_from_world();
+fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
+    let clip_from_world = view.clip_from_world();
     let mut crop = Crop::NOTHING;
     for item in view.items.iter().filter(|item| item.casts_shadow && !unseen.shadows_nothing(item)) {
         let clip_from_model = clip_from_world * item.world_from_model;
@@ -119,7 +113,7 @@ fn of_casters(view: &LightView<'_>, projector: &Projector, unseen: &Unseen) -> C
 
 /// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
-fn of_sight(view: &LightView<'_>, projector: &Projector) -> Crop {
+fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let seen =
@@ -132,7 +126,7 @@ fn of_sight(view: &LightView<'_>, projector: &Projector) -> Crop {
     let bounds = Aabb::from_points(points);
     let slack = DVec3::splat(1e-6 * bounds.radius());
     let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
-    let light_clip = projector.clip_from_world();
+    let light_clip = view.clip_from_world();
     // The light's sides alone: it lights from its very position on.
     let light_sides: Vec<DVec4> = frustum::planes(&light_clip)[..4].to_vec();
     let camera_sides = frustum::planes(&camera_clip);

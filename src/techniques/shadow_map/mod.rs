@@ -7,16 +7,15 @@ mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
 mod parallel;
-pub(super) mod projector;
 pub(super) mod settings;
 pub(super) mod term;
 mod texel;
 
 use self::casters::casters;
 use self::depth::Layer;
-use self::projector::Projector;
 use self::settings::Settings;
-use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use super::projector::Projector;
+use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -71,46 +70,34 @@ impl Technique for ShadowMap {
             }
         };
         match projector {
-            Some(projector) => Ok(one_map(view, &projector, settings, list, notes)),
+            Some(projector) => Ok(one_map(&FrustumView { light_view: *view, projector }, settings, list, notes)),
             None => Ok(without_casters(view, settings.dimming, notes)),
         }
     }
 }
 
 /// A light with one square map.
-fn one_map(
-    view: &LightView<'_>,
-    projector: &Projector,
-    mut settings: Settings,
-    list: &mut PassList,
-    notes: &mut Notes,
-) -> LightTerm {
-    let mut casters = casters(view, projector, &settings, notes);
-    settings.crop = fit::crop(view, projector, &mut casters, &settings, notes);
+fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, notes: &mut Notes) -> LightTerm {
+    let mut casters = casters(view, &settings, notes);
+    settings.crop = fit::crop(view, &mut casters, &settings, notes);
     if casters.is_empty() && !view.keep_all {
         return without_casters(view, settings.dimming, notes);
     }
     let offset = bias::offset(&settings);
-    let fewer =
-        if settings.simplified { texel::simplified(view, projector, &casters, &settings, notes) } else { Vec::new() };
+    let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
     let fewer: Vec<&Item> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
-    let map = depth::draw(view, projector, &layer, &settings, list, notes);
-    term::term(view, projector, map, &settings, offset.texels)
+    let map = depth::draw(view, &layer, &settings, list, notes);
+    term::term(view, map, &settings, offset.texels)
 }
 
-/// The frustum of a spotlight, for techniques that serve no other light.
-pub(super) fn of_spot(view: &LightView<'_>, keys: &Reader<'_>) -> Result<Projector, SettingsError> {
-    let frustum = view.light().frustum();
-    frustum.map(Projector::of_frustum).ok_or_else(|| keys.error("technique", "draws the map of a spotlight's frustum"))
-}
-
-/// What such techniques say of a light's kind.
-pub(super) fn spots_alone(kind: &LightKind) -> Result<(), &'static str> {
+/// For techniques that draw one map in perspective and no other.
+pub(super) fn has_one_frustum(kind: &LightKind) -> Result<(), &'static str> {
     match kind {
         LightKind::Spot(_) => Ok(()),
-        LightKind::Point(_) | LightKind::Directional { .. } => Err("draws the map of a spotlight's frustum"),
+        LightKind::Point(_) => Err("draws one square map, and a point light needs six"),
+        LightKind::Directional { .. } => Err("draws its map in perspective, and a directional light has none"),
     }
 }
 

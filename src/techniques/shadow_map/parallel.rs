@@ -12,10 +12,10 @@
 use glam::DVec3;
 
 use super::fit::rim_texels;
-use super::projector::{Projector, Rays};
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
+use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::{Item, LightView, Notes};
 
 /// Widths of a texel in a factor of 2.

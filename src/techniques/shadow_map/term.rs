@@ -4,14 +4,14 @@ use glam::{DMat4, DVec3, Vec4};
 
 use super::bias;
 use super::fit::Crop;
-use super::projector::{Projector, Rays};
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
-use crate::techniques::{Coordinates, LightTerm, LightView};
+use crate::techniques::projector::Rays;
+use crate::techniques::{Coordinates, FrustumView, LightTerm};
 
 /// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
-pub fn term(view: &LightView<'_>, projector: &Projector, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
+pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
     let index = view.index;
     let name = format!("shadow_map_{index}");
     let clamped = settings.format == DepthFormat::Depth32F;
@@ -21,24 +21,25 @@ pub fn term(view: &LightView<'_>, projector: &Projector, map: ImageId, settings:
     if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
-    let mut texture_from_light_clip = texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip();
-    if texels > 0.0 {
-        texture_from_light_clip *= bias::moved_to_light(projector, texels, settings);
-    }
-    term.coordinates = Some(Coordinates {
-        texture_from_light_clip,
-        light_clip_from_light: projector.clip_from_light,
-        light_from_world: projector.light_from_world,
+    let mut coordinates = Coordinates {
+        texture_from_light_clip: texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip(),
+        receiver_bias: DMat4::IDENTITY,
+        light_clip_from_light: view.projector.clip_from_light,
+        light_from_world: view.projector.light_from_world,
         set_up: settings.set_up,
         split: settings.split,
-    });
+    };
+    if texels > 0.0 {
+        coordinates.receiver_bias = bias::moved_to_light(&view.projector, texels, settings);
+    }
     // Parallel light reaches everywhere: nothing asks where a frustum ends.
-    if let Rays::From { .. } = projector.rays {
+    if let Rays::From { .. } = view.projector.rays {
         term.frustum_from_map = frustum_from_map(settings);
     }
     term.dimming = settings.dimming;
     term.map = Some(map);
-    look_up(&mut term, projector, &texture_from_light_clip, settings);
+    look_up(&mut term, &coordinates, view, settings);
+    term.coordinates = Some(coordinates);
     term
 }
 
@@ -71,8 +72,11 @@ pub fn sampler(settings: &Settings) -> Sampler {
 }
 
 /// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
-fn look_up(term: &mut LightTerm, projector: &Projector, texture_from_light_clip: &DMat4, settings: &Settings) {
+fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
+    if settings.mipmaps != Mipmaps::None {
+        term.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
+    }
     if settings.kernel == 1 && settings.bias == Bias::Offset {
         return;
     }
@@ -95,11 +99,12 @@ fn look_up(term: &mut LightTerm, projector: &Projector, texture_from_light_clip:
         }
         Bias::NormalOffset => {
             term.shade = glsl!("shadow_map/normal_offset.frag");
-            let (texture, light_clip) = (*texture_from_light_clip, projector.clip_from_light);
+            let texture = coordinates.texture_from_light_clip * coordinates.receiver_bias;
+            let light_clip = coordinates.light_clip_from_light;
             let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
             let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
             let radius =
-                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(projector, settings);
+                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(&view.projector, settings);
             term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
             let texture_from_light = (texture * light_clip).as_mat4();
             term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light));

@@ -3,30 +3,24 @@
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use super::bias;
-use super::projector::{Projector, Rays};
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::pass::MeshRef;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::projector::Rays;
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// Fewer triangles are not worth looking at.
 const FEWEST: u32 = 200;
 
 /// `casters` with fewer triangles, where that moves their surface by less than half a texel.
-pub fn simplified(
-    view: &LightView<'_>,
-    projector: &Projector,
-    casters: &[&Item],
-    settings: &Settings,
-    notes: &mut Notes,
-) -> Vec<Item> {
+pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
     let of = |item: &&Item| {
         let mut item = (*item).clone();
         let before = (item.indices.end - item.indices.start) / 3;
         if before < FEWEST || item.needs_alpha_test() {
             return item;
         }
-        let mesh = cached(&item, allowed_error(projector, &item, settings));
+        let mesh = cached(&item, allowed_error(view, &item, settings));
         let after = mesh.triangle_count() as u32;
         if after < before {
             notes.left_out(
@@ -48,7 +42,8 @@ pub fn simplified(
 
 /// A quarter of a texel by quadrics, which take the mean of what bends: half of one at most places. In the item's own
 /// units: of the texels that it meets, those nearest to the light are the smallest.
-fn allowed_error(projector: &Projector, item: &Item, settings: &Settings) -> f64 {
+fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
+    let projector = &view.projector;
     let light_from_model = projector.light_from_world * item.world_from_model;
     let corners = item.bounds.corners().into_iter();
     let nearest = corners.map(|corner| -light_from_model.transform_point3(corner).z).fold(f64::INFINITY, f64::min);
