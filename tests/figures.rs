@@ -7,7 +7,9 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::figures::{FIGURES, Figure};
 use glumbra::frame::Renderer;
+use glumbra::oracle::ray::{self, Answer};
 use glumbra::plan::{Request, ViewRequest};
+use glumbra::report::run::draw_shade;
 use glumbra::scene::Scene;
 use glumbra::techniques::views::View;
 
@@ -31,4 +33,145 @@ fn at(scene: &Scene, view: View, point: DVec3, renderer: &mut Renderer) -> [f32;
         Pixels::Stencil { data, .. } => [f32::from(data[pixel]), 1.0],
         other => panic!("{:?}", other.size()),
     }
+}
+
+/// A panel's scene, by the figure's name and the panel's place.
+fn scene(name: &str, panel: usize) -> Scene {
+    figure(name).scene_of(&figure(name).panels[panel]).unwrap()
+}
+
+/// Where the ray from `light` through `point` meets the floor.
+fn on_floor(light: DVec3, point: DVec3) -> DVec3 {
+    light + (point - light) * light.y / (light.y - point.y)
+}
+
+const LIGHT: DVec3 = DVec3::new(-3.4, 5.0, 3.0);
+
+/// The middle of the ball's shadow in the workshop.
+fn shadow_of_ball() -> DVec3 {
+    on_floor(LIGHT, DVec3::new(1.8, 0.45, 1.0))
+}
+
+/// Of each figure, a point of each of some panels, and the shade that its caption means there: 1 lit, 0 shadowed. In
+/// failures it is the wrong one.
+#[test]
+fn captions_are_true_of_points() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    // Behind both boxes as the light sees them.
+    let overlap = DVec3::new(1.6, 0.0, -0.85);
+    // Well within the left box's shadow from the lower light, which reaches to its top's at (2.97, -1.57).
+    let long = on_floor(DVec3::new(-2.0, 2.9, 0.5), DVec3::new(-0.8, 2.1, 0.0));
+    let out_of_shadow = DVec3::new(3.6, 0.0, 1.4);
+    for (name, shades, point) in [
+        ("hsm-2-eye-view", &[1.0, 0.0][..], shadow_of_ball()),
+        ("lec-dimming", &[0.0, 0.0, 0.0], shadow_of_ball()),
+        ("gdc-volumes", &[0.0], overlap),
+        ("gdc-truncated", &[1.0, 0.0], long),
+        ("gdc-parity", &[1.0, 0.0], overlap),
+        ("gdc-eye-inside", &[0.0, 1.0, 1.0], out_of_shadow),
+    ] {
+        for (panel, expected) in shades.iter().enumerate() {
+            let found = at(&scene(name, panel), View::Shade, point, &mut renderer);
+            assert_eq!(found, [*expected, 1.0], "{name}, panel {panel} at {point}");
+        }
+    }
+    assert_eq!(at(&scene("gdc-volumes", 3), View::StencilCount, overlap, &mut renderer)[0], 2.0);
+    let lamp = scene("lec-back-projection", 0);
+    let walls = [DVec3::new(3.2, 1.6, -0.6), DVec3::new(-3.2, 1.6, 0.0)];
+    let reached = walls.map(|wall| at(&lamp, View::Shade, wall, &mut renderer)[1]);
+    assert_eq!(reached, [1.0, 0.0], "q > 0 alone is reached");
+}
+
+#[test]
+fn nearest_is_zero_or_one_and_linear_between() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut between = |panel: usize| {
+        let views = vec![ViewRequest { view: View::Shade, light: 0 }];
+        let plan = renderer.plan(&scene("hsm-5-filtering", panel), &Request { views, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        let Pixels::RgbaF32 { data, .. } = &renderer.read(&plan).unwrap().views[0] else { panic!() };
+        data.chunks_exact(4).filter(|p| p[3] > 0.0 && p[0] > 0.0 && p[0] < 1.0).count()
+    };
+    let [nearest, coarse, fine] = [between(0), between(1), between(2)];
+    assert_eq!(nearest, 0);
+    // A ramp of one texel, a 16th as wide; what grazes the light has partly shadowed texels of its own in both.
+    assert!(coarse > 2000 && fine < coarse / 3, "{coarse}, {fine}");
+}
+
+/// The floor's density against the projections' own formula: the area of a pixel's square in the map, by points of the
+/// floor half a pixel aside.
+#[test]
+fn texels_per_pixel_follow_the_projections() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut found = Vec::new();
+    for panel in [1, 4] {
+        let scene = scene("hsm-6-dueling-frusta", panel);
+        let camera_clip = scene.camera.clip_from_view(scene.aspect()) * scene.camera.view_from_world();
+        let light_clip = scene.lights[0].frustum().unwrap().clip_from_world();
+        let [width, height] = scene.image.size.map(f64::from);
+        for point in [DVec3::new(1.0, 0.0, 2.6), DVec3::new(0.4, 0.0, 1.6), DVec3::new(-1.0, 0.0, 1.4)] {
+            let at_clip = camera_clip.project_point3(point);
+            let pixel =
+                DVec3::new((0.5 + 0.5 * at_clip.x) * width, (0.5 - 0.5 * at_clip.y) * height, 0.0).floor() + 0.5;
+            let texel = |x: f64, y: f64| {
+                let ends = [0.2, 0.8].map(|z| {
+                    let ndc = DVec3::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height, z);
+                    camera_clip.inverse().project_point3(ndc)
+                });
+                let floor = ends[0] + (ends[1] - ends[0]) * ends[0].y / (ends[0].y - ends[1].y);
+                256.0 * light_clip.project_point3(floor).truncate()
+            };
+            let along = texel(pixel.x + 0.5, pixel.y) - texel(pixel.x - 0.5, pixel.y);
+            let down = texel(pixel.x, pixel.y + 0.5) - texel(pixel.x, pixel.y - 0.5);
+            let expected = along.perp_dot(down).abs().sqrt();
+            let density = f64::from(at(&scene, View::TexelsPerPixel, point, &mut renderer)[0]);
+            // Derivatives are taken between neighbours: half a pixel aside, where density differs by a few thousandths.
+            assert!((density / expected - 1.0).abs() < 0.02, "panel {panel} {point}: {density}, not {expected}");
+            found.push(density);
+        }
+    }
+    // Even beside the light; falling towards an eye that the light faces.
+    assert!(found[..3].iter().all(|density| (0.5..2.0).contains(density)), "{found:?}");
+    assert!(found[3] < 0.8 * found[5], "{found:?}");
+}
+
+/// Where eight bits that saturate call a point lit and eight that wrap call it shadowed, it is shadowed.
+#[test]
+fn saturating_counts_lose_shadows() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let shades = [0, 1].map(|panel| draw_shade(&scene("gdc-stencil-width", panel), 0, &mut renderer).unwrap());
+    let truth = ray::trace(&scene("gdc-stencil-width", 0), 0, &ray::Options::default()).unwrap();
+    let (mut lost, mut wrapped) = (0, 0);
+    let shadowed = truth.pixels.iter().enumerate().filter(|(_, pixel)| pixel.answer == Answer::Shadowed);
+    for (index, _) in shadowed {
+        lost += usize::from(shades[0].shade[index] > 0.5);
+        wrapped += usize::from(shades[1].shade[index] > 0.5);
+    }
+    // 256 of 300 volumes: a line.
+    assert!(lost > 500 && wrapped < lost / 5, "{lost}, {wrapped}");
+}
+
+#[test]
+fn the_command_writes_sheets_and_an_index() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_glumbra")).arg("figures").args(arguments).output().unwrap()
+    };
+    let out = folder.path().join("new/folder");
+    let done = run(&["--only", "gdc-parity", "--only", "lec-dimming", "-o", out.to_str().unwrap()]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let index = std::fs::read_to_string(out.join("index.md")).unwrap();
+    for name in ["gdc-parity", "lec-dimming"] {
+        assert!(index.contains(&format!("({name}.png)")), "{index}");
+        let size = image::image_dimensions(out.join(format!("{name}.png"))).unwrap();
+        assert!(size.0 > 800 && size.1 > 400, "{size:?}");
+    }
+    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+    let unknown = run(&["--only", "gdc-party", "-o", out.to_str().unwrap()]);
+    let message = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    assert!(!unknown.status.success() && message.contains("gdc-parity"), "{message}");
 }

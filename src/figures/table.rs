@@ -188,18 +188,10 @@ pub const FIGURES: &[Figure] = &[
         panels: &[
             panel(
                 "failure: extruded by 1.5",
-                &[
-                    "light.shadow.method=z-fail-truncated",
-                    "light.shadow.distance=1.5",
-                    "light.position=[-1.2, 1.9, 0.2]",
-                ],
+                &["light.shadow.method=z-fail-truncated", "light.shadow.distance=1.5", LOW],
                 None,
             ),
-            panel(
-                "cure: vertices at infinity, w = 0",
-                &["light.shadow.method=z-fail", "light.position=[-1.2, 1.9, 0.2]"],
-                None,
-            ),
+            panel("cure: vertices at infinity, w = 0", &["light.shadow.method=z-fail", LOW], None),
         ],
         caption: "The lower the light and the nearer to its occluder, the longer the shadow: a volume of a fixed length ends in \
                   mid air, and the floor behind is lit. Vertices at w = 0 end at infinity and need no length; the projection \
@@ -256,6 +248,9 @@ pub const FIGURES: &[Figure] = &[
                   counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
     },
 ];
+
+/// A light that is hardly higher than the left box.
+const LOW: &str = "light.position=[-2.0, 2.9, 0.5]";
 
 /// Within the right box's shadow, looking out of it over the lit floor.
 const EYE_INSIDE: [&str; 3] = ["camera.eye=[1.25, 0.22, -0.35]", "camera.target=[3.6, 0.0, 1.4]", "camera.near=0.02"];

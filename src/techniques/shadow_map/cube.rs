@@ -13,7 +13,8 @@ use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::term::{sampler, texture_from_light_clip};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Storage, Target, Uniform, Work, glsl,
+    Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform, Work,
+    glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
 use crate::techniques::projector::Projector;
@@ -196,6 +197,7 @@ fn draw(
 fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
+    term.meaning = Shade::Shader("a shade that is looked up in a cube map");
     term.coordinates = Some(Coordinates {
         texture_from_light_clip: DMat4::IDENTITY,
         receiver_bias: DMat4::IDENTITY,
