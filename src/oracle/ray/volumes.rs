@@ -231,13 +231,11 @@ impl<'t, 'a> Counting<'t, 'a> {
         }
         let own = seen.is_some_and(|seen| seen.triangle.continues_in(triangle)) && meeting.at_base == Side::Near;
         let at_base = meeting.at_base == Side::Near && counts && !own;
-        // The light may as well stand on the surface's other side, of which it then lights another half of the world.
-        let at_light = meeting.at_start == Side::Near && counts;
         let crossed = crossing_once(beam.origin(), beam.axis(), &triangle.corners);
         let is_crossed = crossed.is_some_and(|at| 0.0 < at && at < 1.0);
         Share {
             center: u32::from(is_crossed && counts && (is_fold || !own)),
-            reason: fold.or(at_base.then_some(Reason::Contact)).or(at_light.then_some(Reason::GrazingLight)),
+            reason: fold.or(at_base.then_some(Reason::Contact)),
         }
     }
 }

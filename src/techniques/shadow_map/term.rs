@@ -31,7 +31,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         ..Coordinates::of_frustum(&view.frustum)
     };
     if texels > 0.0 {
-        coordinates.texture_from_light_clip *= bias::moved_to_light(&view.frustum, texels, settings);
+        coordinates.receiver_bias = bias::moved_to_light(&view.frustum, texels, settings);
     }
     term.frustum_from_map = frustum_from_map(settings);
     term.dimming = settings.dimming;
@@ -68,6 +68,9 @@ fn sampler(settings: &Settings, compare: Compare) -> Sampler {
 /// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
 fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
+    if settings.mipmaps != Mipmaps::None {
+        term.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
+    }
     if settings.kernel == 1 && settings.bias == Bias::Offset {
         return;
     }
@@ -90,7 +93,8 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
         }
         Bias::NormalOffset => {
             term.shade = glsl!("shadow_map/normal_offset.frag");
-            let (texture, light_clip) = (coordinates.texture_from_light_clip, coordinates.light_clip_from_light);
+            let texture = coordinates.texture_from_light_clip * coordinates.receiver_bias;
+            let light_clip = coordinates.light_clip_from_light;
             let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
             let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
             let radius =

@@ -82,7 +82,7 @@ fn counting(
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
-        scissor: None,
+        scissor: if view.keep_all { None } else { ends::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }
