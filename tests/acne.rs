@@ -8,7 +8,7 @@ use glumbra::frame::Renderer;
 use glumbra::oracle::ray::{self, Hit, Truth};
 use glumbra::report::metrics::{Band, Errors, ShadeImage, compare};
 use glumbra::report::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Camera, Image, LightKind, Scene};
+use glumbra::scene::{self, Camera, Image, Scene};
 
 /// data/scenes/example.toml with the dense model, the whole of it `scale` times as large.
 fn scene(scale: f64) -> Scene {
@@ -54,7 +54,7 @@ impl Judge {
         if errors.false_shadow.outside > 50 {
             return (errors, errors.false_shadow.outside); // not worth looking at one by one
         }
-        let texels = |hit: &Hit| 0.5 * hit.in_light * f64::from(size);
+        let texels = |hit: &Hit| 0.5 * hit.in_map * f64::from(size);
         let pixels =
             || self.truth.pixels.iter().enumerate().filter_map(|(index, pixel)| Some((index, pixel, pixel.hit?)));
         let shadowed: Vec<_> =
@@ -80,9 +80,8 @@ impl Judge {
         if let Some(known) = self.rims.get(&(pixel, size)) {
             return *known;
         }
-        let (light, hit) = (&self.scene.lights[0], self.truth.pixels[pixel].hit.unwrap());
-        let LightKind::Spot { cone_radians, .. } = light.kind;
-        let texel = 2.0 * (0.5 * cone_radians).tan() / f64::from(size);
+        let (light, hit) = (self.scene.lights[0].frustum().unwrap(), self.truth.pixels[pixel].hit.unwrap());
+        let texel = 2.0 * (0.5 * light.cone_radians).tan() / f64::from(size);
         let distance = hit.position.distance(light.position);
         let mut seen_by_light = self.scene.clone();
         seen_by_light.image = Image { size: [32; 2], background: [0.0; 3] };

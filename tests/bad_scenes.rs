@@ -9,10 +9,14 @@ use proptest::prelude::*;
 /// A light that is right but for what a row adds.
 const LIGHT: &str = "[[light]]\nposition = [2, 4, 3]\ntarget = [0, 0, 0]\ncone = 60\nnear = 0.5\nfar = 20\n";
 
+/// A point light and a directional one, as [`LIGHT`].
+const POINT: &str = "[[light]]\nkind = \"point\"\nposition = [2, 4, 3]\n";
+const SUN: &str = "[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n";
+
 /// An object that is right but for what a row adds.
 const QUAD: &str = "[[object]]\nmesh = \"quad\"\n";
 
-/// Name, text (`{LIGHT}` and `{QUAD}` stand for the above), line or 0, what the message must say.
+/// Name, text (`{LIGHT}`, `{POINT}`, `{SUN}` and `{QUAD}` stand for the above), line or 0, what the message must say.
 const ROWS: &[(&str, &str, usize, &str)] = &[
     ("empty file", "", 1, "`object` is missing: a scene needs at least one [[object]]"),
     ("no objects", "[image]\nsize = [4, 4]\n", 1, "`object` is missing"),
@@ -71,8 +75,57 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
     ("eye beyond f32", "[camera]\neye = [0, 1e39, 0]\n{QUAD}", 2, "must be in [-1e18, 1e18], not 1e39"),
     ("ambient", "[shading]\nambient = [-0.1, 0, 0]\n{QUAD}", 2, "must be in [0, 1], not -0.1"),
     ("lighting", "[shading]\nlighting = \"per-pixel\"\n{QUAD}", 2, "cannot be \"per-pixel\""),
-    ("point light", "{LIGHT}kind = \"point\"\n{QUAD}", 7, "cannot be \"point\" yet"),
-    ("directional light", "{LIGHT}kind = \"directional\"\n{QUAD}", 7, "\"directional\" is planned"),
+    ("cone of a point light", "{POINT}cone = 60\n{QUAD}", 4, "`light.cone` is no key of a point light, which shines"),
+    ("shape of a point light", "{POINT}shape = \"cone\"\n{QUAD}", 4, "`light.shape` is no key of a point light"),
+    ("target of a point light", "{POINT}target = [0, 0, 0]\n{QUAD}", 4, "`light.target` is no key of a point light"),
+    ("image of a point light", "{POINT}image = \"a.png\"\n{QUAD}", 4, "`light.image` is no key of a point light"),
+    ("frustum of a point light", "{POINT}frustum = \"shown\"\n{QUAD}", 4, "`light.frustum` is no key of a point light"),
+    ("point light nowhere", "{QUAD}[[light]]\nkind = \"point\"\n", 3, "`light.position` is missing"),
+    ("point near", "{POINT}near = 2\nfar = 1\n{QUAD}", 5, "`light.far` must be above `near`, 2, not 1"),
+    ("point near alone", "{POINT}near = 0\n{QUAD}", 4, "`light.near` must be above 0, not 0"),
+    ("point attenuation", "{POINT}attenuation = [0, 0, 0]\n{QUAD}", 4, "must not be all zero"),
+    ("misspelt point key", "{POINT}positon = [0, 0, 0]\n{QUAD}", 4, "did you mean `position`?"),
+    ("cone of a sun", "{SUN}cone = 60\n{QUAD}", 4, "`light.cone` is no key of a directional light, whose rays"),
+    ("near of a sun", "{SUN}near = 1\n{QUAD}", 4, "`light.near` is no key of a directional light"),
+    (
+        "attenuation of a sun",
+        "{SUN}attenuation = [1, 0, 1]\n{QUAD}",
+        4,
+        "`light.attenuation` is no key of a directional",
+    ),
+    ("image of a sun", "{SUN}image = \"a.png\"\n{QUAD}", 4, "`light.image` is no key of a directional light"),
+    ("two directions", "{SUN}target = [0, 0, 0]\n{QUAD}", 4, "`light.target` cannot stand beside `direction`"),
+    ("no direction", "{QUAD}[[light]]\nkind = \"directional\"\n", 3, "`light.direction` is missing: the way that"),
+    (
+        "half a direction",
+        "[[light]]\nkind = \"directional\"\nposition = [0, 1, 0]\n{QUAD}",
+        1,
+        "`light.target` is missing",
+    ),
+    (
+        "the other half",
+        "[[light]]\nkind = \"directional\"\ntarget = [0, 1, 0]\n{QUAD}",
+        1,
+        "`light.position` is missing",
+    ),
+    (
+        "direction of no length",
+        "[[light]]\nkind = \"directional\"\ndirection = [0, 0, 0]\n{QUAD}",
+        3,
+        "`light.direction` must not be of zero length",
+    ),
+    (
+        "direction from here to here",
+        "[[light]]\nkind = \"directional\"\nposition = [1, 1, 1]\ntarget = [1, 1, 1]\n{QUAD}",
+        4,
+        "`light.target` must differ from `position`",
+    ),
+    (
+        "direction of a spot",
+        "{LIGHT}direction = [0, -1, 0]\n{QUAD}",
+        7,
+        "is no key of a spotlight, which has a `target`",
+    ),
     ("no such light", "{LIGHT}kind = \"spott\"\n{QUAD}", 7, "did you mean `spot`?"),
     ("light without cone", "[[light]]\nposition = [0, 1, 0]\ntarget = [0, 0, 0]\n{QUAD}", 1, "`light.cone` is missing"),
     ("light without position", "{QUAD}[[light]]\ncone = 50\n", 3, "`light.position` is missing"),
@@ -145,7 +198,8 @@ fn each_malformed_scene_has_its_own_error() {
     let folder = tempfile::tempdir().unwrap();
     let mut wrong = Vec::new();
     for (name, text, line, expected) in ROWS {
-        let text = text.replace("{LIGHT}", LIGHT).replace("{QUAD}", QUAD);
+        let named = [("{LIGHT}", LIGHT), ("{POINT}", POINT), ("{SUN}", SUN), ("{QUAD}", QUAD)];
+        let text = named.into_iter().fold((*text).to_owned(), |text, (name, part)| text.replace(name, part));
         let start = format!("{}:{line}: ", folder.path().join("scene.toml").display());
         match load(folder.path(), text.as_bytes()) {
             Ok(_) => wrong.push(format!("{name}: loads")),

@@ -31,7 +31,7 @@ fn load() -> Scene {
 
 /// Where the ray from the light through the middle of the teapot meets the floor.
 fn shadowed_floor(scene: &Scene) -> DVec3 {
-    let light = scene.lights[0].position;
+    let light = scene.lights[0].position().unwrap();
     let along = dvec3(0.0, 0.7, 1.8) - light;
     light - along * (light.y / along.y)
 }
@@ -95,7 +95,7 @@ fn the_teapot_shadows_the_floor_and_the_dark_stays_dark() {
     assert!(bright(plain.pick(LIT_FLOOR)), "{:?}", plain.pick(LIT_FLOOR));
     assert_eq!(shadowed.pick(LIT_FLOOR), plain.pick(LIT_FLOOR));
     let light = &plain.scene.lights[0];
-    let past = (light.clip_from_view() * light.view_from_world()).project_point3(FLOOR_PAST_THE_LIGHT);
+    let past = light.frustum().unwrap().clip_from_world().project_point3(FLOOR_PAST_THE_LIGHT);
     assert!(past.x > 1.0 && past.z.abs() < 1.0, "{past}");
     assert_eq!([plain.pick(FLOOR_PAST_THE_LIGHT), shadowed.pick(FLOOR_PAST_THE_LIGHT)], [[0; 3]; 2]);
     // 0.5 is halfway between two codes.
@@ -117,7 +117,7 @@ fn the_light_stands_in_a_yellow_wire_frame_where_nothing_hides_it() {
     for mode in [Mode::Camera, Mode::Shadowed] {
         let drawn = draw(mode);
         let light = &drawn.scene.lights[0];
-        let corners = frustum::corners(&(light.clip_from_view() * light.view_from_world()).inverse());
+        let corners = frustum::corners(&light.frustum().unwrap().clip_from_world().inverse());
         let (mut shown, mut hidden) = (0, 0);
         let edges = (0..8_usize).flat_map(|a| [1, 2, 4].map(|bit| (a, a | bit))).filter(|(a, b)| a != b);
         for (a, b) in edges {

@@ -128,6 +128,9 @@ fn shards_run_by_gnu_parallel_merge_to_the_whole() {
     let mut merge = Command::new(GLUMBRA);
     merge.current_dir(work.folder.path()).args(["report", "merge", "part1", "part2", "part3", "-o", "merged"]);
     succeed(&mut merge);
+    // The scene, the truth, and at least the row as written and the most wrong: of all the rows that the page names.
+    let page = std::fs::read_to_string(work.path("merged/report.html")).unwrap();
+    assert!(page.matches("data:image/png;base64,").count() >= 4 && !page.contains("no part has a picture"));
     let (whole, merged) = (work.load("whole"), work.load("merged"));
     assert!(merged.complete);
     let (whole, merged) = (only_scene(&whole), only_scene(&merged));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, dvec3};
-use glumbra::scene::{self, Error, LightKind, LightShape, Loaded, Origin, Scene, Value};
+use glumbra::scene::{self, Error, Frustum, LightKind, LightShape, Loaded, Origin, Point, Scene, Value};
 
 const EXAMPLE: &str = include_str!("../data/scenes/example.toml");
 
@@ -48,12 +48,14 @@ fn the_example_has_every_value_as_written() {
     assert_eq!((camera.fov_y_radians, camera.near, camera.far), (40.0_f64.to_radians(), 0.1, 50.0));
 
     let [light] = scene.lights.as_slice() else { panic!("one light") };
-    assert_eq!((light.position, light.target, light.up), (dvec3(2.0, 4.0, 3.0), dvec3(0.0, 0.5, 0.0), DVec3::Y));
-    assert_eq!(light.kind, LightKind::Spot { cone_radians: 60.0_f64.to_radians(), shape: LightShape::Cone });
-    assert_eq!((light.near, light.far, light.name.as_str()), (0.5, 20.0, "light 0"));
+    let spot = light.spot().unwrap();
+    let (position, target) = (dvec3(2.0, 4.0, 3.0), dvec3(0.0, 0.5, 0.0));
+    let cone_radians = 60.0_f64.to_radians();
+    let frustum = Frustum { position, target, up: DVec3::Y, cone_radians, near: 0.5, far: 20.0 };
+    assert_eq!((&spot.frustum, spot.shape, light.name.as_str()), (&frustum, LightShape::Cone, "light 0"));
     assert_eq!((light.ambient, light.diffuse, light.specular), ([0.0; 3], [1.0; 3], [1.0; 3]));
-    assert_eq!(light.attenuation, [1.0, 0.0, 0.0]);
-    assert!(light.image.is_none());
+    assert_eq!(spot.attenuation, [1.0, 0.0, 0.0]);
+    assert!(spot.image.is_none());
     assert_eq!(light.shadow.path, "light.shadow");
     assert!(matches!(light.shadow.origin, Origin::File { line: 20, .. }), "{:?}", light.shadow.origin);
     let keys: Vec<&str> = light.shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
@@ -124,11 +126,12 @@ fn colours_have_shorthands() {
     let scene = scene_of(&text, &[]);
     let light = &scene.lights[0];
     assert_eq!((light.diffuse, light.specular, light.name.as_str()), ([3.0, 2.0, 1.0], [0.0; 3], "key"));
-    assert!(matches!(light.kind, LightKind::Spot { shape: LightShape::Frustum, .. }));
+    let spot = light.spot().unwrap();
+    assert_eq!(spot.shape, LightShape::Frustum);
     assert!(light.shadow.is_empty() && matches!(light.shadow.origin, Origin::File { line: 1, .. }));
     // Straight down: up is -z, which keeps +x to the right.
-    assert_eq!(light.up, DVec3::NEG_Z);
-    let right = light.view_from_world().transform_vector3(DVec3::X);
+    assert_eq!(spot.frustum.up, DVec3::NEG_Z);
+    let right = spot.frustum.view_from_world().transform_vector3(DVec3::X);
     assert!(right.distance(DVec3::X) < 1e-12);
     let object = &scene.objects[0];
     let material = object.material.as_ref().unwrap();
@@ -159,9 +162,9 @@ fn lights_and_cameras_look_where_they_should() {
     let scene = scene_of(EXAMPLE, &["image.size=[200, 100]"]);
     assert_eq!(scene.aspect(), 2.0);
     let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-9, "{a} is not {b}");
-    let light = &scene.lights[0];
+    let light = scene.lights[0].frustum().unwrap();
     let forward = (light.target - light.position).normalize();
-    let clip_from_world = light.clip_from_view() * light.view_from_world();
+    let clip_from_world = light.clip_from_world();
     near(clip_from_world.project_point3(light.position + forward * 0.5), dvec3(0.0, 0.0, -1.0));
     near(clip_from_world.project_point3(light.position + forward * 20.0), dvec3(0.0, 0.0, 1.0));
     // 30 degrees off the axis is the frustum's side.
@@ -220,9 +223,56 @@ fn a_supplied_scene_printed_and_saved_is_the_same_scene() {
     let (direct, saved) =
         (load_file(&path, &["image.size=[300, 200]"]).unwrap().scene, load_file(&saved, &[]).unwrap().scene);
     assert_eq!((&direct.image, &direct.camera), (&saved.image, &saved.camera), "{toml}");
-    assert_eq!(direct.lights[0].kind, saved.lights[0].kind);
-    assert_eq!(direct.lights[0].position, saved.lights[0].position);
+    assert_eq!(direct.lights[0].frustum().unwrap(), saved.lights[0].frustum().unwrap());
     assert_eq!(direct.objects[1].world_from_model, saved.objects[1].world_from_model);
+}
+
+#[test]
+fn point_lights_take_their_range_from_the_objects() {
+    // The box is 3 below and reaches out to 5 along x; the diagonal does not count.
+    let text = "[[light]]\nkind = \"point\"\nposition = [0, 4, 0]\n[[object]]\nmesh = \"box\"\nscale = [5, 1, 1]\n";
+    let point = |overrides: &[&str]| match &scene_of(text, overrides).lights[0].kind {
+        LightKind::Point(point) => point.clone(),
+        other => panic!("{other:?}"),
+    };
+    let Point { position, near, far, attenuation } = point(&[]);
+    assert_eq!((position, attenuation), (dvec3(0.0, 4.0, 0.0), [1.0, 0.0, 0.0]));
+    assert!((near - 1.5).abs() < 1e-12 && (far - 5.5).abs() < 1e-12, "{near} {far}");
+    for (overrides, expected) in [
+        (&["light.near=0.25", "light.far=9"][..], [0.25, 9.0]),
+        (&["light.far=2"], [1.0, 2.0]),
+        (&["light.near=4"], [4.0, 8.0]),
+        // In the box: the planes are as far apart as a map bears.
+        (&["light.position=[0, 0, 0]"], [5.5e-3, 5.5]),
+    ] {
+        let Point { near, far, .. } = point(overrides);
+        assert!((near - expected[0]).abs() < 1e-12 && (far - expected[1]).abs() < 1e-12, "{overrides:?}: {near} {far}");
+    }
+}
+
+#[test]
+fn directional_lights_have_a_direction_and_no_place() {
+    let sun = "[[light]]\nkind = \"directional\"\n";
+    let quad = "[[object]]\nmesh = \"quad\"\n";
+    for way in ["direction = [0, -3, 4]", "position = [1, 5, 0]\ntarget = [1, 2, 4]"] {
+        let light = &scene_of(&format!("{sun}{way}\n{quad}"), &[]).lights[0];
+        assert_eq!((light.position(), light.attenuation()), (None, [1.0, 0.0, 0.0]));
+        let LightKind::Directional { direction } = light.kind else { panic!("{:?}", light.kind) };
+        assert!(direction.distance(dvec3(0.0, -0.6, 0.8)) < 1e-15, "{direction}");
+    }
+}
+
+#[test]
+fn each_kind_of_light_prints_and_reads_back_the_same() {
+    for light in ["kind = \"point\"\nposition = [0, 4, 0]\nfar = 8", "kind = \"directional\"\ndirection = [1, -2, 0.5]"]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, second] = ["a.toml", "b.toml"].map(|name| folder.path().join(name));
+        fs::write(&first, format!("[[light]]\n{light}\n[[object]]\nmesh = \"box\"\n")).unwrap();
+        fs::write(&second, scene::settings(&first, &[]).unwrap().to_toml()).unwrap();
+        let [a, b] = [first, second].map(|path| format!("{:?}", load_file(&path, &[]).unwrap().scene.lights[0].kind));
+        assert_eq!(a, b);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, dvec2};
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::{self, Frustum, Scene};
 use glumbra::viewer::{Command, Handle, Mode, Reaction, State};
 
 fn load() -> Scene {
@@ -45,7 +45,8 @@ fn light_and_object_turn_about_their_own_middles() {
     assert_eq!(state.apply(Command::Hold(Handle::Light)), Reaction::Retitle);
     state.drag(dvec2(EIGHTH, 0.0));
     let (first, now) = (load(), state.scene().clone());
-    let [before, after] = [&first, &now].map(|scene| scene.lights[0].position - scene.lights[0].target);
+    let arm = |light: &Frustum| light.position - light.target;
+    let [before, after] = [&first, &now].map(|scene| arm(scene.lights[0].frustum().unwrap()));
     assert!((before.length() - after.length()).abs() < 1e-9 && after.x > before.x + 1.0, "{after}");
     assert_eq!(now.camera, first.camera);
 
@@ -61,7 +62,7 @@ fn light_and_object_turn_about_their_own_middles() {
     let expected = DVec3::new(1.0, 0.0, -1.0).normalize();
     assert!(spout.abs_diff_eq(expected, 1e-9), "{spout}");
     assert_eq!(turned.objects[0].world_from_model, first.objects[0].world_from_model);
-    assert_eq!(turned.lights[0].position, now.lights[0].position);
+    assert_eq!(turned.lights[0].position(), now.lights[0].position());
 }
 
 #[test]
@@ -72,9 +73,10 @@ fn nothing_is_dollied_through_what_it_looks_at() {
             state.apply(Command::Hold(handle));
             state.dolly(steps);
             let (scene, request) = state.frame();
-            assert!(scene.camera.eye.is_finite() && scene.lights[0].position.is_finite());
+            let light = scene.lights[0].frustum().unwrap();
+            assert!(scene.camera.eye.is_finite() && light.position.is_finite());
             assert!(scene.camera.eye.distance(scene.camera.target) >= 2.0 * scene.camera.near);
-            assert!(scene.lights[0].position.distance(scene.lights[0].target) >= 2.0 * scene.lights[0].near);
+            assert!(light.position.distance(light.target) >= 2.0 * light.near);
             glumbra::plan::make(&scene, &request).unwrap();
         }
     }
@@ -89,7 +91,7 @@ fn view_all_sees_all() {
         assert_eq!(state.apply(Command::ViewAll), Reaction::Redraw);
         let (scene, _) = state.frame();
         let clip_from_world = scene.camera.clip_from_view(scene.aspect()) * scene.camera.view_from_world();
-        for corner in scene.world_bounds().corners().into_iter().chain([scene.lights[0].position]) {
+        for corner in scene.world_bounds().corners().into_iter().chain(scene.lights[0].position()) {
             let seen = clip_from_world.project_point3(corner);
             assert!(seen.abs().max_element() <= 1.0, "{size:?}: {corner} is seen at {seen}");
         }

@@ -1,6 +1,10 @@
 // Light @ on a surface, before shadow and beam: Phong per fragment, or fixed-function per vertex where the vertex
 // stage includes this [GL 4.6 compatibility, 12.2].
+#ifdef DIRECTIONAL_@
+uniform vec3 light_direction_@; // to the light, of unit length, in eye space
+#else
 uniform vec3 light_position_@;
+#endif
 #ifdef LIGHT_AMBIENT_@
 uniform vec3 light_ambient_@;
 #endif
@@ -14,9 +18,13 @@ uniform vec3 attenuation_@;
 
 Lit lighting_@(Surface surface)
 {
+#ifdef DIRECTIONAL_@
+    vec3 l = light_direction_@;
+#else
     vec3 to_light = light_position_@ - surface.position;
     float distance_squared = dot(to_light, to_light);
     vec3 l = to_light * inversesqrt(distance_squared);
+#endif
 #ifdef ATTENUATION_@
     float strength = 1.0 / (attenuation_@.x + attenuation_@.y * sqrt(distance_squared)
                             + attenuation_@.z * distance_squared);

@@ -1,6 +1,5 @@
-// Where light @ can light at all: before it (q > 0, no back projection), inside its frustum's sides and, for a cone,
+// Where spotlight @ can light at all: before it (q > 0, no back projection), inside its frustum's sides and, for a cone,
 // inside the circle inscribed in them.
-in vec4 light_coord_@;
 #ifdef MAP_ADDRESSING_@
 // The frustum's [0, 1] square from the map's s and t: scale, then offset.
 uniform vec4 frustum_from_map_@;

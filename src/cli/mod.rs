@@ -71,6 +71,8 @@ pub enum Error {
     #[error(transparent)]
     Pictures(#[from] crate::report::pictures::Error),
     #[error(transparent)]
+    KeptPictures(#[from] crate::report::kept::Error),
+    #[error(transparent)]
     Merge(#[from] crate::report::merge::Error),
     #[error(transparent)]
     ReportFiles(#[from] crate::report::write::Error),

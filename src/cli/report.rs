@@ -11,9 +11,10 @@ use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::grid::{self, Setting};
+use crate::report::grid::{self, Grid};
 use crate::report::html::{Goals, Pictures};
 use crate::report::journal::{self, Journal};
+use crate::report::kept;
 use crate::report::results::{Report, VERSION};
 use crate::report::run::{self, Options, Sweep};
 use crate::report::{merge, pictures, write};
@@ -141,8 +142,8 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     }
     let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from("report"));
     let grid = match &arguments.grid {
-        Some(path) => grid::load(path)?,
-        None => grid::standard(arguments.quick),
+        Some(path) => Grid::Own(grid::load(path)?),
+        None => Grid::Standard { quick: arguments.quick },
     };
     let options = options(arguments);
     let sweeps = prepare(arguments, &grid, &options)?;
@@ -180,7 +181,7 @@ fn options(arguments: &ReportArgs) -> Options {
     }
 }
 
-fn prepare(arguments: &ReportArgs, grid: &[Setting], options: &Options) -> Result<Vec<Sweep>, Error> {
+fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec<Sweep>, Error> {
     let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
     let overrides: Vec<String> = size.into_iter().chain(arguments.set.iter().cloned()).collect();
     let bar = super::spinner("tracing the truth of {msg}");
@@ -265,10 +266,11 @@ fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals
 fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let load = |path: &PathBuf| merge::load(path).map(|report| (path.clone(), report));
     let parts = arguments.parts.iter().map(load).collect::<Result<Vec<_>, _>>()?;
-    let report = merge::merge(parts)?;
+    let mut report = merge::merge(parts)?;
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
-    write::write_all(&arguments.output, &report, &Pictures::default(), &goals)?;
+    write::write_all(&arguments.output, &report, &pictures, &goals)?;
     println!("{}", arguments.output.join("report.html").display());
     Ok(())
 }

@@ -13,7 +13,8 @@ use crate::report::tune::{self, Options, Point, Tuned};
 #[command(after_help = "\
 For each map size and slope factor the least number of units is searched that leaves no false shadow (acne) on surfaces
 that face the light, beyond a band of texels around the true shadow edge; of these offsets the one that leaks least is
-taken, and of the sizes the smallest that leaks no more than --leak percent.
+taken, and of the sizes the smallest that leaks no more than --leak percent. Whatever technique the scene names, it is the
+shadow map's offset; techniques without one are measured beside it.
 
 Example:
   glumbra tune scene.toml --leak 0.1 --sizes 512,1024,2048")]
@@ -97,6 +98,17 @@ fn print(tuned: &Tuned, options: &Options) -> Result<(), Error> {
             let within = if tuned.within_leak { "at most" } else { "the least found, still above" };
             writeln!(out, "\n# leak {:.4} %: {within} {} %", point.leak_percent, options.leak_percent)?;
             write!(out, "{}", point.to_toml())?;
+        }
+    }
+    writeln!(out, "\n# Without an offset to tune, by default:")?;
+    for rival in &tuned.rivals {
+        match &rival.errors {
+            Ok(errors) => writeln!(
+                out,
+                "# {:<24} false shadow {:>9.4} %  leak {:>8.4} %  wrong {:>8.4} %",
+                rival.technique, errors.false_shadow_percent, errors.leak_percent, errors.wrong_percent
+            )?,
+            Err(why) => writeln!(out, "# {:<24} {why}", rival.technique)?,
         }
     }
     Ok(())

@@ -63,14 +63,16 @@ pub struct Lit {
     pub specular: [f32; 3],
     pub shininess: f32,
     pub texturing: Texturing,
-    pub lights: Vec<PointLight>,
+    pub lights: Vec<LightMeaning>,
 }
 
 /// One light of [`Lit`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct PointLight {
-    /// In eye space.
-    pub position: [f32; 3],
+pub struct LightMeaning {
+    /// Into the scene's lights.
+    pub index: usize,
+    /// In eye space, homogeneous as GL_POSITION is: w = 0 for parallel light, whose direction is towards it.
+    pub position: [f32; 4],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],
@@ -80,7 +82,8 @@ pub struct PointLight {
     pub beam: Option<Cow<'static, str>>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
-    pub projection: Projection,
+    /// `None`: it reaches everywhere, and nothing is looked up by coordinates of it.
+    pub projection: Option<Projection>,
     pub shade: Shade,
 }
 
@@ -89,7 +92,8 @@ pub struct PointLight {
 pub struct Sampled {
     pub clip_from_eye: DMat4,
     pub texturing: Texturing,
-    pub projection: Projection,
+    /// As [`LightMeaning::projection`].
+    pub projection: Option<Projection>,
     pub shade: Shade,
 }
 

@@ -85,9 +85,13 @@ impl Builder<'_> {
             let view = format!("{}@{index}", View::LightView.name());
             return Err(Error::NoSuchLight { view, count: self.scene.lights.len() });
         };
-        let viewer = Viewer { clip_from_eye: source.clip_from_view(), eye_from_world: source.view_from_world() };
+        let Some(frustum) = source.frustum() else {
+            let (view, why) = (View::LightView.name(), "has no one frustum to look through");
+            return Err(Error::NoView { view, light: index, kind: source.kind.name(), why });
+        };
+        let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
         let lens = Lens::of_viewer(viewer);
-        let term = LightTerm::unshadowed(index);
+        let term = LightTerm::unshadowed(self.scene, index);
         let onto = Onto { viewport: [side; 2], ..self.first(label, target, &lens, self.background()) };
         self.surfaces(self.scene, &onto, &[term], &Ending::Lit)
     }
@@ -117,7 +121,7 @@ impl Builder<'_> {
         ending: &Ending,
     ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
-        let mut batches = batches.ok_or_else(|| self.singular(terms))?;
+        let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
         self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
@@ -148,10 +152,8 @@ impl Builder<'_> {
         self.list.passes.push(Pass { label: label.to_owned(), redraw, work: Work::Draw(pass) });
     }
 
-    fn singular(&self, terms: &[LightTerm]) -> Error {
-        let light = terms.first().map_or(0, |term| term.index);
-        let (near, far) = self.scene.lights.get(light).map_or((0.0, 0.0), |l| (l.near, l.far));
-        Error::Singular { light, near, far }
+    fn singular(terms: &[LightTerm]) -> Error {
+        Error::Singular { light: terms.first().map_or(0, |term| term.index) }
     }
 
     /// The image that a requested view ends in.
@@ -166,6 +168,10 @@ impl Builder<'_> {
         if wanted.view.needs_map() && term.map.is_none() {
             let why = "its technique draws none, or no caster lies in its frustum";
             return Err(Error::NoMap { view: name, light: wanted.light, why });
+        }
+        if wanted.view == View::LightDistance && term.coordinates.is_none() {
+            let (kind, why) = (self.scene.lights[wanted.light].kind.name(), "has no plane to measure distance from");
+            return Err(Error::NoView { view: name, light: wanted.light, kind, why });
         }
         let label = format!("view: {name} of light {}", wanted.light);
         if wanted.view == View::LightView {

@@ -1,11 +1,13 @@
 //! From a scene to its passes: each contributing light's own, then the lit passes, then the views.
 
+use glam::DMat4;
+
 use super::builder::Builder;
 use super::lens::Lens;
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{ImageId, PassList};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 use crate::techniques::items::items;
 use crate::techniques::surface::Viewer;
 use crate::techniques::{self, Item, LightTerm, LightView, Notes};
@@ -59,7 +61,7 @@ fn light_terms(
         let view = LightView { scene, items, index, shown_whole, keep_all };
         let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
-        let technique = techniques::chosen(&mut keys)?;
+        let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
         let term = if absent.is_none() || shown {
             technique.describe(&view, &mut keys, list, notes)?
@@ -93,9 +95,11 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
     if source.ambient != [0.0; 3] {
         return None; // ambient light is not bound by the cone
     }
-    let reach = reach(view);
-    let (light_clip, camera_clip) = (reach.clip_from_world(), camera.clip_from_world());
-    let corners = |clip: &glam::DMat4| frustum::corners(&clip.inverse());
+    let Some(light_clip) = reach(source) else {
+        return visible.is_empty().then_some("nothing that is seen is there for it to light");
+    };
+    let camera_clip = camera.clip_from_world();
+    let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
     }
@@ -104,11 +108,8 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
     if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
-/// What the light can light: its cone's pyramid from its very position on. Its near plane bounds casters and its far
-/// plane the map's depths; neither ends the light.
-fn reach(view: &LightView<'_>) -> Viewer {
-    let mut unbounded = view.light().clone();
-    unbounded.near *= 1e-3;
-    unbounded.far *= 1e3;
-    Viewer { clip_from_eye: unbounded.clip_from_view(), eye_from_world: unbounded.view_from_world() }
+/// `clip_from_world` of what the light can light: its cone's pyramid from its very position on. Its near plane bounds
+/// casters and its far plane the map's depths; neither ends the light. `None`: nothing bounds it.
+fn reach(source: &Light) -> Option<DMat4> {
+    source.frustum().map(|frustum| frustum.unbounded().clip_from_world())
 }

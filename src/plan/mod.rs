@@ -100,14 +100,16 @@ pub enum Error {
     NoSuchLight { view: String, count: usize },
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
+    #[error("--aov {view}: light {light} is a {kind} light and {why}")]
+    NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
     #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
     NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
     TooManyInputs { needed: usize, limit: u32 },
-    #[error("light {light}: its frustum's transform has no inverse (near {near}, far {far})")]
-    Singular { light: usize, near: f64, far: f64 },
+    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
+    Singular { light: usize },
 }
 
 /// Plans a frame of `scene`.

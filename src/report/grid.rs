@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::techniques::{Axis, TABLE};
+use crate::scene::LightKind;
+use crate::techniques::{Axis, TABLE, Technique};
 
 /// One setting of `[light.shadow]`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -33,18 +34,36 @@ impl Setting {
     }
 }
 
-/// Every technique over its own axes; `quick` takes few values of each.
-pub fn standard(quick: bool) -> Vec<Setting> {
+/// What a report sweeps of each scene.
+#[derive(Clone, Debug)]
+pub enum Grid {
+    /// Every technique that serves the light, over its own axes; `quick` takes few values of each.
+    Standard { quick: bool },
+    /// The same for every light, whether its kind is served or not.
+    Own(Vec<Setting>),
+}
+
+impl Grid {
+    /// The settings for a light of this `kind`.
+    pub fn settings(&self, kind: &LightKind) -> Vec<Setting> {
+        match self {
+            Self::Standard { quick } => standard(*quick, |technique| technique.serves(kind).is_ok()),
+            Self::Own(settings) => settings.clone(),
+        }
+    }
+}
+
+fn standard(quick: bool, serves: impl Fn(&dyn Technique) -> bool) -> Vec<Setting> {
     let values = |axis: &Axis| {
         let values = if quick { axis.quick } else { axis.values };
         (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
     };
-    let of = |technique: &&'static dyn crate::techniques::Technique| {
+    let of = |technique: &&'static dyn Technique| {
         let (name, grids) =
             (technique.name(), [technique.axes()].into_iter().chain(technique.more_axes().iter().copied()));
         grids.flat_map(move |axes| product(name, &axes.iter().map(values).collect::<Vec<_>>()))
     };
-    TABLE.iter().flat_map(of).collect()
+    TABLE.iter().filter(|technique| serves(**technique)).flat_map(of).collect()
 }
 
 /// A grid of one's own: `[[sweep]]` tables with `technique` and, for each other key, a value or an array of values.
@@ -126,11 +145,22 @@ mod tests {
     #[test]
     fn the_standard_grids_name_every_technique() {
         for quick in [true, false] {
-            let settings = standard(quick);
+            let settings = standard(quick, |_| true);
             for row in TABLE {
                 assert!(settings.iter().any(|setting| setting.technique == row.name()), "{}", row.name());
             }
         }
-        assert!(standard(true).len() < standard(false).len());
+        assert!(standard(true, |_| true).len() < standard(false, |_| true).len());
+    }
+
+    #[test]
+    fn a_light_is_swept_by_the_techniques_that_serve_it() {
+        let sun = LightKind::Directional { direction: glam::DVec3::NEG_Y };
+        let settings = Grid::Standard { quick: true }.settings(&sun);
+        assert!(settings.iter().any(|setting| setting.technique == "none"));
+        for setting in settings {
+            let row = TABLE.iter().find(|row| row.name() == setting.technique).unwrap();
+            assert_eq!(row.serves(&sun), Ok(()), "{}", setting.technique);
+        }
     }
 }

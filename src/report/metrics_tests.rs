@@ -27,7 +27,7 @@ fn truth(rows: &[&str]) -> Truth {
             normal: DVec3::Y,
             cos_light: if rows[y].as_bytes()[x] == b'T' { -1.0 } else { 1.0 },
             pixel_size: 1.0,
-            in_light: 2.0 * at / DVec2::new(width as f64, height as f64) - 1.0,
+            in_map: (2.0 * at / DVec2::new(width as f64, height as f64) - 1.0).extend(0.0),
         };
         Pixel { answer, lit_at_center, hit: (answer != Answer::Background).then_some(hit) }
     };

@@ -8,6 +8,7 @@ mod edges;
 pub mod grid;
 pub mod html;
 pub mod journal;
+pub mod kept;
 pub mod merge;
 pub mod metrics;
 mod numbers;

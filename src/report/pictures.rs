@@ -40,7 +40,7 @@ pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Ren
 }
 
 /// The scene as written, the rows that reach the goals, and the most wrong one; each once.
-fn rows_that_matter<'r>(report: &'r SceneReport, goals: &Goals) -> Vec<(&'r Row, String)> {
+pub(super) fn rows_that_matter<'r>(report: &'r SceneReport, goals: &Goals) -> Vec<(&'r Row, String)> {
     let measured = || report.rows.iter().filter(|row| row.measured().is_some());
     let wrong = |row: &Row| row.measured().map_or(0.0, |measured| measured.wrong_percent());
     let candidates = [

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
-use super::grid::Setting;
+use super::grid::{Grid, Setting};
 use super::metrics::{self, Band, Metrics, ShadeImage};
 use super::results::{
     Cost, Machine, Measured, Outcome, PassCost, Row, Saved, SceneReport, Spread, TruthSummary, VERSION,
@@ -63,21 +63,22 @@ pub struct Sweep {
 /// # Errors
 ///
 /// A scene that does not load, a light that is not there, a truth that the oracle does not know.
-pub fn prepare(path: &Path, overrides: &[String], grid: &[Setting], options: &Options) -> Result<Sweep, Error> {
+pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options) -> Result<Sweep, Error> {
     let scene = scene::load(path, overrides)?.scene;
     let count = scene.lights.len();
     let light = scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
     let start = Instant::now();
     let truth = ray::trace(&scene, options.light, &ray::Options::default())?;
     let trace_ms = start.elapsed().as_secs_f64() * 1e3;
-    let rows = layout(&light.shadow, grid)?;
+    let grid = grid.settings(&light.kind);
+    let rows = layout(&light.shadow, &grid)?;
     let (index, shards) = options.shard;
     if index == 0 || index > shards {
         return Err(Error::Shard { index, count: shards });
     }
     let report = SceneReport {
         path: path.to_owned(),
-        fingerprint: fingerprint(path, overrides, grid, options),
+        fingerprint: fingerprint(path, overrides, &grid, options),
         light: options.light,
         size: scene.image.size,
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),

@@ -8,6 +8,7 @@ use super::run::{draw_shade, with_shadow};
 use crate::frame::{self, Renderer};
 use crate::oracle::ray::{self, Truth};
 use crate::scene::{self, Scene, Settings};
+use crate::techniques::{TABLE, Technique};
 
 /// Why nothing can be tuned.
 #[derive(Debug, thiserror::Error)]
@@ -22,8 +23,6 @@ pub enum Error {
     Metrics(#[from] metrics::Error),
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
-    #[error("light {index} draws no shadow map: its technique is \"{technique}\", whose offset cannot be tuned")]
-    NoMap { index: usize, technique: String },
 }
 
 /// What to search, and what is good enough.
@@ -65,6 +64,23 @@ pub struct Tuned {
     pub chosen: Option<Point>,
     /// Whether `chosen` is within the leak that was asked for.
     pub within_leak: bool,
+    /// Techniques that have no offset to tune, as they are by default.
+    pub rivals: Vec<Rival>,
+}
+
+/// A technique without polygon offset on the same scene.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Rival {
+    pub technique: &'static str,
+    /// As in [`Point`]; or why it cannot draw this scene.
+    pub errors: Result<RivalErrors, String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct RivalErrors {
+    pub false_shadow_percent: f64,
+    pub leak_percent: f64,
+    pub wrong_percent: f64,
 }
 
 /// Slope factors that are tried; the documents' "about 1.0 or more".
@@ -84,14 +100,7 @@ pub fn tune(
     mut tick: impl FnMut(&Point),
 ) -> Result<Tuned, Error> {
     let count = scene.lights.len();
-    let light = scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
-    let technique = match light.shadow.get("technique").map(|entry| &entry.value) {
-        Some(scene::Value::String(name)) => name.clone(),
-        _ => String::from("none"),
-    };
-    if technique == "none" {
-        return Err(Error::NoMap { index: options.light, technique });
-    }
+    scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
     let truth = ray::trace(scene, options.light, &ray::Options::default())?;
     let mut search = Search { scene, truth, options, renderer, curve: Vec::new(), tick: &mut tick };
     let mut best = Vec::new();
@@ -105,7 +114,8 @@ pub fn tune(
     }
     let within = best.iter().find(|point| point.leak_percent <= options.leak_percent).copied();
     let least = best.iter().min_by(|a, b| a.leak_percent.total_cmp(&b.leak_percent)).copied();
-    Ok(Tuned { curve: search.curve, best, chosen: within.or(least), within_leak: within.is_some() })
+    let rivals = search.rivals();
+    Ok(Tuned { curve: search.curve, best, chosen: within.or(least), within_leak: within.is_some(), rivals })
 }
 
 struct Search<'a> {
@@ -151,6 +161,26 @@ impl Search<'_> {
         Ok(Some(found))
     }
 
+    /// Every technique of the table whose report varies something, but no offset.
+    fn rivals(&mut self) -> Vec<Rival> {
+        let has_offset = |technique: &&&dyn Technique| technique.axes().iter().any(|axis| axis.key == "offset");
+        let rows = TABLE.iter().filter(|technique| !technique.axes().is_empty() && !has_offset(technique));
+        rows.map(|technique| Rival { technique: technique.name(), errors: self.errors_of(technique.name()) }).collect()
+    }
+
+    fn errors_of(&mut self, technique: &str) -> Result<RivalErrors, String> {
+        let shadow = scene::shadow_settings(&format!("technique = \"{technique}\"")).map_err(|e| e.to_string())?;
+        let scene = with_shadow(self.scene, self.options.light, &shadow);
+        let shade = draw_shade(&scene, self.options.light, self.renderer).map_err(|error| error.to_string())?;
+        let band = Band { texels: self.options.band_texels, map_size: [DEFAULT_SIZE; 2] };
+        let metrics = metrics::compare(&self.truth, &shade, &band).map_err(|error| error.to_string())?;
+        Ok(RivalErrors {
+            false_shadow_percent: metrics.facing.false_shadow.outside_percent,
+            leak_percent: metrics.all.leak_percent,
+            wrong_percent: metrics.all.wrong_percent,
+        })
+    }
+
     fn point(&mut self, size: u32, factor: f64, units: f64) -> Result<Point, Error> {
         let shadow = changed(&self.scene.lights[self.options.light].shadow, size, factor, units)?;
         let scene = with_shadow(self.scene, self.options.light, &shadow);
@@ -180,6 +210,9 @@ impl Search<'_> {
     }
 }
 
+/// The side of a map by default, by which the edge band of techniques without one is measured.
+const DEFAULT_SIZE: u32 = 1024;
+
 /// See [`Search::spare`].
 const SPARE_PIXELS: f64 = 2.0;
 
@@ -187,10 +220,12 @@ fn units_of(exponent: i32) -> f64 {
     if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }
 }
 
-/// `shadow` with another map size and offset.
+/// `shadow` as a shadow map of another size and offset.
 fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
-    let kept = shadow.entries.iter().filter(|(key, _)| key != "size" && key != "offset");
+    let replaced = ["technique", "size", "offset"];
+    let kept = shadow.entries.iter().filter(|(key, _)| !replaced.contains(&key.as_str()));
     let mut keys: Vec<String> = kept.map(|(key, entry)| format!("{key} = {}", entry.value.to_toml())).collect();
+    keys.push(String::from("technique = \"shadow-map\""));
     keys.push(format!("size = {size}"));
     keys.push(format!("offset = {{ factor = {factor:?}, units = {units:?} }}"));
     scene::shadow_settings(&keys.join(", "))

@@ -1,4 +1,4 @@
-//! A report as files in a folder: `report.json`, `report.csv`, `report.html` and `plots/*.svg`.
+//! A report as files in a folder: `report.json`, `report.csv`, `report.html`, `plots/*.svg` and `pictures/*.png`.
 //!
 //! Each is made in memory, written beside its name, brought to the disk and renamed, so that a full disk or a kill
 //! leaves an older report or a newer one and never half of one.
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::html::{Goals, Pictures, to_html};
 use super::results::{Report, SceneReport};
-use super::{csv, plots};
+use super::{csv, kept, plots};
 use crate::output::whole;
 
 /// Why a report could not be written.
@@ -47,7 +47,12 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &Pictures, goals: &Go
             files.extend(svg.map(|svg| (path, svg.into_bytes())));
         }
     }
+    let kept_pictures = kept::files(folder, report, pictures);
     make_folder(&folder.join("plots"))?;
+    if !kept_pictures.is_empty() {
+        make_folder(&kept::folder_in(folder))?;
+    }
+    files.extend(kept_pictures);
     write_files(&files)
 }
 

@@ -1,14 +1,14 @@
-//! Where a camera stands that sees given points and nothing more than it must. Pure geometry, no settings.
+//! Where a camera stands that sees given points and nothing more than it must, and between which planes. Pure geometry, no settings.
 
 use glam::DVec3;
 
-use super::Camera;
+use super::{Camera, Object};
 use crate::math::{Aabb, spaces};
 
 /// The part of the picture's half height and half width that framed points may reach.
 const MARGIN: f64 = 0.82;
 
-/// The far plane of a supplied camera is at most this many times as far as the near plane.
+/// The far plane of a supplied camera or map is at most this many times as far as the near plane.
 const DEPTH_RATIO: f64 = 1e3;
 
 /// The default vertical angle of a camera.
@@ -62,6 +62,23 @@ pub(super) fn depth_range(points: &[DVec3], camera: &Camera, radius: f64) -> [f6
     let depths = points.iter().map(|point| -view_from_world.transform_point3(*point).z);
     let (least, most) =
         depths.fold((f64::INFINITY, 0.0_f64), |(least, most), depth| (least.min(depth), most.max(depth)));
+    range_around(least, most, radius)
+}
+
+/// Near and far planes of the faces of a cube map at `position`, around all `objects` (one or more).
+pub(super) fn cube_range(position: DVec3, objects: &[Object]) -> [f64; 2] {
+    let depth = |point: DVec3| (point - position).abs().max_element();
+    let (mut least, mut most, mut all) = (f64::INFINITY, 0.0_f64, Aabb::EMPTY);
+    for bounds in objects.iter().map(Object::world_bounds) {
+        least = least.min(depth(position.max(bounds.min).min(bounds.max)));
+        most = bounds.corners().into_iter().map(depth).fold(most, f64::max);
+        all = all.union(bounds);
+    }
+    range_around(least, most, working_radius(&all))
+}
+
+/// Planes with some room around depths in [least, most].
+fn range_around(least: f64, most: f64, radius: f64) -> [f64; 2] {
     let far = (1.1 * most).max(radius);
     [(0.5 * least).clamp(far / DEPTH_RATIO, 0.5 * far), far]
 }

@@ -18,7 +18,7 @@ use std::fs;
 use std::path::Path;
 
 pub use error::Error;
-pub use model::{Camera, Image, Light, LightKind, LightShape, Object, Scene, Shading};
+pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};

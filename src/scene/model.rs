@@ -51,32 +51,63 @@ pub struct Shading {
 #[derive(Clone, Debug)]
 pub struct Light {
     pub kind: LightKind,
-    pub position: DVec3,
-    pub target: DVec3,
-    /// Of unit length, not parallel to the light's direction.
-    pub up: DVec3,
-    /// 0 < near < far, of the light's frustum.
-    pub near: f64,
-    pub far: f64,
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],
-    /// GL's constant, linear and quadratic attenuation; (1, 0, 0): none.
-    pub attenuation: [f32; 3],
-    /// The spot image, projected through the light's frustum; modulates diffuse and specular.
-    pub image: Option<Arc<Texture>>,
-    /// Whether the light's frustum is drawn as a wire cube in the camera's picture.
-    pub frustum_shown: bool,
     /// As written, or `light 0` by its place in the file.
     pub name: String,
     /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.
     pub shadow: Settings,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Where light comes from, and what only that kind of light has.
+#[derive(Clone, Debug)]
 pub enum LightKind {
-    /// Lights what its frustum holds. `cone_radians`: the frustum's full angle, in (0, pi).
-    Spot { cone_radians: f64, shape: LightShape },
+    Spot(Spot),
+    Point(Point),
+    /// Parallel light from infinitely far away. `direction`: the way that it travels, of unit length.
+    Directional {
+        direction: DVec3,
+    },
+}
+
+/// Lights what its frustum's sides hold, or the cone inscribed in them.
+#[derive(Clone, Debug)]
+pub struct Spot {
+    pub frustum: Frustum,
+    pub shape: LightShape,
+    /// GL's constant, linear and quadratic attenuation; (1, 0, 0): none.
+    pub attenuation: [f32; 3],
+    /// The spot image, projected through the frustum; modulates diffuse and specular.
+    pub image: Option<Arc<Texture>>,
+    /// Whether the frustum is drawn as a wire cube in the camera's picture.
+    pub frustum_shown: bool,
+}
+
+/// Lights every way alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    pub position: DVec3,
+    /// 0 < near < far: where the light's maps begin and end, along the coordinate axis that is nearest to the way
+    /// (the largest of |x|, |y| and |z|), as the six faces of a cube map measure depth. They do not end the light.
+    pub near: f64,
+    pub far: f64,
+    /// As [`Spot::attenuation`].
+    pub attenuation: [f32; 3],
+}
+
+/// A symmetric, square frustum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frustum {
+    pub position: DVec3,
+    pub target: DVec3,
+    /// Of unit length, not parallel to the way from position to target.
+    pub up: DVec3,
+    /// Full angle between opposite sides, in (0, pi).
+    pub cone_radians: f64,
+    /// 0 < near < far, along the axis.
+    pub near: f64,
+    pub far: f64,
 }
 
 /// Where a spotlight's light ends.

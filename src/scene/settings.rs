@@ -146,6 +146,13 @@ impl<'a> Reader<'a> {
         SettingsError::new(&self.settings.origin, format!("`{}` is missing: {what}", self.settings.key(key)))
     }
 
+    /// Refuses each of `keys` that is written, for the reason that `message` gives: for keys that other tables of the
+    /// kind may have.
+    pub fn refuse(&self, keys: &[&str], message: &str) -> Result<()> {
+        let found = keys.iter().find(|key| self.settings.get(key).is_some());
+        found.map_or(Ok(()), |key| Err(self.error(key, message)))
+    }
+
     fn wrong(&self, key: &str, expected: &str, found: &Value) -> SettingsError {
         self.error(key, format_args!("must be {expected}, not {}", found.kind()))
     }

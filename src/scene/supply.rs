@@ -259,13 +259,13 @@ mod tests {
 
     fn check_view(min: DVec3, max: DVec3, aspect: f64) {
         let scene = scene(min, max, aspect);
-        let (light, camera) = (&scene.lights[0], &scene.camera);
+        let (light, camera) = (scene.lights[0].frustum().unwrap(), &scene.camera);
         let what = format!("{min} to {max}, aspect {aspect}: {camera:?}");
         let radius = frame::working_radius(&Aabb { min, max });
         let floor = scene.objects[1].world_bounds().min.y;
         let mut spread = Aabb::EMPTY;
         let clip_from_world = camera.clip_from_view(aspect) * camera.view_from_world();
-        let light_from_world = light.clip_from_view() * light.view_from_world();
+        let light_from_world = light.clip_from_world();
         for corner in (Aabb { min, max }).corners() {
             let along = corner - light.position;
             let shadow = light.position + along * ((floor - light.position.y) / along.y);
@@ -286,9 +286,10 @@ mod tests {
     fn the_planes_hold_the_floor_that_is_seen() {
         let scene = scene(DVec3::splat(-1.0), DVec3::ONE, 1.0);
         let floor = scene.objects[1].world_bounds();
+        let light = scene.lights[0].frustum().unwrap();
         for (clip_from_world, from) in [
             (scene.camera.clip_from_view(1.0) * scene.camera.view_from_world(), scene.camera.eye),
-            (scene.lights[0].clip_from_view() * scene.lights[0].view_from_world(), scene.lights[0].position),
+            (light.clip_from_world(), light.position),
         ] {
             let world_from_clip = clip_from_world.inverse();
             for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (0.0, -1.0), (0.0, 0.0)] {

@@ -1,8 +1,8 @@
 //! The matrices and bounds that follow from a scene's values.
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
-use super::{Camera, Image, Light, LightKind, Object, Scene};
+use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
 use crate::math::{Aabb, spaces};
 
 impl Image {
@@ -36,14 +36,61 @@ impl Camera {
 }
 
 impl Light {
+    pub fn spot(&self) -> Option<&Spot> {
+        if let LightKind::Spot(spot) = &self.kind { Some(spot) } else { None }
+    }
+
+    /// What a spotlight sees; other lights have no one frustum.
+    pub fn frustum(&self) -> Option<&Frustum> {
+        self.spot().map(|spot| &spot.frustum)
+    }
+
+    /// Where the light stands; `None` for one that is infinitely far away.
+    pub fn position(&self) -> Option<DVec3> {
+        match &self.kind {
+            LightKind::Spot(spot) => Some(spot.frustum.position),
+            LightKind::Point(point) => Some(point.position),
+            LightKind::Directional { .. } => None,
+        }
+    }
+
+    /// Constant, linear and quadratic; (1, 0, 0) for a light that is as bright everywhere.
+    pub fn attenuation(&self) -> [f32; 3] {
+        match &self.kind {
+            LightKind::Spot(spot) => spot.attenuation,
+            LightKind::Point(point) => point.attenuation,
+            LightKind::Directional { .. } => [1.0, 0.0, 0.0],
+        }
+    }
+}
+
+impl LightKind {
+    /// The value of `kind` in a scene file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Spot(_) => "spot",
+            Self::Point(_) => "point",
+            Self::Directional { .. } => "directional",
+        }
+    }
+}
+
+impl Frustum {
     pub fn view_from_world(&self) -> DMat4 {
         spaces::view_from_world(self.position, self.target, self.up)
     }
 
-    /// The symmetric, square frustum whose full angle is the light's cone.
     pub fn clip_from_view(&self) -> DMat4 {
-        let LightKind::Spot { cone_radians, .. } = self.kind;
-        spaces::perspective(cone_radians, 1.0, self.near, self.far)
+        spaces::perspective(self.cone_radians, 1.0, self.near, self.far)
+    }
+
+    /// The same pyramid from its very apex to far beyond its far plane: what the light can light.
+    pub fn unbounded(&self) -> Self {
+        Self { near: 1e-3 * self.near, far: 1e3 * self.far, ..self.clone() }
+    }
+
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.clip_from_view() * self.view_from_world()
     }
 }
 

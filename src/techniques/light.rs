@@ -1,18 +1,18 @@
 //! A light as techniques see it, and what they give the lit pass for it.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
 use super::surface::Viewer;
 use super::{Item, items};
 use crate::math::Aabb;
-use crate::math::texgen::{SetUp, Split, scale_bias};
+use crate::math::texgen::{SetUp, Spaces, Split, scale_bias};
 use crate::pass::{
     Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
     Redraw, Shade, Uniform, glsl,
 };
-use crate::scene::{Light, Scene};
+use crate::scene::{Frustum, Light, Reader, Scene, SettingsError};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -27,18 +27,85 @@ pub struct LightView<'a> {
     pub keep_all: bool,
 }
 
-impl LightView<'_> {
-    pub fn light(&self) -> &Light {
+impl<'a> LightView<'a> {
+    pub fn light(&self) -> &'a Light {
         &self.scene.lights[self.index]
     }
 
-    /// `P_light · L⁻¹`.
-    pub fn clip_from_world(&self) -> DMat4 {
-        self.light().clip_from_view() * self.light().view_from_world()
+    /// The light in the frustum that it has.
+    ///
+    /// # Errors
+    ///
+    /// A light that has none: one that a technique does not serve which asks for it.
+    pub fn in_its_frustum(&self, keys: &Reader<'_>) -> Result<FrustumView<'a>, SettingsError> {
+        let frustum = self.light().frustum().cloned();
+        let frustum = frustum.ok_or_else(|| keys.error("technique", "draws the map of a light with a frustum"))?;
+        Ok(FrustumView { light_view: *self, frustum })
     }
 }
 
-/// How the lit pass asks for a light's shade, and how its texture coordinates are made.
+/// A light as a map of one frustum sees it: a spotlight's own, or one that a technique made.
+#[derive(Clone, Debug)]
+pub struct FrustumView<'a> {
+    pub light_view: LightView<'a>,
+    pub frustum: Frustum,
+}
+
+impl<'a> Deref for FrustumView<'a> {
+    type Target = LightView<'a>;
+
+    fn deref(&self) -> &LightView<'a> {
+        &self.light_view
+    }
+}
+
+impl FrustumView<'_> {
+    /// `P_light · L⁻¹`.
+    pub fn clip_from_world(&self) -> DMat4 {
+        self.frustum.clip_from_world()
+    }
+}
+
+/// Eye-linear texture coordinates: the matrices that they are made of, and where the planes stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinates {
+    /// `S`: texture space from the light's clip space.
+    pub texture_from_light_clip: DMat4,
+    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    pub receiver_bias: DMat4,
+    /// `P_light`, of whatever the technique draws from the light.
+    pub light_clip_from_light: DMat4,
+    /// `L⁻¹`.
+    pub light_from_world: DMat4,
+    pub set_up: SetUp,
+    pub split: Split,
+}
+
+impl Coordinates {
+    /// The documents' ordinary ones: (s/q, t/q, r/q) in [0, 1] inside the frustum.
+    pub fn of_frustum(frustum: &Frustum) -> Self {
+        Self {
+            texture_from_light_clip: scale_bias(0.5, 0.5),
+            receiver_bias: DMat4::IDENTITY,
+            light_clip_from_light: frustum.clip_from_view(),
+            light_from_world: frustum.view_from_world(),
+            set_up: SetUp::World,
+            split: Split::Planes,
+        }
+    }
+
+    /// What texgen makes them from, for an eye.
+    pub fn spaces(&self, eye_from_world: DMat4) -> Spaces {
+        Spaces {
+            texture_from_light_clip: self.texture_from_light_clip * self.receiver_bias,
+            light_clip_from_light: self.light_clip_from_light,
+            light_from_world: self.light_from_world,
+            eye_from_world,
+        }
+    }
+}
+
+/// How the lit pass asks for a light's shade.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
     /// Into [`Scene::lights`].
@@ -51,12 +118,8 @@ pub struct LightTerm {
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-    /// `S`: texture space from the light's clip space.
-    pub texture_from_light_clip: DMat4,
-    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
-    pub receiver_bias: DMat4,
-    pub set_up: SetUp,
-    pub split: Split,
+    /// How `light_coord_@` is generated; `None`: the shade needs none, and nor does the light's reach.
+    pub coordinates: Option<Coordinates>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
@@ -177,14 +240,14 @@ impl VolumeDraw {
 }
 
 impl LightTerm {
-    /// A light that nothing shadows.
-    pub fn unshadowed(index: usize) -> Self {
-        Self { meaning: Shade::Lit, ..Self::new(index, glsl!("light/unshadowed.frag")) }
+    /// Light `index` of `scene`, which nothing shadows.
+    pub fn unshadowed(scene: &Scene, index: usize) -> Self {
+        Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("light/unshadowed.frag")) }
     }
 
-    /// A light whose shade `shade` finds, with the documents' ordinary texture coordinates. Where texture units find it too,
-    /// its technique sets [`LightTerm::meaning`].
-    pub fn new(index: usize, shade: Chunk) -> Self {
+    /// Light `index` of `scene`, whose shade `shade` finds; with the coordinates that the light's own reach needs: those
+    /// of a spotlight's frustum. Where texture units find the shade too, its technique sets [`LightTerm::meaning`].
+    pub fn new(scene: &Scene, index: usize, shade: Chunk) -> Self {
         Self {
             index,
             shade,
@@ -192,10 +255,7 @@ impl LightTerm {
             defines: Vec::new(),
             uniforms: Vec::new(),
             inputs: Vec::new(),
-            texture_from_light_clip: scale_bias(0.5, 0.5),
-            receiver_bias: DMat4::IDENTITY,
-            set_up: SetUp::World,
-            split: Split::Planes,
+            coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
             map: None,

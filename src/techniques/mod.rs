@@ -21,9 +21,9 @@ mod unshadowed;
 pub mod views;
 
 use crate::pass::PassList;
-use crate::scene::{Reader, SettingsError, suggest};
+use crate::scene::{LightKind, Reader, SettingsError, suggest};
 pub use items::Item;
-pub use light::{LightTerm, LightView};
+pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 
 /// A way to find out which points a light reaches.
 pub trait Technique: Sync {
@@ -35,6 +35,13 @@ pub trait Technique: Sync {
 
     /// The document and section that it implements.
     fn source(&self) -> &'static str;
+
+    /// Whether it finds the shade of such lights.
+    ///
+    /// # Errors
+    ///
+    /// Why not, as the end of a sentence that begins with the technique's name.
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
 
     /// What a report varies, and how.
     fn axes(&self) -> &'static [Axis];
@@ -56,7 +63,7 @@ pub trait Technique: Sync {
     ///
     /// # Errors
     ///
-    /// A key with a wrong value, with its place in the scene file.
+    /// A light that it does not serve, a key with a wrong value; with its place in the scene file.
     fn describe(
         &self,
         view: &LightView<'_>,
@@ -128,15 +135,20 @@ pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result
     TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
 }
 
-/// The technique that `[light.shadow]` names; an absent table means none.
+/// The technique that `[light.shadow]` of a light of this `kind` names; an absent table means none.
 ///
 /// # Errors
 ///
-/// A name that no row of the table has.
-pub fn chosen(settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
+/// A name that no row of the table has, or one whose technique does not serve such lights.
+pub fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
     let name = settings.string("technique")?.unwrap_or("none");
-    TABLE.iter().find(|row| row.name() == name).copied().ok_or_else(|| {
+    let Some(technique) = TABLE.iter().find(|row| row.name() == name) else {
         let names = TABLE.iter().map(|row| row.name());
-        settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names)))
-    })
+        return Err(settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names))));
+    };
+    technique.serves(kind).map_err(|why| {
+        let light = kind.name();
+        settings.error("technique", format_args!("cannot be \"{name}\" for a {light} light: it {why}"))
+    })?;
+    Ok(*technique)
 }

@@ -7,10 +7,9 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Item, LightView};
+use super::{FrustumView, Item};
 use crate::math::Aabb;
 use crate::math::frustum::planes;
-use crate::scene::LightKind;
 
 /// How far from its own place one comparison's lookup reaches: a linear filter's neighbour, Direct3D's half texel and
 /// rounding, in texels.
@@ -28,15 +27,14 @@ pub struct Unseen {
 
 impl Unseen {
     /// For a map of `texels` a side, looked up within `reach` texels beside a filter's own.
-    pub fn new(view: &LightView<'_>, texels: u32, reach: f64) -> Self {
+    pub fn new(view: &FrustumView<'_>, texels: u32, reach: f64) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-        let LightKind::Spot { cone_radians, .. } = view.light().kind;
         Self {
             scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
-            light: view.light().position,
+            light: view.frustum.position,
             camera_planes: planes(&clip_from_world),
-            reach_at_one: (REACH_TEXELS + reach) * 2.0 * (0.5 * cone_radians).tan() / f64::from(texels),
+            reach_at_one: (REACH_TEXELS + reach) * 2.0 * (0.5 * view.frustum.cone_radians).tan() / f64::from(texels),
         }
     }
 

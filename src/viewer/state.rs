@@ -8,7 +8,7 @@ use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
 use crate::plan::{Request, Subject};
-use crate::scene::{Entry, Origin, Scene, Value};
+use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
 
 /// The sample's display modes [techniques E].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -197,8 +197,9 @@ impl State {
                 camera.eye = orbit(camera.eye, camera.target, camera.up, DVec2::new(-turn.x, turn.y));
             }
             Handle::Light => {
-                if let Some(light) = self.scene.lights.first_mut() {
-                    light.position = orbit(light.position, light.target, light.up, DVec2::new(turn.x, -turn.y));
+                if let Some(Light { kind: LightKind::Spot(spot), .. }) = self.scene.lights.first_mut() {
+                    let Frustum { position, target, up, .. } = &mut spot.frustum;
+                    *position = orbit(*position, *target, *up, DVec2::new(turn.x, -turn.y));
                 }
             }
             Handle::Object => {
@@ -218,8 +219,9 @@ impl State {
                 camera.eye = dolly(camera.eye, camera.target, steps, range);
             }
             Handle::Light => {
-                if let Some(light) = self.scene.lights.first_mut() {
-                    light.position = dolly(light.position, light.target, steps, [2.0 * light.near, 0.95 * light.far]);
+                if let Some(Light { kind: LightKind::Spot(spot), .. }) = self.scene.lights.first_mut() {
+                    let Frustum { position, target, near, far, .. } = &mut spot.frustum;
+                    *position = dolly(*position, *target, steps, [2.0 * *near, 0.95 * *far]);
                 }
             }
             Handle::Object => {
@@ -249,9 +251,9 @@ impl State {
     fn view_all(&mut self) {
         let mut bounds = self.scene.world_bounds();
         for light in &self.scene.lights {
-            bounds = bounds.including(light.position);
-            if light.frustum_shown {
-                let world_from_clip = (light.clip_from_view() * light.view_from_world()).inverse();
+            bounds = light.position().map_or(bounds, |position| bounds.including(position));
+            if let Some(spot) = light.spot().filter(|spot| spot.frustum_shown) {
+                let world_from_clip = spot.frustum.clip_from_world().inverse();
                 bounds = bounds.union(Aabb::from_points(frustum::corners(&world_from_clip)));
             }
         }

@@ -115,7 +115,7 @@ fn mistakes_in_the_planes_are_seen() {
             let Work::Draw(draw) = &mut pass.work else { continue };
             for batch in &mut draw.batches {
                 if let Meaning::Sampled(view) = &mut batch.meaning {
-                    mistake(&mut view.projection);
+                    view.projection.iter_mut().for_each(&mistake);
                 }
             }
         }

@@ -3,19 +3,19 @@
 use glam::{DMat4, DVec2, DVec3};
 use glumbra::math::spaces;
 use glumbra::oracle::ray::Answer;
-use glumbra::scene::{LightKind, LightShape};
+use glumbra::scene::{Light, LightKind, LightShape};
 
 use crate::scenes::*;
 
 /// Where the line from the light through a point meets the floor.
-fn cast(light: DVec3, point: DVec3) -> DVec2 {
-    let way = point - light;
-    let on_floor = light - way * (light.y / way.y);
+fn cast(light: &Light, point: DVec3) -> DVec2 {
+    let way = way_of_light(light, point);
+    let on_floor = point - way * (point.y / way.y);
     DVec2::new(on_floor.x, on_floor.z)
 }
 
 /// Whether a floor point lies in the convex polygon that the points cast.
-fn is_in_polygon(at: DVec3, light: DVec3, polygon: &[DVec3]) -> bool {
+fn is_in_polygon(at: DVec3, light: &Light, polygon: &[DVec3]) -> bool {
     let at = DVec2::new(at.x, at.z);
     let corners: Vec<DVec2> = polygon.iter().map(|&point| cast(light, point)).collect();
     let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).perp_dot(at - corners[k]) > 0.0;
@@ -52,25 +52,29 @@ fn primary_rays_meet_the_floor_where_the_camera_matrix_says() {
 
 #[test]
 fn a_square_over_a_plane_casts_a_scaled_square() {
-    let position = DVec3::new(0.0, 5.0, 0.0);
-    let scene = scene(vec![floor(), object("square", mesh(&square(0.75, 2.0)))], light(position, DVec3::ZERO));
-    // Heights 5 and 3 above floor and square: 0.75 * 5 / 3.
-    check_floor("square", &trace_scene(&scene), |at| Some(at.x.abs().max(at.z.abs()) > 1.25));
+    // Heights 5 and 3 above floor and square: 0.75 * 5 / 3; from infinity the square's own size.
+    for (light, half) in kinds(DVec3::new(0.0, 5.0, 0.0)).into_iter().zip([1.25, 1.25, 0.75]) {
+        let case = format!("square, {} light", light.kind.name());
+        let scene = scene(vec![floor(), object("square", mesh(&square(0.75, 2.0)))], light);
+        check_floor(&case, &trace_scene(&scene), |at| Some(at.x.abs().max(at.z.abs()) > half));
+    }
 }
 
 #[test]
 fn a_triangle_casts_the_central_projection_of_itself() {
     let corners = [DVec3::new(-1.1, 0.7, 0.3), DVec3::new(0.9, 1.6, 0.8), DVec3::new(0.2, 1.1, -1.2)].map(rounded);
-    let position = DVec3::new(1.2, 4.0, 0.9);
-    let caster = object("triangle", mesh(&(corners.to_vec(), vec![[0, 1, 2]])));
-    let scene = scene(vec![floor(), caster], light(position, DVec3::ZERO));
-    check_floor("triangle", &trace_scene(&scene), |at| Some(!is_in_polygon(at, position, &corners)));
+    for light in kinds(DVec3::new(1.2, 4.0, 0.9)) {
+        let case = format!("triangle, {} light", light.kind.name());
+        let caster = object("triangle", mesh(&(corners.to_vec(), vec![[0, 1, 2]])));
+        let scene = scene(vec![floor(), caster], light.clone());
+        check_floor(&case, &trace_scene(&scene), |at| Some(!is_in_polygon(at, &light, &corners)));
+    }
 }
 
 #[test]
 fn a_tilted_disc_of_nine_corners_casts_its_projection_mirrored_or_not() {
-    let position = DVec3::new(-1.0, 4.5, 1.5);
-    for mirror in [1.0, -1.0] {
+    let lights = kinds(DVec3::new(-1.0, 4.5, 1.5));
+    for (light, mirror) in lights.iter().flat_map(|light| [(light, 1.0), (light, -1.0)]) {
         let rim = |k: u32| {
             let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 9.0).sin_cos();
             rounded(DVec3::new(0.8 * cos, 0.4 * sin, 0.8 * sin))
@@ -81,27 +85,29 @@ fn a_tilted_disc_of_nine_corners_casts_its_projection_mirrored_or_not() {
             * DMat4::from_rotation_y(0.4)
             * DMat4::from_scale(DVec3::new(mirror, 1.5, 1.0));
         let corners: Vec<DVec3> = rim.iter().map(|&point| disc.world_from_model.transform_point3(point)).collect();
-        let scene = scene(vec![floor(), disc], light(position, DVec3::ZERO));
-        let case = format!("disc, x scaled by {mirror}");
-        check_floor(&case, &trace_scene(&scene), |at| Some(!is_in_polygon(at, position, &corners)));
+        let scene = scene(vec![floor(), disc], light.clone());
+        let case = format!("disc, x scaled by {mirror}, {} light", light.kind.name());
+        check_floor(&case, &trace_scene(&scene), |at| Some(!is_in_polygon(at, light, &corners)));
     }
 }
 
-/// Whether the segment from `from` to `to` meets the box.
-fn meets_box(from: DVec3, to: DVec3, min: DVec3, max: DVec3) -> bool {
-    let way = to - from;
+/// Whether the way from `from` to the light meets the box.
+fn meets_box(from: DVec3, light: &Light, min: DVec3, max: DVec3) -> bool {
+    let way = -way_of_light(light, from);
+    let end = if light.position().is_some() { 1.0 } else { f64::INFINITY };
     let (one, other) = ((min - from) / way, (max - from) / way);
-    one.min(other).max_element().max(0.0) < one.max(other).min_element().min(1.0)
+    one.min(other).max_element().max(0.0) < one.max(other).min_element().min(end)
 }
 
 #[test]
 fn a_box_casts_from_the_air_and_from_the_floor() {
-    let position = DVec3::new(2.0, 4.0, 1.0);
-    for bottom in [0.0, 0.5] {
+    let lights = kinds(DVec3::new(2.0, 3.0, 1.0));
+    for (light, bottom) in lights.iter().flat_map(|light| [(light, 0.0), (light, 0.5)]) {
         let (min, max) = (DVec3::new(-0.75, bottom, -0.5), DVec3::new(0.25, bottom + 1.0, 0.75));
-        let scene = scene(vec![floor(), object("box", mesh(&cuboid(min, max)))], light(position, DVec3::ZERO));
+        let scene = scene(vec![floor(), object("box", mesh(&cuboid(min, max)))], light.clone());
         let truth = trace_scene(&scene);
-        check_floor(&format!("box at {bottom}"), &truth, |at| Some(!meets_box(at, position, min, max)));
+        let case = format!("box at {bottom}, {} light", light.kind.name());
+        check_floor(&case, &truth, |at| Some(!meets_box(at, light, min, max)));
         // A convex body shades itself exactly where it is turned away.
         for pixel in &truth.pixels {
             let Some(hit) = pixel.hit.filter(|hit| hit.object == 1) else { continue };
@@ -119,28 +125,77 @@ fn a_tetrahedron_casts_the_union_of_its_faces() {
     let corners = [(-0.8, 0.6, -0.4), (0.9, 0.8, -0.3), (0.0, 0.7, 0.9), (0.1, 1.9, 0.1)]
         .map(|(x, y, z)| rounded(DVec3::new(x, y, z)));
     let faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
-    let position = DVec3::new(-1.5, 4.0, 1.0);
-    let caster = object("tetrahedron", mesh(&(corners.to_vec(), faces.map(|f: [u32; 3]| f).to_vec())));
-    let scene = scene(vec![floor(), caster], light(position, DVec3::ZERO));
-    check_floor("tetrahedron", &trace_scene(&scene), |at| {
-        let face = |f: &[u32; 3]| is_in_polygon(at, position, &f.map(|corner| corners[corner as usize]));
-        Some(!faces.iter().any(face))
-    });
+    for light in kinds(DVec3::new(-1.5, 4.0, 1.0)) {
+        let case = format!("tetrahedron, {} light", light.kind.name());
+        let caster = object("tetrahedron", mesh(&(corners.to_vec(), faces.to_vec())));
+        let scene = scene(vec![floor(), caster], light.clone());
+        check_floor(&case, &trace_scene(&scene), |at| {
+            let face = |f: &[u32; 3]| is_in_polygon(at, &light, &f.map(|corner| corners[corner as usize]));
+            Some(!faces.iter().any(face))
+        });
+    }
 }
 
 #[test]
 fn a_sphere_casts_within_the_error_of_its_tessellation() {
     let (center, radius, rings) = (DVec3::new(0.25, 1.25, 0.0), 1.0, 100);
-    let position = DVec3::new(1.5, 5.0, 0.5);
-    let caster = object("sphere", mesh(&sphere(center, radius, rings)));
-    let scene = scene(vec![floor(), caster], light(position, DVec3::ZERO));
     // An edge's middle lies below the sphere by 1 - cos of half its angle, a quad's by that of its diagonal's half.
     let flattest = radius * (1.0 - (std::f64::consts::PI / f64::from(rings)).powi(2) / 4.0);
-    check_floor("sphere", &trace_scene(&scene), |at| {
-        let way = (at - position).normalize();
-        let distance = (center - position).cross(way).length();
-        (!(flattest - 1e-6..radius + 1e-6).contains(&distance)).then_some(distance > radius)
+    for light in kinds(DVec3::new(1.5, 5.0, 0.5)) {
+        let case = format!("sphere, {} light", light.kind.name());
+        let scene = scene(vec![floor(), object("sphere", mesh(&sphere(center, radius, rings)))], light.clone());
+        check_floor(&case, &trace_scene(&scene), |at| {
+            let distance = (center - at).cross(way_of_light(&light, at).normalize()).length();
+            (!(flattest - 1e-6..radius + 1e-6).contains(&distance)).then_some(distance > radius)
+        });
+    }
+}
+
+#[test]
+fn parallel_light_makes_a_spheres_shadow_an_ellipse() {
+    let (center, radius, rings) = (DVec3::new(0.0, 1.25, 0.3), 1.0, 100);
+    let from = DVec3::new(1.0, 1.5, -0.5);
+    let scene = scene(vec![floor(), object("sphere", mesh(&sphere(center, radius, rings)))], sun(from));
+    // Semi-axes: the radius across, and the radius over the sine of the light's height along.
+    let along = DVec2::new(-from.x, -from.z).normalize();
+    let middle = DVec2::new(center.x, center.z) + along * (center.y * from.x.hypot(from.z) / from.y);
+    let sine = from.y / from.length();
+    let flattest = 1.0 - (std::f64::consts::PI / f64::from(rings)).powi(2) / 4.0;
+    check_floor("ellipse", &trace_scene(&scene), |at| {
+        let off = (DVec2::new(at.x, at.z) - middle) / radius;
+        let reach = (sine * along.dot(off)).hypot(along.perp_dot(off));
+        (!(flattest - 1e-6..1.0 + 1e-6).contains(&reach)).then_some(reach > 1.0)
     });
+}
+
+#[test]
+fn a_point_light_among_walls_lights_every_way() {
+    // Beside the light on four sides, each with its own plate between: what one spotlight could not hold.
+    let position = DVec3::new(0.0, 1.0, 0.0);
+    let plates = [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z].map(|side| {
+        let across = side.cross(DVec3::Y);
+        let corner = |x: f64, y: f64| rounded(position + 0.5 * side + 0.125 * (x * across + y * DVec3::Y));
+        [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+    });
+    let lamp = point_light(position);
+    let mut objects = vec![object("room", mesh(&cuboid(DVec3::new(-3.0, 0.0, -3.0), DVec3::new(3.0, 6.0, 3.0))))];
+    objects.extend(plates.iter().map(|plate| object("plate", mesh(&(plate.to_vec(), vec![[0, 1, 2], [0, 2, 3]])))));
+    let mut scene = scene(objects, lamp);
+    (scene.camera.eye, scene.camera.target) = (DVec3::new(0.0, 5.9, 0.0), DVec3::new(0.0, 0.0, 0.01));
+    scene.camera.fov_y_radians = 120f64.to_radians();
+    // Through a plate: the way crosses its plane within its square.
+    let is_dark = |at: DVec3| {
+        let way = at - position;
+        plates.iter().any(|plate| {
+            let [right, up] = [plate[1] - plate[0], plate[3] - plate[0]];
+            let normal = right.cross(up);
+            let t = normal.dot(plate[0] - position) / normal.dot(way);
+            let on = position + t * way - plate[0];
+            let inside = |axis: DVec3| (0.0..1.0).contains(&(axis.dot(on) / axis.length_squared()));
+            (0.0..1.0).contains(&t) && inside(right) && inside(up)
+        })
+    };
+    check_floor("room", &trace_scene(&scene), |at| Some(!is_dark(at)));
 }
 
 #[test]
@@ -149,9 +204,11 @@ fn a_cone_lights_an_ellipse_and_a_frustum_a_quadrilateral() {
     let half = 14f64.to_radians();
     for shape in [LightShape::Cone, LightShape::Frustum] {
         let mut lamp = light(position, target);
-        lamp.kind = LightKind::Spot { cone_radians: 2.0 * half, shape };
+        frustum_of(&mut lamp).cone_radians = 2.0 * half;
+        let LightKind::Spot(spot) = &mut lamp.kind else { panic!("no spotlight") };
+        spot.shape = shape;
         let axis = (target - position).normalize();
-        let right = axis.cross(lamp.up).normalize();
+        let right = axis.cross(spot.frustum.up).normalize();
         let scene = scene(vec![floor()], lamp);
         let truth = trace_scene(&scene);
         let (mut inside, mut outside) = (0, 0);
@@ -164,7 +221,7 @@ fn a_cone_lights_an_ellipse_and_a_frustum_a_quadrilateral() {
                 LightShape::Frustum => {
                     let corner = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
                         .map(|(x, y)| position + axis + half.tan() * (x * right + y * right.cross(axis)));
-                    is_in_polygon(hit.position, position, &corner)
+                    is_in_polygon(hit.position, &scene.lights[0], &corner)
                 }
             };
             match pixel.answer {

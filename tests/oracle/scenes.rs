@@ -8,7 +8,9 @@ use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
 use glumbra::oracle::ray::{Answer, Options, Pixel, Truth, trace};
 use glumbra::scene::Origin;
-use glumbra::scene::{Camera, Image, Light, LightKind, LightShape, Object, Scene, Settings, Shading};
+use glumbra::scene::{
+    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Settings, Shading, Spot,
+};
 
 pub const SIZE: u32 = 192;
 
@@ -106,20 +108,58 @@ fn grid(columns: u32, rows: u32, point: impl Fn(f64, f64) -> DVec3) -> Shape {
 /// A light that stands at `position` and looks at the origin's neighbourhood with 100 degrees.
 pub fn light(position: DVec3, target: DVec3) -> Light {
     Light {
-        kind: LightKind::Spot { cone_radians: 100f64.to_radians(), shape: LightShape::Frustum },
-        position,
-        target,
-        up: if (target - position).normalize().y.abs() > 0.9 { DVec3::Z } else { DVec3::Y },
-        near: 0.01,
-        far: 100.0,
+        kind: LightKind::Spot(Spot {
+            frustum: Frustum {
+                position,
+                target,
+                up: if (target - position).normalize().y.abs() > 0.9 { DVec3::Z } else { DVec3::Y },
+                cone_radians: 100f64.to_radians(),
+                near: 0.01,
+                far: 100.0,
+            },
+            shape: LightShape::Frustum,
+            attenuation: [1.0, 0.0, 0.0],
+            image: None,
+            frustum_shown: false,
+        }),
         ambient: [0.0; 3],
         diffuse: [1.0; 3],
         specular: [1.0; 3],
-        attenuation: [1.0, 0.0, 0.0],
-        image: None,
-        frustum_shown: false,
         name: String::from("light"),
         shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
+    }
+}
+
+/// A light that shines every way from `position`.
+pub fn point_light(position: DVec3) -> Light {
+    let kind = LightKind::Point(Point { position, near: 0.01, far: 100.0, attenuation: [1.0, 0.0, 0.0] });
+    Light { kind, ..light(position, position + DVec3::X) }
+}
+
+/// Parallel light that travels from `from` to the origin.
+pub fn sun(from: DVec3) -> Light {
+    Light { kind: LightKind::Directional { direction: -from.normalize() }, ..light(from, DVec3::ZERO) }
+}
+
+/// One light of each kind at `position`, or from there.
+pub fn kinds(position: DVec3) -> [Light; 3] {
+    [light(position, DVec3::ZERO), point_light(position), sun(position)]
+}
+
+/// From the light to a point, or any piece of that way.
+pub fn way_of_light(light: &Light, to: DVec3) -> DVec3 {
+    match &light.kind {
+        LightKind::Spot(spot) => to - spot.frustum.position,
+        LightKind::Point(point) => to - point.position,
+        LightKind::Directional { direction } => *direction,
+    }
+}
+
+/// The frustum of what [`light`] made.
+pub fn frustum_of(light: &mut Light) -> &mut Frustum {
+    match &mut light.kind {
+        LightKind::Spot(spot) => &mut spot.frustum,
+        other => panic!("{other:?} has no frustum"),
     }
 }
 

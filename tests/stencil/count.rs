@@ -71,7 +71,7 @@ pub fn compare(truth: &VolumeCounts, stencil: &[u8]) -> Held {
     for (pixel, counted) in truth.pixels.iter().zip(stencil) {
         let Count::Exactly(expected) = pixel.count else { continue };
         // A spotlight's volumes matter inside its beam.
-        if pixel.hit.is_none_or(|hit| hit.in_light.abs().max_element() >= 1.0) {
+        if pixel.hit.is_none_or(|hit| hit.in_map.abs().max_element() >= 1.0) {
             continue;
         }
         held.told += 1;

@@ -1,22 +1,22 @@
 //! Eyes and lights in every place, and volumes that must close.
 
 use glam::DVec3;
-use glumbra::scene::Scene;
+use glumbra::scene::{Light, Scene};
 
 use crate::count::{Bench, RIGHT, compare, truth};
 use crate::homogeneous::Random;
-use crate::scenes::{cuboid, floor, light, mesh, object, scene, square, torus};
+use crate::scenes::{cuboid, floor, light, mesh, object, point_light, scene, square, sun, torus};
 use crate::shapes::turned;
 
 /// A torus, a box, and an open square that floats over both.
-fn room(eye: DVec3, target: DVec3, position: DVec3, at: DVec3) -> Scene {
+fn room(eye: DVec3, target: DVec3, light: Light) -> Scene {
     let objects = vec![
         floor(),
         object("torus", mesh(&turned(torus(DVec3::new(-0.8, 0.5, 0.2), 0.6, 0.25, 14, 8)))),
         object("box", mesh(&cuboid(DVec3::new(0.4, 0.0, -0.6), DVec3::new(1.3, 0.9, 0.3)))),
         object("square", mesh(&square(0.5, 1.6))),
     ];
-    let mut scene = scene(objects, light(position, at));
+    let mut scene = scene(objects, light);
     scene.image.size = [40, 40];
     scene.camera.eye = eye;
     scene.camera.target = target;
@@ -47,7 +47,13 @@ fn a_thousand_eyes_and_lights_are_counted_exactly() {
         let [eye, position] = [hard_place(&mut random, index / 8), hard_place(&mut random, index)];
         // Among other things along the light's rays: the eye in a volume's side, the light behind the eye.
         let target = if index % 5 == 0 { 2.0 * eye - position } else { random.vector(1.0) + DVec3::Y };
-        let scene = room(eye, target + 1e-3 * random.vector(1.0), position, random.vector(0.7) + 0.5 * DVec3::Y);
+        let at = random.vector(0.7) + 0.5 * DVec3::Y;
+        let light = match index % 3 {
+            0 => light(position, at),
+            1 => point_light(position),
+            _ => sun(position - at),
+        };
+        let scene = room(eye, target + 1e-3 * random.vector(1.0), light);
         let truth = truth(&scene);
         for method in RIGHT {
             let held = bench.hold(&scene, &truth, &format!("method = \"{method}\""));

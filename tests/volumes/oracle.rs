@@ -7,7 +7,7 @@ use glumbra::oracle::ray::{Answer, Count, Options, trace, volume_count, volume_c
 use glumbra::scene::{Object, Scene};
 
 use crate::homogeneous::{Random, corners, entries, exits, triangles};
-use crate::scenes::{cuboid, floor, light, mesh, object, scene, sphere, square};
+use crate::scenes::{cuboid, floor, frustum_of, light, mesh, object, point_light, scene, sphere, square, sun};
 use crate::shapes::{Case, cases, dense, placements, turned};
 
 fn placed(mesh: glumbra::geometry::Mesh, world_from_model: DMat4) -> Object {
@@ -21,15 +21,19 @@ fn with(objects: Vec<Object>, position: DVec3) -> Scene {
 }
 
 /// Volumes of every object, at points of the cube of half 2.
-fn compare(case: &str, mesh: &glumbra::geometry::Mesh, place: DMat4, position: DVec3, points: usize) -> u32 {
+fn compare(case: &str, mesh: &glumbra::geometry::Mesh, place: DMat4, source: Source, points: usize) -> u32 {
     let mut random = Random::new(points as u64);
     let points: Vec<DVec3> = (0..points).map(|_| random.vector(2.0)).collect();
-    let scene = with(vec![placed(mesh.clone(), place)], position);
+    let light = match source {
+        Source::Point(position) => light(position, if position == DVec3::ZERO { DVec3::X } else { DVec3::ZERO }),
+        Source::Direction(towards) => sun(towards),
+    };
+    let scene = scene(vec![placed(mesh.clone(), place)], light);
     let expected = volume_count_at(&scene, 0, &points, 1e-5, &Options::default()).unwrap();
     let model_from_world = place.inverse();
     let caster = Caster::of_mesh(mesh);
     let (mut outline, mut volume) = (Outline::default(), Volume::default());
-    outline.find(&caster, Source::Point(position).transformed(&model_from_world));
+    outline.find(&caster, source.transformed(&model_from_world));
     volume.extrude(&caster, &outline, Extent::Infinite, Caps::BOTH);
     let volume = triangles(&volume);
     let (mut told, mut sum) = (0usize, 0);
@@ -37,7 +41,7 @@ fn compare(case: &str, mesh: &glumbra::geometry::Mesh, place: DMat4, position: D
         let Some(expected) = expected else { continue };
         let way = random.vector(1.0);
         let [at, along] = [model_from_world.transform_point3(*point), model_from_world.transform_vector3(way)];
-        assert_eq!(exits(&volume, at, along), expected as i32, "{case} {position} {point}");
+        assert_eq!(exits(&volume, at, along), expected as i32, "{case} {source:?} {point}");
         (told, sum) = (told + 1, sum + expected);
     }
     // Where the light is within the error of a face, what that face shades (up to three quarters at a corner) is not told.
@@ -53,12 +57,14 @@ fn built_volumes_hold_what_the_oracle_says() {
             let mut sum = 0;
             for position in [DVec3::new(2.1, 4.3, 3.2), DVec3::new(-0.3, 2.6, 0.2), DVec3::new(0.0213, 0.0727, -0.0411)]
             {
-                sum += compare(&format!("{name} {place_name}"), &mesh, place, position, points);
+                sum += compare(&format!("{name} {place_name}"), &mesh, place, Source::Point(position), points);
             }
+            let towards = Source::Direction(DVec3::new(0.3, 1.1, -0.4));
+            sum += compare(&format!("{name} {place_name}"), &mesh, place, towards, points);
             assert!(sum > 0, "{name}");
         }
     }
-    assert!(compare("dense", &dense(), DMat4::IDENTITY, DVec3::new(2.1, 4.3, 3.2), 60) > 0);
+    assert!(compare("dense", &dense(), DMat4::IDENTITY, Source::Point(DVec3::new(2.1, 4.3, 3.2)), 60) > 0);
 }
 
 #[test]
@@ -66,7 +72,8 @@ fn a_millionth_from_a_corner_the_count_is_still_told() {
     for Case { name, mesh, .. } in cases().into_iter().filter(|case| case.mesh.triangle_count() < 500) {
         for k in [0, 1, 2] {
             let corner = DVec3::from_array(mesh.positions[k % mesh.positions.len()].map(f64::from));
-            compare(name, &mesh, DMat4::IDENTITY, corner + DVec3::new(7e-7, 1e-6, -4e-7), 100);
+            let source = Source::Point(corner + DVec3::new(7e-7, 1e-6, -4e-7));
+            compare(name, &mesh, DMat4::IDENTITY, source, 100);
         }
     }
 }
@@ -145,25 +152,33 @@ fn lit_is_a_count_of_zero() {
     ] {
         let mut scene = busy(position);
         scene.camera.eye = eye;
-        scene.lights[0].near = 1e-3;
-        let options = Options { most_ambiguous: 0.2, ..Options::default() };
-        let (truth, counts) = (trace(&scene, 0, &options).unwrap(), volume_count(&scene, 0, &options).unwrap());
-        let (mut lit, mut shadowed, mut wrong) = (0, 0, 0);
-        for (a, b) in truth.pixels.iter().zip(&counts.pixels) {
-            match (a.answer, b.count) {
-                (Answer::Lit, Count::Exactly(count)) => (lit, wrong) = (lit + 1, wrong + u32::from(count > 0)),
-                (Answer::Shadowed, Count::Exactly(count)) => {
-                    (shadowed, wrong) = (shadowed + 1, wrong + u32::from(count == 0));
-                }
-                _ => {}
-            }
-        }
-        println!(
-            "{position}: {lit} lit, {shadowed} shadowed, {wrong} wrong; ambiguous: {:.2} % of counts, {:.2} % of shades",
-            100.0 * counts.ambiguous_share(),
-            100.0 * truth.ambiguous_share()
-        );
-        assert!(wrong == 0 && shadowed > 1000, "{position}: {wrong} wrong");
-        assert!(counts.ambiguous_share() < 0.03);
+        frustum_of(&mut scene.lights[0]).near = 1e-3;
+        check_lit_is_zero(&scene);
     }
+    for light in [point_light(DVec3::new(1.5, 4.5, -1.0)), sun(DVec3::new(1.5, 4.5, -1.0))] {
+        check_lit_is_zero(&Scene { lights: vec![light], ..busy(DVec3::ONE) });
+    }
+}
+
+fn check_lit_is_zero(scene: &Scene) {
+    let kind = &scene.lights[0].kind;
+    let options = Options { most_ambiguous: 0.2, ..Options::default() };
+    let (truth, counts) = (trace(scene, 0, &options).unwrap(), volume_count(scene, 0, &options).unwrap());
+    let (mut lit, mut shadowed, mut wrong) = (0, 0, 0);
+    for (a, b) in truth.pixels.iter().zip(&counts.pixels) {
+        match (a.answer, b.count) {
+            (Answer::Lit, Count::Exactly(count)) => (lit, wrong) = (lit + 1, wrong + u32::from(count > 0)),
+            (Answer::Shadowed, Count::Exactly(count)) => {
+                (shadowed, wrong) = (shadowed + 1, wrong + u32::from(count == 0));
+            }
+            _ => {}
+        }
+    }
+    println!(
+        "{kind:?}: {lit} lit, {shadowed} shadowed, {wrong} wrong; ambiguous: {:.2} % of counts, {:.2} % of shades",
+        100.0 * counts.ambiguous_share(),
+        100.0 * truth.ambiguous_share()
+    );
+    assert!(wrong == 0 && shadowed > 1000, "{kind:?}: {wrong} wrong");
+    assert!(counts.ambiguous_share() < 0.03);
 }

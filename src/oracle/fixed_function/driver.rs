@@ -22,8 +22,10 @@ impl FixedFunction {
 
     fn take_over(&self, batch: &mut Batch) {
         let (clip_from_eye, projections): (DMat4, Vec<&Projection>) = match &batch.meaning {
-            Meaning::Lit(lit) => (lit.clip_from_eye, lit.lights.iter().map(|light| &light.projection).collect()),
-            Meaning::Sampled(view) => (view.clip_from_eye, vec![&view.projection]),
+            Meaning::Lit(lit) => {
+                (lit.clip_from_eye, lit.lights.iter().filter_map(|light| light.projection.as_ref()).collect())
+            }
+            Meaning::Sampled(view) => (view.clip_from_eye, view.projection.iter().collect()),
             Meaning::Depth(_) | Meaning::Constant(_) | Meaning::Shader(_) => return,
         };
         for projection in projections {

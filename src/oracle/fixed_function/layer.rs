@@ -58,7 +58,7 @@ pub struct Lighting {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// In eye space.
-    pub position: [f32; 3],
+    pub position: [f32; 4],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],

@@ -62,9 +62,8 @@ unsafe fn set_material(fixed: &Binding, lighting: &Lighting) {
 
 unsafe fn set_sources(gl: &glow::Context, fixed: &Binding, lighting: &Lighting) {
     for (index, source) in (raw::LIGHT0..).zip(&lighting.sources) {
-        let [x, y, z] = source.position;
         let vectors = [
-            (raw::POSITION, [x, y, z, 1.0]),
+            (raw::POSITION, source.position),
             (raw::AMBIENT, opaque(source.ambient)),
             (raw::DIFFUSE, opaque(source.diffuse)),
             (raw::SPECULAR, opaque(source.specular)),

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::bounds::{self, Reach};
 use super::layer::{Blend, Layer, Lighting, Primary, Source};
 use super::stack::{Stack, Weight};
-use crate::pass::{Batch, Compare, Lit, Meaning, PointLight, Projection, Sampled, Shade, Texturing};
+use crate::pass::{Batch, Compare, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 
 /// The layers of a batch, in the order in which they are drawn.
 ///
@@ -54,11 +54,14 @@ fn opacity(texturing: &Texturing) -> f32 {
 /// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha
 /// test can ask one question and alpha must be 1 in the end.
 fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
-    let reach = bounds::of(batch, &view.projection)?;
+    let projection = view.projection.as_ref();
+    let reach = reach(batch, projection)?;
     check_reference(batch, &view.shade, reach)?;
     let mut stack = Stack::new(batch);
-    stack.shade(&view.shade, &view.projection, Weight::Shade)?;
-    stack.reach(&view.projection, reach.behind, true);
+    stack.shade(&view.shade, projection, Weight::Shade)?;
+    if let Some(projection) = projection {
+        stack.reach(projection, reach.behind, true);
+    }
     let mut shown = Layer::first("shade", Primary::Color([1.0; 4]));
     shown.units = stack.finish();
     let mut layers = Vec::new();
@@ -67,9 +70,9 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
         shown.first = false;
     }
     layers.push(shown);
-    if view.projection.cone {
+    if let Some(projection) = projection.filter(|projection| projection.cone) {
         let mut stack = Stack::new(batch);
-        stack.cone(&view.projection);
+        stack.cone(projection);
         let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
         outside.units = stack.finish();
         outside.alpha_test = Some((Compare::LessEqual, 0.0));
@@ -78,6 +81,11 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
         layers.push(outside);
     }
     Ok(layers)
+}
+
+/// What may happen in a batch; nothing, where a light has no coordinates.
+fn reach(batch: &Batch, projection: Option<&Projection>) -> Result<Reach, String> {
+    projection.map_or(Ok(Reach::default()), |projection| bounds::of(batch, projection))
 }
 
 /// Fixed-point formats clamp r/q to [0, 1]; for others the shader does, and no combiner can. It matters only where a
@@ -134,7 +142,7 @@ fn product(a: [f32; 3], b: [f32; 3]) -> Vec3 {
 }
 
 /// What a light's ambient colour comes to: what the scene's leaves below 1 bounds it.
-fn own_ambient(lit: &Lit, light: &PointLight) -> Vec3 {
+fn own_ambient(lit: &Lit, light: &LightMeaning) -> Vec3 {
     let room = (Vec3::ONE - Vec3::from(lit.scene_ambient)).max(Vec3::ZERO);
     let most = product(light.ambient, lit.ambient);
     if lit.per_vertex { most.min(room) } else { most }
@@ -143,7 +151,7 @@ fn own_ambient(lit: &Lit, light: &PointLight) -> Vec3 {
 /// The first layer: all ambient light times the decal, and the surface's visibility.
 fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     let scene = Vec3::from(lit.scene_ambient);
-    let lit_by: Vec<&PointLight> =
+    let lit_by: Vec<&LightMeaning> =
         lit.lights.iter().filter(|light| product(light.ambient, lit.ambient) != Vec3::ZERO).collect();
     let most = scene + lit_by.iter().map(|light| own_ambient(lit, light)).sum::<Vec3>();
     if most.max_element() > 1.0 && (lit.texturing.decal || lit_by.iter().any(|light| is_attenuated(light))) {
@@ -168,11 +176,11 @@ fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     Ok(layer)
 }
 
-fn is_attenuated(light: &PointLight) -> bool {
+fn is_attenuated(light: &LightMeaning) -> bool {
     light.attenuation != [1.0, 0.0, 0.0]
 }
 
-fn unlit_source(light: &PointLight) -> Source {
+fn unlit_source(light: &LightMeaning) -> Source {
     let (position, attenuation) = (light.position, light.attenuation);
     Source { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
 }
@@ -185,8 +193,8 @@ struct Parts {
     weight: Weight,
 }
 
-fn light_layers(batch: &Batch, lit: &Lit, light: &PointLight) -> Result<Vec<Layer>, String> {
-    let reach = bounds::of(batch, &light.projection)?;
+fn light_layers(batch: &Batch, lit: &Lit, light: &LightMeaning) -> Result<Vec<Layer>, String> {
+    let reach = reach(batch, light.projection.as_ref())?;
     check_reference(batch, &light.shade, reach)?;
     let has_diffuse = product(light.diffuse, lit.diffuse) != Vec3::ZERO;
     let has_specular = lit.lit && product(light.specular, lit.specular) != Vec3::ZERO;
@@ -208,8 +216,9 @@ fn light_layers(batch: &Batch, lit: &Lit, light: &PointLight) -> Result<Vec<Laye
     parts.into_iter().map(|parts| light_layer(batch, lit, light, parts, reach)).collect()
 }
 
-fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach: Reach) -> Result<Layer, String> {
-    let projection: &Projection = &light.projection;
+fn light_layer(batch: &Batch, lit: &Lit, light: &LightMeaning, parts: Parts, reach: Reach) -> Result<Layer, String> {
+    let projection = light.projection.as_ref();
+    let cone = projection.filter(|projection| projection.cone);
     let (primary, already) = primary(lit, light, parts)?;
     let name = match parts {
         Parts { diffuse: true, specular: true, .. } => "light",
@@ -217,9 +226,7 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
         Parts { .. } => "specular light",
     };
     let mut stack = Stack::new(batch);
-    if projection.cone {
-        stack.cone(projection);
-    }
+    cone.iter().for_each(|projection| stack.cone(projection));
     if let Some(already) = already {
         if parts.weight != Weight::Shade && light.shade != Shade::Lit {
             return Err(String::from(
@@ -229,18 +236,20 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
         stack.subtract(already.to_array());
     }
     stack.shade(&light.shade, projection, parts.weight)?;
-    if let Some(beam) = &light.beam {
-        stack.beam(beam, projection)?;
+    if let Some(projection) = projection {
+        if let Some(beam) = &light.beam {
+            stack.beam(beam, projection)?;
+        }
+        stack.reach(projection, reach.behind, false);
     }
-    stack.reach(projection, reach.behind, false);
     if parts.diffuse {
         stack.surface(&lit.texturing, lit.texturing.decal, false)?;
     }
     Ok(Layer {
-        name: format!("{name} {}", projection.light),
+        name: format!("{name} {}", light.index),
         primary,
         units: stack.finish(),
-        alpha_test: projection.cone.then_some((Compare::Greater, 0.0)),
+        alpha_test: cone.map(|_| (Compare::Greater, 0.0)),
         blend: Blend::Add,
         first: false,
         alpha_write: false,
@@ -249,7 +258,7 @@ fn light_layer(batch: &Batch, lit: &Lit, light: &PointLight, parts: Parts, reach
 
 /// The primary colour of a light's layer, and what of it is ambient light that is there already: GL clamps the sum of
 /// both to 1, and so a light alone would come out too bright where the sum saturates.
-fn primary(lit: &Lit, light: &PointLight, parts: Parts) -> Result<(Primary, Option<Vec3>), String> {
+fn primary(lit: &Lit, light: &LightMeaning, parts: Parts) -> Result<(Primary, Option<Vec3>), String> {
     let ambient = Vec3::from(lit.scene_ambient) + own_ambient(lit, light);
     let strength = if light.attenuation[0] > 0.0 { 1.0 / light.attenuation[0] } else { f32::INFINITY };
     let diffuse = product(light.diffuse, lit.diffuse);

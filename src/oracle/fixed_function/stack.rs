@@ -80,7 +80,7 @@ impl<'a> Stack<'a> {
     }
 
     /// Modulates by the light's shade, or by what a dimmed shadow makes of it.
-    pub fn shade(&mut self, shade: &Shade, projection: &Projection, weight: Weight) -> Result<(), String> {
+    pub fn shade(&mut self, shade: &Shade, projection: Option<&Projection>, weight: Weight) -> Result<(), String> {
         let name = match shade {
             Shade::Lit => return Ok(()),
             Shade::Dark if weight == Weight::Shade => {
@@ -92,6 +92,7 @@ impl<'a> Stack<'a> {
             Shade::Shader(what) => return Err((*what).to_owned()),
             Shade::Texture { input, .. } => input,
         };
+        let projection = projection.ok_or("a shade texture of a light without texture coordinates")?;
         let (image, coordinates) = (self.input(name)?, map_coordinates(projection));
         let (combine, constant) = match weight {
             Weight::Shade => {

@@ -1,5 +1,6 @@
 //! A beam: every segment from a fixed apex (the eye or the light) to the points that a sample may mean. Which
-//! triangles stop all of it, none of it, or perhaps a part.
+//! triangles stop all of it, none of it, or perhaps a part. An apex at infinity makes the segments parallel: they come
+//! from beyond the whole scene, and where a formula would divide by the distance to the apex its limit stands.
 //!
 //! The base is a parallelogram `base ± spread[0] ± spread[1]` grown by a ball of radius `error`; corners of other
 //! triangles may be off by `error` of their own. As the base point moves, the number of times that its segment crosses
@@ -56,9 +57,21 @@ pub(super) fn crossing_once(origin: DVec3, direction: DVec3, corners: &[DVec3; 3
     (is_inside && area != 0.0).then(|| (u * a[2] + v * b[2] + w * c[2]) / area)
 }
 
+/// Where a beam's segments come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Apex {
+    At(DVec3),
+    /// Infinitely far away. `travel`: along the segments to the base, of unit length; `length`: their piece before any
+    /// base that may have something in its way.
+    Infinity {
+        travel: DVec3,
+        length: f64,
+    },
+}
+
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
-    pub apex: DVec3,
+    pub apex: Apex,
     pub base: DVec3,
     /// How the base moves, one vector a direction of the sample.
     pub spread: [DVec3; 2],
@@ -69,7 +82,7 @@ pub(super) struct Beam {
     pub error: f64,
     /// The same against surfaces that may lie at the base's own depth; not below `error`.
     pub depth_error: f64,
-    /// The fraction of the way from apex to base before which nothing counts; in [0, 1).
+    /// The fraction of the way from apex to base before which nothing counts; in [0, 1). 0 for parallel beams.
     pub start: f64,
     /// Whether a corner's error turns the rays past it, so that it grows with the distance from the apex. Shadow volumes
     /// move each corner along its own ray: there it does not.
@@ -103,36 +116,77 @@ impl Beam {
         self.spread[0].length() + self.spread[1].length() + self.error + error
     }
 
+    /// Where the centre segment begins.
+    pub fn origin(&self) -> DVec3 {
+        match self.apex {
+            Apex::At(apex) => apex,
+            Apex::Infinity { travel, length } => self.base - length * travel,
+        }
+    }
+
+    /// The centre segment, from its origin to the base.
+    pub fn axis(&self) -> DVec3 {
+        match self.apex {
+            Apex::At(apex) => self.base - apex,
+            Apex::Infinity { travel, length } => length * travel,
+        }
+    }
+
+    /// Along the segment that ends in `base`, of any length.
+    pub fn way_to(&self, base: DVec3) -> DVec3 {
+        match self.apex {
+            Apex::At(apex) => base - apex,
+            Apex::Infinity { travel, .. } => travel,
+        }
+    }
+
+    /// The plane of all segments that meet the edge: its normal, of the length that the edge has as seen from the apex
+    /// (times its distance, where that is finite), and one of its points.
+    fn plane_through(&self, from: DVec3, to: DVec3) -> (DVec3, DVec3) {
+        match self.apex {
+            Apex::At(apex) => ((from - apex).cross(to - apex), apex),
+            Apex::Infinity { travel, .. } => ((to - from).cross(travel), from),
+        }
+    }
+
+    /// How much wider than at a fraction of the way the beam is at its base.
+    fn taper(&self, fraction: f64) -> f64 {
+        if let Apex::At(_) = self.apex { fraction } else { 1.0 }
+    }
+
+    /// How far a corner's error may move its image on the beam's base, over that error.
+    fn lever(&self, corners: &[DVec3; 3]) -> f64 {
+        let (Apex::At(apex), true) = (self.apex, self.levers) else { return 1.0 };
+        let axis = self.base - apex;
+        // The nearest corner has the longest lever; behind the apex there is none.
+        let along = corners.map(|corner| (corner - apex).dot(axis));
+        let least = along.into_iter().fold(f64::MAX, f64::min) / axis.length_squared();
+        if least > 0.0 { least.recip() } else { f64::INFINITY }
+    }
+
     /// `None`: no line of the beam meets the triangle within its edges.
     pub fn meet(&self, corners: &[DVec3; 3], error: f64) -> Option<Meeting> {
-        let axis = self.base - self.apex;
-        let local = corners.map(|corner| corner - self.apex);
-        // The nearest corner has the longest lever on the beam's base; behind the apex there is none.
-        let least = local.map(|corner| corner.dot(axis)).into_iter().fold(f64::MAX, f64::min) / axis.length_squared();
-        let lever = match self.levers {
-            false => 1.0,
-            true if least > 0.0 => least.recip(),
-            true => f64::INFINITY,
-        };
+        let error_at_base = error * self.lever(corners);
         let mut surely_inside = true;
         for k in 0..3 {
-            match self.beside(local[k], local[(k + 1) % 3], local[(k + 2) % 3], error * lever) {
+            match self.beside(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3], error_at_base) {
                 Side::Before => return None,
                 Side::Near => surely_inside = false,
                 Side::Beyond => {}
             }
         }
-        let center = crossing(self.apex, axis, corners);
+        let center = crossing(self.origin(), self.axis(), corners);
         let (at_base, at_start) = self.depth(corners, error);
         Some(Meeting { center, surely_inside, at_base, at_start })
     }
 
     /// On which side of the plane through apex and edge the whole base lies: `Beyond`: on the third corner's.
     fn beside(&self, from: DVec3, to: DVec3, third: DVec3, error_at_base: f64) -> Side {
-        let normal = from.cross(to).normalize_or_zero();
-        let inward = normal.dot(third);
+        let (normal, on_plane) = self.plane_through(from, to);
+        let normal = normal.normalize_or_zero();
+        let inward = normal.dot(third - on_plane);
         let slack = self.reach_along(normal, &self.spread) + self.error + error_at_base;
-        let value = normal.dot(self.base - self.apex) * inward.signum();
+        let value = normal.dot(self.base - on_plane) * inward.signum();
         if !slack.is_finite() || inward == 0.0 || value.abs() <= slack {
             Side::Near
         } else if value > 0.0 {
@@ -151,11 +205,14 @@ impl Beam {
     fn depth(&self, corners: &[DVec3; 3], error: f64) -> (Side, Side) {
         let [a, b, c] = *corners;
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let axis = self.base - self.apex;
-        let at_apex = normal.dot(self.apex - a);
+        // On which side of the plane the apex is; 0: in it.
+        let apex_side = match self.apex {
+            Apex::At(apex) => normal.dot(apex - a),
+            Apex::Infinity { travel, .. } => -normal.dot(travel),
+        };
         let side = |value: f64, slack: f64| {
-            let signed = value * at_apex.signum();
-            if at_apex == 0.0 || value.abs() <= slack {
+            let signed = value * apex_side.signum();
+            if apex_side == 0.0 || value.abs() <= slack {
                 Side::Near
             } else if signed > 0.0 {
                 // The end lies on the apex's side: the plane is farther away than this end.
@@ -165,38 +222,45 @@ impl Beam {
             }
         };
         let moved = self.reach_along(normal, &self.spread).max(self.reach_along(normal, &self.surface_spread));
-        let at_base = side(at_apex + normal.dot(axis), moved + self.depth_error + 2.0 * error);
-        let at_start = side(at_apex + self.start * normal.dot(axis), self.start * (moved + self.error) + 2.0 * error);
+        let at_base = side(normal.dot(self.base - a), moved + self.depth_error + 2.0 * error);
+        let Apex::At(apex) = self.apex else { return (at_base, Side::Beyond) };
+        let start = apex + self.start * (self.base - apex);
+        let at_start = side(normal.dot(start - a), self.start * (moved + self.error) + 2.0 * error);
         (at_base, at_start)
     }
 
     /// Whether the edge comes so near that a segment of the beam may sweep over it before its base.
     pub fn passes_edge(&self, from: DVec3, to: DVec3, error: f64) -> bool {
-        let axis = self.base - self.apex;
+        let axis = self.axis();
         let longer = (self.surface_spread[0].length() + self.surface_spread[1].length()) / axis.length();
-        let (fraction, distance) = closest(self.apex, axis, self.start, 1.0 + longer, from, to);
+        let (fraction, distance) = closest(self.origin(), axis, self.start, 1.0 + longer, from, to);
         // The taper between here and the true closest point of the cone is of second order; 1 % holds it.
-        let error = if self.levers { error } else { fraction * error };
-        let width = fraction * self.radius(0.0) * 1.01 + error;
+        let taper = self.taper(fraction);
+        let error = if self.levers { error } else { taper * error };
+        let width = taper * self.radius(0.0) * 1.01 + error;
         if distance > width {
             return false;
         }
-        let normal = (from - self.apex).cross(to - self.apex).normalize_or_zero();
-        let slack = fraction * (self.reach_along(normal, &self.spread) + self.error) * 1.01 + error;
-        normal.dot(axis).abs() * fraction <= slack
+        let (normal, on_plane) = self.plane_through(from, to);
+        let normal = normal.normalize_or_zero();
+        let slack = taper * (self.reach_along(normal, &self.spread) + self.error) * 1.01 + error;
+        normal.dot(self.base - on_plane).abs() * taper <= slack
     }
 
     /// Whether the surface ends or folds over at this edge as seen from the apex: `across` is the far corner of the
     /// triangle on the other side, `third` that of this one. An edge that cannot be told is taken for a fold.
     pub fn is_fold(&self, edge: [DVec3; 2], third: DVec3, across: Option<DVec3>, error: f64) -> bool {
         let Some(across) = across else { return true };
-        let [from, to] = edge.map(|corner| corner - self.apex);
-        let cross = from.cross(to);
+        let [from, to] = edge;
+        let (normal, _) = self.plane_through(from, to);
         // How wide the edge looks from the apex; a corner's error turns the plane by error over this.
-        let wide = cross.length() / from.length().min(to.length());
-        let normal = cross.normalize_or_zero();
+        let wide = match self.apex {
+            Apex::At(apex) => normal.length() / (from - apex).length().min((to - apex).length()),
+            Apex::Infinity { .. } => normal.length(),
+        };
+        let normal = normal.normalize_or_zero();
         let signed = |corner: DVec3| {
-            let local = corner - self.apex - from;
+            let local = corner - from;
             let value = normal.dot(local);
             let slack = error * (2.0 + local.length() / wide);
             if value.abs() > slack { value.signum() } else { 0.0 }
@@ -236,10 +300,10 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_plain_edge_is_no_fold_and_a_ridge_is_one() {
-        let beam = Beam {
-            apex: DVec3::Z * 5.0,
+    /// From straight above the origin: from a place, and from infinity.
+    fn beams() -> [Beam; 2] {
+        [Apex::At(DVec3::Z * 5.0), Apex::Infinity { travel: DVec3::NEG_Z, length: 9.0 }].map(|apex| Beam {
+            apex,
             base: DVec3::ZERO,
             spread: [DVec3::ZERO; 2],
             surface_spread: [DVec3::ZERO; 2],
@@ -247,10 +311,41 @@ mod tests {
             depth_error: 1e-9,
             start: 0.0,
             levers: true,
-        };
-        let edge = [DVec3::ZERO, DVec3::Y];
-        assert!(!beam.is_fold(edge, DVec3::X, Some(-DVec3::X), 1e-9));
-        assert!(beam.is_fold(edge, DVec3::X, Some(DVec3::new(0.5, 0.0, -1.0)), 1e-9));
-        assert!(beam.is_fold(edge, DVec3::X, None, 1e-9));
+        })
+    }
+
+    #[test]
+    fn a_plain_edge_is_no_fold_and_a_ridge_is_one() {
+        for beam in beams() {
+            let edge = [DVec3::ZERO, DVec3::Y];
+            assert!(!beam.is_fold(edge, DVec3::X, Some(-DVec3::X), 1e-9));
+            assert!(beam.is_fold(edge, DVec3::X, Some(DVec3::new(0.5, 0.0, -1.0)), 1e-9));
+            assert!(beam.is_fold(edge, DVec3::X, None, 1e-9));
+        }
+    }
+
+    #[test]
+    fn parallel_beams_meet_what_lies_straight_before_their_base() {
+        let [from_place, parallel] = beams();
+        // At half the way a point 0.3 aside is in the light's way to 0.6 aside; for parallel light it stays at 0.3.
+        let triangle = |x: f64, z: f64| [DVec3::new(x, -1.0, z), DVec3::new(x + 1.0, -1.0, z), DVec3::new(x, 1.0, z)];
+        for (beam, base, expected) in [
+            (from_place, 0.5, None),
+            (from_place, 0.7, Some(0.5)),
+            (parallel, 0.25, None),
+            (parallel, 0.35, Some(1.0 - 2.5 / 9.0)),
+        ] {
+            let beam = Beam { base: DVec3::X * base, ..beam };
+            let meeting = beam.meet(&triangle(0.3, 2.5), 1e-9);
+            assert_eq!(meeting.is_some(), expected.is_some(), "{base}");
+            let Some((meeting, expected)) = meeting.zip(expected) else { continue };
+            assert!((meeting.center.unwrap() - expected).abs() < 1e-12 && meeting.surely_inside);
+            assert_eq!((meeting.at_base, meeting.at_start), (Side::Before, Side::Beyond));
+        }
+        // Behind the base, and farther up than the segment's own piece: nothing is before its start.
+        let behind = parallel.meet(&triangle(-0.2, -1.0), 1e-9).unwrap();
+        let far_up = parallel.meet(&triangle(-0.2, 99.0), 1e-9).unwrap();
+        assert_eq!([behind, far_up].map(|meeting| meeting.at_base), [Side::Beyond, Side::Before]);
+        assert_eq!([behind, far_up].map(|meeting| meeting.at_start), [Side::Beyond; 2]);
     }
 }

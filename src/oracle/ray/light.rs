@@ -1,78 +1,150 @@
-//! The light as a place, an axis and an angle: what its cone or square frustum holds.
+//! The light as a place or a direction, an axis and an angle: where it comes from and what its shape holds.
 
 use glam::{DVec2, DVec3};
 
-use super::beam::Side;
+use super::beam::{Apex, Side};
 use super::truth::Reason;
-use crate::scene::{Light, LightKind, LightShape};
+use crate::scene::{Frustum, Light, LightKind, LightShape};
 
 pub(super) struct Lamp {
-    pub position: DVec3,
-    /// Ahead, right, up; of unit length and square to each other.
-    axes: [DVec3; 3],
-    shape: LightShape,
-    half_angle_radians: f64,
-    pub near: f64,
-    far: f64,
+    source: Source,
+    shape: Shape,
+}
+
+/// Where light comes from.
+#[derive(Clone, Copy)]
+enum Source {
+    At(DVec3),
+    /// From infinitely far away. `travel`: the way of the light, of unit length; a ball holds all that it may meet.
+    Along {
+        travel: DVec3,
+        center: DVec3,
+        radius: f64,
+    },
+}
+
+/// What the light holds, and how a map of it would be laid out.
+enum Shape {
+    /// `axes`: ahead, right, up; of unit length and square to each other.
+    Spot { axes: [DVec3; 3], ends: LightShape, half_angle_radians: f64, near: f64, far: f64 },
+    /// Every way, between near and far along the nearest coordinate axis.
+    Cube { near: f64, far: f64 },
+    /// Everywhere. A map would be the square around the ball that holds all the scene, as the light sees it.
+    Square { right: DVec3, up: DVec3, center: DVec3, radius: f64 },
 }
 
 impl Lamp {
-    pub fn new(light: &Light) -> Self {
-        let LightKind::Spot { cone_radians, shape } = light.kind;
-        let ahead = (light.target - light.position).normalize();
-        let right = ahead.cross(light.up).normalize();
-        Self {
-            position: light.position,
-            axes: [ahead, right, right.cross(ahead)],
-            shape,
-            half_angle_radians: 0.5 * cone_radians,
-            near: light.near,
-            far: light.far,
+    /// `center` and `radius`: of a ball that holds all that may be in the light's way.
+    pub fn new(light: &Light, center: DVec3, radius: f64) -> Self {
+        match &light.kind {
+            LightKind::Spot(spot) => {
+                let Frustum { position, target, up, cone_radians, near, far } = spot.frustum;
+                let ahead = (target - position).normalize();
+                let right = ahead.cross(up).normalize();
+                let axes = [ahead, right, right.cross(ahead)];
+                let (ends, half_angle_radians) = (spot.shape, 0.5 * cone_radians);
+                Self { source: Source::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
+            }
+            LightKind::Point(point) => {
+                let (near, far) = (point.near, point.far);
+                Self { source: Source::At(point.position), shape: Shape::Cube { near, far } }
+            }
+            LightKind::Directional { direction } => {
+                let travel = direction.normalize();
+                let (right, up) = travel.any_orthonormal_pair();
+                Self {
+                    source: Source::Along { travel, center, radius },
+                    shape: Shape::Square { right, up, center, radius },
+                }
+            }
         }
     }
 
     pub fn is_finite(&self) -> bool {
-        self.position.is_finite() && self.axes.iter().all(|axis| axis.is_finite()) && self.half_angle_radians > 0.0
+        let (Source::At(vector) | Source::Along { travel: vector, .. }) = self.source;
+        vector.is_finite()
+            && match &self.shape {
+                Shape::Spot { axes, half_angle_radians, .. } => {
+                    axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0
+                }
+                Shape::Cube { near, far } => 0.0 < *near && near < far,
+                Shape::Square { center, radius, .. } => center.is_finite() && radius.is_finite(),
+            }
     }
 
-    /// The distance along the light's axis.
-    pub fn depth(&self, point: DVec3) -> f64 {
-        self.axes[0].dot(point - self.position)
-    }
-
-    /// Where the square frustum holds the point, each coordinate in [-1, 1] inside; infinite behind the light.
-    pub fn in_frustum(&self, point: DVec3) -> DVec2 {
-        let [depth, right, up] = self.local(point);
-        if depth <= 0.0 {
-            return DVec2::INFINITY;
+    /// Where a beam to `base` comes from.
+    pub fn apex(&self, base: DVec3) -> Apex {
+        match self.source {
+            Source::At(position) => Apex::At(position),
+            // Back to before the ball, however far behind it the base lies.
+            Source::Along { travel, center, radius } => {
+                Apex::Infinity { travel, length: travel.dot(base - center).max(0.0) + 1.5 * radius }
+            }
         }
-        DVec2::new(right, up) / (depth * self.half_angle_radians.tan())
     }
 
-    fn local(&self, point: DVec3) -> [f64; 3] {
-        self.axes.map(|axis| axis.dot(point - self.position))
+    /// Where it stands; `None`: infinitely far away.
+    pub fn place(&self) -> Option<DVec3> {
+        if let Source::At(position) = self.source { Some(position) } else { None }
     }
 
-    /// Distance to the cone's or the frustum's surface, positive inside. Concave, and never steeper than 1.
-    fn depth_inside_sides(&self, point: DVec3) -> f64 {
-        let [depth, right, up] = self.local(point);
-        let beside = match self.shape {
-            LightShape::Cone => right.hypot(up),
-            LightShape::Frustum => right.abs().max(up.abs()),
-        };
-        let (sin, cos) = self.half_angle_radians.sin_cos();
-        depth * sin - beside * cos
+    /// From a point to the light; of unit length for one that is infinitely far away.
+    pub fn towards(&self, point: DVec3) -> DVec3 {
+        match self.source {
+            Source::At(position) => position - point,
+            Source::Along { travel, .. } => -travel,
+        }
     }
 
-    fn depth_inside_planes(&self, point: DVec3) -> f64 {
-        let depth = self.depth(point);
-        (depth - self.near).min(self.far - depth)
+    /// How far rounded coordinates reach that are taken from the light: from its place, or from the middle of the
+    /// scene's ball, around which a map of a light without a place would lie.
+    pub fn span(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Square { center, radius, .. } => point.distance(*center) + radius,
+            Shape::Spot { .. } | Shape::Cube { .. } => self.towards(point).length(),
+        }
+    }
+
+    /// The fraction of the way from the light to the point before which blockers do not count.
+    pub fn start(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { near, .. } | Shape::Cube { near, .. } => (near / self.depth(point)).clamp(0.0, 1.0),
+            Shape::Square { .. } => 0.0,
+        }
+    }
+
+    /// The distance that near and far are measured by.
+    fn depth(&self, point: DVec3) -> f64 {
+        let from_light = -self.towards(point);
+        match &self.shape {
+            Shape::Spot { axes, .. } => axes[0].dot(from_light),
+            Shape::Cube { .. } => from_light.abs().max_element(),
+            Shape::Square { .. } => f64::INFINITY,
+        }
+    }
+
+    /// Where a map that holds all of the light has the point, in half sides of the map (see [`super::Hit::in_map`]).
+    pub fn in_map(&self, point: DVec3) -> DVec3 {
+        match &self.shape {
+            Shape::Spot { axes, half_angle_radians, .. } => {
+                let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
+                if depth <= 0.0 {
+                    return DVec3::INFINITY;
+                }
+                (DVec2::new(right, up) / (depth * half_angle_radians.tan())).extend(0.0)
+            }
+            Shape::Cube { .. } => -self.towards(point) / self.depth(point),
+            Shape::Square { right, up, center, radius } => {
+                let from_center = (point - center) / radius;
+                DVec3::new(right.dot(from_center), up.dot(from_center), 0.0)
+            }
+        }
     }
 
     /// `Ok(true)`: all of `point ± spread` is lit by the light's shape; `Ok(false)`: none of it.
     ///
-    /// The two functions are concave, so over a parallelogram neither their rise nor their fall from the middle is more
-    /// than the largest fall to a corner.
+    /// Distance to the sides is concave, and so or convex are the distances to the planes; over a parallelogram neither
+    /// the rise nor the fall of such a function from the middle is more than the largest change to a corner.
     pub fn holds(&self, point: DVec3, spread: &[DVec3; 2], error: f64) -> Result<bool, Reason> {
         let side = |inside: &dyn Fn(DVec3) -> f64| {
             let value = inside(point);
@@ -86,18 +158,48 @@ impl Lamp {
                 _ => Side::Before,
             }
         };
-        let sides = side(&|at| self.depth_inside_sides(at));
-        let planes = side(&|at| self.depth_inside_planes(at));
-        match (sides, planes) {
-            (Side::Before, _) | (_, Side::Before) => Ok(false),
-            (Side::Near, _) => Err(Reason::ConeEdge),
-            (_, Side::Near) => Err(Reason::ClipPlane),
-            (Side::Beyond, Side::Beyond) => Ok(true),
+        let ends = [
+            (Reason::ConeEdge, side(&|at| self.inside_sides(at))),
+            (Reason::ClipPlane, side(&|at| self.beyond_near(at))),
+            (Reason::ClipPlane, side(&|at| self.before_far(at))),
+        ];
+        if ends.iter().any(|(_, side)| *side == Side::Before) {
+            return Ok(false);
         }
+        ends.iter().find(|(_, side)| *side == Side::Near).map_or(Ok(true), |(reason, _)| Err(*reason))
     }
 
     /// What the point itself says.
     pub fn holds_exactly(&self, point: DVec3) -> bool {
-        self.depth_inside_sides(point) >= 0.0 && self.depth_inside_planes(point) >= 0.0
+        [self.inside_sides(point), self.beyond_near(point), self.before_far(point)].iter().all(|inside| *inside >= 0.0)
+    }
+
+    /// Distance to the cone's or the frustum's surface, positive inside. Never steeper than 1, as are the next two.
+    fn inside_sides(&self, point: DVec3) -> f64 {
+        let Shape::Spot { axes, ends, half_angle_radians, .. } = &self.shape else { return UNBOUNDED };
+        let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
+        let beside = match ends {
+            LightShape::Cone => right.hypot(up),
+            LightShape::Frustum => right.abs().max(up.abs()),
+        };
+        let (sin, cos) = half_angle_radians.sin_cos();
+        depth * sin - beside * cos
+    }
+
+    fn beyond_near(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { near, .. } | Shape::Cube { near, .. } => self.depth(point) - near,
+            Shape::Square { .. } => UNBOUNDED,
+        }
+    }
+
+    fn before_far(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { far, .. } | Shape::Cube { far, .. } => far - self.depth(point),
+            Shape::Square { .. } => UNBOUNDED,
+        }
     }
 }
+
+/// The distance to an end that a light does not have; finite, so that differences of it are 0.
+const UNBOUNDED: f64 = f64::MAX;

@@ -9,7 +9,8 @@
 //! for sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose
 //! visible side is turned away from the light is in its own shadow. The light lights what its shape holds: a point
 //! outside the cone (or the square frustum), nearer than its near plane or beyond its far plane along its axis is
-//! [`Answer::OutsideCone`]; a blocker nearer than the near plane does not cast.
+//! [`Answer::OutsideCone`]; a blocker nearer than the near plane does not cast. A point light's planes are the six of a
+//! cube around it; a directional light has none, and its rays are parallel: no far place stands in for infinity.
 //!
 //! # When it does not answer
 //! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off
@@ -50,7 +51,8 @@ pub struct Options {
     /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL asks for 4 at least.
     pub subpixel_bits: u32,
     /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates that meet in it: its distance from
-    /// its object's origin, and the origin's from eye and light. A row of a 4×4 product makes four.
+    /// its object's origin, and the origin's from eye and light (from the middle of the scene, and that once across, for
+    /// a directional one). A row of a 4×4 product makes four.
     pub position_roundings: f64,
     /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth.
     pub most_ambiguous: f64,
@@ -115,12 +117,14 @@ struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
         let missing = || Error::NoLight { index: light, count: scene.lights.len() };
-        let lamp = Lamp::new(scene.lights.get(light).ok_or_else(missing)?);
+        let light = scene.lights.get(light).ok_or_else(missing)?;
+        let world = World::new(scene)?;
+        let (center, radius) = world.ball();
+        let lamp = Lamp::new(light, center, radius);
         let eye = Eye::new(scene);
         if !(eye.is_finite() && lamp.is_finite()) {
             return Err(Error::View);
         }
-        let world = World::new(scene)?;
         let rounding = options.position_roundings * 0.5 * f64::from(f32::EPSILON);
         let subpixel = (-f64::from(options.subpixel_bits)).exp2();
         let mut tracer = Self { world, eye, lamp, subpixel, rounding, errors: Vec::new(), largest_error: 0.0 };
@@ -132,7 +136,7 @@ impl<'a> Tracer<'a> {
 
     /// Of a point at `reach` from its object's origin. The last term is the rounding of this computation itself.
     fn error_of(&self, origin: DVec3, reach: f64) -> f64 {
-        let met = reach + origin.distance(self.eye.position) + origin.distance(self.lamp.position);
+        let met = reach + origin.distance(self.eye.position) + self.lamp.span(origin);
         self.rounding * met + 64.0 * f64::EPSILON * (origin.abs().max_element() + met)
     }
 
@@ -161,7 +165,7 @@ impl<'a> Tracer<'a> {
     }
 
     fn describe(&self, seen: &Seen<'_>) -> Hit {
-        let to_light = self.lamp.position - seen.position;
+        let to_light = self.lamp.towards(seen.position);
         Hit {
             object: seen.triangle.object,
             triangle: seen.triangle.index,
@@ -170,7 +174,7 @@ impl<'a> Tracer<'a> {
             normal: seen.normal,
             cos_light: seen.normal.dot(to_light.normalize_or_zero()),
             pixel_size: (seen.spread[0].length() + seen.spread[1].length()) / self.subpixel,
-            in_light: self.lamp.in_frustum(seen.position),
+            in_map: self.lamp.in_map(seen.position),
         }
     }
 
@@ -193,10 +197,9 @@ impl<'a> Tracer<'a> {
             return Alpha::OPAQUE;
         }
         let normal = triangle.normal();
-        let above = normal.dot(triangle.corners[0] - beam.apex);
         let cross = |base: DVec3| {
-            let way = base - beam.apex;
-            beam.apex + way * (above / normal.dot(way))
+            let way = beam.way_to(base);
+            base + way * (normal.dot(triangle.corners[0] - base) / normal.dot(way))
         };
         let [a, b] = beam.spread;
         let around = [a + b, a - b, b - a, -a - b].map(|offset| cross(beam.base + offset));

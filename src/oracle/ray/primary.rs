@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::beam::{Beam, Side};
+use super::beam::{Apex, Beam, Side};
 use super::truth::Reason;
 use super::world::{Segment, Triangle};
 use super::{Tracer, doubt};
@@ -44,7 +44,7 @@ impl Tracer<'_> {
     fn view_beam(&self, direction: DVec3, depth: f64, surface_spread: [DVec3; 2], error: f64) -> Beam {
         let rise = surface_spread.iter().map(|&way| self.eye.depth_of(way).abs()).sum::<f64>() / self.subpixel;
         Beam {
-            apex: self.eye.position,
+            apex: Apex::At(self.eye.position),
             base: self.eye.position + depth * direction,
             spread: [self.eye.right, self.eye.up].map(|way| way * self.subpixel * depth),
             surface_spread,
@@ -72,11 +72,11 @@ impl Tracer<'_> {
     /// connected triangles with other slopes lie within the beam.
     fn search(&self, beam: &Beam, hit: Option<&Triangle<'_>>) -> (Option<Reason>, f64) {
         let (mut reason, mut widened) = (None, 0.0f64);
-        let axis = beam.base - beam.apex;
+        let axis = beam.axis();
         // The longest way that anything may lie behind the base and still matter.
         let behind = beam.surface_spread.iter().map(|way| way.length()).sum::<f64>() + beam.depth_error;
         let end = 1.0 + (behind + self.largest_error) / axis.length();
-        let segment = Segment { origin: beam.apex, direction: axis, start: beam.start, end };
+        let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
         self.world.visit(&segment, beam.radius(self.largest_error), |triangle| {
             let found = self.judge_view(beam, hit, triangle, &mut widened);
             doubt(&mut reason, found);
@@ -129,10 +129,10 @@ impl Tracer<'_> {
 
     /// The sample may land on this triangle instead: then its point moves as this plane lets it.
     fn widen(&self, beam: &Beam, triangle: &Triangle<'_>, widened: &mut f64) -> Option<Reason> {
-        let axis = beam.base - beam.apex;
+        let axis = beam.axis();
         let depth = self.eye.depth_of(axis);
         let normal = triangle.normal();
-        let at = normal.dot(triangle.corners[0] - beam.apex) / normal.dot(axis);
+        let at = normal.dot(triangle.corners[0] - beam.origin()) / normal.dot(axis);
         let Some(spread) = self.footprint(axis / depth, depth * at, normal) else {
             return Some(Reason::GrazingView);
         };

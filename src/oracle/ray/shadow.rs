@@ -2,8 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use glam::DVec3;
-
 use super::beam::{Beam, Meeting, Side};
 use super::primary::Seen;
 use super::truth::Reason;
@@ -25,10 +23,7 @@ enum Verdict {
 impl Tracer<'_> {
     /// Whether the light reaches the centre point, and what makes that doubtful.
     pub fn light_reaches(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
-        let to_light = self.lamp.position - seen.position;
-        let height = seen.normal.dot(to_light);
-        // A corner's error tilts the plane by error over the triangle's least height.
-        let tilt = seen.error * (2.0 + to_light.length() / seen.triangle.least_height());
+        let (height, tilt) = self.height_of_light(seen);
         let mut reason = (height.abs() <= tilt).then_some(Reason::GrazingLight);
         let (is_clear, found) = self.trace_to_light(seen);
         // Where the light stands behind the visible side, the surface itself is in the way.
@@ -39,21 +34,32 @@ impl Tracer<'_> {
         (lit, reason)
     }
 
+    /// How high the light stands over the visible surface, times its distance where that is finite; and by how much that
+    /// may be wrong.
+    pub fn height_of_light(&self, seen: &Seen<'_>) -> (f64, f64) {
+        let to_light = self.lamp.towards(seen.position);
+        // A corner's error tilts the plane by error over the triangle's least height; a light that has a place is seen
+        // from a point that is off, too.
+        let moved = if self.lamp.place().is_some() { 2.0 } else { 0.0 };
+        let tilt = seen.error * (moved + to_light.length() / seen.triangle.least_height());
+        (seen.normal.dot(to_light), tilt)
+    }
+
     fn trace_to_light(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
         let beam = Beam {
-            apex: self.lamp.position,
+            apex: self.lamp.apex(seen.position),
             base: seen.position,
             spread: seen.spread,
             surface_spread: seen.spread,
             error: seen.error,
             depth_error: seen.error,
-            start: (self.lamp.near / self.lamp.depth(seen.position)).clamp(0.0, 1.0),
+            start: self.lamp.start(seen.position),
             levers: true,
         };
-        let direction: DVec3 = beam.base - beam.apex;
+        let direction = beam.axis();
         let radius = beam.radius(self.largest_error);
         let segment =
-            Segment { origin: beam.apex, direction, start: beam.start, end: 1.0 + radius / direction.length() };
+            Segment { origin: beam.origin(), direction, start: beam.start, end: 1.0 + radius / direction.length() };
         let (mut lit, mut reason) = (true, None);
         self.world.visit(&segment, radius, |triangle| match self.judge_shadow(&beam, seen, triangle) {
             Verdict::Blocks => {

@@ -1,6 +1,6 @@
 //! What the oracle answers, pixel by pixel. Plain values; knows no scene and no ray.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// The answers for one light. Row 0 is the top of the picture, as in a PNG.
 #[derive(Clone, Debug)]
@@ -103,9 +103,15 @@ pub struct Hit {
     pub cos_light: f64,
     /// The longest way, in world units, that the point moves on its surface when the sample moves by one pixel.
     pub pixel_size: f64,
-    /// Where the light's square frustum holds the point: (right, up), each in [-1, 1] inside; measured by angle
-    /// tangents from the light's axis. Infinite behind the light.
-    pub in_light: DVec2,
+    /// Where a map that holds all of the light has the point, in half sides of the map.
+    ///
+    /// - Spotlight: (right, up, 0) in its square frustum, each in [-1, 1] inside; measured by angle tangents from the
+    ///   light's axis. Infinite behind the light.
+    /// - Point light: on the surface of the cube [-1, 1]³ whose faces a cube map's are; across its edges, distances are
+    ///   those of space, at most √2 shorter than over the faces.
+    /// - Directional light: (right, up, 0) in the square, across the direction, that the ball around the scene's bounds
+    ///   fills.
+    pub in_map: DVec3,
 }
 
 impl Hit {

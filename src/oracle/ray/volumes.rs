@@ -124,7 +124,7 @@ struct Counting<'t, 'a> {
 
 impl<'t, 'a> Counting<'t, 'a> {
     fn new(scene: &Scene, tracer: &'t Tracer<'a>) -> Self {
-        let light = Some(tracer.lamp.position);
+        let light = tracer.lamp.place();
         let of_object = |(object, placed): (usize, _)| {
             rules(&scene.objects[object], tracer.world.solid(object as u32), placed, light)
         };
@@ -148,7 +148,7 @@ impl<'t, 'a> Counting<'t, 'a> {
     /// rays, so that their errors do not grow on the way.
     fn beam(&self, point: DVec3, spread: [DVec3; 2], error: f64) -> Beam {
         Beam {
-            apex: self.tracer.lamp.position,
+            apex: self.tracer.lamp.apex(point),
             base: point,
             spread,
             surface_spread: spread,
@@ -172,14 +172,13 @@ impl<'t, 'a> Counting<'t, 'a> {
         if self.rule(&seen.triangle) == Rule::Never {
             return None;
         }
-        let to_light = self.to_light(seen.position);
-        let tilt = seen.error * (2.0 + to_light.length() / seen.triangle.least_height());
-        (seen.normal.dot(to_light).abs() <= tilt).then_some(Reason::GrazingLight)
+        let (height, tilt) = self.tracer.height_of_light(seen);
+        (height.abs() <= tilt).then_some(Reason::GrazingLight)
     }
 
     /// From a point towards the light.
     fn to_light(&self, point: DVec3) -> DVec3 {
-        self.tracer.lamp.position - point
+        self.tracer.lamp.towards(point)
     }
 
     fn rule(&self, triangle: &Triangle<'_>) -> Rule {
@@ -198,9 +197,9 @@ impl<'t, 'a> Counting<'t, 'a> {
 
     /// The count at the beam's base, and what makes it doubtful.
     fn along(&self, beam: &Beam, seen: Option<&Seen<'_>>) -> (u32, Option<Reason>) {
-        let direction = beam.base - beam.apex;
+        let direction = beam.axis();
         let radius = beam.radius(self.tracer.largest_error);
-        let segment = Segment { origin: beam.apex, direction, start: 0.0, end: 1.0 + radius / direction.length() };
+        let segment = Segment { origin: beam.origin(), direction, start: 0.0, end: 1.0 + radius / direction.length() };
         let (mut count, mut reason) = (0, None);
         self.tracer.world.visit(&segment, radius, |triangle| {
             if self.rule(triangle) != Rule::Never && !triangle.is_degenerate() {
@@ -232,13 +231,11 @@ impl<'t, 'a> Counting<'t, 'a> {
         }
         let own = seen.is_some_and(|seen| seen.triangle.continues_in(triangle)) && meeting.at_base == Side::Near;
         let at_base = meeting.at_base == Side::Near && counts && !own;
-        // The light may as well stand on the surface's other side, of which it then lights another half of the world.
-        let at_light = meeting.at_start == Side::Near && counts;
-        let crossed = crossing_once(beam.apex, beam.base - beam.apex, &triangle.corners);
+        let crossed = crossing_once(beam.origin(), beam.axis(), &triangle.corners);
         let is_crossed = crossed.is_some_and(|at| 0.0 < at && at < 1.0);
         Share {
             center: u32::from(is_crossed && counts && (is_fold || !own)),
-            reason: fold.or(at_base.then_some(Reason::Contact)).or(at_light.then_some(Reason::GrazingLight)),
+            reason: fold.or(at_base.then_some(Reason::Contact)),
         }
     }
 }

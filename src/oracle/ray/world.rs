@@ -78,6 +78,16 @@ impl<'a> World<'a> {
         Ok(Self { solids, placed, top: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) })
     }
 
+    /// A ball that holds all objects: centre and radius; of no size where there is nothing.
+    pub fn ball(&self) -> (DVec3, f64) {
+        if self.top.leaf_count() == 0 {
+            return (DVec3::ZERO, 0.0);
+        }
+        let bounds = self.top.root_aabb();
+        let [min, max] = [bounds.mins, bounds.maxs].map(|corner| DVec3::from_array(corner.to_array()));
+        (0.5 * (min + max), 0.5 * min.distance(max))
+    }
+
     /// An object's mesh, ready for rays.
     pub fn solid(&self, object: u32) -> &Solid<'a> {
         &self.solids[self.placed[object as usize].solid]

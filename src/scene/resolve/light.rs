@@ -1,71 +1,120 @@
-//! `[[light]]`.
+//! `[[light]]`: one table, three kinds of light, each with its own keys.
+
+use glam::DVec3;
 
 use crate::scene::assets::Assets;
+use crate::scene::frame;
 use crate::scene::ranges::LARGEST;
-use crate::scene::settings::{Origin, Reader, Settings, SettingsError, suggest};
-use crate::scene::{Error, Light, LightKind, LightShape};
+use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
+use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot};
 
 /// Lights may be brighter than a surface can be white, by this much.
 const BRIGHTEST: f64 = 1e6;
 
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
 
-/// Resolves the light that stands at `index`, from 0.
-pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Result<Light, Error> {
+/// The value of `kind`.
+#[derive(Clone, Copy)]
+enum Kind {
+    Spot,
+    Point,
+    Directional,
+}
+
+const KINDS: [(&str, Kind); 3] = [("spot", Kind::Spot), ("point", Kind::Point), ("directional", Kind::Directional)];
+
+/// `[[light]]` as written; what depends on the objects comes later.
+pub(super) struct Written {
+    settings: Settings,
+    /// A point light's planes are not known yet where they are not written.
+    light: Light,
+    near: Option<f64>,
+    far: Option<f64>,
+}
+
+/// Reads and checks what can be checked without the objects, of the light that stands at `index`, from 0.
+pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Result<Written, Error> {
     let mut reader = table.read();
-    let kind = kind(&mut reader)?;
-    let position = reader.vector("position")?.ok_or_else(|| reader.missing("position", "where the light stands"))?;
-    let target = reader.vector("target")?.ok_or_else(|| reader.missing("target", "what the light points at"))?;
-    let up = reader.up(["position", "target"], position, target)?;
+    let kind = reader.choice("kind", &KINDS)?.unwrap_or(Kind::Spot);
     let [near, far] = reader.near_and_far()?;
-    let near = near.ok_or_else(|| reader.missing("near", "the near plane of the light's frustum"))?;
-    let far = far.ok_or_else(|| reader.missing("far", "the far plane of the light's frustum"))?;
+    let image = reader.file("image")?;
+    let kind = match kind {
+        Kind::Spot => LightKind::Spot(spot(&mut reader, [near, far])?),
+        Kind::Point => LightKind::Point(point(&mut reader)?),
+        Kind::Directional => LightKind::Directional { direction: direction(&mut reader)? },
+    };
     let name = reader.string("name")?.map_or_else(|| format!("light {index}"), str::to_owned);
     let color = reader.colour("color", BRIGHTEST)?.unwrap_or([1.0; 3]);
     let ambient = reader.colour("ambient", BRIGHTEST)?.unwrap_or([0.0; 3]);
     let diffuse = reader.colour("diffuse", BRIGHTEST)?.unwrap_or(color);
     let specular = reader.colour("specular", BRIGHTEST)?.unwrap_or(color);
-    let attenuation = attenuation(&mut reader)?;
     let shadow = shadow(&mut reader)?;
-    let image = reader.file("image")?;
-    let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
     reader.finish()?;
-    let image = image.map(|(name, origin)| assets.texture(name, origin)).transpose()?;
-    Ok(Light {
-        kind,
-        position,
-        target,
-        up,
-        near,
-        far,
-        ambient,
-        diffuse,
-        specular,
-        attenuation,
-        image,
-        frustum_shown,
-        name,
-        shadow,
-    })
+    let mut light = Light { kind, ambient, diffuse, specular, name, shadow };
+    if let (LightKind::Spot(spot), Some((name, origin))) = (&mut light.kind, image) {
+        spot.image = Some(assets.texture(name, origin)?);
+    }
+    Ok(Written { settings: table.clone(), light, near, far })
 }
 
-fn kind(reader: &mut Reader<'_>) -> Result<LightKind, SettingsError> {
-    match reader.string("kind")? {
-        None | Some("spot") => {}
-        Some(later @ ("point" | "directional")) => {
-            let message = format!("cannot be \"{later}\" yet: this version has \"spot\"; \"{later}\" is planned");
-            return Err(reader.error("kind", message));
+impl Written {
+    /// The light, its maps' range around `objects` where that is not written.
+    pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
+        let Self { settings, mut light, near: written_near, far: written_far } = self;
+        if let LightKind::Point(point) = &mut light.kind {
+            let [near, far] = frame::cube_range(point.position, objects);
+            point.near = written_near.unwrap_or_else(|| written_far.map_or(near, |far| near.min(far / 2.0)));
+            point.far = written_far.unwrap_or_else(|| far.max(2.0 * point.near));
+            settings.read().check_far(point.near, point.far)?;
         }
-        Some(other) => {
-            let message = format!("cannot be \"{other}\": {}", suggest(other, ["spot"].into_iter()));
-            return Err(reader.error("kind", message));
-        }
+        Ok(light)
     }
+}
+
+fn spot(reader: &mut Reader<'_>, [near, far]: [Option<f64>; 2]) -> Result<Spot, SettingsError> {
+    reader.refuse(&["direction"], "is no key of a spotlight, which has a `target`")?;
     let cone_radians = reader
         .angle_between("cone", 1.0, 179.0)?
         .ok_or_else(|| reader.missing("cone", "the full angle of the light's frustum, in degrees"))?;
     let shape = reader.choice("shape", &SHAPES)?.unwrap_or(LightShape::Cone);
-    Ok(LightKind::Spot { cone_radians, shape })
+    let position = position(reader)?;
+    let target = reader.vector("target")?.ok_or_else(|| reader.missing("target", "what the light points at"))?;
+    let up = reader.up(["position", "target"], position, target)?;
+    let near = near.ok_or_else(|| reader.missing("near", "the near plane of the light's frustum"))?;
+    let far = far.ok_or_else(|| reader.missing("far", "the far plane of the light's frustum"))?;
+    let frustum = Frustum { position, target, up, cone_radians, near, far };
+    let attenuation = attenuation(reader)?;
+    let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
+    Ok(Spot { frustum, shape, attenuation, image: None, frustum_shown })
+}
+
+fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
+    let others = ["cone", "shape", "target", "up", "image", "frustum", "direction"];
+    reader.refuse(&others, "is no key of a point light, which shines every way alike")?;
+    Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
+}
+
+/// `direction`, or the way from `position` to `target`.
+fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
+    let others = ["cone", "shape", "up", "near", "far", "image", "frustum", "attenuation"];
+    reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;
+    let (position, target) = (reader.vector("position")?, reader.vector("target")?);
+    if let Some(direction) = reader.vector("direction")? {
+        reader.refuse(&["position", "target"], "cannot stand beside `direction`: write the one or the others")?;
+        return direction.try_normalize().ok_or_else(|| reader.error("direction", "must not be of zero length"));
+    }
+    match (position, target) {
+        (Some(position), Some(target)) => (target - position)
+            .try_normalize()
+            .ok_or_else(|| reader.error("target", "must differ from `position`: it is the way that the light travels")),
+        (Some(_), None) => Err(reader.missing("target", "where the light travels to from `position`")),
+        (None, Some(_)) => Err(reader.missing("position", "where the light travels from, to `target`")),
+        (None, None) => Err(reader.missing("direction", "the way that the light travels, [x, y, z]")),
+    }
+}
+
+fn position(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
+    reader.vector("position")?.ok_or_else(|| reader.missing("position", "where the light stands"))
 }
 
 fn attenuation(reader: &mut Reader<'_>) -> Result<[f32; 3], SettingsError> {

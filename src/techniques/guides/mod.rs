@@ -9,7 +9,7 @@ use crate::math::{Aabb, frustum};
 use crate::pass::{
     Attribute, Batch, Draw, DrawState, IndexOrder, Meaning, MeshRef, Primitive, Program, Uniform, UniformValue, glsl,
 };
-use crate::scene::{Light, Scene};
+use crate::scene::{Frustum, Light, Scene};
 
 /// Depth-tested against the surfaces; writes colour only.
 pub const STATE: DrawState = DrawState { depth_write: false, ..DrawState::OPAQUE };
@@ -22,8 +22,11 @@ const EDGES: [[u32; 2]; 12] =
 
 /// The batch that draws the frusta of the lights that ask for it; `None` where none does.
 pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
-    let draws: Vec<Draw> =
-        scene.lights.iter().filter(|light| light.frustum_shown).map(|light| frustum_draw(light, viewer)).collect();
+    let shown = |light: &Light| {
+        let spot = light.spot().filter(|spot| spot.frustum_shown)?;
+        Some(frustum_draw(&light.name, &spot.frustum, viewer))
+    };
+    let draws: Vec<Draw> = scene.lights.iter().filter_map(shown).collect();
     let program = Program {
         label: String::from("guide"),
         defines: Vec::new(),
@@ -36,11 +39,11 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
     (!draws.is_empty()).then_some(Batch { program, meaning, uniforms, inputs: Vec::new(), cull: None, draws })
 }
 
-fn frustum_draw(light: &Light, viewer: &Viewer) -> Draw {
-    let mesh = frustum_mesh(light);
-    let clip_from_model = viewer.clip_from_world() * light.view_from_world().inverse();
+fn frustum_draw(light: &str, seen: &Frustum, viewer: &Viewer) -> Draw {
+    let mesh = frustum_mesh(seen);
+    let clip_from_model = viewer.clip_from_world() * seen.view_from_world().inverse();
     Draw {
-        label: format!("frustum of {}", light.name),
+        label: format!("frustum of {light}"),
         primitive: Primitive::Lines,
         indices: 0..mesh.indices.len() as u32,
         order: IndexOrder::File,
@@ -54,8 +57,8 @@ fn frustum_draw(light: &Light, viewer: &Viewer) -> Draw {
 
 /// The clip cube's edges in the light's own space. The corners are mapped here, in f64, and not by the vertex stage:
 /// the plan's culling takes boxes in affine spaces, and a stiff projection's inverse does not fit into f32.
-fn frustum_mesh(light: &Light) -> Mesh {
-    let corners = frustum::corners(&light.clip_from_view().inverse());
+fn frustum_mesh(seen: &Frustum) -> Mesh {
+    let corners = frustum::corners(&seen.clip_from_view().inverse());
     let bounds = Aabb::from_points(corners);
     let indices: Vec<u32> = EDGES.into_iter().flatten().collect();
     let part = Part { name: String::from("frustum"), indices: 0..indices.len() as u32, material: None, bounds };

@@ -23,11 +23,11 @@ use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias, term};
-use super::{Axis, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct Midpoint;
 
@@ -42,6 +42,10 @@ impl Technique for Midpoint {
 
     fn source(&self) -> &'static str {
         "Hardware Shadow Mapping, Woo; techniques A14"
+    }
+
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        shadow_map::has_one_frustum(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -60,6 +64,7 @@ impl Technique for Midpoint {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
+        let view = &view.in_its_frustum(keys)?;
         refuse(&settings.map, keys)?;
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
@@ -106,7 +111,7 @@ const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
 
 /// What texels with one layer alone must store. Behind a layer that is the last in the map only what is not drawn into
 /// the map can be shadowed: what does not cast, and what lies beyond the light's far plane.
-fn needed(view: &LightView<'_>) -> Single {
+fn needed(view: &FrustumView<'_>) -> Single {
     let clip_from_world = view.clip_from_world();
     let all_is_drawn = view.items.iter().all(|item| {
         let corners = item.bounds.corners().map(|corner| clip_from_world * item.world_from_model * corner.extend(1.0));
@@ -116,7 +121,7 @@ fn needed(view: &LightView<'_>) -> Single {
 }
 
 /// How the second pass ends its fragments.
-fn peel(view: &LightView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
+fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),
@@ -133,7 +138,7 @@ fn peel(view: &LightView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
         ],
     };
     if settings.average == Average::EyeLinear {
-        let (near, far) = (view.light().near, view.light().far);
+        let (near, far) = (view.frustum.near, view.frustum.far);
         ending.defines.push("EYE_LINEAR");
         ending.uniforms.push(Uniform::new("near_over_range", (near / (far - near)) as f32));
         if settings.map.order == Order::GreaterEqual {

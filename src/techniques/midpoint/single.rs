@@ -10,13 +10,13 @@ use crate::pass::{
     Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, Meaning, MeshRef,
     Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
-use crate::techniques::LightView;
+use crate::techniques::FrustumView;
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
 
 /// Joins both maps to a third one.
 pub fn fill(
-    view: &LightView<'_>,
+    view: &FrustumView<'_>,
     nearest: ImageId,
     midpoint: ImageId,
     settings: &Settings,

@@ -14,7 +14,7 @@ use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit, term};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{Face, PassList, PolygonOffset};
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct SecondDepth;
 
@@ -37,6 +37,10 @@ impl Technique for SecondDepth {
         "Hardware Shadow Mapping, Wang and Molnar; techniques A15"
     }
 
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        shadow_map::has_one_frustum(kind)
+    }
+
     fn axes(&self) -> &'static [Axis] {
         AXES
     }
@@ -53,6 +57,7 @@ impl Technique for SecondDepth {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
+        let view = &view.in_its_frustum(keys)?;
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if !is_assumed {

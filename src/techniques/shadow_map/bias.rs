@@ -4,7 +4,7 @@ use glam::{DMat4, DVec4};
 
 use super::settings::{Bias, Mipmaps, Offset, Settings};
 use crate::pass::{DepthFormat, Filter, PolygonOffset};
-use crate::scene::Light;
+use crate::scene::Frustum;
 
 /// How far a lookup reaches from its place along each axis, in texels: the kernel's taps, and of each its filter: the
 /// half texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
@@ -51,14 +51,14 @@ fn default_offset(settings: &Settings) -> Offset {
 }
 
 /// The width of a texel, along its longer side, at a distance of 1 along the light's axis.
-pub fn texel_at_one(light: &Light, settings: &Settings) -> f64 {
+pub fn texel_at_one(light: &Frustum, settings: &Settings) -> f64 {
     2.0 * settings.crop.half().max_element() / (light.clip_from_view().x_axis.x * f64::from(settings.size))
 }
 
 /// Light clip space with every point moved towards the light, along its ray, by `texels` widths of a texel where it
 /// is: by the same share of its distance everywhere. A perspective projection has `z = A w - B`; of a distance that
 /// shrinks to `1 / (1 + g)` it makes `z = A w - (1 + g) B`, less the common factor.
-pub fn moved_to_light(light: &Light, texels: f64, settings: &Settings) -> DMat4 {
+pub fn moved_to_light(light: &Frustum, texels: f64, settings: &Settings) -> DMat4 {
     let share = (texels * texel_at_one(light, settings)).min(0.5);
     let g = share / (1.0 - share);
     let a = -light.clip_from_view().z_axis.z;

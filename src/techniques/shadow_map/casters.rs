@@ -3,11 +3,12 @@
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::frustum::{self, Overlap};
+use crate::scene::Frustum;
 use crate::techniques::unseen::Unseen;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
-pub fn casters<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
     let mut casters = in_frustum(view, notes);
     if !view.shown_whole && !view.keep_all {
         let unseen = Unseen::new(view, settings.size, reach(settings));
@@ -34,7 +35,7 @@ fn reach(settings: &Settings) -> f64 {
 }
 
 /// The items that can stand in the light's way inside its frustum.
-pub fn in_frustum<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
+pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
     let clip_from_world = view.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
@@ -51,21 +52,19 @@ pub fn in_frustum<'a>(view: &LightView<'a>, notes: &mut Notes) -> Vec<&'a Item> 
     casters
 }
 
-fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
+fn in_the_map(item: &Item, view: &FrustumView<'_>) -> String {
     format!("{} in the map of light {}", item.label, view.index)
 }
 
 /// A caster between the light and its near plane casts no shadow from what is cut off: say so.
-fn warn_of_near(view: &LightView<'_>, item: &Item, notes: &mut Notes) {
-    let mut cut_off = view.light().clone();
-    (cut_off.near, cut_off.far) = (1e-3 * cut_off.near, cut_off.near);
-    let clip_from_model = cut_off.clip_from_view() * cut_off.view_from_world() * item.world_from_model;
+fn warn_of_near(view: &FrustumView<'_>, item: &Item, notes: &mut Notes) {
+    let near = view.frustum.near;
+    let cut_off = Frustum { near: 1e-3 * near, far: near, ..view.frustum.clone() };
+    let clip_from_model = cut_off.clip_from_world() * item.world_from_model;
     if frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside {
         notes.warnings.push(format!(
             "{} may come nearer to light {} than its near plane at {}: what lies before that plane casts no shadow",
-            item.label,
-            view.index,
-            view.light().near
+            item.label, view.index, near
         ));
     }
 }

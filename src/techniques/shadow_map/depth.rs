@@ -9,7 +9,7 @@ use crate::pass::{
     PolygonOffset, Storage, Target, Uniform, Work,
 };
 use crate::techniques::items::depth_batches;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
@@ -36,7 +36,7 @@ pub struct Ending {
 
 /// Draws a layer and, by the copy road, copies it. Returns the depth texture.
 pub fn draw(
-    view: &LightView<'_>,
+    view: &FrustumView<'_>,
     layer: &Layer<'_>,
     settings: &Settings,
     list: &mut PassList,
@@ -75,7 +75,7 @@ pub fn draw(
 }
 
 /// Raster, crop, and the light's own clip space.
-fn map_clip_from_world(view: &LightView<'_>, settings: &Settings) -> DMat4 {
+fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
     raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
@@ -89,7 +89,7 @@ fn levels(settings: &Settings) -> u32 {
 }
 
 /// An image of the map's size and format.
-pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
+pub fn desc(view: &FrustumView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
     ImageDesc {
         label: format!("light {} {name}", view.index),
         size: [settings.size; 2],

@@ -11,7 +11,7 @@ use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
 use crate::techniques::unseen::Unseen;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// A rectangle of a light's normalised device coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ impl Crop {
 
 /// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
 /// frustum the map covers.
-pub fn crop(view: &LightView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
     if settings.fit == Fit::None {
         return Crop::WHOLE;
     }
@@ -87,7 +87,7 @@ pub fn crop(view: &LightView<'_>, casters: &mut Vec<&Item>, settings: &Settings,
 }
 
 /// Around every caster in the frustum, so that what else is left out moves no texel.
-fn of_casters(view: &LightView<'_>, unseen: &Unseen) -> Crop {
+fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     let clip_from_world = view.clip_from_world();
     let mut crop = Crop::NOTHING;
     for item in view.items.iter().filter(|item| item.casts_shadow && !unseen.shadows_nothing(item)) {
@@ -108,7 +108,7 @@ fn of_casters(view: &LightView<'_>, unseen: &Unseen) -> Crop {
 
 /// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
-fn of_sight(view: &LightView<'_>) -> Crop {
+fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let seen =

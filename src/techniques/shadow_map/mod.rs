@@ -11,9 +11,9 @@ mod texel;
 
 use self::casters::casters;
 use self::depth::Layer;
-use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
 
@@ -28,6 +28,10 @@ impl Technique for ShadowMap {
 
     fn source(&self) -> &'static str {
         "Hardware Shadow Mapping; techniques A1-A10, A12"
+    }
+
+    fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
+        has_one_frustum(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -50,6 +54,7 @@ impl Technique for ShadowMap {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let mut settings = settings::read(keys)?;
+        let view = &view.in_its_frustum(keys)?;
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if casters.is_empty() && !view.keep_all {
@@ -65,11 +70,22 @@ impl Technique for ShadowMap {
     }
 }
 
+/// Whether one map in perspective holds all that such a light lights.
+pub(super) fn has_one_frustum(kind: &LightKind) -> Result<(), &'static str> {
+    match kind {
+        LightKind::Spot(_) => Ok(()),
+        LightKind::Point(_) => Err("draws one square map, and a point light's six come with the cube map"),
+        LightKind::Directional { .. } => {
+            Err("draws its map in perspective, and a directional light's comes with the orthographic map")
+        }
+    }
+}
+
 /// A light in whose frustum nothing casts a shadow that is seen.
-pub(super) fn without_casters(view: &LightView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
+pub(super) fn without_casters(view: &FrustumView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
-    let mut term = LightTerm::unshadowed(view.index);
+    let mut term = LightTerm::unshadowed(view.scene, view.index);
     term.dimming = dimming;
     term
 }

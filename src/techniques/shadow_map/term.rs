@@ -7,15 +7,14 @@ use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
-use crate::scene::Light;
-use crate::techniques::{LightTerm, LightView};
+use crate::techniques::{Coordinates, FrustumView, LightTerm};
 
 /// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
-pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
+pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
     let index = view.index;
     let name = format!("shadow_map_{index}");
     let clamped = settings.format == DepthFormat::Depth32F;
-    let mut term = LightTerm::new(index, glsl!("shadow_map/shade.frag"));
+    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
     term.meaning = Shade::Texture { input: name.clone().into(), clamped };
     let compare = match settings.order {
         Order::LessEqual => Compare::LessEqual,
@@ -25,17 +24,20 @@ pub fn term(view: &LightView<'_>, map: ImageId, settings: &Settings, texels: f64
     if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
-    term.texture_from_light_clip = texture_from_light_clip(settings);
-    term.texture_from_light_clip *= settings.crop.map_clip_from_light_clip();
+    let mut coordinates = Coordinates {
+        texture_from_light_clip: texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip(),
+        set_up: settings.set_up,
+        split: settings.split,
+        ..Coordinates::of_frustum(&view.frustum)
+    };
     if texels > 0.0 {
-        term.receiver_bias = bias::moved_to_light(view.light(), texels, settings);
+        coordinates.receiver_bias = bias::moved_to_light(&view.frustum, texels, settings);
     }
     term.frustum_from_map = frustum_from_map(settings);
-    term.set_up = settings.set_up;
-    term.split = settings.split;
     term.dimming = settings.dimming;
     term.map = Some(map);
-    look_up(&mut term, view.light(), settings);
+    look_up(&mut term, &coordinates, view, settings);
+    term.coordinates = Some(coordinates);
     term
 }
 
@@ -64,7 +66,7 @@ fn sampler(settings: &Settings, compare: Compare) -> Sampler {
 }
 
 /// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
-fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
+fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
     if settings.mipmaps != Mipmaps::None {
         term.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
@@ -91,10 +93,12 @@ fn look_up(term: &mut LightTerm, light: &Light, settings: &Settings) {
         }
         Bias::NormalOffset => {
             term.shade = glsl!("shadow_map/normal_offset.frag");
-            let (texture, light_clip) = (term.texture_from_light_clip * term.receiver_bias, light.clip_from_view());
+            let texture = coordinates.texture_from_light_clip * coordinates.receiver_bias;
+            let light_clip = coordinates.light_clip_from_light;
             let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
             let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
-            let radius = std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(light, settings);
+            let radius =
+                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(&view.frustum, settings);
             term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
             let texture_from_light = (texture * light_clip).as_mat4();
             term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light));

@@ -6,13 +6,13 @@ use super::bias;
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::pass::MeshRef;
-use crate::techniques::{Item, LightView, Notes};
+use crate::techniques::{FrustumView, Item, Notes};
 
 /// Fewer triangles are not worth looking at.
 const FEWEST: u32 = 200;
 
 /// `casters` with fewer triangles, where that moves their surface by less than half a texel.
-pub fn simplified(view: &LightView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
+pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
     let of = |item: &&Item| {
         let mut item = (*item).clone();
         let before = (item.indices.end - item.indices.start) / 3;
@@ -41,8 +41,8 @@ pub fn simplified(view: &LightView<'_>, casters: &[&Item], settings: &Settings, 
 
 /// A quarter of a texel by quadrics, which take the mean of what bends: half of one at most places. In the item's own
 /// units: of the texels that it meets, those nearest to the light are the smallest.
-fn allowed_error(view: &LightView<'_>, item: &Item, settings: &Settings) -> f64 {
-    let light = view.light();
+fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
+    let light = &view.frustum;
     let light_from_model = light.view_from_world() * item.world_from_model;
     let corners = item.bounds.corners().into_iter();
     let nearest = corners.map(|corner| -light_from_model.transform_point3(corner).z).fold(f64::INFINITY, f64::min);

@@ -6,7 +6,6 @@ use super::settings::{Method, Settings};
 use super::{ends, source};
 use crate::geometry::volume::{self, Viewer};
 use crate::math::frustum::{self, Overlap};
-use crate::scene::LightKind;
 use crate::techniques::{LightView, Notes};
 
 /// How one caster's volume is drawn.
@@ -69,12 +68,10 @@ fn why_unneeded(
 
 /// Whether a spotlight's light misses the caster.
 fn outside_cone(view: &LightView<'_>, caster: &Casting) -> bool {
-    let LightKind::Spot { .. } = view.light().kind;
-    let mut unbounded = view.light().clone();
-    unbounded.near *= 1e-3;
-    unbounded.far *= 1e3;
-    let clip_from_model = unbounded.clip_from_view() * unbounded.view_from_world() * caster.world_from_model;
-    frustum::overlap(&clip_from_model, &caster.bounds) == Overlap::Outside
+    view.light().frustum().is_some_and(|frustum| {
+        let clip_from_model = frustum.unbounded().clip_from_world() * caster.world_from_model;
+        frustum::overlap(&clip_from_model, &caster.bounds) == Overlap::Outside
+    })
 }
 
 fn choose(caster: &Casting, volume: &volume::Casting, viewer: &Viewer) -> (Way, &'static str, &'static str) {

@@ -4,7 +4,7 @@
 use glam::{DMat4, DVec3};
 
 use super::casters::Casting;
-use crate::geometry::volume::Source;
+use crate::geometry::volume::{self, Source};
 use crate::math::frustum::{self, Overlap};
 use crate::math::{Aabb, frustum::corners};
 use crate::techniques::LightView;
@@ -82,4 +82,20 @@ pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source
         .iter()
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
     light_is_clear && clear(view.scene.camera.eye) && { near }.all(clear) && { others }.all(is_before)
+}
+
+/// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights reach them all.
+pub fn scissor(view: &LightView<'_>) -> Option<[u32; 4]> {
+    let frustum = view.light().frustum()?;
+    let bounds = seen_bounds(view);
+    // Its pyramid, from the light to beyond all that is seen.
+    let depth = bounds.corners().map(|corner| corner.distance(frustum.position)).into_iter().fold(0.0, f64::max);
+    let side = depth * (0.5 * frustum.cone_radians).tan();
+    let world_from_light = frustum.view_from_world().inverse();
+    let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
+    let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
+    let size = view.scene.image.size;
+    // No pixel at all: the light contributes nothing, and the plan has seen that already.
+    volume::scissor(&points, &camera(view), size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])
 }

@@ -15,7 +15,7 @@ use super::light::Counting;
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::geometry::volume::{Kind, Source};
 use crate::pass::PassList;
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowVolume;
 
@@ -30,6 +30,10 @@ impl Technique for ShadowVolume {
 
     fn source(&self) -> &'static str {
         "GDC 2001, Stenciled Shadow Volumes; techniques C1-C12"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -48,7 +52,7 @@ impl Technique for ShadowVolume {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let mut term = LightTerm::unshadowed(view.index);
+        let mut term = LightTerm::unshadowed(view.scene, view.index);
         term.dimming = settings.dimming;
         let casting = casting(view.items);
         warn(view, &casting, notes);
@@ -78,7 +82,7 @@ fn counting(
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
-        scissor: None,
+        scissor: if view.keep_all { None } else { ends::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }
@@ -86,7 +90,11 @@ fn counting(
 
 /// Where the light stands, or the direction to it, in world space.
 fn source(view: &LightView<'_>) -> Source {
-    Source::Point(view.light().position)
+    match &view.light().kind {
+        LightKind::Spot(spot) => Source::Point(spot.frustum.position),
+        LightKind::Point(point) => Source::Point(point.position),
+        LightKind::Directional { direction } => Source::Direction(-*direction),
+    }
 }
 
 /// What a reader of the plan should know: holes that volumes do not have, and how soups are counted.

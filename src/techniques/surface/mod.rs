@@ -1,14 +1,16 @@
 //! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
 //! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13 f].
 
+mod sides;
 mod variant;
 
-use glam::{DMat4, DVec3, Mat3, Vec3, Vec4};
+use glam::{DMat4, Mat3, Vec3, Vec4};
 
 use super::{Item, LightTerm};
 use crate::math::texgen;
 use crate::pass::{
-    Attribute, Batch, Chunk, Face, Filter, Input, PassList, PointLight, Program, Projection, Sampler, Uniform, Wrap,
+    Attribute, Batch, Chunk, Face, Filter, Input, LightMeaning, PassList, Program, Projection, Sampler, Uniform, Wrap,
+    glsl,
 };
 use crate::scene::{Light, LightKind, LightShape, Scene};
 pub use variant::Ending;
@@ -42,10 +44,11 @@ pub fn batches(
         terms.iter().map(|term| light_parts(scene, viewer, term, ending, list)).collect::<Option<_>>()?;
     let mut batches: Vec<Batch> = Vec::new();
     for item in items {
-        let one_sided = shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
         let variant::Variant { program, meaning, uniforms, inputs } = surface;
-        let cull = one_sided.then_some(Face::Back);
+        let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =
             |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
@@ -58,16 +61,6 @@ pub fn batches(
         }
     }
     Some(batches)
-}
-
-/// Whether no back face of the item can be seen: it is declared closed, has no holes by alpha, and all of it lies before
-/// the near plane, so that the viewer is outside of it.
-fn shows_no_back_face(item: &Item, clip_from_model: &DMat4) -> bool {
-    let before_near = |corner: DVec3| {
-        let clip = *clip_from_model * corner.extend(1.0);
-        clip.z > -clip.w
-    };
-    item.closed && !item.needs_alpha_test() && item.bounds.corners().into_iter().all(before_near)
 }
 
 fn draw_uniforms(viewer: &Viewer, item: &Item, program: &Program) -> Vec<Uniform> {
@@ -90,9 +83,15 @@ pub(super) struct LightParts {
     shade: Chunk,
     uniforms: Vec<Uniform>,
     inputs: Vec<Input>,
-    meaning: PointLight,
+    /// Defines `bool in_reach_@()`.
+    reach: Chunk,
+    has_coordinates: bool,
+    meaning: LightMeaning,
     has_specular: bool,
     has_ambient: bool,
+    /// Whether its direction differs from point to point.
+    has_position: bool,
+    has_attenuation: bool,
 }
 
 const SPOT_IMAGE_SAMPLER: Sampler =
@@ -107,20 +106,33 @@ fn light_parts(
 ) -> Option<LightParts> {
     let source = &scene.lights[term.index];
     let index = term.index;
-    let cone = matches!(source.kind, LightKind::Spot { shape: LightShape::Cone, .. });
-    let texgen = texgen(source, viewer, term)?;
-    let projection = Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, cone };
+    let cone = source.spot().is_some_and(|spot| spot.shape == LightShape::Cone);
+    let projection = match &term.coordinates {
+        Some(coordinates) => {
+            let spaces = coordinates.spaces(viewer.eye_from_world);
+            let texgen = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
+            Some(Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, cone })
+        }
+        None => None,
+    };
     let mut parts = LightParts {
         index,
         defines: term.defines.clone(),
         shade: term.shade.for_light(index),
         uniforms: term.uniforms.clone(),
         inputs: term.inputs.clone(),
-        meaning: meaning(source, viewer, term, projection),
+        reach: if source.spot().is_some() { glsl!("light/reach.frag") } else { glsl!("light/everywhere.frag") }
+            .for_light(index),
+        has_coordinates: projection.is_some(),
+        meaning: meaning(source, viewer, term, projection.clone()),
+        has_position: source.position().is_some(),
+        has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
         has_specular: source.specular != [0.0; 3],
         has_ambient: source.ambient != [0.0; 3],
     };
-    add_texgen(&mut parts, &texgen);
+    if let Some(projection) = &projection {
+        add_texgen(&mut parts, &projection.texgen);
+    }
     if cone {
         parts.defines.push(format!("CONE_{index}"));
     }
@@ -135,32 +147,32 @@ fn light_parts(
 }
 
 /// The light in the terms of fixed function.
-fn meaning(source: &Light, viewer: &Viewer, term: &LightTerm, projection: Projection) -> PointLight {
-    PointLight {
+fn meaning(source: &Light, viewer: &Viewer, term: &LightTerm, projection: Option<Projection>) -> LightMeaning {
+    let has_image = source.spot().is_some_and(|spot| spot.image.is_some());
+    LightMeaning {
+        index: term.index,
         position: eye_position(source, viewer).to_array(),
         ambient: source.ambient,
         diffuse: source.diffuse,
         specular: source.specular,
-        attenuation: source.attenuation,
-        beam: source.image.as_ref().map(|_| format!("spot_image_{}", term.index).into()),
+        attenuation: source.attenuation(),
+        beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
         dimming: term.dimming,
         projection,
         shade: term.meaning.clone(),
     }
 }
 
-fn eye_position(source: &Light, viewer: &Viewer) -> Vec3 {
-    viewer.eye_from_world.transform_point3(source.position).as_vec3()
-}
-
-fn texgen(source: &Light, viewer: &Viewer, term: &LightTerm) -> Option<texgen::Texgen> {
-    let spaces = texgen::Spaces {
-        texture_from_light_clip: term.texture_from_light_clip * term.receiver_bias,
-        light_clip_from_light: source.clip_from_view(),
-        light_from_world: source.view_from_world(),
-        eye_from_world: viewer.eye_from_world,
+/// Homogeneous: of an infinitely far light, the unit vector to it, and w = 0.
+fn eye_position(source: &Light, viewer: &Viewer) -> Vec4 {
+    let position = match &source.kind {
+        LightKind::Spot(spot) => spot.frustum.position,
+        LightKind::Point(point) => point.position,
+        LightKind::Directional { direction } => {
+            return viewer.eye_from_world.transform_vector3(-*direction).as_vec3().extend(0.0);
+        }
     };
-    texgen::set_up(&spaces, term.set_up, term.split)
+    viewer.eye_from_world.transform_point3(position).as_vec3().extend(1.0)
 }
 
 fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
@@ -175,21 +187,27 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
 
 fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
     let index = parts.index;
-    parts.uniforms.push(Uniform::of_light("light_position", index, eye_position(source, viewer)));
+    let position = eye_position(source, viewer);
+    if parts.has_position {
+        parts.uniforms.push(Uniform::of_light("light_position", index, position.truncate()));
+    } else {
+        parts.defines.push(format!("DIRECTIONAL_{index}"));
+        parts.uniforms.push(Uniform::of_light("light_direction", index, position.truncate()));
+    }
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
     if parts.has_ambient {
         parts.defines.push(format!("LIGHT_AMBIENT_{index}"));
         parts.uniforms.push(Uniform::of_light("light_ambient", index, Vec3::from(source.ambient)));
     }
-    if source.attenuation != [1.0, 0.0, 0.0] {
+    if parts.has_attenuation {
         parts.defines.push(format!("ATTENUATION_{index}"));
-        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation)));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
     }
     if term.dimming > 0.0 {
         parts.defines.push(format!("DIMMING_{index}"));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some(image) = &source.image {
+    if let Some(image) = source.spot().and_then(|spot| spot.image.as_ref()) {
         parts.defines.push(format!("SPOT_IMAGE_{index}"));
         parts.inputs.push(super::items::upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
     }

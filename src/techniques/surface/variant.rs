@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::{LightParts, Viewer};
 use crate::geometry::Material;
-use crate::pass::{Attribute, Chunk, Input, Lit, Meaning, PassList, PointLight, Program, Sampled, Uniform, glsl};
+use crate::pass::{Attribute, Chunk, Input, LightMeaning, Lit, Meaning, PassList, Program, Sampled, Uniform, glsl};
 use crate::scene::Scene;
 use crate::techniques::Item;
 use crate::techniques::items::{Cutout, cutout};
@@ -26,8 +26,10 @@ struct Needs {
     specular: bool,
     normals: bool,
     per_vertex: bool,
+    /// Of the point, in the fragment stage.
+    position: bool,
     ambient: bool,
-    /// Front faces only, so that normals need not be turned.
+    /// No normal is seen from behind, so that none needs to be turned.
     one_sided: bool,
 }
 
@@ -51,10 +53,16 @@ pub fn of(
 ) -> Variant {
     let lit = *ending == Ending::Lit;
     let cut = if lit || item.needs_alpha_test() { cutout(item, lit, list) } else { Cutout::default() };
+    let specular = lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
+    let normals = lit && item.lit && !lights.is_empty();
+    let per_vertex = lit && scene.shading.per_vertex && !lights.is_empty();
+    let lit_from_near = |light: &LightParts| light.has_position && (item.lit || light.has_attenuation);
+    let two_sided = normals && !one_sided;
     let needs = Needs {
-        specular: lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular),
-        normals: lit && item.lit && !lights.is_empty(),
-        per_vertex: lit && scene.shading.per_vertex && !lights.is_empty(),
+        specular,
+        normals,
+        per_vertex,
+        position: lit && !per_vertex && (specular || two_sided || lights.iter().any(lit_from_near)),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
         one_sided,
     };
@@ -110,7 +118,7 @@ fn meaning(
             lights: lights.iter().map(|light| light.meaning.clone()).collect(),
         })),
         (Ending::View { .. }, Some(light)) => {
-            let PointLight { projection, shade, .. } = light.meaning.clone();
+            let LightMeaning { projection, shade, .. } = light.meaning.clone();
             Meaning::Sampled(Box::new(Sampled { clip_from_eye, texturing, projection, shade }))
         }
         (Ending::View { .. }, None) => Meaning::Shader("a view of no light"),
@@ -149,8 +157,8 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
         ("ANY_LIGHT", lit && !lights.is_empty()),
-        ("EYE_SPACE", !lights.is_empty()),
-        ("EYE_POSITION", lit && !lights.is_empty() && !needs.per_vertex),
+        ("EYE_SPACE", needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
+        ("EYE_POSITION", needs.position),
         ("NORMALS", needs.normals),
         ("EYE_NORMAL", per_fragment),
         ("TWO_SIDED", per_fragment && !needs.one_sided),
@@ -169,8 +177,10 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
             (Cow::Owned(name.to_owned()), value.to_owned())
         }));
     }
-    let calls = |call: &str| lights.iter().map(|l| call.replace('@', &l.index.to_string())).collect::<String>();
-    defines.push(("TEXGEN(eye)".into(), calls("texgen_@(eye);")));
+    let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
+    let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
+    let generated = lights.iter().filter(|light| light.has_coordinates);
+    defines.push(("TEXGEN(eye)".into(), generated.map(|light| call_of(light, "texgen_@(eye);")).collect()));
     if needs.per_vertex {
         defines.push(("LIGHT_VERTEX(surface)".into(), calls("light_vertex_@(surface);")));
     }
@@ -187,7 +197,9 @@ fn vertex(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) ->
         chunks.push(glsl!("surface/material.glsl"));
     }
     for light in lights {
-        chunks.push(glsl!("light/texgen.vert").for_light(light.index));
+        if light.has_coordinates {
+            chunks.push(glsl!("light/texgen.vert").for_light(light.index));
+        }
         if needs.per_vertex {
             chunks.push(glsl!("light/lighting.glsl").for_light(light.index));
             chunks.push(glsl!("light/per_vertex.vert").for_light(light.index));
@@ -201,7 +213,7 @@ fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) 
     let mut chunks = cut.fragment.clone();
     if let Ending::View { chunk, shade } = ending {
         for light in lights {
-            chunks.push(glsl!("light/reach.frag").for_light(light.index));
+            chunks.extend(reach(light));
             if *shade {
                 chunks.push(light.shade.clone());
             }
@@ -211,7 +223,7 @@ fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) 
     }
     chunks.push(glsl!("surface/material.glsl"));
     for light in lights {
-        chunks.push(glsl!("light/reach.frag").for_light(light.index));
+        chunks.extend(reach(light));
         chunks.push(light.shade.clone());
         chunks.push(if needs.per_vertex {
             glsl!("light/per_vertex.frag").for_light(light.index)
@@ -222,4 +234,10 @@ fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) 
     }
     chunks.push(glsl!("surface/surface.frag"));
     chunks
+}
+
+/// The light's texture coordinates, where it has any, and its reach.
+fn reach(light: &LightParts) -> impl Iterator<Item = Chunk> {
+    let coordinates = light.has_coordinates.then(|| glsl!("light/texgen.frag").for_light(light.index));
+    coordinates.into_iter().chain([light.reach.clone()])
 }

@@ -1,8 +1,8 @@
-//! No shadow: the light reaches all that its cone holds.
+//! No shadow: the light reaches all that its cone, if it has one, holds.
 
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;
-use crate::scene::{Reader, SettingsError};
+use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct Unshadowed;
 
@@ -12,11 +12,15 @@ impl Technique for Unshadowed {
     }
 
     fn summary(&self) -> &'static str {
-        "no shadow: everything in the light's cone is lit"
+        "no shadow: everything that the light can reach is lit"
     }
 
     fn source(&self) -> &'static str {
         "GL 4.6 compatibility, 12.2"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -34,6 +38,6 @@ impl Technique for Unshadowed {
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        Ok(LightTerm::unshadowed(view.index))
+        Ok(LightTerm::unshadowed(view.scene, view.index))
     }
 }

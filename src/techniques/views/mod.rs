@@ -85,7 +85,9 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
         View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
         View::LightDistance => {
             term.meaning = Shade::Shader("r/q as a colour");
-            term.receiver_bias = glam::DMat4::IDENTITY;
+            if let Some(coordinates) = &mut term.coordinates {
+                coordinates.receiver_bias = glam::DMat4::IDENTITY;
+            }
             term.inputs.clear();
             term.uniforms.clear();
             Ending::View { chunk: glsl!("views/distance.frag"), shade: false }

@@ -177,7 +177,7 @@ fn edge(case: &Case, edge: &Edge) -> Result<(), String> {
         _ => return Err(format!("an edge needs a caster or a sphere ({})", edge.why)),
     };
     let at = formula::shadow_on_floor(light, caster, edge.floor);
-    let texels = TEXELS * formula::texel_length(light, formula::map_size(light), at);
+    let texels = TEXELS * formula::texel_length(formula::frustum(light)?, formula::map_size(light), at);
     let margin = texels + PIXELS * formula::pixel_length(&drawn.scene, at, outward)?;
     let wanted = [(at - margin * outward, Class::Shadowed), (at + margin * outward, Class::Lit)];
     points(case, &drawn, &wanted, &edge.why)
@@ -186,7 +186,7 @@ fn edge(case: &Case, edge: &Edge) -> Result<(), String> {
 fn cone(case: &Case, cone: &Cone) -> Result<(), String> {
     let drawn = draw(case, &cone.set, Wanted::View(View::Shade, 0))?;
     let light = drawn.scene.lights.first().ok_or("the scene has no light")?;
-    let start = formula::shadow_on_floor(light, light.target, cone.floor);
+    let start = formula::shadow_on_floor(light, formula::frustum(light)?.target, cone.floor);
     let towards = DVec3::from_array(cone.towards).normalize();
     let end = formula::reach_end(light, start, towards)?;
     let margin = PIXELS * formula::pixel_length(&drawn.scene, start + end * towards, towards)?;

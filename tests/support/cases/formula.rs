@@ -2,7 +2,7 @@
 //! matrices, a ray through a pixel's centre instead of a raster. Reads the resolved scene only.
 
 use glam::{DVec2, DVec3};
-use glumbra::scene::{Camera, Light, LightKind, LightShape, Scene};
+use glumbra::scene::{Camera, Frustum, Light, LightKind, LightShape, Scene};
 
 use super::file::{Formula, Sphere};
 
@@ -68,46 +68,60 @@ pub fn pixel_length(scene: &Scene, point: DVec3, direction: DVec3) -> Result<f64
     }
 }
 
-fn cone(light: &Light) -> (f64, LightShape) {
-    let LightKind::Spot { cone_radians, shape } = light.kind;
-    (0.5 * cone_radians, shape)
+/// The frustum of a light that must be a spotlight.
+///
+/// # Errors
+///
+/// A light of another kind.
+pub fn frustum(light: &Light) -> Result<&Frustum, String> {
+    light.frustum().ok_or_else(|| format!("{} is no spotlight: it has no frustum", light.name))
+}
+
+/// To the light, which may be infinitely far away: then of unit length.
+fn to_light(light: &Light, point: DVec3) -> DVec3 {
+    match &light.kind {
+        LightKind::Spot(spot) => spot.frustum.position - point,
+        LightKind::Point(source) => source.position - point,
+        LightKind::Directional { direction } => -*direction,
+    }
 }
 
 /// The length on a floor with normal +y at `point` that one texel of a map of `size` covers at most.
-pub fn texel_length(light: &Light, size: f64, point: DVec3) -> f64 {
-    let (half, _) = cone(light);
+pub fn texel_length(light: &Frustum, size: f64, point: DVec3) -> f64 {
     let from_light = point - light.position;
     let depth = from_light.dot((light.target - light.position).normalize());
     let slant = (from_light.y / from_light.length()).abs();
-    2.0 * half.tan() * depth / size * std::f64::consts::SQRT_2 / slant
+    2.0 * (0.5 * light.cone_radians).tan() * depth / size * std::f64::consts::SQRT_2 / slant
 }
 
-/// The shadow of `caster` on the floor at height `floor`: central projection from the light.
+/// The shadow of `caster` on the floor at height `floor`: central or parallel projection from the light.
 pub fn shadow_on_floor(light: &Light, caster: DVec3, floor: f64) -> DVec3 {
-    let ray = caster - light.position;
-    light.position + ray * ((floor - light.position.y) / ray.y)
+    let ray = to_light(light, caster);
+    caster + ray * ((floor - caster.y) / ray.y)
 }
 
 /// Where the tangent from the light touches the sphere, in the plane of the axis through its centre and `outward`.
 pub fn tangent_point(light: &Light, sphere: &Sphere, outward: DVec3) -> DVec3 {
-    let to_light = light.position - DVec3::from_array(sphere.center);
+    let center = DVec3::from_array(sphere.center);
+    let to_light = to_light(light, center);
     let (distance, axis) = (to_light.length(), to_light.normalize());
-    let sine = sphere.radius / distance;
     let across = outward.reject_from(axis).normalize();
-    light.position + (distance - sphere.radius * sine) * -axis + sphere.radius * (1.0 - sine * sine).sqrt() * across
+    let sine = if light.position().is_some() { sphere.radius / distance } else { 0.0 };
+    center + sphere.radius * (sine * axis + (1.0 - sine * sine).sqrt() * across)
 }
 
 /// How far `point` is within the light's reach: below 1 inside, above 1 outside.
 pub fn reach(light: &Light, point: DVec3) -> f64 {
-    let (half, shape) = cone(light);
-    let axes = axes(light.position, light.target, light.up);
-    let from_light = point - light.position;
+    let Some(spot) = light.spot() else { return 0.0 };
+    let Frustum { position, target, up, cone_radians, .. } = spot.frustum;
+    let (half, axes) = (0.5 * cone_radians, axes(position, target, up));
+    let from_light = point - position;
     let depth = from_light.dot(axes.ahead);
     if depth <= 0.0 {
         return f64::INFINITY;
     }
     let off = DVec2::new(from_light.dot(axes.right), from_light.dot(axes.above)) / depth;
-    match shape {
+    match spot.shape {
         LightShape::Cone => off.length() / half.tan(),
         LightShape::Frustum => off.abs().max_element() / half.tan(),
     }
@@ -137,8 +151,8 @@ pub fn illumination(scene: &Scene, point: DVec3, known: &Formula) -> Result<DVec
     let mut body = color(scene.shading.ambient) * color(material.ambient);
     let mut gloss = DVec3::ZERO;
     for (index, light) in scene.lights.iter().enumerate() {
-        let ray = light.position - point;
-        let [constant, linear, quadratic] = light.attenuation.map(f64::from);
+        let ray = to_light(light, point);
+        let [constant, linear, quadratic] = light.attenuation().map(f64::from);
         let strength = 1.0 / (constant + linear * ray.length() + quadratic * ray.length_squared());
         body += strength * color(light.ambient) * color(material.ambient);
         if reach(light, point) > 1.0 {
