@@ -59,8 +59,8 @@ impl Device {
         for pass in &list.passes {
             let objects = self.objects(list, pass);
             let builds_on_new = pass.reads().into_iter().chain(pass.writes()).any(|image| written.contains(&image));
-            let known = self.done.get(&pass.label);
-            if pass.redraw == Redraw::WhenChanged && !builds_on_new && unchanged(known, pass, &objects) {
+            let kept = pass.redraw == Redraw::WhenChanged && !builds_on_new;
+            if kept && self.is_held(list, pass) {
                 continue;
             }
             written.extend(pass.writes());
@@ -70,6 +70,15 @@ impl Device {
             }
         }
         Ok(times)
+    }
+
+    /// Whether the pass's target holds what it would draw: it is as it was, and so are all others that count in the same
+    /// stencil buffer, as counts cannot be told apart.
+    fn is_held(&self, list: &PassList, pass: &Pass) -> bool {
+        let is_as_it_was = |pass: &Pass| unchanged(self.done.get(&pass.label), pass, &self.objects(list, pass));
+        let buffer = pass.counts_in();
+        let joins = |other: &&Pass| buffer.is_some() && other.counts_in() == buffer;
+        is_as_it_was(pass) && list.passes.iter().filter(joins).all(is_as_it_was)
     }
 
     fn timed(&mut self, list: &PassList, pass: &Pass, measure: Measure) -> Result<Option<PassTime>, Error> {

@@ -110,6 +110,12 @@ impl Pass {
         }
     }
 
+    /// The image in whose stencil values the pass counts.
+    pub fn counts_in(&self) -> Option<ImageId> {
+        let Work::Draw(draw) = &self.work else { return None };
+        draw.target.depth.filter(|_| draw.state.stencil.is_some_and(|stencil| stencil.write_mask != 0))
+    }
+
     /// The most textures that one of its batches binds.
     pub fn most_inputs(&self) -> usize {
         match &self.work {

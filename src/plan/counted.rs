@@ -6,13 +6,14 @@ use super::Error;
 use super::builder::{Builder, Onto};
 use super::lens::Lens;
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps, Target,
-    Texturing, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Face, Format, ImageId, Meaning, Redraw, Shade, Stencil, StencilOps,
+    Target, Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;
 use crate::techniques::light::{Counting, VolumeDraw};
 use crate::techniques::surface::Ending;
+use crate::techniques::surface::sides::shows_no_back_face;
 use crate::techniques::views::{self, View};
 use crate::techniques::{Item, LightTerm};
 
@@ -34,7 +35,7 @@ impl Builder<'_> {
         let mut uncounted = self.first("uncounted light", target, lens, self.background());
         if keeps {
             self.depth_first(target, lens);
-            self.count_all(target, lens, &counted[..1], Redraw::WhenChanged);
+            counted.iter().for_each(|term| self.count_term(target, lens, term, Redraw::WhenChanged));
             uncounted.clear.depth = None;
             uncounted.state = lens.of_surfaces(DrawState::REPEAT);
         }
@@ -43,7 +44,7 @@ impl Builder<'_> {
         self.surfaces(&scene, &uncounted, &first, &Ending::Lit)?;
         for term in &counted {
             if !keeps {
-                self.count_all(target, lens, &[term], Redraw::Always);
+                self.count_term(target, lens, term, Redraw::Always);
             }
             self.add_light(target, lens, term)?;
         }
@@ -51,7 +52,7 @@ impl Builder<'_> {
     }
 
     /// Whether depth and count of a frame serve the next: one count, and frames that may use it again.
-    fn keeps_count(&mut self, counted: &[&LightTerm]) -> bool {
+    fn keeps_count(&self, counted: &[&LightTerm]) -> bool {
         let [term] = counted else { return false };
         let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
         may && self.request.frames > 1 && !self.request.keep_all
@@ -59,8 +60,13 @@ impl Builder<'_> {
 
     /// Depth alone, kept from frame to frame.
     fn depth_first(&mut self, target: Target, lens: &Lens) {
-        let items: Vec<&Item> = self.items.iter().collect();
-        let mut batches = depth_batches(&items, &lens.camera.clip_from_world(), self.list);
+        let clip_from_world = lens.camera.clip_from_world();
+        // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.
+        let (front, both): (Vec<&Item>, Vec<&Item>) =
+            self.items.iter().partition(|item| shows_no_back_face(item, &(clip_from_world * item.world_from_model)));
+        let mut batches = depth_batches(&front, &clip_from_world, self.list);
+        batches.iter_mut().for_each(|batch| batch.cull = Some(Face::Back));
+        batches.extend(depth_batches(&both, &clip_from_world, self.list));
         self.cut_at_far(lens, &mut batches);
         let pass = DrawPass {
             target: Target { color: None, ..target },
@@ -72,8 +78,8 @@ impl Builder<'_> {
         self.push("depth", Redraw::WhenChanged, pass);
     }
 
-    fn count_all(&mut self, target: Target, lens: &Lens, terms: &[&LightTerm], redraw: Redraw) {
-        for counting in terms.iter().filter_map(|term| term.counting.as_ref()) {
+    fn count_term(&mut self, target: Target, lens: &Lens, term: &LightTerm, redraw: Redraw) {
+        if let Some(counting) = &term.counting {
             self.count(target, lens, counting, "", redraw);
         }
     }
@@ -178,12 +184,9 @@ impl Builder<'_> {
             _ => (&counting.volumes, "volumes"),
         };
         // The outside of a volume is warm, its inside cold.
-        let layers: &[(Option<crate::pass::Face>, [f32; 4])] = match view {
+        let layers: &[(Option<Face>, [f32; 4])] = match view {
             View::Silhouette => &[(None, [1.0, 0.85, 0.0, 1.0])],
-            _ => &[
-                (Some(crate::pass::Face::Front), [0.1, 0.3, 0.9, 0.25]),
-                (Some(crate::pass::Face::Back), [0.95, 0.55, 0.1, 0.25]),
-            ],
+            _ => &[(Some(Face::Front), [0.1, 0.3, 0.9, 0.25]), (Some(Face::Back), [0.95, 0.55, 0.1, 0.25])],
         };
         let batches = layers.iter().flat_map(|(cull, color)| {
             let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];

@@ -21,7 +21,7 @@ const R_STEP: f64 = 1.0 / 65535.0;
 pub const TWEAKS: &[Tweak] = &[
     Tweak { name: "r scale", table: "r", key: "scale", default: 0.5, step: R_STEP, range: [-16.0, 16.0] },
     Tweak { name: "r bias", table: "r", key: "bias", default: 0.5, step: R_STEP, range: [-16.0, 16.0] },
-    Tweak { name: "polygon offset scale", table: "offset", key: "factor", default: 1.0, step: 0.5, range: [-1e6, 1e6] },
+    Tweak { name: "polygon offset scale", table: "offset", key: "factor", default: 2.0, step: 0.5, range: [-1e6, 1e6] },
     Tweak { name: "polygon offset bias", table: "offset", key: "units", default: 4.0, step: 1.0, range: [-1e9, 1e9] },
 ];
 
@@ -77,11 +77,11 @@ mod tests {
     fn steps_add_up_and_leave_the_other_key_alone() {
         let mut shadow = Settings::default();
         let [scale, bias] = [&TWEAKS[2], &TWEAKS[3]];
-        assert_eq!((scale.get(&shadow), bias.get(&shadow)), (1.0, 4.0));
+        assert_eq!((scale.get(&shadow), bias.get(&shadow)), (2.0, 4.0));
         scale.step(&mut shadow, 1.0);
         bias.step(&mut shadow, -6.0);
-        assert_eq!((scale.get(&shadow), bias.get(&shadow)), (1.5, -2.0));
-        assert_eq!(scale.in_words(&shadow), "polygon offset scale = 1.5");
+        assert_eq!((scale.get(&shadow), bias.get(&shadow)), (2.5, -2.0));
+        assert_eq!(scale.in_words(&shadow), "polygon offset scale = 2.5");
         scale.step(&mut shadow, 1e9);
         assert_eq!(scale.get(&shadow), 1e6);
     }

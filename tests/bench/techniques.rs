@@ -24,6 +24,11 @@ const VOLUMES: &str = "light.shadow.technique=shadow-volume";
 
 const WAYS: &[Way] = &[
     way("shadow-map", &[], None),
+    way("shadow-map, casters at its resolution", &["light.shadow.casters=texel"], None),
+    way("shadow-map, fitted to what is seen", &["light.shadow.fit=view"], None),
+    way("shadow-map, 3x3 comparisons", &["light.shadow.kernel=3x3"], None),
+    way("midpoint", &["light.shadow.technique=midpoint"], None),
+    way("second-depth", &["light.shadow.technique=second-depth", "light.shadow.closed=assume"], None),
     way("shadow-volume, auto", &[VOLUMES], Some(1.0)),
     Way { redraw: Redraw::Once, ..way("shadow-volume, auto, counted once", &[VOLUMES], None) },
     way("shadow-volume, z-pass", &[VOLUMES, "light.shadow.method=z-pass"], None),

@@ -17,16 +17,16 @@ pub fn filter_reach(settings: &Settings) -> f64 {
     if settings.filter == Filter::Nearest { 0.5 } else { 1.0 }
 }
 
-/// The offset as written, or by default the one with the least leak of those that leave no acne (`tests/acne.rs`).
+/// The offset as written, or by default the one with the least leak of those that leave no acne on a dense model
+/// (`tests/acne.rs`) and none, not even of one tap, on any plane (the case shadow-map/plane-biases).
 ///
 /// Three things bring a surface before its own texels, and each is met in its own measure, so that the default holds at
 /// any resolution, filter, format and size of a scene:
-/// - its slope, over the reach of the lookup: by the polygon offset's factor. Where a plane falls away along one axis,
-///   as many slopes as texels are reached are enough; down a diagonal it is twice as many for the last taps, of which
-///   none has much weight, and
-/// - a texel may hold the depth of a neighbouring facet that is less steep: its offset is too small for the steeper
-///   one, by less than a facet's width, which in a dense mesh is about a texel's. That is what `texels` is for, and it
-///   takes in what the diagonal lacks. A wider kernel looks at more facets at once and needs less of it;
+/// - its slope, over the reach of the lookup: by the polygon offset's factor. GL's slope is the steeper of both axes'
+///   [GL 4.6, 14.6.5]; down a diagonal a plane falls away by it along each axis, so that twice as many slopes as texels
+///   are reached leave no tap of any plane dark, however steep;
+/// - a texel may hold the depth of a neighbouring facet that is less steep, whose offset is too small for the steeper
+///   one. That is what `texels` is for. A wider reach has more of the slope to spare, and needs less of it;
 /// - rounding: by units, of which one is at least the format's least step.
 ///
 /// Beyond these nothing is left but silhouettes, where no offset helps.
@@ -36,9 +36,9 @@ pub fn offset(settings: &Settings) -> Offset {
 
 fn default_offset(settings: &Settings) -> Offset {
     let units = if settings.format == DepthFormat::Depth16 { 1.0 } else { 4.0 };
-    let slopes = reach_texels(settings).max(1.0);
+    let reach = reach_texels(settings);
     let (factor, texels) = match settings.bias {
-        Bias::Offset => (slopes, 1.0 / slopes),
+        Bias::Offset => (2.0 * reach, 0.25 / (reach * reach)),
         // The slope is met where it is compared; what is left is the neighbouring facet.
         Bias::ReceiverPlane | Bias::NormalOffset => (0.0, 0.5),
         Bias::Adaptive => (0.0, 1.0),

@@ -1,5 +1,5 @@
-//! Which way each caster is counted, and which need not be [issue of choice: z-pass costs fewer fragments and no caps,
-//! z-fail is right wherever the eye stands].
+//! Which way each caster is counted, and which casters need not be: z-pass costs fewer fragments and no caps, z-fail is
+//! right wherever the eye stands [GDC 2001; techniques C3, C4].
 
 use super::casters::Casting;
 use super::settings::{Method, Settings};

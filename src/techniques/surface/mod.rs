@@ -1,7 +1,7 @@
 //! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
 //! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13 f].
 
-mod sides;
+pub(crate) mod sides;
 mod variant;
 
 use glam::{DMat4, Mat3, Vec3, Vec4};
