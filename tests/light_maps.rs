@@ -20,7 +20,11 @@ fn load(name: &str, set: &[String]) -> Scene {
 /// Where the shade differs from the truth, within two texels of the map around edges and beyond.
 fn errors(scene: &Scene, texels: u32, renderer: &mut Renderer) -> Metrics {
     let truth = ray::trace(scene, 0, &ray::Options::default()).unwrap();
-    let shade = draw_shade(scene, 0, renderer).unwrap();
+    let mut shade = draw_shade(scene, 0, renderer).unwrap();
+    // Steeper than ten to one no offset helps (tests/acne.rs): what all but grazes the light is not compared.
+    for (covered, pixel) in shade.covered.iter_mut().zip(&truth.pixels) {
+        *covered &= pixel.hit.is_none_or(|hit| hit.cos_light.abs() > 0.1);
+    }
     compare(&truth, &shade, &Band { texels: 2.0, map_size: [texels; 2] }).unwrap()
 }
 
@@ -55,8 +59,7 @@ fn a_cube_is_right_on_every_face_edge_and_corner() {
             shadowed += found.compared_in_band;
         }
     }
-    // Of 850,000: sides of columns under 4 degrees of light, where no offset helps, and tips of shadows that are smaller
-    // than a pixel and lie beyond the band of those that are seen.
+    // Of 850,000: tips of shadows between pixels, whose band is not known.
     assert!(wrong <= 12, "{wrong}");
     assert!(compared > 600_000 && shadowed > 10_000, "{compared} {shadowed}: too little to see");
 }
@@ -80,8 +83,10 @@ fn no_seam_shades_a_wall() {
             let mut scene = load("room.toml", &set);
             scene.objects.truncate(1);
             let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
-            let dark = shade.shade.iter().filter(|shade| **shade < 1.0).count();
-            assert_eq!(dark, 0, "{filter} {size} {way}");
+            // At a corner three texels are averaged, whose weights may add up to a little less than 1.
+            let darkest = shade.shade.iter().fold(1.0, |least: f32, shade| least.min(*shade));
+            let dark = shade.shade.iter().filter(|shade| **shade < 0.999).count();
+            assert_eq!(dark, 0, "{filter} {size} {way}: {darkest}");
             lit += shade.shade.len();
         }
     }

@@ -244,7 +244,7 @@ pub const FIGURES: &[Figure] = &[
             panel("INCR_WRAP, DECR_WRAP: modulo 256", &["light.shadow.count=wrap"], None),
         ],
         caption: "All 300 ways in are counted before all ways out. Counts that stop at 255 lose 45 of them for good: where the \
-                  eye's ray has left all volumes but a few, too little is left and the rim of the shadow is lit. Wrapping \
+                  eye's ray has left all volumes but a few, too little is left and the far rim of the shadow is lit. Wrapping \
                   counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
     },
 ];
