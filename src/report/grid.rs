@@ -47,23 +47,23 @@ impl Grid {
     /// The settings for a light of this `kind`.
     pub fn settings(&self, kind: &LightKind) -> Vec<Setting> {
         match self {
-            Self::Standard { quick } => standard(*quick, |technique| technique.serves(kind).is_ok()),
+            Self::Standard { quick } => standard(*quick, kind),
             Self::Own(settings) => settings.clone(),
         }
     }
 }
 
-fn standard(quick: bool, serves: impl Fn(&dyn Technique) -> bool) -> Vec<Setting> {
+fn standard(quick: bool, kind: &LightKind) -> Vec<Setting> {
     let values = |axis: &Axis| {
         let values = if quick { axis.quick } else { axis.values };
         (axis.key.to_owned(), values.iter().map(|value| (*value).to_owned()).collect())
     };
     let of = |technique: &&'static dyn Technique| {
         let (name, grids) =
-            (technique.name(), [technique.axes()].into_iter().chain(technique.more_axes().iter().copied()));
+            (technique.name(), [technique.axes()].into_iter().chain(technique.more_axes(kind).iter().copied()));
         grids.flat_map(move |axes| product(name, &axes.iter().map(values).collect::<Vec<_>>()))
     };
-    TABLE.iter().filter(|technique| serves(**technique)).flat_map(of).collect()
+    TABLE.iter().filter(|technique| technique.serves(kind).is_ok()).flat_map(of).collect()
 }
 
 /// A grid of one's own: `[[sweep]]` tables with `technique` and, for each other key, a value or an array of values.
@@ -129,6 +129,10 @@ fn product(technique: &str, axes: &[(String, Vec<String>)]) -> Vec<Setting> {
 mod tests {
     use super::*;
 
+    fn sun() -> LightKind {
+        LightKind::Directional { direction: glam::DVec3::NEG_Y }
+    }
+
     #[test]
     fn a_sweep_is_the_product_of_its_axes() {
         let sweep: toml::Value =
@@ -145,12 +149,12 @@ mod tests {
     #[test]
     fn the_standard_grids_name_every_technique() {
         for quick in [true, false] {
-            let settings = standard(quick, |_| true);
+            let settings = standard(quick, &sun());
             for row in TABLE {
                 assert!(settings.iter().any(|setting| setting.technique == row.name()), "{}", row.name());
             }
         }
-        assert!(standard(true, |_| true).len() < standard(false, |_| true).len());
+        assert!(standard(true, &sun()).len() < standard(false, &sun()).len());
     }
 
     #[test]

@@ -48,7 +48,7 @@ pub trait Technique: Sync {
     fn axes(&self) -> &'static [Axis];
 
     /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
-    fn more_axes(&self) -> &'static [&'static [Axis]] {
+    fn more_axes(&self, _kind: &LightKind) -> &'static [&'static [Axis]] {
         &[]
     }
 

@@ -42,7 +42,11 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    fn more_axes(&self) -> &'static [&'static [Axis]] {
+    /// A cube map has none of these keys.
+    fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
+        if matches!(kind, LightKind::Point(_)) {
+            return &[];
+        }
         settings::MORE_AXES
     }
 
