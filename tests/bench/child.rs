@@ -21,6 +21,8 @@ pub struct Sample {
     pub frame_ms: f64,
     pub depth_ms: f64,
     pub lit_ms: f64,
+    /// All passes that find shadows, in one frame: maps, counts in the stencil buffer.
+    pub shadow_ms: f64,
     /// Processor time of all threads a frame after the first, which other processes disturb less.
     pub cpu_ms: f64,
     /// VmHWM.
@@ -114,14 +116,18 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
     }
     let mut sample = Sample { frame_ms: median(&mut times), cpu_ms, ..Sample::default() };
     if arguments.frames > 1 {
-        let (mut depth, mut lit) = (Vec::new(), Vec::new());
+        let (mut depth, mut lit, mut shadow) = (Vec::new(), Vec::new(), Vec::new());
         for _ in 0..PASS_FRAMES {
             renderer.device().forget();
+            let mut sum = 0.0;
             for pass in renderer.device().run(&plan.list, Measure::Passes)? {
                 if pass.label == "lit" { &mut lit } else { &mut depth }.push(pass.wall_ms);
+                sum += if pass.label.starts_with("light 0: ") { pass.wall_ms } else { 0.0 };
             }
+            shadow.push(sum);
         }
         (sample.depth_ms, sample.lit_ms) = (median(&mut depth), median(&mut lit));
+        sample.shadow_ms = median(&mut shadow);
     }
     Ok(sample)
 }

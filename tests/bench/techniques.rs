@@ -43,20 +43,24 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     for_each_scene(arguments, |bench| {
         let mut rows: Vec<Row> = Vec::new();
         let mut processor: Vec<Row> = Vec::new();
+        let mut shadow: Vec<Row> = Vec::new();
         for way in WAYS {
             rows.push(Row { name: way.name, unit: "ms", expected: way.expected, pairs: Vec::new() });
+            shadow.push(Row { name: way.name, unit: "ms of shadow passes", expected: None, pairs: Vec::new() });
             processor.push(Row { name: way.name, unit: "ms of processor time", expected: None, pairs: Vec::new() });
         }
         for round in 0..rounds {
             eprintln!("{:?}: round {} of {rounds}", bench.scene, round + 1);
             let (floor, samples) = measure(bench)?;
-            for ((row, processor), sample) in rows.iter_mut().zip(&mut processor).zip(samples) {
-                row.pairs.push((floor.frame_ms, sample.frame_ms));
-                processor.pairs.push((floor.cpu_ms, sample.cpu_ms));
+            for (index, sample) in samples.iter().enumerate() {
+                rows[index].pairs.push((floor.frame_ms, sample.frame_ms));
+                processor[index].pairs.push((floor.cpu_ms, sample.cpu_ms));
+                shadow[index].pairs.push((floor.depth_ms, sample.shadow_ms));
             }
         }
         println!("\n{:?}: {rounds} rounds; base: the floor's shadow map, drawn anew", bench.scene);
         rows.extend(processor);
+        rows.extend(shadow);
         print(&rows);
         Ok(())
     })

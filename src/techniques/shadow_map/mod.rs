@@ -42,10 +42,10 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// A cube map has none of these keys.
+    /// Of these keys a cube map has the first grid's alone.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         if matches!(kind, LightKind::Point(_)) {
-            return &[];
+            return &settings::MORE_AXES[..1];
         }
         settings::MORE_AXES
     }
