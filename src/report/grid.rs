@@ -129,8 +129,12 @@ fn product(technique: &str, axes: &[(String, Vec<String>)]) -> Vec<Setting> {
 mod tests {
     use super::*;
 
-    fn sun() -> LightKind {
-        LightKind::Directional { direction: glam::DVec3::NEG_Y }
+    fn spot() -> LightKind {
+        use crate::scene::{Frustum, LightShape, Spot};
+        let (position, target, up) = (glam::DVec3::Y, glam::DVec3::ZERO, glam::DVec3::Z);
+        let frustum = Frustum { position, target, up, cone_radians: 1.0, near: 0.1, far: 10.0 };
+        let attenuation = [1.0, 0.0, 0.0];
+        LightKind::Spot(Spot { frustum, shape: LightShape::Cone, attenuation, image: None, frustum_shown: false })
     }
 
     #[test]
@@ -149,12 +153,12 @@ mod tests {
     #[test]
     fn the_standard_grids_name_every_technique() {
         for quick in [true, false] {
-            let settings = standard(quick, &sun());
+            let settings = standard(quick, &spot());
             for row in TABLE {
                 assert!(settings.iter().any(|setting| setting.technique == row.name()), "{}", row.name());
             }
         }
-        assert!(standard(true, &sun()).len() < standard(false, &sun()).len());
+        assert!(standard(true, &spot()).len() < standard(false, &spot()).len());
     }
 
     #[test]
