@@ -7,9 +7,10 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
 use glumbra::output::{self, Output};
-use glumbra::pass::PassList;
-use glumbra::plan::Request;
+use glumbra::pass::{Attribute, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
+use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene;
+use glumbra::techniques::views::View;
 use serde::{Deserialize, Serialize};
 
 use super::floor::Floor;
@@ -30,6 +31,23 @@ pub struct Sample {
     pub peak_kib: u64,
 }
 
+/// What is drawn that glumbra leaves out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Keep {
+    #[default]
+    Nothing,
+    /// All casters and faces of the map.
+    Casters,
+    /// A colour buffer of the passes that draw maps.
+    Color,
+    /// Normals in them.
+    Normals,
+    /// What their scissors take away.
+    Scissor,
+    /// All that a plan can leave out.
+    All,
+}
+
 /// Frames whose passes are waited for, at the end.
 const PASS_FRAMES: usize = 3;
 
@@ -48,7 +66,7 @@ pub fn run(who: Who, arguments: &Arguments) -> Result<()> {
 }
 
 fn floor(scene: Scene, tuned: bool, arguments: &Arguments) -> Result<Sample> {
-    let mut floor = Floor::new(scene, &model_file(arguments), tuned)?;
+    let mut floor = Floor::new(scene, arguments.floor, &model_file(arguments), tuned)?;
     let mut cpu = processor_ms();
     let mut times = Vec::new();
     for frame in 0..arguments.frames {
@@ -101,17 +119,22 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
     let loaded = scene::load(&file, &sets)?;
     let context = context::open(&ContextRequest::default())?;
     let mut renderer = Renderer::new(context.as_ref());
-    let request = Request { frames: u32::try_from(arguments.frames)?, ..Request::default() };
-    let plan = renderer.plan(&loaded.scene, &request)?;
+    let keep_all = arguments.keep == Keep::All;
+    let views = match arguments.keep {
+        Keep::Casters => vec![ViewRequest { view: View::LightDepth, light: 0 }],
+        _ => Vec::new(),
+    };
+    let request = Request { frames: u32::try_from(arguments.frames)?, keep_all, views, ..Request::default() };
+    let mut plan = renderer.plan(&loaded.scene, &request)?;
+    keep(&mut plan, arguments.keep);
     let mut times = Vec::new();
     let mut picture = None;
     let mut cpu = processor_ms();
     for frame in 0..arguments.frames {
         let start = Instant::now();
         renderer.draw(&plan)?;
-        let pictures = renderer.read(&plan)?;
+        picture = Some(renderer.device().read(&plan.list, plan.picture)?);
         times.push(ms(start));
-        picture = Some(pictures.picture);
         if frame == 0 {
             cpu = processor_ms();
         }
@@ -133,6 +156,37 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
         sample.shadow_cpu_ms = shadow_cpu(&mut renderer, &plan.list, arguments.frames)?;
     }
     Ok(sample)
+}
+
+/// Puts what is to be kept back into the passes of light 0.
+fn keep(plan: &mut Plan, keep: Keep) {
+    let PassList { images, passes } = &mut plan.list;
+    for pass in passes.iter_mut().filter(|pass| pass.label.starts_with("light 0: ")) {
+        let Work::Draw(pass) = &mut pass.work else { continue };
+        match keep {
+            Keep::Scissor => pass.state.scissor = None,
+            Keep::Color => {
+                let (label, size) = (String::from("colour"), pass.viewport);
+                images.push(ImageDesc { label, size, format: Format::Rgba8, storage: Storage::Renderbuffer });
+                pass.target.color = Some(ImageId(images.len() - 1));
+                pass.clear.color = Some([0.0; 4]);
+                pass.state.color_write = true;
+            }
+            Keep::Normals => read_normals(pass),
+            Keep::Nothing | Keep::Casters | Keep::All => {}
+        }
+    }
+}
+
+/// Moves every vertex by so little of its normal that it stays where it is: no compiler can leave the normals out.
+fn read_normals(pass: &mut DrawPass) {
+    for batch in &mut pass.batches {
+        batch.program.attributes.push(Attribute::Normal);
+        let position = &mut batch.program.vertex[0].text;
+        let moved =
+            position.replace("clip_from_model * position;", "clip_from_model * position + 1e-30 * vec4(normal, 0.0);");
+        *position = format!("layout(location = 1) in vec3 normal;\n{moved}").into();
+    }
 }
 
 /// Processor time of the passes that find light 0's shadows, drawn alone and anew again and again.
