@@ -273,7 +273,7 @@ impl Device {
 
     fn draw_batch(&mut self, state: &DrawState, batch: &Batch) {
         let Some(program) = self.programs.get(&batch.program) else { return };
-        apply(&self.gl, &DrawState { cull: batch.cull.or(state.cull), ..*state }, &mut self.state);
+        apply(&self.gl, &batch.state(state), &mut self.state);
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
             let image = self.gpu_image(input.image);

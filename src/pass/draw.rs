@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{Face, Input, Meaning, Program, Uniform};
+use super::{DrawState, Face, Input, Meaning, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -37,7 +37,16 @@ pub struct Batch {
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.
     pub cull: Option<Face>,
+    /// In the place of the pass's own, and no wider.
+    pub scissor: Option<[u32; 4]>,
     pub draws: Vec<Draw>,
+}
+
+impl Batch {
+    /// What it is drawn under in a pass of this state.
+    pub fn state(&self, pass: &DrawState) -> DrawState {
+        DrawState { cull: self.cull.or(pass.cull), scissor: self.scissor.or(pass.scissor), ..*pass }
+    }
 }
 
 /// One glDrawElements.

@@ -212,6 +212,7 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,
+                scissor: None,
                 draws: vec![draw],
             }),
         }

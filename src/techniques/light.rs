@@ -215,7 +215,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, scissor: None, draws }]
     }
 }
 

@@ -57,7 +57,7 @@ pub fn batches(
                 debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
                 batch.draws.push(draw);
             }
-            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, draws: vec![draw] }),
+            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, scissor: None, draws: vec![draw] }),
         }
     }
     Some(batches)
