@@ -4,7 +4,7 @@
 mod casters;
 mod choice;
 mod counts;
-mod ends;
+pub(super) mod ends;
 mod settings;
 mod shapes;
 
