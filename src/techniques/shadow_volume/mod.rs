@@ -36,6 +36,10 @@ impl Technique for ShadowVolume {
         Ok(())
     }
 
+    fn needs_vertices(&self) -> bool {
+        true
+    }
+
     fn axes(&self) -> &'static [Axis] {
         settings::AXES
     }
