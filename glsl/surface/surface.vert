@@ -19,21 +19,21 @@ void main()
     set_decal();
 #endif
 #ifdef EYE_SPACE
-    vec4 eye = eye_from_model * position;
+    vec4 eye = eye_from_model * model_position;
     TEXGEN(eye)
 #endif
 #ifdef EYE_POSITION
     eye_position = eye.xyz;
 #endif
 #ifdef EYE_NORMAL
-    eye_normal = eye_from_model_normal * normal;
+    eye_normal = eye_from_model_normal * waved_normal(normal);
 #endif
 #ifdef PER_VERTEX
 #ifdef UNLIT
     Surface surface = Surface(eye.xyz, vec3(0.0), vec3(0.0, 0.0, 1.0));
 #else
     // GL_LIGHT_MODEL_LOCAL_VIEWER is off, as it is by default.
-    Surface surface = Surface(eye.xyz, normalize(eye_from_model_normal * normal), vec3(0.0, 0.0, 1.0));
+    Surface surface = Surface(eye.xyz, normalize(eye_from_model_normal * waved_normal(normal)), vec3(0.0, 0.0, 1.0));
 #endif
     LIGHT_VERTEX(surface)
 #endif

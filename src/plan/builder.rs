@@ -121,11 +121,22 @@ impl Builder<'_> {
         terms: &[LightTerm],
         ending: &Ending,
     ) -> Result<(), Error> {
+        self.surfaces_if(Redraw::Always, scene, onto, terms, ending)
+    }
+
+    pub fn surfaces_if(
+        &mut self,
+        redraw: Redraw,
+        scene: &Scene,
+        onto: &Onto<'_>,
+        terms: &[LightTerm],
+        ending: &Ending,
+    ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
-        self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
+        self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
         Ok(())
     }
 

@@ -14,9 +14,14 @@ use crate::techniques::{self, Item, LightTerm, LightView, Notes};
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
-    let items = items(scene);
+    let moved = techniques::needs_vertices(scene);
+    let items = items(scene, moved);
     let mut list = PassList::default();
     let mut notes = Notes::default();
+    for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {
+        let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
+        notes.chosen(object.name.clone(), "moved before it is drawn", why);
+    }
     let camera = Lens::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let mut builder = Builder { scene, items: &items, list: &mut list, notes: &mut notes, request };

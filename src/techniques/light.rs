@@ -127,7 +127,8 @@ pub struct LightTerm {
     pub frustum_from_map: Option<Vec4>,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
-    /// Passes after which the stencil buffer is 0 where the light reaches; `shade` is not asked then.
+    /// Passes after which the stencil buffer is 0 where the light reaches; where they tag surfaces by `shade`, it is not
+    /// asked again.
     pub counting: Option<Counting>,
 }
 
@@ -152,14 +153,22 @@ pub struct Counting {
     pub silhouettes: Vec<VolumeDraw>,
 }
 
-/// Volumes under one draw state. The first pass clears the stencil buffer.
+/// What is counted under one draw state. The first pass clears the stencil buffer.
 #[derive(Clone, Debug)]
 pub struct CountPass {
     pub label: String,
     /// `depth_range` is the plan's to set.
     pub state: DrawState,
     pub layer: Layer,
-    pub draws: Vec<VolumeDraw>,
+    pub counted: Counted,
+}
+
+/// What a pass counts.
+#[derive(Clone, Debug)]
+pub enum Counted {
+    Volumes(Vec<VolumeDraw>),
+    /// The surfaces themselves, where the light's own shade is below one half (A20).
+    Shadowed,
 }
 
 /// Which depth range volumes are drawn into [techniques C8].
@@ -195,6 +204,11 @@ pub enum VolumeSpace {
 }
 
 impl Counting {
+    /// Whether what the light's own shade says is in the stencil buffer.
+    pub fn tags(&self) -> bool {
+        self.passes.iter().any(|pass| matches!(pass.counted, Counted::Shadowed))
+    }
+
     /// The batches that draw `draws`, which `fragment` colours.
     pub fn batches(
         draws: &[VolumeDraw],
@@ -244,6 +258,21 @@ impl LightTerm {
     /// Light `index` of `scene`, which nothing shadows.
     pub fn unshadowed(scene: &Scene, index: usize) -> Self {
         Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("light/unshadowed.frag")) }
+    }
+
+    /// The same light under a shade that asks nothing, and that is no longer counted.
+    pub fn under(&self, scene: &Scene, shade: Chunk, meaning: Shade) -> Self {
+        let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
+        Self {
+            shade,
+            meaning,
+            defines: Vec::new(),
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+            coordinates: self.coordinates.clone().filter(|_| bounded),
+            counting: None,
+            ..self.clone()
+        }
     }
 
     /// Light `index` of `scene`, whose shade `shade` finds; with the coordinates that the light's own reach needs: those

@@ -87,7 +87,7 @@ fn refuse_open(casters: &[&Item], keys: &Reader<'_>) -> Result<(), SettingsError
     for item in casters {
         let mesh = Arc::as_ptr(&item.mesh.0);
         let is_closed = match seen.iter().find(|(known, _)| *known == mesh) {
-            _ if item.needs_alpha_test() => false,
+            _ if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) => false,
             _ if item.closed => true,
             Some((_, is_closed)) => *is_closed,
             None => item.mesh.is_closed() && item.mesh.signed_volume() > 0.0,

@@ -10,6 +10,7 @@ use super::bias;
 use super::casters::{in_the_map, warn_of_near};
 use super::depth::{self, Layer};
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
+use super::tag;
 use super::term::{sampler, texture_from_light_clip};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
@@ -216,6 +217,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
     term.dimming = settings.dimming;
+    term.counting = tag::counting(view, settings);
     term.map = Some(map);
     term
 }

@@ -1,4 +1,4 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A16];
+//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A16, A20];
 //! its parts are what every technique with a map is made of.
 
 pub(super) mod bias;
@@ -8,6 +8,7 @@ pub(super) mod depth;
 pub(super) mod fit;
 mod parallel;
 pub(super) mod settings;
+mod tag;
 pub(super) mod term;
 mod texel;
 
@@ -31,7 +32,7 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12, A16"
+        "Hardware Shadow Mapping; techniques A1-A10, A12, A16, A20"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -42,10 +43,10 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has the first grid's alone.
+    /// Of these keys a cube map has those of the first two grids alone.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         if matches!(kind, LightKind::Point(_)) {
-            return &settings::MORE_AXES[..1];
+            return &settings::MORE_AXES[..2];
         }
         settings::MORE_AXES
     }

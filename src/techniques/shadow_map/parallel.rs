@@ -128,7 +128,7 @@ mod tests {
 
     fn box_of(objects: &str, shadow: &str) -> Option<Aabb> {
         let scene = scene_of(objects, shadow);
-        let items = items(&scene);
+        let items = items(&scene, false);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
         let view = LightView { scene: &scene, items: &items, index: 0, shown_whole: false, keep_all: false };
         let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;

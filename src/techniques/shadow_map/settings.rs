@@ -76,6 +76,15 @@ pub struct Offset {
     pub texels: f64,
 }
 
+/// Where the outcome of the comparison goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Into the lit pass, as the shade that it asks for.
+    Shade,
+    /// Into the stencil buffer, as a tag that the light's own pass heeds.
+    Tag,
+}
+
 /// Everything that decides how a map is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -107,6 +116,7 @@ pub struct Settings {
     pub matrix_bias: f64,
     pub dimming: f32,
     pub redraw: Redraw,
+    pub into: Outcome,
 }
 
 /// What decides the error: resolution, bits, filter, offset.
@@ -126,12 +136,17 @@ pub const AXES: &[Axis] = &[
     },
 ];
 
-/// Under the default offset: the road of the texels, which changes none of them; kernels, what else there is against
+/// Under the default offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what else there is against
 /// acne, mipmaps.
 pub const MORE_AXES: &[&[Axis]] = &[
     &[
         Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
         Axis { key: "transfer", values: &["\"fbo\"", "\"copy\""], quick: &["\"copy\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
+        Axis { key: "into", values: &["\"stencil\""], quick: &["\"stencil\""] },
+        Axis { key: "filter", values: &["\"nearest\"", "\"linear\""], quick: &["\"nearest\"", "\"linear\""] },
     ],
     &[
         Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
@@ -213,6 +228,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         redraw: keys
             .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
             .unwrap_or(Redraw::WhenChanged),
+        into: keys.choice("into", &[("shader", Outcome::Shade), ("stencil", Outcome::Tag)])?.unwrap_or(Outcome::Shade),
     };
     check_mipmaps(&settings, keys)?;
     Ok(settings)

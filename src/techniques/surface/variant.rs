@@ -9,7 +9,7 @@ use crate::geometry::Material;
 use crate::pass::{Attribute, Chunk, Input, LightMeaning, Lit, Meaning, PassList, Program, Sampled, Uniform, glsl};
 use crate::scene::Scene;
 use crate::techniques::Item;
-use crate::techniques::items::{Cutout, cutout};
+use crate::techniques::items::{Cutout, WAVES, cutout};
 
 /// What a fragment of the surface shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ pub fn of(
         fragment: fragment(lights, ending, needs, &cut),
         attributes,
     };
-    let meaning = meaning(scene, item, lights, viewer, ending, needs, &cut);
+    let meaning = if item.wave.is_some() { WAVES } else { meaning(scene, item, lights, viewer, ending, needs, &cut) };
     Variant { program, meaning, uniforms, inputs }
 }
 
@@ -156,6 +156,7 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
     let decal = lit && item.decal().is_some();
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
+        ("WAVE", item.wave.is_some()),
         ("ANY_LIGHT", lit && !lights.is_empty()),
         ("EYE_SPACE", needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
         ("EYE_POSITION", needs.position),
