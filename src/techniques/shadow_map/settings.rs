@@ -235,7 +235,9 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     };
     check_mipmaps(&settings, keys)?;
     if settings.guard == Guard::Stencil && settings.into == Outcome::Tag {
-        return Err(keys.error("guard", "= \"stencil\" does not go with into = \"stencil\": both tag in the one buffer"));
+        return Err(
+            keys.error("guard", "= \"stencil\" does not go with into = \"stencil\": both tag in the one buffer")
+        );
     }
     Ok(settings)
 }

@@ -14,9 +14,8 @@ const MOST_NAMES: usize = 3;
 /// What the items that `viewer` sees need of each light, and what is left out for them.
 pub fn explain_guards(scene: &Scene, items: &[Item], viewer: &Viewer, terms: &[&LightTerm], notes: &mut Notes) {
     let clip_from_world = viewer.clip_from_world();
-    let seen = |item: &&Item| {
-        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
-    };
+    let seen =
+        |item: &&Item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside;
     let seen: Vec<&Item> = items.iter().filter(seen).collect();
     for term in terms {
         let Some(plane) = plane(scene, term, viewer) else { continue };
@@ -41,16 +40,21 @@ fn explain(
     let all = before.len() + across.len() + behind.len();
     let crossing = format!("{} of {all} items that are seen cross the light's plane: {}", across.len(), names(&across));
     match (term.guard, across.is_empty()) {
-        (Guard::Auto, true) if behind.is_empty() => notes.chosen(of, "none", "nothing that is seen lies behind the light"),
+        (Guard::Auto, true) if behind.is_empty() => {
+            notes.chosen(of, "none", "nothing that is seen lies behind the light")
+        }
         (Guard::Auto, true) => {
-            let why = format!("{} of {all} items that are seen lie behind the light, none crosses its plane", behind.len());
+            let why =
+                format!("{} of {all} items that are seen lie behind the light, none crosses its plane", behind.len());
             notes.chosen(of, "leave-out", why);
         }
         (Guard::Auto, false) => notes.chosen(of, "fragment", format!("{crossing}; the others need none")),
         (Guard::ClipPlane, false) => notes.chosen(of, "clip-plane", format!("{crossing}; each is drawn once a side")),
         (Guard::Cull | Guard::SpotCutoff, false) => {
             let why = match triangles(&across, plane, viewer) {
-                Some([crossing, all]) => format!("{crossing} of {all} triangles of {} cross the light's plane", names(&across)),
+                Some([crossing, all]) => {
+                    format!("{crossing} of {all} triangles of {} cross the light's plane", names(&across))
+                }
                 None => format!("{crossing}, and waves in the vertex stage"),
             };
             notes.chosen(of, format!("{}, fragment where triangles cross", term.guard.name()), why);

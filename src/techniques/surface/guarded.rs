@@ -58,13 +58,7 @@ pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPl
 }
 
 /// What becomes of `piece` under one more light.
-fn under(
-    piece: Piece,
-    term: &LightTerm,
-    plane: Option<&LightPlane>,
-    viewer: &Viewer,
-    ending: &Ending,
-) -> Vec<Piece> {
+fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Viewer, ending: &Ending) -> Vec<Piece> {
     let Some(plane) = plane else { return vec![piece.with(Reach::Free)] };
     // A view shows one light, where it reaches and where not: there is nothing to leave out.
     if *ending != Ending::Lit {

@@ -70,9 +70,8 @@ pub fn batches(
         }
         let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
-        let joins = |b: &&mut Batch| {
-            b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program
-        };
+        let joins =
+            |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
         match batches.iter_mut().find(joins) {
             Some(batch) => {
                 debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
