@@ -28,10 +28,12 @@ pub enum Guard {
     Cull,
     /// Rejected per fragment (f).
     Fragment,
+    /// Nothing: what lies behind the light is lit by mistake. For pictures of that mistake.
+    None,
 }
 
 /// As the key `guard` names them.
-const NAMES: [(&str, Guard); 7] = [
+const NAMES: [(&str, Guard); 8] = [
     ("auto", Guard::Auto),
     ("spot-cutoff", Guard::SpotCutoff),
     ("texture-1d", Guard::Texture1d),
@@ -39,6 +41,7 @@ const NAMES: [(&str, Guard); 7] = [
     ("stencil", Guard::Stencil),
     ("cull", Guard::Cull),
     ("fragment", Guard::Fragment),
+    ("none", Guard::None),
 ];
 
 impl Guard {

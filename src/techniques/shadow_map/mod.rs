@@ -44,12 +44,13 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has those of the first two grids alone.
+    /// Of these keys a cube map has those of the first two grids alone; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
-        if matches!(kind, LightKind::Point(_)) {
-            return &settings::MORE_AXES[..2];
+        match kind {
+            LightKind::Point(_) => &settings::MORE_AXES[..2],
+            LightKind::Directional { .. } => &settings::MORE_AXES[..settings::MORE_AXES.len() - 1],
+            LightKind::Spot(_) => settings::MORE_AXES,
         }
-        settings::MORE_AXES
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {

@@ -138,8 +138,8 @@ pub const AXES: &[Axis] = &[
     },
 ];
 
-/// Under the default offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what else there is against
-/// acne, mipmaps.
+/// Under the default offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what
+/// else there is against acne, mipmaps, fits; last, of spotlights alone, what guards against back projection.
 pub const MORE_AXES: &[&[Axis]] = &[
     &[
         Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
@@ -170,6 +170,14 @@ pub const MORE_AXES: &[&[Axis]] = &[
         Axis { key: "size", values: &["1024"], quick: &["1024"] },
         Axis { key: "fit", values: &["\"casters\"", "\"view\""], quick: &["\"view\""] },
         Axis { key: "casters", values: &["\"full\"", "\"texel\""], quick: &["\"texel\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis {
+            key: "guard",
+            values: &["\"spot-cutoff\"", "\"texture-1d\"", "\"clip-plane\"", "\"stencil\"", "\"cull\"", "\"fragment\""],
+            quick: &["\"fragment\"", "\"stencil\""],
+        },
     ],
 ];
 

@@ -49,6 +49,9 @@ fn explain(
             notes.chosen(of, "leave-out", why);
         }
         (Guard::Auto, false) => notes.chosen(of, "fragment", format!("{crossing}; the others need none")),
+        (Guard::None, _) if !(across.is_empty() && behind.is_empty()) => notes
+            .warnings
+            .push(format!("light {index} has guard = \"none\": it lights what lies behind it, as no light does")),
         (Guard::ClipPlane, false) => notes.chosen(of, "clip-plane", format!("{crossing}; each is drawn once a side")),
         (Guard::Cull | Guard::SpotCutoff, false) => {
             let why = match triangles(&across, plane, viewer) {

@@ -59,7 +59,7 @@ pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPl
 
 /// What becomes of `piece` under one more light.
 fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Viewer, ending: &Ending) -> Vec<Piece> {
-    let Some(plane) = plane else { return vec![piece.with(Reach::Free)] };
+    let Some(plane) = plane.filter(|_| term.guard != Guard::None) else { return vec![piece.with(Reach::Free)] };
     // A view shows one light, where it reaches and where not: there is nothing to leave out.
     if *ending != Ending::Lit {
         return vec![piece.with(Reach::Fragment)];
@@ -69,7 +69,7 @@ fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Vi
         (Guard::Fragment, _) => Reach::Fragment,
         (Guard::Texture1d, _) => Reach::Texture,
         // The count says where the light is.
-        (Guard::Stencil, _) => Reach::Free,
+        (Guard::Stencil | Guard::None, _) => Reach::Free,
         (Guard::SpotCutoff, Side::Before | Side::Behind) => Reach::Cutoff,
         (_, Side::Before) => Reach::Free,
         (_, Side::Behind) => Reach::Nowhere,
