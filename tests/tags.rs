@@ -51,6 +51,7 @@ fn a_tag_is_the_shades_upper_half() {
         ("cases/scenes/box.toml", &[POINT, "light.shadow.filter=nearest"]),
         ("cases/scenes/box.toml", &[POINT]),
         ("cases/shadow-map/alpha-test/scene.toml", &["light.shadow.filter=nearest"]),
+        ("cases/shadow-map/wave/scene.toml", &["light.shadow.filter=nearest"]),
         (
             "cases/scenes/two_lights.toml",
             &["light.1.shadow.technique=shadow-volume", "light.1.shadow.method=z-pass-capped"],

@@ -155,3 +155,52 @@ fn second_depth_refuses_what_folds_over() {
     let error = plan::make(&load(&folded), &Request::default()).unwrap_err().to_string();
     assert!(error.contains("open: ball"), "{error}");
 }
+
+/// What rests out of sight of camera and light, and what a wave brings there, is drawn; what none brings, is not.
+#[test]
+fn nothing_is_left_out_that_a_wave_brings() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    for (technique, amplitude, stays) in [
+        ("shadow-map", 20.3, true),
+        ("shadow-volume", 20.3, true),
+        ("shadow-map", 5.0, false),
+        ("midpoint", 20.3, true),
+    ] {
+        let far = "object.2.translate=[-19.4, 0.9, 0.3]";
+        let wave = format!(
+            "object.2.wave={{ direction = [1, 0, 0], amplitude = {}, axis = [0, 1, 0], wavelength = 100, phase = 0.25 }}",
+            amplitude / 0.6
+        );
+        let scene = load(&[far, &wave, &format!("light.shadow.technique={technique}")]);
+        let mut draw = |keep_all: bool| {
+            let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
+            renderer.draw(&plan).unwrap();
+            let left_out = plan.left_out.iter().any(|left| left.what.starts_with("ball in"));
+            (renderer.read(&plan).unwrap().picture, left_out)
+        };
+        let ((pruned, left_out), (whole, _)) = (draw(false), draw(true));
+        assert!(pruned == whole, "{technique} {amplitude}");
+        assert_eq!(left_out, !stays, "{technique} {amplitude}");
+    }
+}
+
+/// Waves as long as the world and as short as a bit keep every number finite: something is drawn, and no error is.
+#[test]
+fn extreme_waves_are_drawn() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    for wave in [
+        "amplitude = 1e17, axis = [1, 0, 0], wavelength = 1e-18",
+        "amplitude = 1e-17, axis = [1, 0, 0], wavelength = 1e18",
+        "amplitude = 3.0, axis = [0, 1, 0], wavelength = 1e-3, phase = 1e18",
+    ] {
+        for technique in ["shadow-map", "shadow-volume"] {
+            let wave = format!("object.2.wave={{ direction = [0, 1, 0], {wave} }}");
+            let scene = load(&[&wave, &format!("light.shadow.technique={technique}")]);
+            let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
+            assert!(shade.shade.iter().all(|shade| shade.is_finite()), "{wave}");
+            assert!(shade.covered.iter().filter(|covered| **covered).count() > 10_000, "{wave}");
+        }
+    }
+}
