@@ -53,6 +53,10 @@ fn a_tag_is_the_shades_upper_half() {
         ("cases/shadow-map/alpha-test/scene.toml", &["light.shadow.filter=nearest"]),
         ("cases/shadow-map/wave/scene.toml", &["light.shadow.filter=nearest"]),
         (
+            "cases/shadow-map/wave/scene.toml",
+            &["light.shadow.filter=nearest", "object.1.material={ alpha = \"data/meshes/fence.png\" }"],
+        ),
+        (
             "cases/scenes/two_lights.toml",
             &["light.1.shadow.technique=shadow-volume", "light.1.shadow.method=z-pass-capped"],
         ),

@@ -1,6 +1,6 @@
 //! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
-//! light that needs no count first; then, for each such light, its volumes, and its light where the count is 0, with
-//! depth EQUAL.
+//! light that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags
+//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL.
 
 use super::Error;
 use super::builder::{Builder, Onto};

@@ -27,6 +27,7 @@ const WAYS: &[Way] = &[
     way("shadow-map, casters at its resolution", &["light.shadow.casters=texel"], None),
     way("shadow-map, fitted to what is seen", &["light.shadow.fit=view"], None),
     way("shadow-map, 3x3 comparisons", &["light.shadow.kernel=3x3"], None),
+    way("shadow-map, tagged in the stencil buffer", &["light.shadow.into=stencil"], None),
     way("midpoint", &["light.shadow.technique=midpoint"], None),
     way("second-depth", &["light.shadow.technique=second-depth", "light.shadow.closed=assume"], None),
     way("shadow-volume, auto", &[VOLUMES], Some(1.0)),
