@@ -78,8 +78,28 @@ impl Judge {
     }
 }
 
-/// Without an offset of one's own none is needed: at every size of map and of scene and in every format, no pixel that
-/// faces the light is dark of itself.
+/// What is held to leave no acne at a `scale`, a map's `size` and a `format`, each under its default offset: polygon
+/// offset everywhere; the biases of the receiver at one size where the scale alone differs; kernels and GL_NEAREST in one
+/// format, of which they know nothing, and with the biases of the receiver at one size.
+///
+/// Not held at 512: a normal offset under "5x5", which looks up so far beside its point (4.2 texels, and 3 more of the
+/// kernel) that it meets the shadows of other features of the model, and darkens eight pixels by them.
+fn biases(scale: f64, size: u32, format: &str) -> Vec<String> {
+    let mut all = vec![String::new()];
+    if scale == 1.0 || size == 1024 {
+        all.extend(["receiver-plane", "normal-offset", "adaptive"].map(|bias| format!(", bias = \"{bias}\"")));
+    }
+    if scale == 1.0 && format == "depth24" {
+        let lookups = ["kernel = \"3x3\"", "kernel = \"5x5\"", "filter = \"nearest\""];
+        let under = all.iter().filter(|bias| bias.is_empty() || size == 1024);
+        let with: Vec<String> = under.flat_map(|bias| lookups.map(|lookup| format!("{bias}, {lookup}"))).collect();
+        all.extend(with);
+    }
+    all
+}
+
+/// Without an offset of one's own none is needed: at every size of map and of scene and in every format, with every bias,
+/// no pixel that faces the light is dark of itself.
 ///
 /// The edge band knows the shadow edges that the picture shows. Where a silhouette, as the light sees it, hides behind
 /// another surface of the picture, the band does not know it; GL_LINEAR does, and darkens lit pixels within half a texel
@@ -87,36 +107,58 @@ impl Judge {
 /// the light, tells those by the surface that breaks off beside them.
 ///
 /// Beside it the documents' offset: what it leaves lies on facets that are steeper than the neighbours whose depth
-/// their texel holds. And none at all, which must show acne, or nothing is shown by this.
-#[test]
-fn the_default_offset_leaves_no_acne() {
+/// their texel holds. Adaptive bias without what its neighbours' slope asks for. And none at all, which must show acne,
+/// or nothing is shown by this.
+fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    for scale in [1.0, 1e-3, 1e3] {
-        let judge = Judge::new(scale);
-        let mut rims = Rims::new(&judge.scene);
-        for size in [512, 1024, 2048] {
-            for format in ["depth16", "depth24", "depth32f"] {
-                let mut measure = |more: &str| {
-                    let (errors, acne) =
-                        judge.acne(&mut rims, size, &format!(", format = \"{format}\"{more}"), &mut renderer);
-                    assert!(errors.compared > 100_000, "{}", errors.compared);
-                    println!(
-                        "scale {scale}, map {size}, {format}{more}: {} pixels beyond the band, {acne} of them acne; leak {:.4} %",
-                        errors.false_shadow.outside, errors.leak_percent
-                    );
-                    (errors, acne)
-                };
-                let (errors, acne) = measure("");
-                assert_eq!(acne, 0);
-                assert!(errors.false_shadow.outside <= 4, "{}", errors.false_shadow.outside);
-                if scale == 1.0 && format == "depth24" {
-                    let (bare, _) = measure(", offset = {}");
-                    assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (semantics T4)");
-                    let (documents, acne) = measure(", offset = { factor = 1.1, units = 4 }");
-                    assert!(documents.false_shadow.outside_percent < 0.02 && acne > 0);
-                }
+    let judge = Judge::new(scale);
+    let mut rims = Rims::new(&judge.scene);
+    for size in [512, 1024, 2048] {
+        for format in formats {
+            let mut measure = |more: &str| {
+                let (errors, acne) =
+                    judge.acne(&mut rims, size, &format!(", format = \"{format}\"{more}"), &mut renderer);
+                assert!(errors.compared > 100_000, "{}", errors.compared);
+                println!(
+                    "scale {scale}, map {size}, {format}{more}: {} pixels beyond the band, {acne} of them acne; leak {:.4} %",
+                    errors.false_shadow.outside, errors.leak_percent
+                );
+                (errors, acne)
+            };
+            for bias in biases(scale, size, format) {
+                let (errors, acne) = measure(&bias);
+                assert_eq!(acne, 0, "{bias}");
+                assert!(errors.false_shadow.outside <= 4, "{bias}: {}", errors.false_shadow.outside);
+            }
+            if scale == 1.0 && *format == "depth24" {
+                let (bare, _) = measure(", offset = {}");
+                assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (semantics T4)");
+                let (documents, acne) = measure(", offset = { factor = 1.1, units = 4 }");
+                assert!(documents.false_shadow.outside_percent < 0.02 && acne > 0);
+                let (_, acne) = measure(", bias = \"adaptive\", offset = { texels = 0.5, units = 4 }");
+                assert!(acne > 0, "a neighbour's slope is not the receiver's to know");
             }
         }
     }
+}
+
+#[test]
+fn at_the_scenes_own_size_in_24_bits() {
+    the_default_offset_leaves_no_acne(1.0, &["depth24"]);
+}
+
+#[test]
+fn at_the_scenes_own_size_in_fewer_bits_and_in_floats() {
+    the_default_offset_leaves_no_acne(1.0, &["depth16", "depth32f"]);
+}
+
+#[test]
+fn at_a_thousandth_of_it() {
+    the_default_offset_leaves_no_acne(1e-3, &["depth16", "depth24", "depth32f"]);
+}
+
+#[test]
+fn at_a_thousand_times_it() {
+    the_default_offset_leaves_no_acne(1e3, &["depth16", "depth24", "depth32f"]);
 }
