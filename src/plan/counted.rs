@@ -141,7 +141,15 @@ impl Builder<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let lit = LightTerm { dimming: 0.0, ..once_counted(&scene, term) };
+        let mut lit = LightTerm { dimming: 0.0, ..once_counted(&scene, term) };
+        if scene.shading.per_vertex {
+            // Lighting per vertex is clamped beside the ambient light, which is there already.
+            (scene.shading.ambient, scene.lights[term.index]) =
+                (self.scene.shading.ambient, self.scene.lights[term.index].clone());
+            lit.defines.push(String::from("ADDED"));
+            let left = term.dimming - lit.dimming;
+            weigh(&mut lit, 1.0 - left);
+        }
         self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
     }
 
@@ -152,6 +160,11 @@ impl Builder<'_> {
             let source = &mut scene.lights[term.index];
             source.specular = [0.0; 3];
             source.diffuse = source.diffuse.map(|channel| channel * term.dimming);
+        }
+        // Lighting per vertex is clamped before it is weighed.
+        for term in counted.iter().filter(|_| scene.shading.per_vertex) {
+            let (own, source) = (&self.scene.lights[term.index], &mut scene.lights[term.index]);
+            source.diffuse = if source.diffuse == [0.0; 3] { source.diffuse } else { own.diffuse };
         }
         scene
     }
@@ -243,7 +256,11 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
     match term.counting {
         None => Some(term.clone()),
         Some(_) if gives(source.ambient) || gives(source.diffuse) => {
-            Some(LightTerm { dimming: 0.0, ..unshadowed(scene, term) })
+            let mut left = LightTerm { dimming: 0.0, ..unshadowed(scene, term) };
+            if scene.shading.per_vertex {
+                weigh(&mut left, term.dimming);
+            }
+            Some(left)
         }
         Some(_) => None,
     }
@@ -253,6 +270,14 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(Counting::tags);
     if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
+}
+
+/// Takes a part of the light's diffuse colour, after all else.
+fn weigh(term: &mut LightTerm, weight: f32) {
+    if weight < 1.0 {
+        term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));
+        term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
+    }
 }
 
 fn unshadowed(scene: &Scene, term: &LightTerm) -> LightTerm {
