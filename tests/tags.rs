@@ -51,6 +51,11 @@ fn a_tag_is_the_shades_upper_half() {
         ("cases/scenes/box.toml", &[POINT, "light.shadow.filter=nearest"]),
         ("cases/scenes/box.toml", &[POINT]),
         ("cases/shadow-map/alpha-test/scene.toml", &["light.shadow.filter=nearest"]),
+        ("cases/shadow-map/wave/scene.toml", &["light.shadow.filter=nearest"]),
+        (
+            "cases/shadow-map/wave/scene.toml",
+            &["light.shadow.filter=nearest", "object.1.material={ alpha = \"data/meshes/fence.png\" }"],
+        ),
         (
             "cases/scenes/two_lights.toml",
             &["light.1.shadow.technique=shadow-volume", "light.1.shadow.method=z-pass-capped"],
@@ -95,5 +100,39 @@ fn a_tag_is_no_volume_to_look_at() {
         let views = vec![ViewRequest { view, light: 0 }];
         let error = plan::make(&scene, &Request { views, ..Request::default() }).unwrap_err().to_string();
         assert!(error.contains("light 0 counts no volumes"), "{error}");
+    }
+}
+
+/// In exact colours: what is there and what is added come to what one shader gives, also where lighting per vertex is
+/// clamped, and a light has ambient light or is dimmed.
+#[test]
+fn what_is_added_is_what_a_shader_gives() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut draw = |set: &[&str], more: &[&str]| {
+        let scene = load("cases/scenes/two_lights.toml", &[&["light.shadow.filter=nearest"], set, more].concat());
+        let plan = renderer.plan(&scene, &Request { float_picture: true, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        match renderer.read(&plan).unwrap().picture {
+            Pixels::RgbaF32 { data, .. } => data,
+            _ => panic!("no floats"),
+        }
+    };
+    let bright = "light.diffuse=[1.5, 1.4, 1.3]";
+    for lighting in ["shading.lighting=per-vertex", "shading.lighting=per-fragment"] {
+        for more in [
+            &["light.0.attenuation=[1, 0.1, 0]"][..],
+            &["light.shadow.dimming=0.4"],
+            &["light.ambient=[0.4, 0.3, 0.2]", "light.shadow.dimming=0.25", "light.specular=[1, 1, 1]"],
+            &["light.shadow.dimming=1"],
+        ] {
+            let set = [&[bright, lighting], more].concat();
+            let asked = draw(&set, &[]);
+            let added = draw(&set, &["light.shadow.into=stencil"]);
+            let apart = asked.iter().zip(&added).fold(0.0, |most: f32, (a, b)| most.max((a - b).abs()));
+            // Sums of six or so roundings of f32 below 4.
+            assert!(apart < 2e-6, "{set:?}: {apart}");
+            assert!(asked.iter().any(|channel| *channel > 1.0), "{set:?}: nothing saturates");
+        }
     }
 }

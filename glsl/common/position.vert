@@ -24,11 +24,14 @@ float wave_angle()
 }
 
 // A normal by the cofactors of the Jacobian I + 2 pi cos(...) reach vector^T, which are its inverse transpose times its
-// determinant: no division, and no turn where the surface folds over.
+// determinant: it turns with the triangles where the surface folds over. Of unit length, so that none weighs more than
+// its neighbours between the vertices.
 vec3 waved_normal(vec3 normal)
 {
     float slope = WAVE_TURN * cos(wave_angle());
-    return normal * (1.0 + slope * dot(wave_vector.xyz, wave_reach)) - slope * dot(wave_reach, normal) * wave_vector.xyz;
+    vec3 waved = normal * (1.0 + slope * dot(wave_vector.xyz, wave_reach))
+                 - slope * dot(wave_reach, normal) * wave_vector.xyz;
+    return waved * inversesqrt(max(dot(waved, waved), 1e-30));
 }
 #else
 #define model_position position

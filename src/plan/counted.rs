@@ -1,6 +1,6 @@
 //! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
-//! light that needs no count first; then, for each such light, its volumes, and its light where the count is 0, with
-//! depth EQUAL.
+//! light that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags
+//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL.
 
 use super::Error;
 use super::builder::{Builder, Onto};
@@ -142,7 +142,15 @@ impl Builder<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let lit = LightTerm { dimming, ..once_counted(&scene, term) };
+        let mut lit = LightTerm { dimming, ..once_counted(&scene, term) };
+        if scene.shading.per_vertex {
+            // Lighting per vertex is clamped beside the ambient light, which is there already.
+            (scene.shading.ambient, scene.lights[term.index]) =
+                (self.scene.shading.ambient, self.scene.lights[term.index].clone());
+            lit.defines.push(String::from("ADDED"));
+            let left = term.dimming - lit.dimming;
+            weigh(&mut lit, 1.0 - left);
+        }
         self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
     }
 
@@ -154,6 +162,11 @@ impl Builder<'_> {
             source.specular = [0.0; 3];
             let left = if of_all(term) { 0.0 } else { term.dimming };
             source.diffuse = source.diffuse.map(|channel| channel * left);
+        }
+        // Lighting per vertex is clamped before it is weighed.
+        for term in counted.iter().filter(|_| scene.shading.per_vertex) {
+            let (own, source) = (&self.scene.lights[term.index], &mut scene.lights[term.index]);
+            source.diffuse = if source.diffuse == [0.0; 3] { source.diffuse } else { own.diffuse };
         }
         scene
     }
@@ -245,7 +258,11 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
     match term.counting {
         None => Some(term.clone()),
         Some(_) if gives(source.ambient) || gives(source.diffuse) => {
-            Some(LightTerm { dimming: 0.0, ..unshadowed(scene, term) })
+            let mut left = LightTerm { dimming: 0.0, ..unshadowed(scene, term) };
+            if scene.shading.per_vertex {
+                weigh(&mut left, term.dimming);
+            }
+            Some(left)
         }
         Some(_) => None,
     }
@@ -260,6 +277,14 @@ fn of_all(term: &LightTerm) -> bool {
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(Counting::tags);
     if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
+}
+
+/// Takes a part of the light's diffuse colour, after all else.
+fn weigh(term: &mut LightTerm, weight: f32) {
+    if weight < 1.0 {
+        term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));
+        term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
+    }
 }
 
 fn unshadowed(scene: &Scene, term: &LightTerm) -> LightTerm {

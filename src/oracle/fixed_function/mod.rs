@@ -133,6 +133,10 @@ impl FixedFunction {
 fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
     let layered = matches!(batch.meaning, Meaning::Lit(_) | Meaning::Sampled(_));
     let why = match state {
+        DrawState { depth_test: Some(Compare::Equal), stencil: Some(_), .. } => {
+            "a count or tag in the stencil buffer at depth EQUAL to another pass, whose positions fixed function may \
+             compute otherwise"
+        }
         DrawState { depth_test: Some(Compare::Equal), .. } => {
             "depth EQUAL to another pass, whose positions fixed function may compute otherwise"
         }

@@ -30,6 +30,7 @@ mod shells;
 mod solid;
 mod truth;
 mod volumes;
+mod wave;
 mod world;
 
 use glam::DVec3;

@@ -9,6 +9,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
 use super::Error;
+use super::wave;
 use crate::geometry::{Mesh, Wave};
 
 /// No single triangle lies across this edge: it is open, or three triangles or more meet in it.
@@ -35,7 +36,7 @@ impl<'a> Solid<'a> {
     pub fn new(mesh: &'a Mesh, wave: Option<&Wave>) -> Result<Self, Error> {
         check(mesh)?;
         let places = mesh.positions.iter().map(|position| DVec3::from_array(position.map(f64::from)));
-        let positions: Vec<DVec3> = places.map(|place| wave.map_or(place, |wave| waved(place, wave))).collect();
+        let positions: Vec<DVec3> = places.map(|place| wave.map_or(place, |wave| wave::moved(place, wave))).collect();
         let corners: Vec<[u32; 3]> = mesh.indices.as_chunks::<3>().0.to_vec();
         let welded = weld(mesh, &corners);
         let part = parts(mesh, corners.len());
@@ -97,12 +98,6 @@ fn check(mesh: &Mesh) -> Result<(), Error> {
         return broken("a position is not finite");
     }
     Ok(())
-}
-
-/// Where a wave moves a point to: along its reach, by the sine of how many wavelengths the point is away along its axis.
-fn waved(place: DVec3, wave: &Wave) -> DVec3 {
-    let turns = wave.vector.x * place.x + wave.vector.y * place.y + wave.vector.z * place.z + wave.phase;
-    place + wave.reach * ((turns - turns.floor()) * std::f64::consts::TAU).sin()
 }
 
 fn bound(positions: &[DVec3], triangle: &[u32; 3]) -> Aabb {

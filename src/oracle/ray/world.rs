@@ -15,7 +15,8 @@ use super::Error;
 use super::beam::crossing;
 use super::cutout::{Alpha, Cutout};
 use super::solid::{OPEN, Solid};
-use crate::geometry::{Material, Mesh, Wave};
+use super::wave;
+use crate::geometry::{Material, Mesh};
 use crate::scene::{Object, Scene};
 
 pub(super) struct World<'a> {
@@ -296,7 +297,7 @@ fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Err
     let shrink = linear.iter().map(|axis| axis.truncate().length_squared()).sum::<f64>().sqrt();
     let farthest = |reach: f64, point: &DVec3| reach.max(world_from_model.transform_vector3(*point).length());
     let reach = solid.positions().iter().fold(0.0, farthest);
-    let moved_by = object.wave.map_or(0.0, |wave| wave_error(&wave, &object.mesh, &world_from_model));
+    let moved_by = object.wave.map_or(0.0, |wave| wave::error(&wave, &object.mesh, &world_from_model));
     let cutouts = find_cutouts(object);
     Ok(Placed {
         solid: index,
@@ -309,18 +310,6 @@ fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Err
         has_cutouts: cutouts.iter().any(Option::is_some),
         cutouts,
     })
-}
-
-/// How far f32 may bring a vertex from where its wave has it: the turns are a sum of four products, each rounded; a
-/// sine is good to 2^-20 on the least of drivers; the sum is rounded once more.
-fn wave_error(wave: &Wave, mesh: &Mesh, world_from_model: &DMat4) -> f64 {
-    let rounding = 0.5 * f64::from(f32::EPSILON);
-    let size = |position: &[f32; 3]| DVec3::from_array(position.map(f64::from)).length();
-    let size = mesh.positions.iter().map(size).fold(0.0, f64::max);
-    let turns = 5.0 * rounding * (wave.vector.length() * size + 1.0);
-    let error = wave.reach.length() * (std::f64::consts::TAU * turns + 2.0_f64.powi(-20) + rounding) + rounding * size;
-    let axes = [world_from_model.x_axis, world_from_model.y_axis, world_from_model.z_axis];
-    error * axes.iter().map(|axis| axis.truncate().length_squared()).sum::<f64>().sqrt()
 }
 
 fn find_cutouts(object: &Object) -> Vec<Option<Cutout>> {

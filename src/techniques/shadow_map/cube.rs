@@ -164,8 +164,14 @@ fn draw(
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
     for (face, face_view, casters) in faces {
-        let layer =
-            Layer { name: "depth", image: "map", ending: None, offset: bias::offset(settings).polygon, casters };
+        let layer = Layer {
+            name: "depth",
+            image: "map",
+            ending: None,
+            offset: bias::offset(settings).polygon,
+            scissor: None,
+            casters,
+        };
         let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
