@@ -16,7 +16,7 @@ const KNOWN_LIMITS: &[&str] = &[
     "saturate",
     "more comparisons than one",
     "in a cube map",
-    "tag in the stencil buffer",
+    "in the stencil buffer",
     "waves in the vertex stage",
 ];
 
