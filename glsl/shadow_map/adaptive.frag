@@ -2,11 +2,14 @@
 // texel's centre meets it. GL_LINEAR's one reference cannot be right for four texels, so that the texels are asked for one
 // by one (GL_NEAREST), and its weights are applied here.
 uniform sampler2DShadow shadow_map_@;
+uniform float towards_light_@; // 1, or -1 where depth is reversed
 
 float compare_@(vec2 centre, vec3 at, vec2 size)
 {
     vec2 texture_coord = centre / size;
-    float reference = at.z + dot(receiver_slope_@, texture_coord - at.xy);
+    // Beyond its facet the receiver's plane is no surface: where it falls away from the light, the next facet may not.
+    float along = dot(receiver_slope_@, texture_coord - at.xy);
+    float reference = at.z + towards_light_@ * min(towards_light_@ * along, 0.0);
     return texture(shadow_map_@, vec3(texture_coord, clamp(reference, 0.0, 1.0)));
 }
 

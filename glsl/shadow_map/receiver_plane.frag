@@ -15,7 +15,9 @@ float shade_@()
     for (int y = 0; y < KERNEL_@; ++y)
         for (int x = 0; x < KERNEL_@; ++x) {
             vec2 tap = FIRST + vec2(x, y);
-            float reference = clamp(at.z + dot(slope, tap) - reach, 0.0, 1.0);
+            // Not behind the receiver: beyond its facet its plane is no surface, and the next may fall away by less.
+            float along = towards_light_@ * min(towards_light_@ * dot(slope, tap), 0.0);
+            float reference = clamp(at.z + along - reach, 0.0, 1.0);
             lit += texture(shadow_map_@, vec3(at.xy + tap * texel, reference));
         }
     return lit / float(KERNEL_@ * KERNEL_@);

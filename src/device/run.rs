@@ -277,7 +277,7 @@ impl Device {
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
             let image = self.gpu_image(input.image);
-            let (ImageName::Texture(texture) | ImageName::Cube(texture)) = image else { continue };
+            let Some(texture) = image.texture() else { continue };
             let sampler = self.samplers.get(&input.sampler).map(|sampler| sampler.name);
             unsafe {
                 self.gl.active_texture(glow::TEXTURE0 + unit);
@@ -308,7 +308,7 @@ impl Device {
 
     pub(super) fn copy_depth(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
         let Work::CopyDepth { from, to, face } = pass.work else { return Ok(()) };
-        let (ImageName::Texture(texture) | ImageName::Cube(texture)) = self.gpu_image(to) else { return Ok(()) };
+        let Some(texture) = self.gpu_image(to).texture() else { return Ok(()) };
         let binding = self.gpu_image(to).binding();
         let place = face.map_or(binding, image::face_code);
         self.bind_target(list, &pass.label, Target { color: None, depth: Some(from), level: 0, face: None })?;

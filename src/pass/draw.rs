@@ -39,13 +39,21 @@ pub struct Batch {
     pub cull: Option<Face>,
     /// In the place of the pass's own, and no wider.
     pub scissor: Option<[u32; 4]>,
+    /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
+    /// that clips by a distance of its own.
+    pub clip_planes: u8,
     pub draws: Vec<Draw>,
 }
 
 impl Batch {
     /// What it is drawn under in a pass of this state.
     pub fn state(&self, pass: &DrawState) -> DrawState {
-        DrawState { cull: self.cull.or(pass.cull), scissor: self.scissor.or(pass.scissor), ..*pass }
+        DrawState {
+            cull: self.cull.or(pass.cull),
+            scissor: self.scissor.or(pass.scissor),
+            clip_distances: pass.clip_distances.max(self.clip_planes),
+            ..*pass
+        }
     }
 }
 

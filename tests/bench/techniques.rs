@@ -69,6 +69,7 @@ const WAYS: &[Way] = &[
     way("shadow-map, bias receiver-plane", Kind::ReceiverPlane, &["light.shadow.bias=receiver-plane"]),
     way("shadow-map, bias normal-offset", Kind::NormalOffset, &["light.shadow.bias=normal-offset"]),
     way("shadow-map, bias adaptive", Kind::Adaptive, &["light.shadow.bias=adaptive"]),
+    way("shadow-map, tagged in the stencil buffer", Kind::Map, &["light.shadow.into=stencil"]),
     way("midpoint", Kind::Midpoint, &["light.shadow.technique=midpoint"]),
     way("midpoint, all faces drawn", Kind::Midpoint, &["light.shadow.technique=midpoint", "light.shadow.cull=none"]),
     way("second-depth", Kind::SecondDepth, &["light.shadow.technique=second-depth", "light.shadow.closed=assume"]),

@@ -43,6 +43,7 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
         inputs: Vec::new(),
         cull: None,
         scissor: None,
+        clip_planes: 0,
         draws,
     })
 }

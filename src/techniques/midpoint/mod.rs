@@ -23,7 +23,7 @@ use self::settings::{Average, Peel, Settings, Single};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
-use super::shadow_map::{self, bias, term};
+use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
@@ -69,7 +69,7 @@ impl Technique for Midpoint {
         refuse(&settings.map, keys)?;
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings.map, notes));
         }
         let single = settings.single.unwrap_or_else(|| needed(view));
         let shared = second::shared_texels(view, &casters, &settings.map);
@@ -107,7 +107,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        Ok(term::term(view, map, &settings.map, 0.0))
+        Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
     }
 }
 

@@ -42,6 +42,7 @@ pub fn fill(
         inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
         cull: None,
         scissor: None,
+        clip_planes: 0,
         draws: vec![whole_target()],
     };
     list.passes.push(Pass {

@@ -39,9 +39,11 @@ fn default_offset(settings: &Settings) -> Offset {
     let reach = reach_texels(settings);
     let (factor, texels) = match settings.bias {
         Bias::Offset => (2.0 * reach, 0.25 / (reach * reach)),
-        // The slope is met where it is compared; what is left is the neighbouring facet.
-        Bias::ReceiverPlane | Bias::NormalOffset => (0.0, 0.5),
-        Bias::Adaptive => (0.0, 1.0),
+        // The receiver's own slope is met where it is compared, and what it cannot know is that of the facet beside it:
+        // one that rises more steeply stands before the receiver's plane by what it rises up to its texel's centre, half
+        // a texel from where it may begin. That half of its slope is the caster's to give. A facet narrower than a texel
+        // shows less of it, and leaves the rest to `texels`.
+        Bias::ReceiverPlane | Bias::NormalOffset | Bias::Adaptive => (0.5, 0.5),
     };
     // A texel of the coarser level is as wide as two; that of any level, where all may be met, as many: see the report.
     let width = if settings.mipmaps == Mipmaps::None { 1.0 } else { 2.0 };

@@ -5,6 +5,7 @@ use glam::{DMat4, DVec3, Vec4};
 use super::bias;
 use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
+use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::techniques::projector::Rays;
@@ -37,6 +38,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         term.frustum_from_map = frustum_from_map(settings);
     }
     term.dimming = settings.dimming;
+    term.counting = tag::counting(view, settings);
     term.map = Some(map);
     look_up(&mut term, &coordinates, view, settings);
     term.coordinates = Some(coordinates);
@@ -83,16 +85,17 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
     term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
     term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
+    let towards_light = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
     match settings.bias {
         Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
         Bias::ReceiverPlane => {
-            let sign = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
             term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/receiver_plane.frag"));
             term.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
-            term.uniforms.push(of_light("towards_light", sign));
+            term.uniforms.push(of_light("towards_light", towards_light));
         }
         Bias::Adaptive => {
             term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/adaptive.frag"));
+            term.uniforms.push(of_light("towards_light", towards_light));
             if settings.filter == Filter::Linear {
                 term.defines.push(format!("LINEAR_{index}"));
             }
