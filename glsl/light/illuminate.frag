@@ -14,6 +14,11 @@ void illuminate_@(Surface surface, inout Lit lit)
 {
     Lit own = lighting_@(surface);
     lit.ambient += own.ambient;
+#ifdef SIDE_@
+    float side = side_@();
+    own.diffuse *= side;
+    own.specular *= side;
+#endif
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif

@@ -11,6 +11,11 @@ out vec3 eye_position;
 #ifdef EYE_NORMAL
 out vec3 eye_normal;
 #endif
+#ifdef CLIP_PLANES
+// Half-spaces in eye space; what is kept has a product >= 0.
+uniform vec4 clip_planes[CLIP_PLANES];
+out float gl_ClipDistance[CLIP_PLANES];
+#endif
 
 void main()
 {
@@ -21,6 +26,10 @@ void main()
 #ifdef EYE_SPACE
     vec4 eye = eye_from_model * model_position;
     TEXGEN(eye)
+#ifdef CLIP_PLANES
+    for (int k = 0; k < CLIP_PLANES; ++k)
+        gl_ClipDistance[k] = dot(clip_planes[k], eye);
+#endif
 #endif
 #ifdef EYE_POSITION
     eye_position = eye.xyz;

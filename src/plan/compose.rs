@@ -8,6 +8,7 @@ use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{Light, Scene};
+use crate::techniques::guard::Guard;
 use crate::techniques::items::items;
 use crate::techniques::surface::Viewer;
 use crate::techniques::{self, Item, LightTerm, LightView, Notes};
@@ -68,13 +69,16 @@ fn light_terms(
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
-        let term = if absent.is_none() || shown {
+        let mut term = if absent.is_none() || shown {
             technique.describe(&view, &mut keys, list, notes)?
         } else {
             technique.describe(&view, &mut keys, &mut spare_list, &mut spare_notes)?
         };
         techniques::check_others(technique, &mut keys)?;
         keys.finish()?;
+        if keep_all && term.guard == Guard::Auto {
+            term.guard = Guard::Fragment;
+        }
         if let Some(why) = absent {
             notes.left_out(format!("light {index}"), why);
         }

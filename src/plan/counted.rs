@@ -129,7 +129,8 @@ impl Builder<'_> {
         scene.shading.ambient = [0.0; 3];
         let source = &mut scene.lights[term.index];
         source.ambient = [0.0; 3];
-        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming));
+        let dimming = if of_all(term) { term.dimming } else { 0.0 };
+        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming + dimming));
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
@@ -141,7 +142,7 @@ impl Builder<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let mut lit = LightTerm { dimming: 0.0, ..once_counted(&scene, term) };
+        let mut lit = LightTerm { dimming, ..once_counted(&scene, term) };
         if scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             (scene.shading.ambient, scene.lights[term.index]) =
@@ -159,7 +160,8 @@ impl Builder<'_> {
         for term in counted {
             let source = &mut scene.lights[term.index];
             source.specular = [0.0; 3];
-            source.diffuse = source.diffuse.map(|channel| channel * term.dimming);
+            let left = if of_all(term) { 0.0 } else { term.dimming };
+            source.diffuse = source.diffuse.map(|channel| channel * left);
         }
         // Lighting per vertex is clamped before it is weighed.
         for term in counted.iter().filter(|_| scene.shading.per_vertex) {
@@ -264,6 +266,11 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
         }
         Some(_) => None,
     }
+}
+
+/// Whether the light's own shade finds what a shadow leaves.
+fn of_all(term: &LightTerm) -> bool {
+    term.counting.as_ref().is_some_and(|counting| counting.of_all)
 }
 
 /// The term of a light where its count is 0: what tagged the surfaces is not asked again.

@@ -231,11 +231,27 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,
+                clip_planes: 0,
                 draws: vec![draw],
             }),
         }
     }
     batches
+}
+
+/// Binds the texture of two texels that tells a spotlight's sides apart: 0 behind it, 1 before [techniques A13 b].
+pub fn side_map(name: impl Into<std::borrow::Cow<'static, str>>, list: &mut PassList) -> Input {
+    const TEXELS: &[[u8; 4]] = &[[0; 4], [255; 4]];
+    let storage = Storage::Line(TEXELS);
+    let image = match list.images.iter().position(|desc| desc.storage == storage) {
+        Some(index) => ImageId(index),
+        None => {
+            let (label, size) = (String::from("sides of a light"), [TEXELS.len() as u32, 1]);
+            list.image(ImageDesc { label, size, format: Format::Rgba8, storage })
+        }
+    };
+    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    Input { name: name.into(), image, sampler }
 }
 
 /// Binds a texture of the scene; the same one becomes one image however often it is bound.

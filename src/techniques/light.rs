@@ -4,6 +4,7 @@ use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
+use super::guard::Guard;
 use super::projector::Projector;
 use super::surface::Viewer;
 use super::{Item, items};
@@ -125,6 +126,8 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
+    /// What keeps a spotlight's light from what lies behind it.
+    pub guard: Guard,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
     /// Passes after which the stencil buffer is 0 where the light reaches; where they tag surfaces by `shade`, it is not
@@ -139,6 +142,8 @@ pub struct Counting {
     pub passes: Vec<CountPass>,
     /// Whether a frame may keep the count of the one before.
     pub redraw: Redraw,
+    /// Whether the count says where any of the light is, what a shadow would leave of it too, and not what a shadow takes.
+    pub of_all: bool,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
     /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
@@ -229,7 +234,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, clip_planes: 0, draws }]
     }
 }
 
@@ -288,6 +293,7 @@ impl LightTerm {
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
+            guard: Guard::Auto,
             map: None,
             counting: None,
         }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
-use super::shadow_map::{self, fit, term};
+use super::shadow_map::{self, fit};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{LightKind, Reader, SettingsError};
@@ -64,13 +64,14 @@ impl Technique for SecondDepth {
             refuse_open(&casters, keys)?;
         }
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, settings.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
+        let layer =
+            Layer { name: "second depth", image: "map", ending: None, offset, scissor: None, casters: &casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        Ok(term::term(view, map, &settings, 0.0))
+        Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))
     }
 }
 

@@ -1,6 +1,7 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A16, A20];
+//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A13, A16, A20];
 //! its parts are what every technique with a map is made of.
 
+mod behind;
 pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
@@ -17,7 +18,7 @@ use self::depth::Layer;
 use self::settings::Settings;
 use super::projector::Projector;
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
-use crate::pass::PassList;
+use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
@@ -32,7 +33,7 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12, A16, A20"
+        "Hardware Shadow Mapping; techniques A1-A10, A12, A13, A16, A20"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -76,7 +77,7 @@ impl Technique for ShadowMap {
         };
         match projector {
             Some(projector) => Ok(one_map(&FrustumView { light_view: *view, projector }, settings, list, notes)),
-            None => Ok(without_casters(view, settings.dimming, notes)),
+            None => Ok(without_casters(view, &settings, notes)),
         }
     }
 }
@@ -86,15 +87,28 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     let mut casters = casters(view, &settings, notes);
     settings.crop = fit::crop(view, &mut casters, &settings, notes);
     if casters.is_empty() && !view.keep_all {
-        return without_casters(view, settings.dimming, notes);
+        return without_casters(view, &settings, notes);
     }
     let offset = bias::offset(&settings);
     let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
     let fewer: Vec<&Item> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
-    let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
+    let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, scissor: None, casters };
     let map = depth::draw(view, &layer, &settings, list, notes);
-    term::term(view, map, &settings, offset.texels)
+    looked_up(view, map, &settings, offset.texels, notes)
+}
+
+/// The term of a light with a square map, guarded as its keys say.
+pub(super) fn looked_up(
+    view: &FrustumView<'_>,
+    map: ImageId,
+    settings: &Settings,
+    texels: f64,
+    notes: &mut Notes,
+) -> LightTerm {
+    let mut term = term::term(view, map, settings, texels);
+    behind::guard(view, settings, &mut term, notes);
+    term
 }
 
 /// For techniques that draw one map in perspective and no other.
@@ -107,10 +121,11 @@ pub(super) fn has_one_frustum(kind: &LightKind) -> Result<(), &'static str> {
 }
 
 /// A light in whose frustum nothing casts a shadow that is seen.
-pub(super) fn without_casters(view: &LightView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
+pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
     let mut term = LightTerm::unshadowed(view.scene, view.index);
-    term.dimming = dimming;
+    term.dimming = settings.dimming;
+    behind::guard(view, settings, &mut term, notes);
     term
 }

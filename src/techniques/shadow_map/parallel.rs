@@ -15,6 +15,7 @@ use super::fit::rim_texels;
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
+use crate::techniques::guard::Guard;
 use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::{Item, LightView, Notes};
 
@@ -36,6 +37,10 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
             "= true does not go with a directional light, whose map has an end: of the smallest level one texel reaches \
              across it; \"8-tap\" does",
         ));
+    }
+    if settings.guard != Guard::Auto {
+        let why = "keeps a spotlight from lighting what lies behind it; behind a directional light lies nothing";
+        return Err(keys.error("guard", why));
     }
     let least = 4 * rim(settings);
     if settings.size < least {

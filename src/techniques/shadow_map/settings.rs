@@ -5,6 +5,7 @@ use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
+use crate::techniques::guard::Guard;
 
 /// How the depth texture gets its texels [techniques A2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +118,7 @@ pub struct Settings {
     pub dimming: f32,
     pub redraw: Redraw,
     pub into: Outcome,
+    pub guard: Guard,
 }
 
 /// What decides the error: resolution, bits, filter, offset.
@@ -229,8 +231,14 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
             .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
             .unwrap_or(Redraw::WhenChanged),
         into: keys.choice("into", &[("shader", Outcome::Shade), ("stencil", Outcome::Tag)])?.unwrap_or(Outcome::Shade),
+        guard: Guard::read(keys)?,
     };
     check_mipmaps(&settings, keys)?;
+    if settings.guard == Guard::Stencil && settings.into == Outcome::Tag {
+        return Err(
+            keys.error("guard", "= \"stencil\" does not go with into = \"stencil\": both tag in the one buffer")
+        );
+    }
     Ok(settings)
 }
 

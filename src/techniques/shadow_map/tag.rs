@@ -27,6 +27,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
     Some(Counting {
         passes: vec![pass],
         redraw: settings.redraw,
+        of_all: false,
         infinite: false,
         clamped: false,
         ledge: false,

@@ -83,6 +83,7 @@ fn counting(
     Counting {
         passes: counts::passes(view, &shapes, settings),
         redraw: settings.redraw,
+        of_all: false,
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
