@@ -1,5 +1,7 @@
 //! The comparison's outcome as a tag in the stencil buffer, for later passes [lecture, "Combining Shadow Mapping with other
-//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in.
+//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in. As many pixels are on
+//! the wrong side of one half as a shader leaves there; the root mean square error of GL_LINEAR grows by a tenth
+//! (`glumbra report` on teapot.toml and main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
