@@ -234,7 +234,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, clip_planes: 0, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, scissor: None, clip_planes: 0, draws }]
     }
 }
 

@@ -77,7 +77,16 @@ pub fn batches(
                 debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
                 batch.draws.push(draw);
             }
-            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, clip_planes, draws: vec![draw] }),
+            None => batches.push(Batch {
+                program,
+                meaning,
+                uniforms,
+                inputs,
+                cull,
+                scissor: None,
+                clip_planes,
+                draws: vec![draw],
+            }),
         }
     }
     Some(batches)
