@@ -7,7 +7,7 @@ use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Counting, Layer};
-use crate::techniques::shadow_volume::ends;
+use crate::techniques::seen;
 
 /// The pass that tags what the light's shade calls shadowed; `None`: the lit pass asks for the shade itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
@@ -31,7 +31,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         infinite: false,
         clamped: false,
         ledge: false,
-        scissor: if view.keep_all { None } else { ends::scissor(view) },
+        scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: Vec::new(),
         silhouettes: Vec::new(),
     })
