@@ -19,6 +19,7 @@ mod settings;
 mod single;
 
 use self::settings::{Average, Settings, Single};
+use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
@@ -30,6 +31,41 @@ use crate::pass::{
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 
 pub struct Midpoint;
+
+const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
+
+/// [Hardware Shadow Mapping, "Advantages and Limitations"]. The edge band is told apart, for at a caster's rim its two
+/// layers meet and nothing lies between them.
+const CLAIMS: &[Claim] = &[
+    Claim {
+        says: "needs no offset to leave no more acne than a tuned offset does",
+        quantity: Quantity::FalseShadow,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "needs none to lose no more light at shadow edges, either",
+        quantity: Quantity::FalseShadowWithBand,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "leaves at most half of the leak where light falls",
+        quantity: Quantity::LeakFacing,
+        first: BARE,
+        relation: Relation::AtMost(0.5),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "leaves at most half of the leak, with what is turned away",
+        quantity: Quantity::Leak,
+        first: BARE,
+        relation: Relation::AtMost(0.5),
+        second: Contender::SlopeScaled,
+    },
+];
 
 impl Technique for Midpoint {
     fn name(&self) -> &'static str {
@@ -50,6 +86,10 @@ impl Technique for Midpoint {
 
     fn axes(&self) -> &'static [Axis] {
         settings::AXES
+    }
+
+    fn claims(&self) -> &'static [Claim] {
+        CLAIMS
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {

@@ -14,12 +14,39 @@ mod texel;
 use self::casters::casters;
 use self::depth::Layer;
 use self::settings::Settings;
+use super::claims::{Claim, Contender, Quantity, Relation};
 use super::projector::Projector;
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
+
+/// A constant cannot take the place of the slope factor [Hardware Shadow Mapping, on polygon offset; techniques A8].
+const CLAIMS: &[Claim] = &[
+    Claim {
+        says: "a constant offset must be larger than a slope-scaled one for equal false shadow",
+        quantity: Quantity::Offset,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "a constant offset leaks more where light falls",
+        quantity: Quantity::LeakFacing,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+    // The slope factor knows no bound at a caster's rim: what is turned away behind it is told apart.
+    Claim {
+        says: "a constant offset leaks more, with what is turned away",
+        quantity: Quantity::Leak,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+];
 
 impl Technique for ShadowMap {
     fn name(&self) -> &'static str {
@@ -48,6 +75,10 @@ impl Technique for ShadowMap {
             return &settings::MORE_AXES[..1];
         }
         settings::MORE_AXES
+    }
+
+    fn claims(&self) -> &'static [Claim] {
+        CLAIMS
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
