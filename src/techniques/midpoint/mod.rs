@@ -81,7 +81,7 @@ impl Technique for Midpoint {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::has_one_frustum(kind)
+        shadow_map::has_one_map(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -104,8 +104,10 @@ impl Technique for Midpoint {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let view = &view.in_its_frustum(keys)?;
         refuse(&settings.map, keys)?;
+        let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
+            return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
+        };
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
@@ -177,6 +179,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending
             Input { name: "nearest".into(), image: nearest, sampler: sampler(None) },
         ],
     };
+    // Of parallel light a window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {

@@ -66,7 +66,7 @@ impl Technique for SecondDepth {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::has_one_frustum(kind)
+        shadow_map::has_one_map(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -89,7 +89,9 @@ impl Technique for SecondDepth {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
-        let view = &view.in_its_frustum(keys)?;
+        let Some(view) = &shadow_map::one_view(view, &settings, keys, notes)? else {
+            return Ok(shadow_map::without_casters(view, settings.dimming, notes));
+        };
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if !is_assumed {

@@ -93,19 +93,12 @@ impl Technique for ShadowMap {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let projector = match &view.light().kind {
-            LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
-            LightKind::Directional { direction } => {
-                parallel::refuse(&settings, keys)?;
-                parallel::projector(view, *direction, &settings, notes)
-            }
-            LightKind::Point(point) => {
-                cube::refuse(&settings, keys)?;
-                return Ok(cube::describe(view, point, &settings, list, notes));
-            }
-        };
-        match projector {
-            Some(projector) => Ok(one_map(&FrustumView { light_view: *view, projector }, settings, list, notes)),
+        if let LightKind::Point(point) = &view.light().kind {
+            cube::refuse(&settings, keys)?;
+            return Ok(cube::describe(view, point, &settings, list, notes));
+        }
+        match one_view(view, &settings, keys, notes)? {
+            Some(view) => Ok(one_map(&view, settings, list, notes)),
             None => Ok(without_casters(view, settings.dimming, notes)),
         }
     }
@@ -127,13 +120,34 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     term::term(view, map, &settings, offset.texels)
 }
 
-/// For techniques that draw one map in perspective and no other.
-pub(super) fn has_one_frustum(kind: &LightKind) -> Result<(), &'static str> {
+/// For techniques that draw one square map and no other.
+pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
     match kind {
-        LightKind::Spot(_) => Ok(()),
+        LightKind::Spot(_) | LightKind::Directional { .. } => Ok(()),
         LightKind::Point(_) => Err("draws one square map, and a point light needs six"),
-        LightKind::Directional { .. } => Err("draws its map in perspective, and a directional light has none"),
     }
+}
+
+/// The light as its one map sees it; `None` where a directional light has nothing to shadow.
+///
+/// # Errors
+///
+/// A key that does not go with the light's kind, or a light that has no one map.
+pub(super) fn one_view<'a>(
+    view: &LightView<'a>,
+    settings: &Settings,
+    keys: &Reader<'_>,
+    notes: &mut Notes,
+) -> Result<Option<FrustumView<'a>>, SettingsError> {
+    let projector = match &view.light().kind {
+        LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
+        LightKind::Directional { direction } => {
+            parallel::refuse(settings, keys)?;
+            parallel::projector(view, *direction, settings, notes)
+        }
+        LightKind::Point(_) => return Err(keys.error("technique", "draws one square map, and a point light needs six")),
+    };
+    Ok(projector.map(|projector| FrustumView { light_view: *view, projector }))
 }
 
 /// A light in whose frustum nothing casts a shadow that is seen.
