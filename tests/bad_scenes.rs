@@ -30,6 +30,37 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
     ("unknown light key", "{LIGHT}colour = [1, 1, 1]\n{QUAD}", 7, "in [light]: did you mean `color`?"),
     ("unknown object key", "{QUAD}rotation = 1\n", 3, "unknown key `rotation` in [object]"),
     ("unknown material key", "{QUAD}material = { difuse = [1, 1, 1] }\n", 3, "did you mean `diffuse`?"),
+    (
+        "a wave of what",
+        "{QUAD}wave = {}\n",
+        3,
+        "`object.wave.direction` is missing: the way that vertices move, [x, y, z]",
+    ),
+    ("a wave nowhere", "{QUAD}wave = { direction = [0, 0, 0] }\n", 3, "must not be of zero length"),
+    (
+        "a wave of NaN",
+        "{QUAD}wave = { direction = [0, 1, 0], axis = [1, 0, 0], wavelength = 1, amplitude = nan }\n",
+        3,
+        "`object.wave.amplitude` must be finite, not NaN",
+    ),
+    (
+        "a wave of no length",
+        "{QUAD}wave = { direction = [0, 1, 0], axis = [1, 0, 0], amplitude = 1, wavelength = 0 }\n",
+        3,
+        "`object.wave.wavelength` must be above 0, not 0",
+    ),
+    (
+        "a wave out of the world",
+        "{QUAD}wave = { direction = [0, 1, 0], axis = [1, 0, 0], wavelength = 1, amplitude = 1e18 }\nscale = 10\n",
+        1,
+        "coordinates may be 1e18 at most",
+    ),
+    (
+        "unknown wave key",
+        "{QUAD}wave = { direction = [0, 1, 0], axis = [1, 0, 0], wavelength = 1, amplitude = 1, phse = 1 }\n",
+        3,
+        "did you mean `phase`?",
+    ),
     ("unknown rotate key", "{QUAD}rotate = { axis = [0, 1, 0], angel = 1, angle = 1 }\n", 3, "did you mean `angle`?"),
     (
         "a table for a light",

@@ -81,6 +81,9 @@ fn captions_are_true_of_points() {
     let walls = [DVec3::new(3.2, 1.6, -0.6), DVec3::new(-3.2, 1.6, 0.0)];
     let reached = walls.map(|wall| at(&lamp, View::Shade, wall, &mut renderer)[1]);
     assert_eq!(reached, [1.0, 0.0], "q > 0 alone is reached");
+    let unguarded = scene("lec-back-projection", 1);
+    let reached = walls.map(|wall| at(&unguarded, View::Shade, wall, &mut renderer)[1]);
+    assert_eq!(reached, [1.0, 1.0], "without a guard q < 0 is reached too");
 }
 
 #[test]

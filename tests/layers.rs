@@ -7,6 +7,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::oracle::ray::{self, Truth};
+use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::report::metrics::{Band, Metrics, compare};
 use glumbra::report::run::{draw_shade, with_shadow};
@@ -67,6 +68,47 @@ fn the_middle_of_two_layers_is_stored() {
                     assert!(off <= within, "{keys}: texel {x} is {}, off by {off:e}", texel(x));
                 }
             }
+        }
+    }
+}
+
+/// Both layers are drawn only where two of them may share a texel: as `keep_all` shows, no texel changes by it.
+#[test]
+fn texels_that_no_two_layers_share_are_left_out() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let flat = "[[light]]\nposition = [0.5, 7.0, 1.0]\ntarget = [0.0, 0.0, 0.0]\ncone = 40.0\nnear = 1.0\nfar = 9.0\n\
+                [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n\
+                [[object]]\nmesh = \"quad\"\ntranslate = [0.6, 2.0, 0.1]\nscale = [0.5, 1.0, 0.9]\n";
+    let alone = "[[light]]\nposition = [0.5, 7.0, 1.0]\ntarget = [0.0, 0.0, 0.0]\ncone = 40.0\nnear = 1.0\nfar = 9.0\n\
+                 [[object]]\nmesh = \"quad\"\n";
+    // What is left of the map's texels, in percent.
+    for (name, scene, most) in [
+        ("solids on a floor", thick([3.0, 2.5, 4.0]), 60.0),
+        ("two quads", load(flat), 30.0),
+        ("one quad", load(alone), 0.0),
+    ] {
+        for keys in
+            ["", ", single = \"first\"", ", single = \"first+offset\"", ", compare = \"gequal\", cull = \"back\""]
+        {
+            let keys = format!("technique = \"midpoint\", size = 256{keys}");
+            let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+            let mut texels = |keep_all| {
+                let views = vec![ViewRequest { view: View::LightDepth, light: 0 }];
+                let plan = renderer.plan(&scene, &Request { views, keep_all, ..Request::default() }).unwrap();
+                renderer.draw(&plan).unwrap();
+                (renderer.read(&plan).unwrap().views.remove(0), plan)
+            };
+            let ((found, plan), (whole, _)) = (texels(false), texels(true));
+            assert!(found == whole, "{name}: {keys}");
+            let Work::Draw(pass) = &plan.list.passes.iter().find(|p| p.label == "light 0: midpoint").unwrap().work
+            else {
+                panic!("a pass that draws")
+            };
+            let [_, _, width, height] = pass.state.scissor.unwrap();
+            let share = 100.0 * f64::from(width * height) / (256.0 * 256.0);
+            println!("{name}, {keys}: {share:.1} % of the texels");
+            assert!(share <= most, "{name}: {share} % of the texels");
         }
     }
 }

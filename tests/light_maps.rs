@@ -12,6 +12,9 @@ use glumbra::report::metrics::{Band, Metrics, compare};
 use glumbra::report::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
+#[path = "support/rims.rs"]
+mod rims;
+
 fn load(name: &str, set: &[String]) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(name);
     scene::load(&path, set).unwrap().scene
@@ -37,7 +40,10 @@ fn directions() -> impl Iterator<Item = DVec3> {
     all.filter(|way| *way != DVec3::ZERO)
 }
 
-/// A light in a closed room of columns: beyond the edge band next to no pixel is wrong in any direction.
+/// A light in a closed room of columns: beyond the edge band no pixel is wrong in any direction, however grazing, but
+/// beside a column's rim as the light sees it whose shadow the camera does not see. Fifteen single pixels of 850,000 are
+/// there: each lies, by the oracle looking from the light, within two texels of where the surface breaks off. A wrong face
+/// or seam is hundreds, far from rims.
 #[test]
 fn a_cube_is_right_on_every_face_edge_and_corner() {
     let context = context::open(&ContextRequest::default()).unwrap();
@@ -52,16 +58,20 @@ fn a_cube_is_right_on_every_face_edge_and_corner() {
                 format!("light.shadow.filter={filter}"),
                 String::from("light.shadow.size=128"),
             ];
-            let found = errors(&load("room.toml", &set), 128, &mut renderer).all;
-            println!("{filter} {way}: {} wrong beyond the band", found.false_shadow.outside + found.leak.outside);
-            wrong += found.false_shadow.outside + found.leak.outside;
+            let scene = load("room.toml", &set);
+            let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+            let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
+            let band = Band { texels: 2.0, map_size: [128; 2] };
+            let found = compare(&truth, &shade, &band).unwrap().all;
+            let beyond = found.false_shadow.outside + found.leak.outside;
+            println!("{filter} {way}: {beyond} wrong beyond the band");
+            wrong += beyond;
             compared += found.compared;
             shadowed += found.compared_in_band;
+            assert!(wrong <= 15, "{filter} {way}: {found:?}");
+            assert_eq!(rims::without_rims(&scene, &truth, &shade, &band), Vec::<String>::new(), "{filter} {way}");
         }
     }
-    // Of 850,000: tips of shadows between pixels, whose band is not known.
-    // Eight of 850,000 were found, single pixels at the rims of columns; a wrong face or seam is hundreds.
-    assert!(wrong <= 12, "{wrong}");
     assert!(compared > 600_000 && shadowed > 10_000, "{compared} {shadowed}: too little to see");
 }
 

@@ -6,11 +6,19 @@ uniform sampler2D spot_image_@;
 #ifdef DIMMING_@
 uniform float dimming_@;
 #endif
+#ifdef DIFFUSE_WEIGHT_@
+uniform float diffuse_weight_@;
+#endif
 
 void illuminate_@(Surface surface, inout Lit lit)
 {
     Lit own = lighting_@(surface);
     lit.ambient += own.ambient;
+#ifdef SIDE_@
+    float side = side_@();
+    own.diffuse *= side;
+    own.specular *= side;
+#endif
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif
@@ -21,6 +29,9 @@ void illuminate_@(Surface surface, inout Lit lit)
     float diffuse_shade = dimming_@ + (1.0 - dimming_@) * shade;
 #else
     float diffuse_shade = shade;
+#endif
+#ifdef DIFFUSE_WEIGHT_@
+    diffuse_shade *= diffuse_weight_@;
 #endif
 #ifdef SPOT_IMAGE_@
     vec3 beam = textureProj(spot_image_@, frustum_coord_@()).rgb;

@@ -1,5 +1,5 @@
-// Where spotlight @ can light at all: before it (q > 0, no back projection), inside its frustum's sides and, for a cone,
-// inside the circle inscribed in them.
+// Where spotlight @ can light at all: before it (q > 0, no back projection [techniques A13 f]), inside its frustum's sides
+// and, for a cone, inside the circle inscribed in them.
 #ifdef MAP_ADDRESSING_@
 // The frustum's [0, 1] square from the map's s and t: scale, then offset.
 uniform vec4 frustum_from_map_@;
@@ -22,8 +22,14 @@ bool in_reach_@()
     float half_q = 0.5 * coord.z;
     vec2 off = coord.xy - half_q;
 #ifdef CONE_@
-    return coord.z > 0.0 && dot(off, off) <= half_q * half_q;
+    bool inside = dot(off, off) <= half_q * half_q;
 #else
-    return coord.z > 0.0 && abs(off.x) <= half_q && abs(off.y) <= half_q;
+    bool inside = abs(off.x) <= abs(half_q) && abs(off.y) <= abs(half_q);
+#endif
+#ifdef UNGUARDED_@
+    // The quotients alone: something else keeps what lies behind the light dark.
+    return inside;
+#else
+    return coord.z > 0.0 && inside;
 #endif
 }

@@ -1,8 +1,10 @@
 // The second pass of Woo's midpoint map [Hardware Shadow Mapping, "Advantages and Limitations"]: the nearest layer is
-// peeled away by the texture unit's comparison at the fragment's own texel; what is left writes the middle between its
-// own depth and the nearest one, and the depth test keeps the least.
-uniform sampler2DShadow nearest_compared; // GL_GREATER: 1 behind the nearest layer
+// peeled away at the fragment's own texel; what is left writes the middle between its own depth and the nearest one, and
+// the depth test keeps the least.
 uniform sampler2D nearest;
+#ifdef COMPARE
+uniform sampler2DShadow nearest_compared; // GL_GREATER: 1 behind the nearest layer
+#endif
 // What a depth may lose when it is stored: the first layer's own fragments must not lie behind themselves.
 uniform float margin;
 #ifdef EYE_LINEAR
@@ -15,10 +17,18 @@ void main()
     alpha_test();
 #endif
     float own = gl_FragCoord.z;
-    vec2 texel_centre = gl_FragCoord.xy / vec2(textureSize(nearest, 0));
-    if (texture(nearest_compared, vec3(texel_centre, own - margin)) == 0.0)
-        discard;
     float first = texelFetch(nearest, ivec2(gl_FragCoord.xy), 0).r;
+#ifdef COMPARE
+    // The document's way: by the texture unit.
+    vec2 texel_centre = gl_FragCoord.xy / vec2(textureSize(nearest, 0));
+    bool is_behind = texture(nearest_compared, vec3(texel_centre, own - margin)) != 0.0;
+#elif defined(REVERSED)
+    bool is_behind = own - margin < first;
+#else
+    bool is_behind = own - margin > first;
+#endif
+    if (!is_behind)
+        discard;
     float middle = 0.5 * (first + own);
 #ifdef EYE_LINEAR
     // The window depth of the middle point. With u = f/(f - n) - z, which is as 1 over the distance, it is the harmonic

@@ -47,7 +47,11 @@ void main()
     Surface surface = surface_here();
     ILLUMINATE(surface, lit)
 #endif
+#ifdef ADDED
+    vec3 color = lit.diffuse; // ambient light is there
+#else
     vec3 color = lit.ambient + lit.diffuse;
+#endif
 #ifdef DECAL
     color *= texture(decal_map, st).rgb;
 #endif

@@ -11,6 +11,11 @@ out vec3 eye_position;
 #ifdef EYE_NORMAL
 out vec3 eye_normal;
 #endif
+#ifdef CLIP_PLANES
+// Half-spaces in eye space; what is kept has a product >= 0.
+uniform vec4 clip_planes[CLIP_PLANES];
+out float gl_ClipDistance[CLIP_PLANES];
+#endif
 
 void main()
 {
@@ -19,21 +24,25 @@ void main()
     set_decal();
 #endif
 #ifdef EYE_SPACE
-    vec4 eye = eye_from_model * position;
+    vec4 eye = eye_from_model * model_position;
     TEXGEN(eye)
+#ifdef CLIP_PLANES
+    for (int k = 0; k < CLIP_PLANES; ++k)
+        gl_ClipDistance[k] = dot(clip_planes[k], eye);
+#endif
 #endif
 #ifdef EYE_POSITION
     eye_position = eye.xyz;
 #endif
 #ifdef EYE_NORMAL
-    eye_normal = eye_from_model_normal * normal;
+    eye_normal = eye_from_model_normal * waved_normal(normal);
 #endif
 #ifdef PER_VERTEX
 #ifdef UNLIT
     Surface surface = Surface(eye.xyz, vec3(0.0), vec3(0.0, 0.0, 1.0));
 #else
     // GL_LIGHT_MODEL_LOCAL_VIEWER is off, as it is by default.
-    Surface surface = Surface(eye.xyz, normalize(eye_from_model_normal * normal), vec3(0.0, 0.0, 1.0));
+    Surface surface = Surface(eye.xyz, normalize(eye_from_model_normal * waved_normal(normal)), vec3(0.0, 0.0, 1.0));
 #endif
     LIGHT_VERTEX(surface)
 #endif

@@ -58,6 +58,9 @@ fn attach(gl: &glow::Context, point: u32, image: ImageName, target: Target) {
         ImageName::Texture(texture) => unsafe {
             gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture), level);
         },
+        ImageName::Line(texture) => unsafe {
+            gl.framebuffer_texture(glow::FRAMEBUFFER, point, Some(texture), level);
+        },
         ImageName::Cube(texture) => {
             let face = face_code(target.face.unwrap_or(CubeFace::PositiveX));
             unsafe { gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, face, Some(texture), level) };

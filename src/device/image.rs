@@ -19,6 +19,7 @@ pub struct GpuImage {
 pub enum ImageName {
     Texture(glow::Texture),
     Cube(glow::Texture),
+    Line(glow::Texture),
     Renderbuffer(glow::Renderbuffer),
 }
 
@@ -26,14 +27,26 @@ impl ImageName {
     /// GL's number for it; textures and renderbuffers are told apart by the sign bit.
     pub fn number(self) -> u32 {
         match self {
-            Self::Texture(texture) | Self::Cube(texture) => texture.0.get(),
+            Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => texture.0.get(),
             Self::Renderbuffer(buffer) => buffer.0.get() | 1 << 31,
         }
     }
 
     /// What it is bound to as a texture.
     pub fn binding(self) -> u32 {
-        if let Self::Cube(_) = self { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D }
+        match self {
+            Self::Cube(_) => glow::TEXTURE_CUBE_MAP,
+            Self::Line(_) => glow::TEXTURE_1D,
+            Self::Texture(_) | Self::Renderbuffer(_) => glow::TEXTURE_2D,
+        }
+    }
+
+    /// `None` of a renderbuffer.
+    pub fn texture(self) -> Option<glow::Texture> {
+        match self {
+            Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => Some(texture),
+            Self::Renderbuffer(_) => None,
+        }
     }
 }
 
@@ -45,7 +58,9 @@ pub fn face_code(face: CubeFace) -> u32 {
 impl Drop for GpuImage {
     fn drop(&mut self) {
         match self.name {
-            ImageName::Texture(texture) | ImageName::Cube(texture) => unsafe { self.gl.delete_texture(texture) },
+            ImageName::Texture(texture) | ImageName::Cube(texture) | ImageName::Line(texture) => unsafe {
+                self.gl.delete_texture(texture)
+            },
             ImageName::Renderbuffer(buffer) => unsafe { self.gl.delete_renderbuffer(buffer) },
         }
     }
@@ -76,6 +91,7 @@ pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Erro
         Storage::Texture => create_texture(gl, desc, None, 1)?,
         Storage::Cube(cube) => create_cube(gl, desc, cube)?,
         Storage::Mipmapped(levels) => create_texture(gl, desc, None, *levels)?,
+        Storage::Line(texels) => create_line(gl, desc, texels)?,
         Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba), 1)?,
     };
     let image = GpuImage { gl: gl.clone(), name };
@@ -121,6 +137,22 @@ fn create_texture(
         }
         gl.bind_texture(glow::TEXTURE_2D, None);
         Ok(ImageName::Texture(texture))
+    }
+}
+
+/// A 1D texture.
+fn create_line(gl: &glow::Context, desc: &ImageDesc, texels: &[[u8; 4]]) -> Result<ImageName, Error> {
+    let (internal, format, kind) = codes(desc.format);
+    // SAFETY: the context is current; the texels are as many as the size says.
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::Create)?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_1D, Some(texture));
+        let (width, pixels) = (texels.len() as i32, glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(texels))));
+        gl.tex_image_1d(glow::TEXTURE_1D, 0, internal as i32, width, 0, format, kind, pixels);
+        gl.tex_parameter_i32(glow::TEXTURE_1D, glow::TEXTURE_MAX_LEVEL, 0);
+        gl.bind_texture(glow::TEXTURE_1D, None);
+        Ok(ImageName::Line(texture))
     }
 }
 

@@ -45,7 +45,7 @@ impl Device {
     pub(crate) fn texture(&self, image: ImageId) -> Option<glow::Texture> {
         match self.gpu_image(image) {
             ImageName::Texture(texture) => Some(texture),
-            ImageName::Cube(_) | ImageName::Renderbuffer(_) => None,
+            ImageName::Cube(_) | ImageName::Line(_) | ImageName::Renderbuffer(_) => None,
         }
     }
 

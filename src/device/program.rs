@@ -116,7 +116,11 @@ impl GpuProgram {
             let name = uniform.name.trim_end_matches("[0]").to_owned();
             let is_sampler = matches!(
                 uniform.utype,
-                glow::SAMPLER_2D | glow::SAMPLER_2D_SHADOW | glow::SAMPLER_CUBE | glow::SAMPLER_CUBE_SHADOW
+                glow::SAMPLER_1D
+                    | glow::SAMPLER_2D
+                    | glow::SAMPLER_2D_SHADOW
+                    | glow::SAMPLER_CUBE
+                    | glow::SAMPLER_CUBE_SHADOW
             );
             if is_sampler { &mut self.samplers } else { &mut self.uniforms }.insert(name, location);
         }

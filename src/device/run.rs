@@ -273,11 +273,12 @@ impl Device {
 
     fn draw_batch(&mut self, state: &DrawState, batch: &Batch) {
         let Some(program) = self.programs.get(&batch.program) else { return };
-        apply(&self.gl, &DrawState { cull: batch.cull.or(state.cull), ..*state }, &mut self.state);
+        let (cull, clip_distances) = (batch.cull.or(state.cull), state.clip_distances.max(batch.clip_planes));
+        apply(&self.gl, &DrawState { cull, clip_distances, ..*state }, &mut self.state);
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
             let image = self.gpu_image(input.image);
-            let (ImageName::Texture(texture) | ImageName::Cube(texture)) = image else { continue };
+            let Some(texture) = image.texture() else { continue };
             let sampler = self.samplers.get(&input.sampler).map(|sampler| sampler.name);
             unsafe {
                 self.gl.active_texture(glow::TEXTURE0 + unit);
@@ -308,7 +309,7 @@ impl Device {
 
     pub(super) fn copy_depth(&mut self, list: &PassList, pass: &Pass) -> Result<(), Error> {
         let Work::CopyDepth { from, to, face } = pass.work else { return Ok(()) };
-        let (ImageName::Texture(texture) | ImageName::Cube(texture)) = self.gpu_image(to) else { return Ok(()) };
+        let Some(texture) = self.gpu_image(to).texture() else { return Ok(()) };
         let binding = self.gpu_image(to).binding();
         let place = face.map_or(binding, image::face_code);
         self.bind_target(list, &pass.label, Target { color: None, depth: Some(from), level: 0, face: None })?;

@@ -57,7 +57,9 @@ fn set_depth(gl: &glow::Context, state: &DrawState) {
         gl.depth_mask(state.depth_write);
         gl.depth_range_f32(state.depth_range[0], state.depth_range[1]);
         enable(gl, glow::DEPTH_CLAMP, state.depth_clamp);
-        enable(gl, glow::CLIP_DISTANCE0, state.clip_distance);
+        for distance in 0..DrawState::MOST_CLIP_DISTANCES {
+            enable(gl, glow::CLIP_DISTANCE0 + u32::from(distance), distance < state.clip_distances);
+        }
     }
 }
 

@@ -152,16 +152,17 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "lec-back-projection",
         title: "Back projection: q <= 0 must not be lit",
-        source: "Hardware Shadow Mapping and the lecture: a projector shines one way only",
+        source: "Hardware Shadow Mapping, negative projection; lecture: Careful about Back Projecting Shadow Maps",
         scene: LAMP,
         columns: 2,
         panels: &[
-            panel("q > 0 alone is lit", &[], None),
-            panel("what q < 0 would add on the left", &["light.1.color=[1.5, 1.4, 1.2]"], None),
+            panel("cure: guard = \"auto\"", &[], None),
+            panel("failure: no guard", &["light.shadow.guard=none"], None),
         ],
-        caption: "The lamp shines at the right wall. Behind it s/q and t/q are in [0, 1] again, with q below 0: the projective \
-                  texture would appear on the left wall, too. (b) is that mistake, drawn by a second projector that looks \
-                  the other way; the lit pass rejects q <= 0 per fragment (a).",
+        caption: "The lamp shines at the right wall. Behind it s/q and t/q are in [0, 1] again, with q below 0: without a \
+                  guard the projected picture appears on the left wall, too, turned by 180 degrees, with a shadow of the \
+                  ball that stands on the other side (b). Of six guards, which all show (a), the plan takes what the scene \
+                  needs: the left wall is drawn without the lamp, the floor below it with a test per fragment.",
     },
     Figure {
         name: "gdc-volumes",

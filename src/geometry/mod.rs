@@ -13,6 +13,7 @@ mod text;
 mod texture;
 pub mod topology;
 pub mod volume;
+mod wave;
 
 pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Texture};
@@ -20,3 +21,4 @@ pub use mesh::{Mesh, Part};
 pub use obj::{CREASE_DEGREES, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
 pub use texture::{decode_texture, load_texture};
+pub use wave::Wave;

@@ -30,13 +30,28 @@ pub fn colored(size: [u32; 2], data: &[f32]) -> Canvas {
     if width + 8 > size[0] || height + 8 > size[1] {
         return canvas;
     }
-    canvas.fill([4, 4], [width, height], [24, 26, 30]);
+    let [left, top] = emptiest_corner(size, data, [width, height]);
+    canvas.fill([left, top], [width, height], [24, 26, 30]);
     for (row, (swatch, name)) in (0u32..).zip(SCALE.iter().zip(NAMES)) {
-        let top = 10 + STEP * row;
-        canvas.fill([10, top], [SWATCH, SWATCH], *swatch);
-        canvas.write([10 + SWATCH + 6, top], name, [230, 230, 230]);
+        let top = top + 6 + STEP * row;
+        canvas.fill([left + 6, top], [SWATCH, SWATCH], *swatch);
+        canvas.write([left + 6 + SWATCH + 6, top], name, [230, 230, 230]);
     }
     canvas
+}
+
+/// Where a `room` four pixels off the edges hides the least of what is seen; upper left among equals.
+fn emptiest_corner(size: [u32; 2], data: &[f32], room: [u32; 2]) -> [u32; 2] {
+    let hidden = |[left, top]: &[u32; 2]| -> usize {
+        let row = |y: u32| {
+            let first = (y * size[0] + left) as usize;
+            data.chunks_exact(4).skip(first).take(room[0] as usize).filter(|pixel| pixel[3] > 0.0).count()
+        };
+        (*top..top + room[1]).map(row).sum()
+    };
+    let ([right, bottom], edge) = ([size[0] - room[0] - 4, size[1] - room[1] - 4], 4);
+    let corners = [[edge, edge], [right, edge], [edge, bottom], [right, bottom]];
+    corners.into_iter().min_by_key(hidden).unwrap_or([edge; 2])
 }
 
 #[cfg(test)]
@@ -51,5 +66,18 @@ mod tests {
         assert_eq!([color(0.0), color(1e9)], [SCALE[0], SCALE[6]]);
         let between = color(2.0_f32.powf(0.5));
         assert!((0..3).all(|k| between[k].abs_diff(SCALE[3][k]).abs_diff(between[k].abs_diff(SCALE[4][k])) <= 1));
+    }
+    #[test]
+    fn the_legend_stands_where_nothing_is_seen() {
+        const SIZE: [u32; 2] = [400, 300];
+        for empty in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+            let seen = |x: u32, y: u32| [x / 200, y / 150] != empty;
+            let pixel = |i: u32| [1.0, 0.0, 0.0, f32::from(u8::from(seen(i % SIZE[0], i / SIZE[0])))];
+            let data: Vec<f32> = (0..SIZE[0] * SIZE[1]).flat_map(pixel).collect();
+            let shown = colored(SIZE, &data);
+            let at = |x: u32, y: u32| &shown.bytes()[3 * (y * SIZE[0] + x) as usize..][..3];
+            let kept = |(x, y): (u32, u32)| !seen(x, y) || at(x, y) == color(1.0);
+            assert!((0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))).all(kept), "{empty:?}");
+        }
     }
 }

@@ -37,6 +37,9 @@ pub struct Batch {
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.
     pub cull: Option<Face>,
+    /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
+    /// that clips by a distance of its own.
+    pub clip_planes: u8,
     pub draws: Vec<Draw>,
 }
 

@@ -33,6 +33,8 @@ pub enum Storage {
     Renderbuffer,
     /// A texture filled from the CPU, with mipmaps.
     Uploaded(Arc<Texture>),
+    /// A 1D texture of these RGBA texels, of one level.
+    Line(&'static [[u8; 4]]),
 }
 
 impl Storage {
@@ -54,6 +56,7 @@ impl PartialEq for Storage {
             (Self::Mipmapped(a), Self::Mipmapped(b)) => a == b,
             (Self::Cube(a), Self::Cube(b)) => a == b,
             (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
+            (Self::Line(a), Self::Line(b)) => a == b,
             _ => false,
         }
     }

@@ -90,8 +90,9 @@ pub struct DrawState {
     pub depth_range: [f32; 2],
     /// GL_DEPTH_CLAMP: no clipping at the near and far planes, depth clamped to the range [GL 4.6, 13.7].
     pub depth_clamp: bool,
-    /// GL_CLIP_DISTANCE0, which the vertex stage then writes.
-    pub clip_distance: bool,
+    /// How many of GL_CLIP_DISTANCE0 and following are on, which the vertex stage then writes; at most
+    /// [`DrawState::MOST_CLIP_DISTANCES`].
+    pub clip_distances: u8,
     /// `None`: the stencil test is off.
     pub stencil: Option<Stencil>,
     /// `None`: the fragment's colour replaces what is there.
@@ -101,6 +102,9 @@ pub struct DrawState {
 }
 
 impl DrawState {
+    /// GL guarantees eight [GL 3.3, table 6.41]; nothing of ours needs more.
+    pub const MOST_CLIP_DISTANCES: u8 = 8;
+
     /// Depth only: LESS, colour writes off.
     pub const DEPTH_ONLY: Self = Self {
         depth_test: Some(Compare::Less),
@@ -110,7 +114,7 @@ impl DrawState {
         polygon_offset: None,
         depth_range: [0.0, 1.0],
         depth_clamp: false,
-        clip_distance: false,
+        clip_distances: 0,
         stencil: None,
         blend: None,
         scissor: None,

@@ -11,6 +11,7 @@ use crate::pass::{
     Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::{LightKind, Scene};
+use crate::techniques::guard::Guard;
 use crate::techniques::surface::{self, Ending, Viewer};
 use crate::techniques::views::{self, View};
 use crate::techniques::{Item, LightTerm, Notes, guides};
@@ -39,6 +40,8 @@ impl Builder<'_> {
         let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).map(|l| &l.term).collect();
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = Lens::for_counts(self.scene, counts.clone());
+        check_cuts(&terms)?;
+        surface::explain_guards(self.scene, self.items, &lens.camera, &terms, self.notes);
         let target = self.picture_target(counts.clone().next().is_some());
         if counts.clone().next().is_some() {
             self.counted_picture(target, &lens, &terms)?;
@@ -121,11 +124,22 @@ impl Builder<'_> {
         terms: &[LightTerm],
         ending: &Ending,
     ) -> Result<(), Error> {
+        self.surfaces_if(Redraw::Always, scene, onto, terms, ending)
+    }
+
+    pub fn surfaces_if(
+        &mut self,
+        redraw: Redraw,
+        scene: &Scene,
+        onto: &Onto<'_>,
+        terms: &[LightTerm],
+        ending: &Ending,
+    ) -> Result<(), Error> {
         let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
-        self.push(onto.label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
+        self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
         Ok(())
     }
 
@@ -207,5 +221,19 @@ impl Builder<'_> {
         let target = self.color_and_depth(label, [side; 2], Format::Rgba32F, false);
         self.seen_by_light(label, target, side, index)?;
         Ok(target.color.unwrap_or(ImageId(0)))
+    }
+}
+
+/// What clip planes at lights do not go with: more of them than a few, and passes that must meet the depths again.
+fn check_cuts(terms: &[&LightTerm]) -> Result<(), Error> {
+    let cutting: Vec<usize> =
+        terms.iter().filter(|term| term.guard == Guard::ClipPlane).map(|term| term.index).collect();
+    if cutting.len() > surface::MOST_CLIP_PLANES {
+        return Err(Error::TooManyCuts { lights: cutting, most: surface::MOST_CLIP_PLANES });
+    }
+    let counted = terms.iter().find(|term| term.counting.is_some());
+    match (cutting.first(), counted) {
+        (Some(light), Some(counted)) => Err(Error::CutDepths { light: *light, counted: counted.index }),
+        _ => Ok(()),
     }
 }

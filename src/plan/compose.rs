@@ -8,15 +8,21 @@ use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{Light, Scene};
+use crate::techniques::guard::Guard;
 use crate::techniques::items::items;
 use crate::techniques::surface::Viewer;
 use crate::techniques::{self, Item, LightTerm, LightView, Notes};
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
-    let items = items(scene);
+    let moved = techniques::needs_vertices(scene);
+    let items = items(scene, moved);
     let mut list = PassList::default();
     let mut notes = Notes::default();
+    for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {
+        let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
+        notes.chosen(object.name.clone(), "moved before it is drawn", why);
+    }
     let camera = Lens::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let mut builder = Builder { scene, items: &items, list: &mut list, notes: &mut notes, request };
@@ -63,13 +69,16 @@ fn light_terms(
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
-        let term = if absent.is_none() || shown {
+        let mut term = if absent.is_none() || shown {
             technique.describe(&view, &mut keys, list, notes)?
         } else {
             technique.describe(&view, &mut keys, &mut spare_list, &mut spare_notes)?
         };
         techniques::check_others(technique, &mut keys)?;
         keys.finish()?;
+        if keep_all && term.guard == Guard::Auto {
+            term.guard = Guard::Fragment;
+        }
         if let Some(why) = absent {
             notes.left_out(format!("light {index}"), why);
         }

@@ -1,6 +1,6 @@
 //! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
-//! light that needs no count first; then, for each such light, its volumes, and its light where the count is 0, with
-//! depth EQUAL.
+//! light that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags
+//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL.
 
 use super::Error;
 use super::builder::{Builder, Onto};
@@ -11,7 +11,7 @@ use crate::pass::{
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;
-use crate::techniques::light::{Counting, VolumeDraw};
+use crate::techniques::light::{Counted, Counting, Layer, VolumeDraw};
 use crate::techniques::surface::Ending;
 use crate::techniques::surface::sides::shows_no_back_face;
 use crate::techniques::views::{self, View};
@@ -35,7 +35,9 @@ impl Builder<'_> {
         let mut uncounted = self.first("uncounted light", target, lens, self.background());
         if keeps {
             self.depth_first(target, lens);
-            counted.iter().for_each(|term| self.count_term(target, lens, term, Redraw::WhenChanged));
+            for term in &counted {
+                self.count_term(target, lens, term, Redraw::WhenChanged)?;
+            }
             uncounted.clear.depth = None;
             uncounted.state = lens.of_surfaces(DrawState::REPEAT);
         }
@@ -44,7 +46,7 @@ impl Builder<'_> {
         self.surfaces(&scene, &uncounted, &first, &Ending::Lit)?;
         for term in &counted {
             if !keeps {
-                self.count_term(target, lens, term, Redraw::Always);
+                self.count_term(target, lens, term, Redraw::Always)?;
             }
             self.add_light(target, lens, term)?;
         }
@@ -78,27 +80,47 @@ impl Builder<'_> {
         self.push("depth", Redraw::WhenChanged, pass);
     }
 
-    fn count_term(&mut self, target: Target, lens: &Lens, term: &LightTerm, redraw: Redraw) {
-        if let Some(counting) = &term.counting {
-            self.count(target, lens, counting, "", redraw);
-        }
+    fn count_term(&mut self, target: Target, lens: &Lens, term: &LightTerm, redraw: Redraw) -> Result<(), Error> {
+        let Some(counting) = &term.counting else { return Ok(()) };
+        self.count(target, lens, term, counting, "", redraw)
     }
 
     /// The count itself, over depth that is there.
-    fn count(&mut self, target: Target, lens: &Lens, counting: &Counting, prefix: &str, redraw: Redraw) {
+    fn count(
+        &mut self,
+        target: Target,
+        lens: &Lens,
+        term: &LightTerm,
+        counting: &Counting,
+        prefix: &str,
+        redraw: Redraw,
+    ) -> Result<(), Error> {
         for (index, pass) in counting.passes.iter().enumerate() {
-            let fragment = glsl!("depth/depth.frag");
-            let (viewer, meaning) = (lens.viewer(pass.layer), Meaning::Depth(Texturing::default()));
-            let batches = Counting::batches(&pass.draws, &viewer, None, fragment, meaning, Vec::new());
-            let drawn = DrawPass {
-                target: Target { color: None, ..target },
-                viewport: self.scene.image.size,
+            let label = format!("{prefix}{}", pass.label);
+            let onto = Onto {
                 clear: Clear { stencil: (index == 0).then_some(0), ..Clear::default() },
                 state: lens.state(counting, &pass.state, pass.layer),
-                batches,
+                ..self.first(&label, Target { color: None, ..target }, lens, [0.0; 4])
             };
-            self.push(&format!("{prefix}{}", pass.label), redraw, drawn);
+            match &pass.counted {
+                Counted::Volumes(draws) => self.volumes(redraw, &onto, draws, pass.layer),
+                Counted::Shadowed => {
+                    // Surfaces are clipped as those are whose depth they must meet.
+                    let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
+                    let ending = Ending::View { chunk: glsl!("light/tag.frag"), shade: true };
+                    let asked = LightTerm { meaning: Shade::Shader("a shade that only tags"), ..term.clone() };
+                    self.surfaces_if(redraw, self.scene, &Onto { state, ..onto }, &[asked], &ending)?;
+                }
+            }
         }
+        Ok(())
+    }
+
+    fn volumes(&mut self, redraw: Redraw, onto: &Onto<'_>, draws: &[VolumeDraw], layer: Layer) {
+        let (viewer, meaning) = (onto.lens.viewer(layer), Meaning::Depth(Texturing::default()));
+        let batches = Counting::batches(draws, &viewer, None, glsl!("depth/depth.frag"), meaning, Vec::new());
+        let Onto { target, viewport, clear, state, .. } = *onto;
+        self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
     }
 
     /// Adds one light where its count is 0.
@@ -107,7 +129,8 @@ impl Builder<'_> {
         scene.shading.ambient = [0.0; 3];
         let source = &mut scene.lights[term.index];
         source.ambient = [0.0; 3];
-        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming));
+        let dimming = if of_all(term) { term.dimming } else { 0.0 };
+        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming + dimming));
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
@@ -119,7 +142,15 @@ impl Builder<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let lit = LightTerm { dimming: 0.0, ..term.clone() };
+        let mut lit = LightTerm { dimming, ..once_counted(&scene, term) };
+        if scene.shading.per_vertex {
+            // Lighting per vertex is clamped beside the ambient light, which is there already.
+            (scene.shading.ambient, scene.lights[term.index]) =
+                (self.scene.shading.ambient, self.scene.lights[term.index].clone());
+            lit.defines.push(String::from("ADDED"));
+            let left = term.dimming - lit.dimming;
+            weigh(&mut lit, 1.0 - left);
+        }
         self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
     }
 
@@ -129,7 +160,13 @@ impl Builder<'_> {
         for term in counted {
             let source = &mut scene.lights[term.index];
             source.specular = [0.0; 3];
-            source.diffuse = source.diffuse.map(|channel| channel * term.dimming);
+            let left = if of_all(term) { 0.0 } else { term.dimming };
+            source.diffuse = source.diffuse.map(|channel| channel * left);
+        }
+        // Lighting per vertex is clamped before it is weighed.
+        for term in counted.iter().filter(|_| scene.shading.per_vertex) {
+            let (own, source) = (&self.scene.lights[term.index], &mut scene.lights[term.index]);
+            source.diffuse = if source.diffuse == [0.0; 3] { source.diffuse } else { own.diffuse };
         }
         scene
     }
@@ -145,20 +182,24 @@ impl Builder<'_> {
         let lens = Lens::for_counts(self.scene, std::iter::once(counting));
         let target = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
         match view {
+            View::Volume | View::Silhouette if counting.volumes.is_empty() => {
+                return Err(Error::NoCount { view: view.name(), light: term.index });
+            }
             View::Volume | View::Silhouette => return self.volume_view(view, label, target, &lens, term, counting),
             View::StencilCount | View::StencilColors => {
                 let onto = self.first(label, target, &lens, [0.0; 4]);
                 self.surfaces(self.scene, &onto, &[], &Ending::Lit)?;
-                self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
+                self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
                 return Ok(target.depth.unwrap_or(ImageId(0)));
             }
             _ => {}
         }
-        let Some((ending, lit)) = views::camera_pass(view, term) else { return Ok(ImageId(0)) };
-        let shadowed = LightTerm { shade: glsl!("light/shadowed.frag"), meaning: Shade::Dark, ..lit.clone() };
+        let lit = once_counted(self.scene, term);
+        let Some((ending, lit)) = views::camera_pass(view, &lit) else { return Ok(ImageId(0)) };
+        let shadowed = term.under(self.scene, glsl!("light/shadowed.frag"), Shade::Dark);
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
-        self.count(target, &lens, counting, &format!("{label}: "), Redraw::Always);
+        self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
         let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
         let label = format!("{label}: where the count is 0");
         let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
@@ -176,7 +217,7 @@ impl Builder<'_> {
         term: &LightTerm,
         counting: &Counting,
     ) -> Result<ImageId, Error> {
-        let unshadowed = LightTerm { counting: None, ..term.clone() };
+        let unshadowed = unshadowed(self.scene, term);
         let onto = self.first(label, target, lens, self.background());
         self.surfaces(self.scene, &onto, &[unshadowed], &Ending::Lit)?;
         let (draws, name): (&[VolumeDraw], _) = match view {
@@ -217,8 +258,35 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
     match term.counting {
         None => Some(term.clone()),
         Some(_) if gives(source.ambient) || gives(source.diffuse) => {
-            Some(LightTerm { dimming: 0.0, counting: None, ..term.clone() })
+            let mut left = LightTerm { dimming: 0.0, ..unshadowed(scene, term) };
+            if scene.shading.per_vertex {
+                weigh(&mut left, term.dimming);
+            }
+            Some(left)
         }
         Some(_) => None,
     }
+}
+
+/// Whether the light's own shade finds what a shadow leaves.
+fn of_all(term: &LightTerm) -> bool {
+    term.counting.as_ref().is_some_and(|counting| counting.of_all)
+}
+
+/// The term of a light where its count is 0: what tagged the surfaces is not asked again.
+fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
+    let tagged = term.counting.as_ref().is_some_and(Counting::tags);
+    if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
+}
+
+/// Takes a part of the light's diffuse colour, after all else.
+fn weigh(term: &mut LightTerm, weight: f32) {
+    if weight < 1.0 {
+        term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));
+        term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
+    }
+}
+
+fn unshadowed(scene: &Scene, term: &LightTerm) -> LightTerm {
+    term.under(scene, glsl!("light/unshadowed.frag"), Shade::Lit)
 }

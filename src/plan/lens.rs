@@ -60,7 +60,12 @@ impl Lens {
 
     /// State of the surfaces.
     pub fn of_surfaces(&self, state: DrawState) -> DrawState {
-        DrawState { depth_range: self.depth_range, depth_clamp: self.clamped, clip_distance: self.clamped, ..state }
+        DrawState {
+            depth_range: self.depth_range,
+            depth_clamp: self.clamped,
+            clip_distances: u8::from(self.clamped),
+            ..state
+        }
     }
 
     /// Whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
@@ -87,12 +92,18 @@ impl Lens {
             _ => self.depth_range,
         };
         let depth_clamp = state.depth_clamp || (counting.infinite && !self.infinite);
-        DrawState { depth_range, depth_clamp, clip_distance: depth_clamp, scissor: counting.scissor, ..*state }
+        DrawState {
+            depth_range,
+            depth_clamp,
+            clip_distances: u8::from(depth_clamp),
+            scissor: counting.scissor,
+            ..*state
+        }
     }
 
     /// Makes the vertex stage write what `state` clips by.
     pub fn adapt(state: &DrawState, batches: &mut [Batch]) {
-        for batch in batches.iter_mut().filter(|_| state.clip_distance) {
+        for batch in batches.iter_mut().filter(|_| state.clip_distances > 0) {
             batch.program.defines.push(("CLIP_NEAR".into(), String::new()));
         }
     }

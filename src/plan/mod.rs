@@ -108,6 +108,14 @@ pub enum Error {
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
     TooManyInputs { needed: usize, limit: u32 },
+    #[error(
+        "guard = \"clip-plane\" of lights {lights:?}: at most {most} may choose it, as what lies across all their planes is drawn once for each combination of sides"
+    )]
+    TooManyCuts { lights: Vec<usize>, most: usize },
+    #[error(
+        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
+    )]
+    CutDepths { light: usize, counted: usize },
     #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
     Singular { light: usize },
 }

@@ -158,7 +158,7 @@ fn compare_name(compare: Compare) -> &'static str {
 
 fn state_words(pass: &DrawPass) -> Vec<String> {
     let DrawState { depth_test, depth_write, color_write, cull, polygon_offset, depth_range, .. } = pass.state;
-    let DrawState { depth_clamp, clip_distance, stencil, blend, scissor, .. } = pass.state;
+    let DrawState { depth_clamp, clip_distances, stencil, blend, scissor, .. } = pass.state;
     let mut words = Vec::new();
     if let Some([r, g, b, a]) = pass.clear.color {
         words.push(format!("clear colour ({r}, {g}, {b}, {a})"));
@@ -191,7 +191,7 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
     if depth_clamp {
         words.push(String::from("depth clamp"));
     }
-    if clip_distance {
+    if clip_distances > 0 {
         words.push(String::from("clip distance 0"));
     }
     words.extend(stencil.iter().flat_map(stencil_words));

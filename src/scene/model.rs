@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use super::Settings;
-use crate::geometry::{Material, Mesh, Texture};
+use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// All that a frame shows. Nothing in it refers to GL or to a technique by more than its name.
 #[derive(Clone, Debug)]
@@ -127,6 +127,8 @@ pub struct Object {
     pub mesh: Arc<Mesh>,
     /// Affine and invertible; may mirror.
     pub world_from_model: DMat4,
+    /// Moves the mesh's vertices where they are drawn; `None`: they stay.
+    pub wave: Option<Wave>,
     /// Stands in for every material of the mesh.
     pub material: Option<Arc<Material>>,
     /// Whether fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.

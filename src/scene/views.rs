@@ -95,8 +95,9 @@ impl Frustum {
 }
 
 impl Object {
-    /// The box around the mesh's own box, in world space.
+    /// The box around the mesh's own box, grown by its wave, in world space.
     pub fn world_bounds(&self) -> Aabb {
-        self.mesh.bounds.transformed(&self.world_from_model)
+        let bounds = self.wave.map_or(self.mesh.bounds, |wave| wave.bounds(self.mesh.bounds));
+        bounds.transformed(&self.world_from_model)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use crate::geometry::{Material, Texture};
+use crate::geometry::{Material, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, Meaning, MeshRef,
@@ -21,31 +21,38 @@ pub struct Item {
     pub object: usize,
     pub mesh: MeshRef,
     pub indices: std::ops::Range<u32>,
-    /// In model space.
+    /// In model space, with all that its wave can reach.
     pub bounds: Aabb,
     pub material: Arc<Material>,
     pub world_from_model: DMat4,
+    /// Moves its vertices in the vertex stage.
+    pub wave: Option<Wave>,
     pub lit: bool,
     pub casts_shadow: bool,
-    /// See [`crate::scene::Object::closed`].
+    /// See [`crate::scene::Object::closed`]; not of what waves, whose triangles may cross.
     pub closed: bool,
 }
 
 /// The scene's items, in its order. Parts of a mesh that share a material and follow one another are one item; what
-/// the alpha test would discard whole is left out.
-pub fn items(scene: &Scene) -> Vec<Item> {
+/// the alpha test would discard whole is left out. With `moved`, vertices that a wave moves are moved already.
+pub fn items(scene: &Scene, moved: bool) -> Vec<Item> {
     let mut materials = Materials::default();
     let mut items: Vec<Item> = Vec::new();
     for (index, object) in scene.objects.iter().enumerate() {
+        let (mesh, wave) = match object.wave {
+            Some(wave) if moved => (wave.moved(&object.mesh), None),
+            wave => (object.mesh.clone(), wave),
+        };
         let mut last_material: Option<Option<usize>> = None;
-        for part in object.mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+        for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+            let bounds = wave.map_or(part.bounds, |wave| wave.bounds(part.bounds));
             let own = if object.material.is_some() { None } else { part.material };
             if let (Some(last), Some(item)) = (last_material, items.last_mut())
                 && last == own
                 && item.indices.end == part.indices.start
             {
                 item.indices.end = part.indices.end;
-                item.bounds = item.bounds.union(part.bounds);
+                item.bounds = item.bounds.union(bounds);
                 continue;
             }
             let material = object.material.clone().unwrap_or_else(|| materials.of(&object.mesh, own));
@@ -53,14 +60,15 @@ pub fn items(scene: &Scene) -> Vec<Item> {
             items.push(Item {
                 label: object.name.clone(),
                 object: index,
-                mesh: MeshRef(object.mesh.clone()),
+                mesh: MeshRef(mesh.clone()),
                 indices: part.indices.clone(),
-                bounds: part.bounds,
+                bounds,
                 material,
                 world_from_model: object.world_from_model,
+                wave,
                 lit: object.lit,
                 casts_shadow: object.casts_shadow,
-                closed: object.closed,
+                closed: object.closed && object.wave.is_none(),
             });
         }
     }
@@ -90,7 +98,11 @@ pub fn mirrors(clip_from_model: &DMat4) -> bool {
 
 impl Item {
     /// The draw under `clip_from_world`, with what a pass adds as uniforms.
-    pub fn draw(&self, clip_from_world: &DMat4, uniforms: Vec<Uniform>) -> Draw {
+    pub fn draw(&self, clip_from_world: &DMat4, mut uniforms: Vec<Uniform>) -> Draw {
+        if let Some(wave) = &self.wave {
+            uniforms.push(Uniform::new("wave_reach", wave.reach.as_vec3()));
+            uniforms.push(Uniform::new("wave_vector", wave.vector.extend(wave.phase).as_vec4()));
+        }
         Draw {
             label: self.label.clone(),
             mesh: self.mesh.clone(),
@@ -124,6 +136,9 @@ impl Item {
         self.decal().is_some_and(|decal| decal.has_alpha)
     }
 }
+
+/// What fixed function has no words for.
+pub const WAVES: Meaning = Meaning::Shader("a surface that waves in the vertex stage");
 
 /// The part of a shader variant that decides which fragments exist: shared by depth and lit passes.
 #[derive(Default)]
@@ -199,7 +214,11 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
         fragment.push(glsl!("depth/depth.frag"));
         let mut attributes = vec![Attribute::Position];
         attributes.extend(test.attributes);
-        let program = Program { label: String::from("depth"), defines: test.defines, vertex, fragment, attributes };
+        let mut defines = test.defines;
+        if item.wave.is_some() {
+            defines.push(("WAVE".into(), String::new()));
+        }
+        let program = Program { label: String::from("depth"), defines, vertex, fragment, attributes };
         let draw = item.draw(clip_from_world, Vec::new());
         match batches
             .iter_mut()
@@ -208,15 +227,31 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
             Some(batch) => batch.draws.push(draw),
             None => batches.push(Batch {
                 program,
-                meaning: Meaning::Depth(test.meaning),
+                meaning: if item.wave.is_some() { WAVES } else { Meaning::Depth(test.meaning) },
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,
+                clip_planes: 0,
                 draws: vec![draw],
             }),
         }
     }
     batches
+}
+
+/// Binds the texture of two texels that tells a spotlight's sides apart: 0 behind it, 1 before [techniques A13 b].
+pub fn side_map(name: impl Into<std::borrow::Cow<'static, str>>, list: &mut PassList) -> Input {
+    const TEXELS: &[[u8; 4]] = &[[0; 4], [255; 4]];
+    let storage = Storage::Line(TEXELS);
+    let image = match list.images.iter().position(|desc| desc.storage == storage) {
+        Some(index) => ImageId(index),
+        None => {
+            let (label, size) = (String::from("sides of a light"), [TEXELS.len() as u32, 1]);
+            list.image(ImageDesc { label, size, format: Format::Rgba8, storage })
+        }
+    };
+    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    Input { name: name.into(), image, sampler }
 }
 
 /// Binds a texture of the scene; the same one becomes one image however often it is bound.

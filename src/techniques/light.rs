@@ -4,6 +4,7 @@ use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
+use super::guard::Guard;
 use super::projector::Projector;
 use super::surface::Viewer;
 use super::{Item, items};
@@ -114,9 +115,12 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
+    /// What keeps a spotlight's light from what lies behind it.
+    pub guard: Guard,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
-    /// Passes after which the stencil buffer is 0 where the light reaches; `shade` is not asked then.
+    /// Passes after which the stencil buffer is 0 where the light reaches; where they tag surfaces by `shade`, it is not
+    /// asked again.
     pub counting: Option<Counting>,
 }
 
@@ -127,6 +131,8 @@ pub struct Counting {
     pub passes: Vec<CountPass>,
     /// Whether a frame may keep the count of the one before.
     pub redraw: Redraw,
+    /// Whether the count says where any of the light is, what a shadow would leave of it too, and not what a shadow takes.
+    pub of_all: bool,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
     /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
@@ -141,14 +147,22 @@ pub struct Counting {
     pub silhouettes: Vec<VolumeDraw>,
 }
 
-/// Volumes under one draw state. The first pass clears the stencil buffer.
+/// What is counted under one draw state. The first pass clears the stencil buffer.
 #[derive(Clone, Debug)]
 pub struct CountPass {
     pub label: String,
     /// `depth_range` is the plan's to set.
     pub state: DrawState,
     pub layer: Layer,
-    pub draws: Vec<VolumeDraw>,
+    pub counted: Counted,
+}
+
+/// What a pass counts.
+#[derive(Clone, Debug)]
+pub enum Counted {
+    Volumes(Vec<VolumeDraw>),
+    /// The surfaces themselves, where the light's own shade is below one half (A20).
+    Shadowed,
 }
 
 /// Which depth range volumes are drawn into [techniques C8].
@@ -184,6 +198,11 @@ pub enum VolumeSpace {
 }
 
 impl Counting {
+    /// Whether what the light's own shade says is in the stencil buffer.
+    pub fn tags(&self) -> bool {
+        self.passes.iter().any(|pass| matches!(pass.counted, Counted::Shadowed))
+    }
+
     /// The batches that draw `draws`, which `fragment` colours.
     pub fn batches(
         draws: &[VolumeDraw],
@@ -204,7 +223,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, clip_planes: 0, draws }]
     }
 }
 
@@ -235,6 +254,21 @@ impl LightTerm {
         Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("light/unshadowed.frag")) }
     }
 
+    /// The same light under a shade that asks nothing, and that is no longer counted.
+    pub fn under(&self, scene: &Scene, shade: Chunk, meaning: Shade) -> Self {
+        let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
+        Self {
+            shade,
+            meaning,
+            defines: Vec::new(),
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+            coordinates: self.coordinates.clone().filter(|_| bounded),
+            counting: None,
+            ..self.clone()
+        }
+    }
+
     /// Light `index` of `scene`, whose shade `shade` finds; with the coordinates that the light's own reach needs: those
     /// of a spotlight's frustum. Where texture units find the shade too, its technique sets [`LightTerm::meaning`].
     pub fn new(scene: &Scene, index: usize, shade: Chunk) -> Self {
@@ -248,6 +282,7 @@ impl LightTerm {
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
+            guard: Guard::Auto,
             map: None,
             counting: None,
         }

@@ -9,6 +9,7 @@
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
 pub mod claims;
+pub mod guard;
 pub mod guides;
 pub mod items;
 pub mod light;
@@ -24,7 +25,7 @@ pub mod views;
 
 use self::claims::Claim;
 use crate::pass::PassList;
-use crate::scene::{LightKind, Reader, SettingsError, suggest};
+use crate::scene::{LightKind, Reader, Scene, SettingsError, suggest};
 pub use items::Item;
 pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 
@@ -45,6 +46,11 @@ pub trait Technique: Sync {
     ///
     /// Why not, as the end of a sentence that begins with the technique's name.
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
+
+    /// Whether it reads casters' vertices, which the vertex stage then must not move.
+    fn needs_vertices(&self) -> bool {
+        false
+    }
 
     /// What a report varies, and how.
     fn axes(&self) -> &'static [Axis];
@@ -141,6 +147,14 @@ impl Notes {
 /// A key with a wrong value, with its place in the scene file.
 pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
     TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
+}
+
+/// Whether the technique of some light of the scene reads casters' vertices.
+pub fn needs_vertices(scene: &Scene) -> bool {
+    scene.lights.iter().any(|source| {
+        let mut keys = source.shadow.read();
+        chosen(&source.kind, &mut keys).is_ok_and(|technique| technique.needs_vertices())
+    })
 }
 
 /// The technique that `[light.shadow]` of a light of this `kind` names; an absent table means none.

@@ -4,6 +4,11 @@
 mod child;
 mod floor;
 mod floor_gl;
+mod floor_maps;
+mod judge;
+mod kinds;
+mod numbers;
+mod pairs;
 mod pictures;
 mod rounds;
 mod table;
@@ -46,6 +51,15 @@ pub struct Arguments {
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
+    /// glumbra against itself, instead: multiples, and what is saved by what is left out
+    #[arg(long)]
+    pairs: bool,
+    /// What the floor draws
+    #[arg(long, value_enum, default_value_t = kinds::Kind::Map)]
+    floor: kinds::Kind,
+    /// What glumbra's child draws that it leaves out otherwise
+    #[arg(long, value_enum, default_value_t = child::Keep::Nothing)]
+    keep: child::Keep,
     /// The child's overrides of the scene, as `glumbra render` takes them
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -90,6 +104,7 @@ fn main() -> ExitCode {
     let result = match arguments.child {
         Some(who) => child::run(who, &arguments),
         None if arguments.volumes => volumes::run(&arguments),
+        None if arguments.pairs => pairs::run(&arguments),
         None if arguments.techniques => techniques::run(&arguments),
         None => rounds::run(&arguments),
     };

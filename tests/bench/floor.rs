@@ -1,5 +1,5 @@
 //! The floor: a scene's frame by the fewest GL calls. One interleaved vertex buffer and one index buffer in the file's
-//! order, a depth-only pass, a lit pass with a hardware comparison, a read-back. No culling, no heap settings.
+//! order, depth-only passes, a lit pass with a hardware comparison, a read-back. No culling, no heap settings.
 
 use std::path::Path;
 
@@ -11,70 +11,21 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use super::floor_gl::{self, Program};
+use super::floor_maps::{self, MapPass};
+use super::kinds::{self, Kind};
+use super::numbers::{Numbers, numbers};
 use super::{Result, Scene};
 
-/// The scene's numbers, those of `data/scenes/bench_*.toml`; the bench compares the pictures.
-struct Numbers {
-    size: i32,
-    map_size: i32,
-    eye: Vec3,
-    target: Vec3,
-    fov_y_degrees: f32,
-    near_far: [f32; 2],
-    light: Vec3,
-    light_target: Vec3,
-    cone_degrees: f32,
-    light_near_far: [f32; 2],
-    floor_half: f32,
-    models: Vec<Vec3>,
-}
-
 const BACKGROUND: [f32; 4] = [0.30, 0.40, 0.60, 1.0];
-
-fn numbers(scene: Scene) -> Numbers {
-    match scene {
-        Scene::S1 => Numbers {
-            size: 512,
-            map_size: 1024,
-            eye: Vec3::new(3.0, 2.5, 4.0),
-            target: Vec3::new(0.0, 0.6, 0.0),
-            fov_y_degrees: 40.0,
-            near_far: [0.1, 50.0],
-            light: Vec3::new(2.0, 4.0, 3.0),
-            light_target: Vec3::new(0.0, 0.5, 0.0),
-            cone_degrees: 60.0,
-            light_near_far: [0.5, 20.0],
-            floor_half: 4.0,
-            models: vec![Vec3::ZERO],
-        },
-        Scene::S2 => Numbers {
-            size: 1024,
-            map_size: 2048,
-            eye: Vec3::new(16.0, 14.0, 22.0),
-            target: Vec3::new(0.0, 0.0, 1.0),
-            fov_y_degrees: 45.0,
-            near_far: [0.5, 100.0],
-            light: Vec3::new(8.0, 26.0, 12.0),
-            light_target: Vec3::new(0.0, 0.0, 0.0),
-            cone_degrees: 70.0,
-            light_near_far: [5.0, 70.0],
-            floor_half: 20.0,
-            models: (0..100)
-                .map(|k| Vec3::new(3.6 * ((k % 10) as f32 - 4.5), 0.0, 3.6 * ((k / 10) as f32 - 4.5)))
-                .collect(),
-        },
-    }
-}
 
 /// The floor's GL objects, and what it draws.
 pub struct Floor {
     gl: glow::Context,
-    depth: Program,
+    kind: Kind,
     lit: Program,
-    map_target: glow::Framebuffer,
+    maps: Vec<MapPass>,
     picture_target: glow::Framebuffer,
     size: i32,
-    map_size: i32,
     /// Indices of the model; those of the quad follow.
     model_indices: i32,
     models: Vec<Vec3>,
@@ -88,7 +39,7 @@ impl Floor {
     /// Loads the model, opens a context and uploads.
     ///
     /// `tuned`: the triangles in vertex-cache order, and the heap kept.
-    pub fn new(scene: Scene, model: &Path, tuned: bool) -> Result<Self> {
+    pub fn new(scene: Scene, kind: Kind, model: &Path, tuned: bool) -> Result<Self> {
         let numbers = numbers(scene);
         let (mut mesh, _) = glumbra::geometry::load_obj(model)?;
         if tuned {
@@ -106,33 +57,45 @@ impl Floor {
         indices.extend([0, 1, 2, 0, 2, 3].map(|k| first + k));
 
         let gl = floor_gl::open()?;
-        let lit = Program::new(&gl, include_str!("lit.vert"), include_str!("lit.frag"))?;
-        let depth = Program::new(&gl, include_str!("depth.vert"), include_str!("depth.frag"))?;
-        let (map, map_target) = floor_gl::map(&gl, numbers.map_size)?;
+        let (defines, shade) = kinds::shade(kind);
+        let fragment = include_str!("lit.frag").replace("//SHADE//", &shade);
+        let lit = Program::new(&gl, defines, include_str!("lit.vert"), &fragment)?;
+        let maps = floor_maps::make(&gl, kind, &numbers)?;
         let picture_target = floor_gl::picture(&gl, numbers.size)?;
         floor_gl::upload(&gl, bytemuck::cast_slice(&vertices), bytemuck::cast_slice(&indices))?;
-        set_uniforms(&gl, &numbers, &depth, &lit);
+        set_uniforms(&gl, kind, &numbers, &lit);
         unsafe {
-            gl.bind_texture(glow::TEXTURE_2D, Some(map));
             gl.enable(glow::DEPTH_TEST);
             gl.polygon_offset(1.1, 4.0);
+            if kind == Kind::SecondDepth {
+                gl.cull_face(glow::FRONT);
+            }
         }
         let pixels = vec![0; 4 * (numbers.size * numbers.size) as usize];
-        let Numbers { size, map_size, models, .. } = numbers;
-        Ok(Self { gl, depth, lit, map_target, picture_target, size, map_size, model_indices, models, pixels })
+        let Numbers { size, models, .. } = numbers;
+        Ok(Self { gl, kind, lit, maps, picture_target, size, model_indices, models, pixels })
     }
 
-    /// Draws the map.
+    /// Draws the maps.
     pub fn depth_pass(&self) {
         let gl = &self.gl;
+        let offset = !matches!(self.kind, Kind::Midpoint | Kind::SecondDepth);
         unsafe {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.map_target));
-            gl.viewport(0, 0, self.map_size, self.map_size);
-            gl.clear(glow::DEPTH_BUFFER_BIT);
-            gl.enable(glow::POLYGON_OFFSET_FILL);
-            gl.use_program(Some(self.depth.name));
-            self.draw(&self.depth);
+            if offset {
+                gl.enable(glow::POLYGON_OFFSET_FILL);
+            }
+            if self.kind == Kind::SecondDepth {
+                gl.enable(glow::CULL_FACE);
+            }
+            for map in &self.maps {
+                gl.bind_framebuffer(glow::FRAMEBUFFER, Some(map.target));
+                gl.viewport(0, 0, map.size, map.size);
+                gl.clear(glow::DEPTH_BUFFER_BIT);
+                gl.use_program(Some(map.program.name));
+                self.draw(&map.program);
+            }
             gl.disable(glow::POLYGON_OFFSET_FILL);
+            gl.disable(glow::CULL_FACE);
         }
     }
 
@@ -197,24 +160,32 @@ impl Floor {
     }
 }
 
-fn set_uniforms(gl: &glow::Context, numbers: &Numbers, depth: &Program, lit: &Program) {
+fn set_uniforms(gl: &glow::Context, kind: Kind, numbers: &Numbers, lit: &Program) {
     let [near, far] = numbers.near_far;
     let clip_from_world = opengl::perspective(numbers.fov_y_degrees.to_radians(), 1.0, near, far)
         * look_at_mat4(numbers.eye, numbers.target, Vec3::Y);
-    let [near, far] = numbers.light_near_far;
-    let light_clip_from_world = opengl::perspective(numbers.cone_degrees.to_radians(), 1.0, near, far)
-        * look_at_mat4(numbers.light, numbers.light_target, Vec3::Y);
+    let (projection, view) = kinds::light_matrices(kind, numbers);
     let half = Mat4::from_translation(Vec3::splat(0.5)) * Mat4::from_scale(Vec3::splat(0.5));
-    let light = numbers.light;
+    let [near, far] = numbers.light_near_far;
+    let face_depth = [0.5 * (far + near) / (far - near) + 0.5, far * near / (far - near)];
+    let towards_light =
+        if kind == Kind::Parallel { numbers.light - numbers.light_target } else { kinds::light(kind, numbers) };
+    // Of a normal offset: from s and t to x and y over the distance, and how far a filter reaches at a distance of 1.
+    let scale = 0.5 * projection.x_axis.x;
+    let reach = std::f32::consts::SQRT_2 / (scale * numbers.map_size as f32);
     unsafe {
-        let set = |program: &Program, name: &str, matrix: Mat4| {
-            gl.uniform_matrix_4_f32_slice(program.at(gl, name).as_ref(), false, &matrix.to_cols_array());
+        let set = |name: &str, matrix: Mat4| {
+            gl.uniform_matrix_4_f32_slice(lit.at(gl, name).as_ref(), false, &matrix.to_cols_array());
         };
-        gl.use_program(Some(depth.name));
-        set(depth, "clip_from_world", light_clip_from_world);
         gl.use_program(Some(lit.name));
-        set(lit, "clip_from_world", clip_from_world);
-        set(lit, "texture_from_world", half * light_clip_from_world);
-        gl.uniform_3_f32(lit.at(gl, "light").as_ref(), light.x, light.y, light.z);
+        set("clip_from_world", clip_from_world);
+        set("texture_from_world", half * projection * view);
+        set("texture_from_light_0", half * projection);
+        gl.uniform_3_f32(lit.at(gl, "light").as_ref(), towards_light.x, towards_light.y, towards_light.z);
+        gl.uniform_2_f32(lit.at(gl, "face_depth").as_ref(), face_depth[0], face_depth[1]);
+        gl.uniform_1_f32(lit.at(gl, "filter_reach_0").as_ref(), 1.0);
+        gl.uniform_1_f32(lit.at(gl, "towards_light_0").as_ref(), 1.0);
+        gl.uniform_1_f32(lit.at(gl, "offset_radius_0").as_ref(), reach);
+        gl.uniform_4_f32(lit.at(gl, "light_from_map_0").as_ref(), 1.0 / scale, 1.0 / scale, 0.5, 0.5);
     }
 }

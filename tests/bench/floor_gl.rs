@@ -56,12 +56,14 @@ pub struct Program {
 }
 
 impl Program {
-    pub fn new(gl: &glow::Context, vertex: &str, fragment: &str) -> Result<Self> {
+    /// With `defines` behind both stages' version.
+    pub fn new(gl: &glow::Context, defines: &str, vertex: &str, fragment: &str) -> Result<Self> {
         unsafe {
             let name = gl.create_program()?;
             for (kind, source) in [(glow::VERTEX_SHADER, vertex), (glow::FRAGMENT_SHADER, fragment)] {
                 let shader = gl.create_shader(kind)?;
-                gl.shader_source(shader, source);
+                let (version, rest) = source.split_once('\n').ok_or("a shader without a version")?;
+                gl.shader_source(shader, &format!("{version}\n{defines}{rest}"));
                 gl.compile_shader(shader);
                 gl.attach_shader(name, shader);
             }
@@ -76,41 +78,6 @@ impl Program {
 
     pub fn at(&self, gl: &glow::Context, name: &str) -> Option<glow::UniformLocation> {
         unsafe { gl.get_uniform_location(self.name, name) }
-    }
-}
-
-/// A depth texture with a linear comparison, and the framebuffer to draw it.
-pub fn map(gl: &glow::Context, size: i32) -> Result<(glow::Texture, glow::Framebuffer)> {
-    unsafe {
-        let texture = gl.create_texture()?;
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        gl.tex_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            glow::DEPTH_COMPONENT24 as i32,
-            size,
-            size,
-            0,
-            glow::DEPTH_COMPONENT,
-            glow::UNSIGNED_INT,
-            glow::PixelUnpackData::Slice(None),
-        );
-        for (name, value) in [
-            (glow::TEXTURE_MIN_FILTER, glow::LINEAR),
-            (glow::TEXTURE_MAG_FILTER, glow::LINEAR),
-            (glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE),
-            (glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE),
-            (glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE),
-            (glow::TEXTURE_COMPARE_FUNC, glow::LEQUAL),
-        ] {
-            gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
-        }
-        let target = gl.create_framebuffer()?;
-        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target));
-        gl.framebuffer_texture_2d(glow::FRAMEBUFFER, glow::DEPTH_ATTACHMENT, glow::TEXTURE_2D, Some(texture), 0);
-        gl.draw_buffers(&[glow::NONE]);
-        gl.read_buffer(glow::NONE);
-        Ok((texture, target))
     }
 }
 

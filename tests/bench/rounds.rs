@@ -120,7 +120,13 @@ impl Bench {
     }
 
     pub fn frames_of(&self, who: Who, redraw: Redraw, sets: &[&str]) -> Result<Sample> {
+        self.frames_with(who, redraw, sets, &[])
+    }
+
+    /// With more of the child's arguments.
+    pub fn frames_with(&self, who: Who, redraw: Redraw, sets: &[&str], more: &[&str]) -> Result<Sample> {
         let mut command = self.child(who)?;
+        command.args(more);
         for set in sets {
             command.args(["--set", set]);
         }
@@ -131,7 +137,16 @@ impl Bench {
 
     /// One frame and a PNG by a child of this bench: milliseconds, and peak memory.
     fn start(&self, who: Who) -> Result<(f64, u64)> {
+        self.start_with(who, &[], &[])
+    }
+
+    /// With more of the child's arguments.
+    pub fn start_with(&self, who: Who, sets: &[&str], more: &[&str]) -> Result<(f64, u64)> {
         let mut command = self.child(who)?;
+        command.args(more);
+        for set in sets {
+            command.args(["--set", set]);
+        }
         command.arg("-o").arg(self.picture(who));
         let (ms, printed) = timed(command)?;
         Ok((ms, sample(&printed)?.peak_kib))
@@ -165,7 +180,7 @@ impl Bench {
         Ok(std::fs::write(self.folder.join("scene.toml"), text)?)
     }
 
-    fn picture(&self, who: Who) -> PathBuf {
+    pub fn picture(&self, who: Who) -> PathBuf {
         self.folder.join(format!("{:?}-{who:?}.png", self.scene))
     }
 }

@@ -131,6 +131,13 @@ const REFUSED: &[(&[&str], &str, &str, &str)] = &[
     (&["light.shadow.format=depth32f"], "lit", "floor", "beyond the light's far plane"),
     (&["object.1.material.shininess=200"], "lit", "teapot", "GL_SHININESS ends at 128"),
     (&["light.shadow.technique=shadow-volume"], "light 0", "teapot", "stencil"),
+    (&["light.shadow.into=stencil"], "light 0: tag", "floor, teapot", "tag in the stencil buffer"),
+    (
+        &["object.1.wave={ direction = [1, 0, 0], axis = [0, 1, 0], amplitude = 0.1, wavelength = 1 }"],
+        "light 0: depth",
+        "teapot",
+        "waves in the vertex stage",
+    ),
 ];
 
 #[test]

@@ -43,6 +43,7 @@ pub fn object(name: &str, mesh: Mesh) -> Object {
         name: name.to_owned(),
         mesh: Arc::new(mesh),
         world_from_model: DMat4::IDENTITY,
+        wave: None,
         material: None,
         lit: true,
         casts_shadow: true,

@@ -133,12 +133,16 @@ impl FixedFunction {
 fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
     let layered = matches!(batch.meaning, Meaning::Lit(_) | Meaning::Sampled(_));
     let why = match state {
-        DrawState { stencil: Some(_), .. } => {
-            "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
-             caps where it puts the surfaces"
+        DrawState { depth_test: Some(Compare::Equal), stencil: Some(_), .. } => {
+            "a count or tag in the stencil buffer at depth EQUAL to another pass, whose positions fixed function may \
+             compute otherwise"
         }
         DrawState { depth_test: Some(Compare::Equal), .. } => {
             "depth EQUAL to another pass, whose positions fixed function may compute otherwise"
+        }
+        DrawState { stencil: Some(_), .. } => {
+            "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
+             caps where it puts the surfaces"
         }
         DrawState { blend: Some(_), .. } if layered => "a pass that blends, as its own layers do",
         _ => return Ok(()),

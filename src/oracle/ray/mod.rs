@@ -30,6 +30,7 @@ mod shells;
 mod solid;
 mod truth;
 mod volumes;
+mod wave;
 mod world;
 
 use glam::DVec3;
@@ -43,7 +44,7 @@ use light::Lamp;
 use primary::Seen;
 pub use truth::{Answer, Hit, Pixel, Reason, Truth};
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
-use world::{Triangle, World};
+use world::{Placed, Triangle, World};
 
 /// How much doubt is granted.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,21 +129,20 @@ impl<'a> Tracer<'a> {
         let rounding = options.position_roundings * 0.5 * f64::from(f32::EPSILON);
         let subpixel = (-f64::from(options.subpixel_bits)).exp2();
         let mut tracer = Self { world, eye, lamp, subpixel, rounding, errors: Vec::new(), largest_error: 0.0 };
-        tracer.errors =
-            tracer.world.placed.iter().map(|placed| tracer.error_of(placed.origin(), placed.reach)).collect();
+        tracer.errors = tracer.world.placed.iter().map(|placed| tracer.error_of(placed, placed.reach)).collect();
         tracer.largest_error = tracer.errors.iter().copied().fold(0.0, f64::max);
         Ok(tracer)
     }
 
-    /// Of a point at `reach` from its object's origin. The last term is the rounding of this computation itself.
-    fn error_of(&self, origin: DVec3, reach: f64) -> f64 {
+    /// Of a point at `reach` from its object's origin. The third term is the rounding of this computation itself.
+    fn error_of(&self, placed: &Placed, reach: f64) -> f64 {
+        let origin = placed.origin();
         let met = reach + origin.distance(self.eye.position) + self.lamp.span(origin);
-        self.rounding * met + 64.0 * f64::EPSILON * (origin.abs().max_element() + met)
+        self.rounding * met + 64.0 * f64::EPSILON * (origin.abs().max_element() + met) + placed.wave_error
     }
 
     fn position_error(&self, triangle: &Triangle<'_>, position: DVec3) -> f64 {
-        let origin = triangle.placed.origin();
-        self.error_of(origin, position.distance(origin))
+        self.error_of(triangle.placed, position.distance(triangle.placed.origin()))
     }
 
     fn answer(&self, x: u32, y: u32) -> Pixel {

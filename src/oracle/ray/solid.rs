@@ -9,13 +9,16 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
 use super::Error;
-use crate::geometry::Mesh;
+use super::wave;
+use crate::geometry::{Mesh, Wave};
 
 /// No single triangle lies across this edge: it is open, or three triangles or more meet in it.
 pub(super) const OPEN: u32 = u32::MAX;
 
 pub(super) struct Solid<'a> {
     pub mesh: &'a Mesh,
+    /// In model space, where a wave has moved them to.
+    positions: Vec<DVec3>,
     pub bvh: Bvh,
     /// Each triangle's corners by place: equal where the positions are equal, whatever their normals.
     pub welded: Vec<[u32; 3]>,
@@ -30,8 +33,10 @@ pub(super) struct Solid<'a> {
 
 impl<'a> Solid<'a> {
     /// Fails where the mesh breaks its own rules: an index too large, a position not finite.
-    pub fn new(mesh: &'a Mesh) -> Result<Self, Error> {
+    pub fn new(mesh: &'a Mesh, wave: Option<&Wave>) -> Result<Self, Error> {
         check(mesh)?;
+        let places = mesh.positions.iter().map(|position| DVec3::from_array(position.map(f64::from)));
+        let positions: Vec<DVec3> = places.map(|place| wave.map_or(place, |wave| wave::moved(place, wave))).collect();
         let corners: Vec<[u32; 3]> = mesh.indices.as_chunks::<3>().0.to_vec();
         let welded = weld(mesh, &corners);
         let part = parts(mesh, corners.len());
@@ -48,14 +53,19 @@ impl<'a> Solid<'a> {
         let seam = seam
             .map(|(triangle, beside)| [0, 1, 2].map(|k| beside[k].is_some_and(|other| is_seam(triangle, k, other))));
         let seam = seam.collect();
-        let boxes: Vec<Aabb> = corners.iter().map(|triangle| bound(mesh, triangle)).collect();
+        let boxes: Vec<Aabb> = corners.iter().map(|triangle| bound(&positions, triangle)).collect();
         let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        Ok(Self { mesh, bvh, welded, across, seam, part })
+        Ok(Self { mesh, positions, bvh, welded, across, seam, part })
     }
 
     /// A vertex in model space.
     pub fn position(&self, index: u32) -> DVec3 {
-        DVec3::from_array(self.mesh.positions[index as usize].map(f64::from))
+        self.positions[index as usize]
+    }
+
+    /// All vertices in model space.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
     }
 
     /// The triangle's three indices.
@@ -90,8 +100,8 @@ fn check(mesh: &Mesh) -> Result<(), Error> {
     Ok(())
 }
 
-fn bound(mesh: &Mesh, triangle: &[u32; 3]) -> Aabb {
-    let [a, b, c] = triangle.map(|i| DVec3::from_array(mesh.positions[i as usize].map(f64::from)));
+fn bound(positions: &[DVec3], triangle: &[u32; 3]) -> Aabb {
+    let [a, b, c] = triangle.map(|i| positions[i as usize]);
     let (min, max) = (a.min(b).min(c), a.max(b).max(c));
     Aabb::new(Vector::from_array(min.to_array()), Vector::from_array(max.to_array()))
 }

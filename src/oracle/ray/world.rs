@@ -15,6 +15,7 @@ use super::Error;
 use super::beam::crossing;
 use super::cutout::{Alpha, Cutout};
 use super::solid::{OPEN, Solid};
+use super::wave;
 use crate::geometry::{Material, Mesh};
 use crate::scene::{Object, Scene};
 
@@ -34,6 +35,8 @@ pub(super) struct Placed {
     shrink: f64,
     /// The farthest vertex from the object's origin, in world units.
     pub reach: f64,
+    /// What a vertex's wave may be off by where it is found in f32, in world units.
+    pub wave_error: f64,
     /// Of each part, and last of triangles that no part holds.
     cutouts: Vec<Option<Cutout>>,
     has_cutouts: bool,
@@ -64,15 +67,17 @@ impl<'a> World<'a> {
         let mut known: HashMap<*const Mesh, usize> = HashMap::new();
         let mut placed = Vec::with_capacity(scene.objects.len());
         for object in &scene.objects {
-            let solid = match known.get(&Arc::as_ptr(&object.mesh)) {
+            let solid = match known.get(&Arc::as_ptr(&object.mesh)).filter(|_| object.wave.is_none()) {
                 Some(&solid) => solid,
                 None => {
-                    solids.push(Solid::new(&object.mesh)?);
-                    known.insert(Arc::as_ptr(&object.mesh), solids.len() - 1);
+                    solids.push(Solid::new(&object.mesh, object.wave.as_ref())?);
+                    if object.wave.is_none() {
+                        known.insert(Arc::as_ptr(&object.mesh), solids.len() - 1);
+                    }
                     solids.len() - 1
                 }
             };
-            placed.push(place(object, solid)?);
+            placed.push(place(object, solid, &solids[solid])?);
         }
         let boxes: Vec<Aabb> = placed.iter().map(|placed| world_box(placed, &solids[placed.solid])).collect();
         Ok(Self { solids, placed, top: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) })
@@ -281,7 +286,7 @@ impl Placed {
     }
 }
 
-fn place(object: &Object, solid: usize) -> Result<Placed, Error> {
+fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Error> {
     let world_from_model = object.world_from_model;
     let model_from_world = world_from_model.inverse();
     if !(world_from_model.is_finite() && model_from_world.is_finite()) {
@@ -290,19 +295,18 @@ fn place(object: &Object, solid: usize) -> Result<Placed, Error> {
     let linear = [model_from_world.x_axis, model_from_world.y_axis, model_from_world.z_axis];
     // The Frobenius norm is not below the largest singular value.
     let shrink = linear.iter().map(|axis| axis.truncate().length_squared()).sum::<f64>().sqrt();
-    let farthest = |reach: f64, position: &[f32; 3]| {
-        let point = DVec3::from_array(position.map(f64::from));
-        reach.max(world_from_model.transform_vector3(point).length())
-    };
-    let reach = object.mesh.positions.iter().fold(0.0, farthest);
+    let farthest = |reach: f64, point: &DVec3| reach.max(world_from_model.transform_vector3(*point).length());
+    let reach = solid.positions().iter().fold(0.0, farthest);
+    let moved_by = object.wave.map_or(0.0, |wave| wave::error(&wave, &object.mesh, &world_from_model));
     let cutouts = find_cutouts(object);
     Ok(Placed {
-        solid,
+        solid: index,
         casts_shadow: object.casts_shadow,
         world_from_model,
         model_from_world,
         shrink,
         reach,
+        wave_error: moved_by,
         has_cutouts: cutouts.iter().any(Option::is_some),
         cutouts,
     })

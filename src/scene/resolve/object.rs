@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec3};
 
 use super::material;
-use crate::geometry::Mesh;
+use crate::geometry::{Mesh, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
@@ -16,6 +16,7 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
         reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh or an .obj file"))?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
     let world_from_model = placement(&mut reader)?;
+    let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
     let closed = reader.boolean("closed")?.unwrap_or(false);
@@ -26,7 +27,7 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
     }
-    let object = Object { name, mesh, world_from_model, material, lit, casts_shadow, closed };
+    let object = Object { name, mesh, world_from_model, wave, material, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     Ok(object)
 }
@@ -91,6 +92,26 @@ fn rotation(table: &Settings) -> Result<DMat4, SettingsError> {
     let axis = axis.try_normalize().ok_or_else(|| reader_error(table, "axis", "must not be of zero length"))?;
     // Whole turns are taken off in degrees, where that is exact.
     Ok(DMat4::from_axis_angle(axis, (degrees % 360.0).to_radians()))
+}
+
+/// `{ direction, amplitude, axis, wavelength, phase }`, in model space; `None` where nothing moves.
+fn wave(table: &Settings) -> Result<Option<Wave>, SettingsError> {
+    let mut reader = table.read();
+    let mut way = |key, what| {
+        let vector = reader.vector(key)?.ok_or_else(|| reader.missing(key, what))?;
+        vector.try_normalize().ok_or_else(|| reader.error(key, "must not be of zero length"))
+    };
+    let direction = way("direction", "the way that vertices move, [x, y, z]")?;
+    let axis = way("axis", "the way from crest to crest, [x, y, z]")?;
+    let amplitude = reader
+        .number("amplitude", -LARGEST..=LARGEST)?
+        .ok_or_else(|| reader.missing("amplitude", "how far vertices move"))?;
+    let wavelength =
+        reader.length("wavelength")?.ok_or_else(|| reader.missing("wavelength", "the length from crest to crest"))?;
+    let phase = reader.number("phase", -LARGEST..=LARGEST)?.unwrap_or(0.0);
+    reader.finish()?;
+    let wave = Wave { reach: amplitude * direction, vector: axis / wavelength, phase: phase.rem_euclid(1.0) };
+    Ok((amplitude != 0.0).then_some(wave))
 }
 
 fn reader_error(table: &Settings, key: &str, message: &str) -> SettingsError {

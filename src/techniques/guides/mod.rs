@@ -36,7 +36,15 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
     };
     let uniforms = vec![Uniform::new("guide_color", UniformValue::Vec3(YELLOW))];
     let meaning = Meaning::Constant(YELLOW.extend(1.0).to_array());
-    (!draws.is_empty()).then_some(Batch { program, meaning, uniforms, inputs: Vec::new(), cull: None, draws })
+    (!draws.is_empty()).then_some(Batch {
+        program,
+        meaning,
+        uniforms,
+        inputs: Vec::new(),
+        cull: None,
+        clip_planes: 0,
+        draws,
+    })
 }
 
 fn frustum_draw(light: &str, seen: &Frustum, viewer: &Viewer) -> Draw {

@@ -1,29 +1,30 @@
 //! Woo's midpoint map, in two passes by depth peeling [Hardware Shadow Mapping, "Advantages and Limitations";
 //! techniques A14].
 //!
-//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects by the texture unit's
-//! comparison what that map holds, and stores the middle between the nearest depth and its own; the nearest fragment
+//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (as
+//! the document has it by the texture unit's comparison, or by its own: [`settings::Peel`]), and stores the middle between the nearest depth and its own; the nearest fragment
 //! that is left is the second layer. A surface's own depth then lies half a caster's thickness before what it is
 //! compared with, and no polygon offset is needed.
 //!
 //! # Pitfalls that the document does not mention
-//! - A depth is rounded when it is stored, the reference of a comparison is not [GL 4.6, 8.23.1]: half of a first layer
-//!   lies behind itself. The reference is moved towards the light by two codes of the format, which no rounding reaches;
+//! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer
+//!   lies behind itself. That is moved towards the light by two codes of the format, which no rounding reaches;
 //!   float maps keep the fragment's own bits. Both passes compute positions by the same arithmetic.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
 //!   `tests/midpoint.rs`) and costs nothing, so it is taken wherever the scene allows it.
 //! - A caster that is left out of the map because nothing that it shadows is seen may be the second layer of one that
 //!   is not: here every caster in the frustum is drawn.
 
+mod second;
 mod settings;
 mod single;
 
-use self::settings::{Average, Settings, Single};
+use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
-use super::shadow_map::{self, bias, term};
+use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
@@ -106,26 +107,32 @@ impl Technique for Midpoint {
         let settings = settings::read(keys)?;
         refuse(&settings.map, keys)?;
         let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
-            return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings.map, notes));
         };
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, settings.map.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings.map, notes));
         }
-        let mut draw = |name, image, ending, offset| {
-            let layer = Layer { name, image, ending, offset, casters: &casters };
+        let single = settings.single.unwrap_or_else(|| needed(view));
+        let shared = second::shared_texels(view, &casters, &settings.map).unwrap_or_default();
+        let shared = (!view.keep_all).then_some(shared);
+        // Without a second layer beside it, the nearest layer is asked for only to be stored itself.
+        let asked = if single == Single::First { None } else { shared };
+        let mut draw = |name, image, ending, offset, scissor| {
+            let layer = Layer { name, image, ending, offset, scissor, casters: &casters };
             depth::draw(view, &layer, &settings.map, list, notes)
         };
-        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET);
-        let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET);
-        let first = match settings.single.unwrap_or_else(|| needed(view)) {
+        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, asked);
+        let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET, shared);
+        let first = match single {
             Single::Far => None,
             Single::First => Some(nearest),
             Single::FirstOffset => {
                 let offset = bias::offset(&settings.map).polygon;
-                Some(draw("offset layer", "offset layer", None, offset))
+                Some(draw("offset layer", "offset layer", None, offset, None))
             }
         };
+        note_scissor(view, shared, settings.map.size, notes);
         let map = match first {
             Some(first) => single::fill(view, first, midpoint, &settings.map, list),
             None => {
@@ -134,7 +141,17 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        Ok(term::term(view, map, &settings.map, 0.0))
+        Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
+    }
+}
+
+/// Says how much of the map is left out because no two layers can share a texel of it.
+fn note_scissor(view: &FrustumView<'_>, shared: Option<[u32; 4]>, size: u32, notes: &mut Notes) {
+    let Some([_, _, width, height]) = shared else { return };
+    let share = f64::from(width) * f64::from(height) / (f64::from(size) * f64::from(size));
+    if share < 1.0 {
+        let what = format!("{:.1} % of the texels of light {}'s two layers", 100.0 * (1.0 - share), view.index);
+        notes.left_out(what, "no texel there can have a second layer");
     }
 }
 
@@ -168,26 +185,30 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),
     };
-    let sampler = |compare| Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare, lod_halves: None };
+    let input = |name: &'static str, compare| {
+        let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare, lod_halves: None };
+        Input { name: name.into(), image: nearest, sampler }
+    };
     let mut ending = Ending {
         label: "peel",
         fragment: glsl!("midpoint/peel.frag"),
         defines: Vec::new(),
         uniforms: vec![Uniform::new("margin", sign * margin(settings.map.format))],
-        inputs: vec![
-            Input { name: "nearest_compared".into(), image: nearest, sampler: sampler(Some(behind)) },
-            Input { name: "nearest".into(), image: nearest, sampler: sampler(None) },
-        ],
+        inputs: vec![input("nearest", None)],
     };
+    if settings.map.order == Order::GreaterEqual {
+        ending.defines.push("REVERSED");
+    }
+    if settings.peel == Peel::Compare {
+        ending.defines.push("COMPARE");
+        ending.inputs.push(input("nearest_compared", Some(behind)));
+    }
     // Of parallel light a window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {
         ending.defines.push("EYE_LINEAR");
         ending.uniforms.push(Uniform::new("near_over_range", (near / (far - near)) as f32));
-        if settings.map.order == Order::GreaterEqual {
-            ending.defines.push("REVERSED");
-        }
     }
     ending
 }

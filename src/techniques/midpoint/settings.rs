@@ -24,9 +24,19 @@ pub enum Single {
     FirstOffset,
 }
 
+/// How the second pass tells what lies behind the nearest layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Peel {
+    /// By the depth that it fetches for the average anyway: one lookup a fragment.
+    Fetch,
+    /// By the texture unit's comparison, as the document has it, and a lookup more. The texels are the same.
+    Compare,
+}
+
 pub struct Settings {
     pub map: Map,
     pub average: Average,
+    pub peel: Peel,
     /// `None`: as the scene needs it.
     pub single: Option<Single>,
 }
@@ -47,6 +57,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     Ok(Settings {
         map: map::read(keys)?,
         average: keys.choice("average", &averages)?.unwrap_or(Average::Window),
+        peel: keys.choice("peel", &[("fetch", Peel::Fetch), ("compare", Peel::Compare)])?.unwrap_or(Peel::Fetch),
         single: keys.choice("single", &singles)?,
     })
 }

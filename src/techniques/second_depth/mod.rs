@@ -12,7 +12,7 @@ use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
-use super::shadow_map::{self, fit, term};
+use super::shadow_map::{self, fit};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{LightKind, Reader, SettingsError};
@@ -90,7 +90,7 @@ impl Technique for SecondDepth {
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
         let Some(view) = &shadow_map::one_view(view, &settings, keys, notes)? else {
-            return Ok(shadow_map::without_casters(view, settings.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings, notes));
         };
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
@@ -98,13 +98,14 @@ impl Technique for SecondDepth {
             refuse_open(&casters, keys)?;
         }
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, settings.dimming, notes));
+            return Ok(shadow_map::without_casters(view, &settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer = Layer { name: "second depth", image: "map", ending: None, offset, casters: &casters };
+        let layer =
+            Layer { name: "second depth", image: "map", ending: None, offset, scissor: None, casters: &casters };
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        Ok(term::term(view, map, &settings, 0.0))
+        Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))
     }
 }
 
@@ -121,7 +122,7 @@ fn refuse_open(casters: &[&Item], keys: &Reader<'_>) -> Result<(), SettingsError
     for item in casters {
         let mesh = Arc::as_ptr(&item.mesh.0);
         let is_closed = match seen.iter().find(|(known, _)| *known == mesh) {
-            _ if item.needs_alpha_test() => false,
+            _ if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) => false,
             _ if item.closed => true,
             Some((_, is_closed)) => *is_closed,
             None => item.mesh.is_closed() && item.mesh.signed_volume() > 0.0,

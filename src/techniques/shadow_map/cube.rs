@@ -10,6 +10,7 @@ use super::bias;
 use super::casters::{in_the_map, warn_of_near};
 use super::depth::{self, Layer};
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
+use super::tag;
 use super::term::{sampler, texture_from_light_clip};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
@@ -17,6 +18,7 @@ use crate::pass::{
     glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
+use crate::techniques::guard::Guard;
 use crate::techniques::projector::Projector;
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, Notes};
@@ -37,6 +39,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
         (settings.mipmaps != Mipmaps::None, "mipmaps", "are of square maps"),
         (settings.fit != Fit::None, "fit", "moves the texels of a square map"),
         (settings.simplified, "casters", "= \"texel\" reckons with the texels of a square map"),
+        (settings.guard != Guard::Auto, "guard", "keeps a spotlight from lighting what lies behind it"),
         (settings.addressing != Addressing::OpenGl, "addressing", "= \"direct3d\" is of square maps"),
     ];
     match refused.iter().find(|(is_set, ..)| *is_set) {
@@ -57,7 +60,7 @@ pub fn describe(
     let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Item>)> =
         CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
     if faces.is_empty() {
-        return super::without_casters(view, settings.dimming, notes);
+        return super::without_casters(view, settings, notes);
     }
     let map = draw(view, &faces, settings, list, notes);
     term(view, point, map, settings)
@@ -161,8 +164,14 @@ fn draw(
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
     for (face, face_view, casters) in faces {
-        let layer =
-            Layer { name: "depth", image: "map", ending: None, offset: bias::offset(settings).polygon, casters };
+        let layer = Layer {
+            name: "depth",
+            image: "map",
+            ending: None,
+            offset: bias::offset(settings).polygon,
+            scissor: None,
+            casters,
+        };
         let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
@@ -216,6 +225,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
     term.dimming = settings.dimming;
+    term.counting = tag::counting(view, settings);
     term.map = Some(map);
     term
 }

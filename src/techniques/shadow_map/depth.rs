@@ -21,6 +21,8 @@ pub struct Layer<'a> {
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
+    /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
+    pub scissor: Option<[u32; 4]>,
     pub casters: &'a [&'a Item],
 }
 
@@ -53,7 +55,8 @@ pub fn draw(
     let batches = batches(layer, &map_clip_from_world(view, settings), list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
-    let (state, cleared) = state(settings, layer.offset);
+    let (plain, cleared) = state(settings, layer.offset);
+    let state = DrawState { scissor: layer.scissor, ..plain };
     for level in 0..levels {
         list.passes.push(Pass {
             label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },

@@ -1,6 +1,7 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A16];
+//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A13, A16, A20];
 //! its parts are what every technique with a map is made of.
 
+mod behind;
 pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
@@ -8,6 +9,7 @@ pub(super) mod depth;
 pub(super) mod fit;
 mod parallel;
 pub(super) mod settings;
+mod tag;
 pub(super) mod term;
 mod texel;
 
@@ -17,7 +19,7 @@ use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::projector::Projector;
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
-use crate::pass::PassList;
+use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
@@ -58,7 +60,7 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12, A16"
+        "Hardware Shadow Mapping; techniques A1-A10, A12, A13, A16, A20"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -69,12 +71,13 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has the first grid's alone.
+    /// Of these keys a cube map has those of the first two grids alone; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
-        if matches!(kind, LightKind::Point(_)) {
-            return &settings::MORE_AXES[..1];
+        match kind {
+            LightKind::Point(_) => &settings::MORE_AXES[..2],
+            LightKind::Directional { .. } => &settings::MORE_AXES[..settings::MORE_AXES.len() - 1],
+            LightKind::Spot(_) => settings::MORE_AXES,
         }
-        settings::MORE_AXES
     }
 
     fn claims(&self) -> &'static [Claim] {
@@ -99,7 +102,7 @@ impl Technique for ShadowMap {
         }
         match one_view(view, &settings, keys, notes)? {
             Some(view) => Ok(one_map(&view, settings, list, notes)),
-            None => Ok(without_casters(view, settings.dimming, notes)),
+            None => Ok(without_casters(view, &settings, notes)),
         }
     }
 }
@@ -109,15 +112,28 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     let mut casters = casters(view, &settings, notes);
     settings.crop = fit::crop(view, &mut casters, &settings, notes);
     if casters.is_empty() && !view.keep_all {
-        return without_casters(view, settings.dimming, notes);
+        return without_casters(view, &settings, notes);
     }
     let offset = bias::offset(&settings);
     let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
     let fewer: Vec<&Item> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
-    let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, casters };
+    let layer = Layer { name: "depth", image: "map", ending: None, offset: offset.polygon, scissor: None, casters };
     let map = depth::draw(view, &layer, &settings, list, notes);
-    term::term(view, map, &settings, offset.texels)
+    looked_up(view, map, &settings, offset.texels, notes)
+}
+
+/// The term of a light with a square map, guarded as its keys say.
+pub(super) fn looked_up(
+    view: &FrustumView<'_>,
+    map: ImageId,
+    settings: &Settings,
+    texels: f64,
+    notes: &mut Notes,
+) -> LightTerm {
+    let mut term = term::term(view, map, settings, texels);
+    behind::guard(view, settings, &mut term, notes);
+    term
 }
 
 /// For techniques that draw one square map and no other.
@@ -151,10 +167,11 @@ pub(super) fn one_view<'a>(
 }
 
 /// A light in whose frustum nothing casts a shadow that is seen.
-pub(super) fn without_casters(view: &LightView<'_>, dimming: f32, notes: &mut Notes) -> LightTerm {
+pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
     let mut term = LightTerm::unshadowed(view.scene, view.index);
-    term.dimming = dimming;
+    term.dimming = settings.dimming;
+    behind::guard(view, settings, &mut term, notes);
     term
 }

@@ -15,6 +15,7 @@ use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
+use crate::techniques::guard::Guard;
 use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::{Item, LightView, Notes};
 
@@ -33,6 +34,10 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
             "= true does not go with a directional light, whose map has an end: of the smallest level one texel reaches \
              across it; \"8-tap\" does",
         ));
+    }
+    if settings.guard != Guard::Auto {
+        let why = "keeps a spotlight from lighting what lies behind it; behind a directional light lies nothing";
+        return Err(keys.error("guard", why));
     }
     let least = 4 * rim(settings);
     if settings.size < least {
@@ -125,7 +130,7 @@ mod tests {
 
     fn box_of(objects: &str, shadow: &str) -> Option<Aabb> {
         let scene = scene_of(objects, shadow);
-        let items = items(&scene);
+        let items = items(&scene, false);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
         let view = LightView { scene: &scene, items: &items, index: 0, shown_whole: false, keep_all: false };
         let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;

@@ -5,6 +5,7 @@ use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
+use crate::techniques::guard::Guard;
 
 /// How the depth texture gets its texels [techniques A2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +77,15 @@ pub struct Offset {
     pub texels: f64,
 }
 
+/// Where the outcome of the comparison goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Into the lit pass, as the shade that it asks for.
+    Shade,
+    /// Into the stencil buffer, as a tag that the light's own pass heeds.
+    Tag,
+}
+
 /// Everything that decides how a map is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -107,6 +117,8 @@ pub struct Settings {
     pub matrix_bias: f64,
     pub dimming: f32,
     pub redraw: Redraw,
+    pub into: Outcome,
+    pub guard: Guard,
 }
 
 /// What decides the error: resolution, bits, filter, offset.
@@ -126,12 +138,17 @@ pub const AXES: &[Axis] = &[
     },
 ];
 
-/// Under the default offset: the road of the texels, which changes none of them; kernels, what else there is against
-/// acne, mipmaps.
+/// Under the default offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what
+/// else there is against acne, mipmaps, fits; last, of spotlights alone, what guards against back projection.
 pub const MORE_AXES: &[&[Axis]] = &[
     &[
         Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
         Axis { key: "transfer", values: &["\"fbo\"", "\"copy\""], quick: &["\"copy\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
+        Axis { key: "into", values: &["\"stencil\""], quick: &["\"stencil\""] },
+        Axis { key: "filter", values: &["\"nearest\"", "\"linear\""], quick: &["\"nearest\"", "\"linear\""] },
     ],
     &[
         Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
@@ -153,6 +170,14 @@ pub const MORE_AXES: &[&[Axis]] = &[
         Axis { key: "size", values: &["1024"], quick: &["1024"] },
         Axis { key: "fit", values: &["\"casters\"", "\"view\""], quick: &["\"view\""] },
         Axis { key: "casters", values: &["\"full\"", "\"texel\""], quick: &["\"texel\""] },
+    ],
+    &[
+        Axis { key: "size", values: &["1024"], quick: &["1024"] },
+        Axis {
+            key: "guard",
+            values: &["\"spot-cutoff\"", "\"texture-1d\"", "\"clip-plane\"", "\"stencil\"", "\"cull\"", "\"fragment\""],
+            quick: &["\"fragment\"", "\"stencil\""],
+        },
     ],
 ];
 
@@ -213,8 +238,15 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         redraw: keys
             .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
             .unwrap_or(Redraw::WhenChanged),
+        into: keys.choice("into", &[("shader", Outcome::Shade), ("stencil", Outcome::Tag)])?.unwrap_or(Outcome::Shade),
+        guard: Guard::read(keys)?,
     };
     check_mipmaps(&settings, keys)?;
+    if settings.guard == Guard::Stencil && settings.into == Outcome::Tag {
+        return Err(
+            keys.error("guard", "= \"stencil\" does not go with into = \"stencil\": both tag in the one buffer")
+        );
+    }
     Ok(settings)
 }
 

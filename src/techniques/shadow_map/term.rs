@@ -5,6 +5,7 @@ use glam::{DMat4, DVec3, Vec4};
 use super::bias;
 use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
+use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::techniques::projector::Rays;
@@ -37,6 +38,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         term.frustum_from_map = frustum_from_map(settings);
     }
     term.dimming = settings.dimming;
+    term.counting = tag::counting(view, settings);
     term.map = Some(map);
     look_up(&mut term, &coordinates, view, settings);
     term.coordinates = Some(coordinates);

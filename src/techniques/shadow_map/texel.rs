@@ -17,7 +17,8 @@ pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings
     let of = |item: &&Item| {
         let mut item = (*item).clone();
         let before = (item.indices.end - item.indices.start) / 3;
-        if before < FEWEST || item.needs_alpha_test() {
+        // Fewer vertices would follow a wave less closely.
+        if before < FEWEST || item.needs_alpha_test() || item.wave.is_some() {
             return item;
         }
         let mesh = cached(&item, allowed_error(view, &item, settings));

@@ -5,7 +5,7 @@ use super::settings::Settings;
 use super::shapes::Shape;
 use crate::pass::{Compare, DrawState, Face, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Layer, VolumeDraw};
+use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
 /// The passes for all shapes, way by way. Sums modulo 256 do not care for their order.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
@@ -24,7 +24,7 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
         label: label(what),
         state: state(front, back, 0xFF),
         layer: Layer::Scene,
-        draws,
+        counted: Counted::Volumes(draws),
     };
     let mut passes = Vec::new();
     let parity = CountPass {
@@ -46,7 +46,7 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     let mut clamped = counted("z-fail, depth clamped", fail(down), fail(up), whole(&[Way::ZFailClamped]));
     clamped.state.depth_clamp = true;
     passes.push(clamped);
-    passes.retain(|pass| !pass.draws.is_empty());
+    passes.retain(|pass| !matches!(&pass.counted, Counted::Volumes(draws) if draws.is_empty()));
     passes
 }
 

@@ -4,7 +4,7 @@
 mod casters;
 mod choice;
 mod counts;
-mod ends;
+pub(super) mod ends;
 mod settings;
 mod shapes;
 
@@ -34,6 +34,10 @@ impl Technique for ShadowVolume {
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
         Ok(())
+    }
+
+    fn needs_vertices(&self) -> bool {
+        true
     }
 
     fn axes(&self) -> &'static [Axis] {
@@ -79,6 +83,7 @@ fn counting(
     Counting {
         passes: counts::passes(view, &shapes, settings),
         redraw: settings.redraw,
+        of_all: false,
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),

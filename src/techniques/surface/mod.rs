@@ -1,18 +1,25 @@
 //! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
-//! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13 f].
+//! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13].
 
+mod explain;
+mod guarded;
+mod partition;
 pub(crate) mod sides;
 mod variant;
 
 use glam::{DMat4, Mat3, Vec3, Vec4};
 
+use self::guarded::Reach;
 use super::{Item, LightTerm};
 use crate::math::texgen;
 use crate::pass::{
-    Attribute, Batch, Chunk, Face, Filter, Input, LightMeaning, PassList, Program, Projection, Sampler, Uniform, Wrap,
-    glsl,
+    Attribute, Batch, Chunk, Face, Filter, Input, LightMeaning, PassList, Program, Projection, Sampler, Shade, Uniform,
+    Wrap, glsl,
 };
-use crate::scene::{Light, LightKind, LightShape, Scene};
+use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
+use crate::techniques::guard::Guard;
+pub use explain::explain_guards;
+pub use guarded::MOST_CLIP_PLANES;
 pub use variant::Ending;
 
 /// Whose picture the surfaces are drawn for.
@@ -40,14 +47,27 @@ pub fn batches(
     list: &mut PassList,
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
-    let lights: Vec<LightParts> =
-        terms.iter().map(|term| light_parts(scene, viewer, term, ending, list)).collect::<Option<_>>()?;
+    let pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
+    for piece in &pieces {
+        for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
+            variants.make(scene, viewer, *reach, ending, list)?;
+        }
+    }
     let mut batches: Vec<Batch> = Vec::new();
-    for item in items {
+    for piece in &pieces {
+        let item = &piece.item;
+        let lights = lights.iter().zip(&piece.reaches).filter_map(|(variants, reach)| variants.of(*reach));
+        let lights: Vec<&LightParts> = lights.collect();
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
-        let variant::Variant { program, meaning, uniforms, inputs } = surface;
+        let variant::Variant { mut program, meaning, mut uniforms, inputs } = surface;
+        let clip_planes = piece.clip_planes.len() as u8;
+        if clip_planes > 0 {
+            program.clip(clip_planes);
+            uniforms.push(Uniform::new("clip_planes", piece.clip_planes.clone()));
+        }
         let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =
@@ -57,7 +77,7 @@ pub fn batches(
                 debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
                 batch.draws.push(draw);
             }
-            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, draws: vec![draw] }),
+            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, clip_planes, draws: vec![draw] }),
         }
     }
     Some(batches)
@@ -85,6 +105,8 @@ pub(super) struct LightParts {
     inputs: Vec<Input>,
     /// Defines `bool in_reach_@()`.
     reach: Chunk,
+    /// Defines `void find_side_@(vec4 eye)`, and `float side_@()` of what that found, 0 behind the light.
+    side: Option<[Chunk; 2]>,
     has_coordinates: bool,
     meaning: LightMeaning,
     has_specular: bool,
@@ -94,27 +116,90 @@ pub(super) struct LightParts {
     has_attenuation: bool,
 }
 
+/// One light, as the pieces need it.
+struct Variants<'a> {
+    term: &'a LightTerm,
+    /// A light's plane, times a power of two: see [`Reach::Texture`].
+    side_plane: Vec4,
+    /// In the order of [`Reach::ALL`], each once it is asked for; `None` within: nothing is left of the light.
+    made: [Option<Option<LightParts>>; Reach::ALL.len()],
+}
+
+/// The side map's coordinate at the greatest q, as a power of two: what a driver rounds to whole texels must stay below
+/// 2^31, and the texels meet at 1/2, which is so far nearer to q = 0 than f32 tells apart.
+const SIDE_EXPONENT: f64 = 28.0;
+
+impl<'a> Variants<'a> {
+    fn new(scene: &Scene, items: &[Item], term: &'a LightTerm, viewer: &Viewer) -> Self {
+        let plane = guarded::plane(scene, term, viewer).filter(|_| term.guard == Guard::Texture1d);
+        let side_plane = plane.map_or(Vec4::ZERO, |plane| {
+            let exponent = SIDE_EXPONENT - plane.extent(items, viewer).max(1e-30).log2().ceil();
+            plane.q_from_eye.as_vec4() * exponent.clamp(-100.0, 100.0).exp2() as f32
+        });
+        Self { term, side_plane, made: Default::default() }
+    }
+
+    /// `None` where the light's transform has no inverse.
+    fn make(
+        &mut self,
+        scene: &Scene,
+        viewer: &Viewer,
+        reach: Reach,
+        ending: &Ending,
+        list: &mut PassList,
+    ) -> Option<()> {
+        let made = &mut self.made[reach as usize];
+        if made.is_none() {
+            let mut source = scene.lights[self.term.index].clone();
+            *made = Some(match reach {
+                Reach::Nowhere if source.ambient == [0.0; 3] => None,
+                Reach::Nowhere => {
+                    (source.diffuse, source.specular) = ([0.0; 3], [0.0; 3]);
+                    let mut term = self.term.under(scene, glsl!("light/shadowed.frag"), Shade::Dark);
+                    (term.coordinates, term.frustum_from_map, term.dimming) = (None, None, 0.0);
+                    Some(light_parts(&source, viewer, &term, reach, ending, list)?)
+                }
+                _ => Some(light_parts(&source, viewer, self.term, reach, ending, list)?),
+            });
+            if let (Reach::Texture, Some(Some(parts))) = (reach, made) {
+                parts.uniforms.push(Uniform::of_light("side_plane", parts.index, self.side_plane));
+            }
+        }
+        Some(())
+    }
+
+    fn of(&self, reach: Reach) -> Option<&LightParts> {
+        self.made[reach as usize].as_ref()?.as_ref()
+    }
+}
+
 const SPOT_IMAGE_SAMPLER: Sampler =
     Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
 
 fn light_parts(
-    scene: &Scene,
+    source: &Light,
     viewer: &Viewer,
     term: &LightTerm,
+    reach: Reach,
     ending: &Ending,
     list: &mut PassList,
 ) -> Option<LightParts> {
-    let source = &scene.lights[term.index];
     let index = term.index;
-    let bounded = source.spot().is_some();
-    let cone = source.spot().is_some_and(|spot| spot.shape == LightShape::Cone);
+    let spot = source.spot().filter(|_| reach != Reach::Nowhere);
+    let cone = spot.is_some_and(|spot| spot.shape == LightShape::Cone);
     let projection = match &term.coordinates {
         Some(coordinates) => {
             let spaces = coordinates.spaces(viewer.eye_from_world);
             let texgen = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
+            let bounded = spot.is_some();
             Some(Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, bounded, cone })
         }
         None => None,
+    };
+    let in_reach = match spot {
+        Some(_) => glsl!("light/reach.frag"),
+        None if reach == Reach::Nowhere => glsl!("light/nowhere.frag"),
+        None => glsl!("light/everywhere.frag"),
     };
     let mut parts = LightParts {
         index,
@@ -122,10 +207,10 @@ fn light_parts(
         shade: term.shade.for_light(index),
         uniforms: term.uniforms.clone(),
         inputs: term.inputs.clone(),
-        reach: if source.spot().is_some() { glsl!("light/reach.frag") } else { glsl!("light/everywhere.frag") }
-            .for_light(index),
+        reach: in_reach.for_light(index),
+        side: None,
         has_coordinates: projection.is_some(),
-        meaning: meaning(source, viewer, term, projection.clone()),
+        meaning: meaning(source, spot, viewer, term, projection.clone()),
         has_position: source.position().is_some(),
         has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
         has_specular: source.specular != [0.0; 3],
@@ -137,19 +222,48 @@ fn light_parts(
     if cone {
         parts.defines.push(format!("CONE_{index}"));
     }
+    if spot.is_some() {
+        add_guard(&mut parts, reach, list);
+    }
     if let Some(frustum_from_map) = term.frustum_from_map {
         parts.defines.push(format!("MAP_ADDRESSING_{index}"));
         parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
     }
     if let Ending::Lit = ending {
-        add_lighting(&mut parts, source, viewer, term, list);
+        add_lighting(&mut parts, source, spot, viewer, term, list);
     }
     Some(parts)
 }
 
-/// The light in the terms of fixed function.
-fn meaning(source: &Light, viewer: &Viewer, term: &LightTerm, projection: Option<Projection>) -> LightMeaning {
-    let has_image = source.spot().is_some_and(|spot| spot.image.is_some());
+/// What stands in for the fragment's test of q.
+fn add_guard(parts: &mut LightParts, reach: Reach, list: &mut PassList) {
+    let index = parts.index;
+    if reach != Reach::Fragment {
+        parts.defines.push(format!("UNGUARDED_{index}"));
+    }
+    parts.side = match reach {
+        Reach::Texture => Some([glsl!("light/side_map.vert"), glsl!("light/side_map.frag")]),
+        Reach::Cutoff => Some([glsl!("light/spot_cutoff.vert"), glsl!("light/spot_cutoff.frag")]),
+        Reach::Free | Reach::Fragment | Reach::Nowhere => None,
+    }
+    .map(|chunks| chunks.map(|chunk| chunk.for_light(index)));
+    if parts.side.is_some() {
+        parts.defines.push(format!("SIDE_{index}"));
+    }
+    if reach == Reach::Texture {
+        parts.inputs.push(super::items::side_map(format!("side_map_{index}"), list));
+    }
+}
+
+/// The light in the terms of fixed function, which guards by a texture of its own.
+fn meaning(
+    source: &Light,
+    spot: Option<&Spot>,
+    viewer: &Viewer,
+    term: &LightTerm,
+    projection: Option<Projection>,
+) -> LightMeaning {
+    let has_image = spot.is_some_and(|spot| spot.image.is_some());
     LightMeaning {
         index: term.index,
         position: eye_position(source, viewer).to_array(),
@@ -186,7 +300,14 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     }
 }
 
-fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &LightTerm, list: &mut PassList) {
+fn add_lighting(
+    parts: &mut LightParts,
+    source: &Light,
+    spot: Option<&Spot>,
+    viewer: &Viewer,
+    term: &LightTerm,
+    list: &mut PassList,
+) {
     let index = parts.index;
     let position = eye_position(source, viewer);
     if parts.has_position {
@@ -208,7 +329,7 @@ fn add_lighting(parts: &mut LightParts, source: &Light, viewer: &Viewer, term: &
         parts.defines.push(format!("DIMMING_{index}"));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some(image) = source.spot().and_then(|spot| spot.image.as_ref()) {
+    if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
         parts.defines.push(format!("SPOT_IMAGE_{index}"));
         parts.inputs.push(super::items::upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
     }

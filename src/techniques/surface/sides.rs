@@ -21,13 +21,13 @@ pub fn shows_no_back_face(item: &Item, clip_from_model: &DMat4) -> bool {
 }
 
 /// Whether every normal of the item, wherever it is interpolated, looks towards the viewer's eye: then none of them is
-/// ever turned. False for large meshes.
+/// ever turned. False for large meshes, and where the vertex stage moves vertices.
 ///
 /// At a point of a triangle both the normal and the way to the eye are mixtures of the corners' by the same weights, so
 /// that their product is a mixture of the nine products of one corner's normal and another's way.
 pub fn normals_face_eye(item: &Item, eye_from_model: &DMat4) -> bool {
     let indices = item.mesh.indices.get(item.indices.start as usize..item.indices.end as usize).unwrap_or_default();
-    if indices.len() > 3 * MOST_TRIANGLES {
+    if indices.len() > 3 * MOST_TRIANGLES || item.wave.is_some() {
         return false;
     }
     let normal_matrix = eye_from_model.inverse().transpose();
@@ -63,7 +63,7 @@ mod tests {
         let faces = |object: &str, eye: DVec3| {
             std::fs::write(&path, format!("[[object]]\n{object}\n")).unwrap();
             let scene = scene::load(Path::new(&path), &[]).unwrap().scene;
-            let item = &items(&scene)[0];
+            let item = &items(&scene, false)[0];
             let view = view_from_world(eye, DVec3::ZERO, DVec3::new(0.1, 0.7, 0.5));
             normals_face_eye(item, &(view * item.world_from_model))
         };

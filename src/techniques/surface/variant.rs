@@ -9,7 +9,7 @@ use crate::geometry::Material;
 use crate::pass::{Attribute, Chunk, Input, LightMeaning, Lit, Meaning, PassList, Program, Sampled, Uniform, glsl};
 use crate::scene::Scene;
 use crate::techniques::Item;
-use crate::techniques::items::{Cutout, cutout};
+use crate::techniques::items::{Cutout, WAVES, cutout};
 
 /// What a fragment of the surface shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub fn of(
     scene: &Scene,
     item: &Item,
     one_sided: bool,
-    lights: &[LightParts],
+    lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
     list: &mut PassList,
@@ -62,7 +62,7 @@ pub fn of(
         specular,
         normals,
         per_vertex,
-        position: lit && !per_vertex && (specular || two_sided || lights.iter().any(lit_from_near)),
+        position: lit && !per_vertex && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
         one_sided,
     };
@@ -87,7 +87,7 @@ pub fn of(
         fragment: fragment(lights, ending, needs, &cut),
         attributes,
     };
-    let meaning = meaning(scene, item, lights, viewer, ending, needs, &cut);
+    let meaning = if item.wave.is_some() { WAVES } else { meaning(scene, item, lights, viewer, ending, needs, &cut) };
     Variant { program, meaning, uniforms, inputs }
 }
 
@@ -95,7 +95,7 @@ pub fn of(
 fn meaning(
     scene: &Scene,
     item: &Item,
-    lights: &[LightParts],
+    lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
     needs: Needs,
@@ -151,11 +151,12 @@ fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light
 
 type Define = (Cow<'static, str>, String);
 
-fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
+fn defines(item: &Item, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
     let lit = *ending == Ending::Lit;
     let decal = lit && item.decal().is_some();
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
+        ("WAVE", item.wave.is_some()),
         ("ANY_LIGHT", lit && !lights.is_empty()),
         ("EYE_SPACE", needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
         ("EYE_POSITION", needs.position),
@@ -179,8 +180,11 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
     }
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
-    let generated = lights.iter().filter(|light| light.has_coordinates);
-    defines.push(("TEXGEN(eye)".into(), generated.map(|light| call_of(light, "texgen_@(eye);")).collect()));
+    let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
+        let found = if light.side.is_some() { "find_side_@(eye);" } else { "" };
+        call_of(light, &format!("texgen_@(eye);{found}"))
+    });
+    defines.push(("TEXGEN(eye)".into(), generated.collect()));
     if needs.per_vertex {
         defines.push(("LIGHT_VERTEX(surface)".into(), calls("light_vertex_@(surface);")));
     }
@@ -190,7 +194,7 @@ fn defines(item: &Item, lights: &[LightParts], ending: &Ending, needs: Needs, cu
     defines
 }
 
-fn vertex(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = vec![glsl!("common/position.vert")];
     chunks.extend(cut.vertex.iter().cloned());
     if *ending == Ending::Lit && needs.per_vertex {
@@ -200,6 +204,7 @@ fn vertex(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) ->
         if light.has_coordinates {
             chunks.push(glsl!("light/texgen.vert").for_light(light.index));
         }
+        chunks.extend(light.side.iter().map(|[vertex, _]| vertex.clone()));
         if needs.per_vertex {
             chunks.push(glsl!("light/lighting.glsl").for_light(light.index));
             chunks.push(glsl!("light/per_vertex.vert").for_light(light.index));
@@ -209,7 +214,7 @@ fn vertex(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) ->
     chunks
 }
 
-fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = cut.fragment.clone();
     if let Ending::View { chunk, shade } = ending {
         for light in lights {
@@ -230,6 +235,7 @@ fn fragment(lights: &[LightParts], ending: &Ending, needs: Needs, cut: &Cutout) 
         } else {
             glsl!("light/lighting.glsl").for_light(light.index)
         });
+        chunks.extend(light.side.iter().map(|[_, fragment]| fragment.clone()));
         chunks.push(glsl!("light/illuminate.frag").for_light(light.index));
     }
     chunks.push(glsl!("surface/surface.frag"));

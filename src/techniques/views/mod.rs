@@ -45,7 +45,7 @@ pub const VIEWS: &[(&str, View, bool, &str)] = &[
         "stencil-count",
         View::StencilCount,
         true,
-        "the shadow volumes that hold each point, as they are counted: integers",
+        "the shadow volumes that hold each point, as they are counted: integers; of a map's tags, 1 in shadow",
     ),
     ("stencil-colors", View::StencilColors, true, "the same for the eye: green lit, red shadowed, with a legend"),
     ("volume", View::Volume, true, "the shadow volumes over the scene: outsides orange, insides blue"),

@@ -1,0 +1,6 @@
+flat in float spot_factor_@;
+
+float side_@()
+{
+    return spot_factor_@;
+}

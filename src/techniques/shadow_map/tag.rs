@@ -1,0 +1,36 @@
+//! The comparison's outcome as a tag in the stencil buffer, for later passes [lecture, "Combining Shadow Mapping with other
+//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in.
+
+use super::settings::{Outcome, Settings};
+use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
+use crate::techniques::LightView;
+use crate::techniques::light::{CountPass, Counted, Counting, Layer};
+use crate::techniques::shadow_volume::ends;
+
+/// The pass that tags what the light's shade calls shadowed; `None`: the lit pass asks for the shade itself.
+pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
+    if settings.into == Outcome::Shade {
+        return None;
+    }
+    // Not a count: of surfaces that tie each may be tagged.
+    let tag = StencilOps { pass: StencilOp::Replace, ..StencilOps::KEEP };
+    let stencil =
+        Stencil { test: Compare::Always, reference: 1, read_mask: 0xFF, write_mask: 0xFF, front: tag, back: tag };
+    let pass = CountPass {
+        label: format!("light {}: tag", view.index),
+        state: DrawState { color_write: false, stencil: Some(stencil), ..DrawState::REPEAT },
+        layer: Layer::Scene,
+        counted: Counted::Shadowed,
+    };
+    Some(Counting {
+        passes: vec![pass],
+        redraw: settings.redraw,
+        of_all: false,
+        infinite: false,
+        clamped: false,
+        ledge: false,
+        scissor: if view.keep_all { None } else { ends::scissor(view) },
+        volumes: Vec::new(),
+        silhouettes: Vec::new(),
+    })
+}

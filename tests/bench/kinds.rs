@@ -1,0 +1,100 @@
+//! The floors of the techniques: each the fewest GL calls to its picture. Says which maps are drawn, from where, and with
+//! what shader; knows no GL.
+
+use glam::camera::rh::proj::opengl;
+use glam::camera::rh::view::look_at_mat4;
+use glam::{Mat4, Vec3};
+
+use super::numbers::Numbers;
+
+/// What the floor draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Kind {
+    /// One map, one comparison.
+    Map,
+    Kernel,
+    EightTaps,
+    ReceiverPlane,
+    NormalOffset,
+    Adaptive,
+    Midpoint,
+    SecondDepth,
+    /// A point light's cube, all six faces.
+    Cube,
+    /// The one face that a light above the middle needs.
+    Face,
+    Parallel,
+}
+
+/// The shader that finds the shade, glumbra's own where it is more than one lookup: the floor is of calls.
+pub fn shade(kind: Kind) -> (&'static str, String) {
+    const SLOPE: &str = include_str!("../../glsl/shadow_map/slope.glsl");
+    let of = |text: &str| text.replace('@', "0");
+    match kind {
+        Kind::Kernel => ("#define SHADE\n#define KERNEL_0 3\n", of(include_str!("../../glsl/shadow_map/kernel.frag"))),
+        Kind::ReceiverPlane => (
+            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n",
+            of(SLOPE) + &of(include_str!("../../glsl/shadow_map/receiver_plane.frag")),
+        ),
+        Kind::NormalOffset => (
+            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n",
+            of(include_str!("../../glsl/shadow_map/normal_offset.frag")),
+        ),
+        Kind::Adaptive => (
+            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n#define LINEAR_0\n",
+            of(SLOPE) + &of(include_str!("../../glsl/shadow_map/adaptive.frag")),
+        ),
+        Kind::Cube | Kind::Face => ("#define CUBE\n", String::new()),
+        Kind::Parallel => ("#define PARALLEL\n", String::new()),
+        Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth => ("", String::new()),
+    }
+}
+
+/// Where the light stands.
+pub fn light(kind: Kind, numbers: &Numbers) -> Vec3 {
+    if kind == Kind::Face { Vec3::new(0.0, 5.0, 0.0) } else { numbers.light }
+}
+
+/// The light's projection and view.
+pub fn light_matrices(kind: Kind, numbers: &Numbers) -> (Mat4, Mat4) {
+    let [near, far] = numbers.light_near_far;
+    let view = look_at_mat4(numbers.light, numbers.light_target, Vec3::Y);
+    if kind == Kind::Parallel {
+        // Around the floor and what stands on it.
+        let half = numbers.floor_half;
+        let corners: Vec<Vec3> = (0..8)
+            .map(|k| {
+                let side = |bit: u32| if k >> bit & 1 == 1 { half } else { -half };
+                view.transform_point3(Vec3::new(side(0), if k & 2 == 2 { 2.0 } else { 0.0 }, side(2)))
+            })
+            .collect();
+        let low = corners.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = corners.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        return (opengl::orthographic(low.x, high.x, low.y, high.y, -high.z - 1.0, -low.z + 1.0), view);
+    }
+    (opengl::perspective(numbers.cone_degrees.to_radians(), 1.0, near, far), view)
+}
+
+/// `clip_from_world` of a face of the cube, as GL numbers them.
+pub fn face(index: usize, kind: Kind, numbers: &Numbers) -> Mat4 {
+    let (way, up) = [
+        (Vec3::X, -Vec3::Y),
+        (-Vec3::X, -Vec3::Y),
+        (Vec3::Y, Vec3::Z),
+        (-Vec3::Y, -Vec3::Z),
+        (Vec3::Z, -Vec3::Y),
+        (-Vec3::Z, -Vec3::Y),
+    ][index];
+    let [near, far] = numbers.light_near_far;
+    let eye = light(kind, numbers);
+    opengl::perspective(std::f32::consts::FRAC_PI_2, 1.0, near, far) * look_at_mat4(eye, eye + way, up)
+}
+
+/// The faces that are drawn.
+pub fn faces(kind: Kind) -> std::ops::Range<usize> {
+    match kind {
+        Kind::Cube => 0..6,
+        Kind::Face => 3..4,
+        _ => 0..0,
+    }
+}
