@@ -114,16 +114,29 @@ fn parallel_light_is_right_from_every_way() {
     let mut renderer = Renderer::new(context.as_ref());
     let ways = [[0.4, -1.0, -0.3], [0.1, -1.0, 0.05], [-1.0, -0.5, 0.8], [0.3, -0.12, -1.0], [-0.7, -1.0, 1.4]];
     for direction in ways {
-        for (filter, format) in [("linear", "depth24"), ("nearest", "depth16"), ("linear", "depth32f")] {
-            let set = [format!(
-                "light.0={{ kind = \"directional\", direction = {direction:?}, shadow = {{ technique = \"shadow-map\", \
-                 size = 512, filter = \"{filter}\", format = \"{format}\" }} }}"
-            )];
+        for keys in [
+            "technique = \"shadow-map\"",
+            "technique = \"shadow-map\", filter = \"nearest\", format = \"depth16\"",
+            "technique = \"shadow-map\", format = \"depth32f\"",
+            "technique = \"shadow-map\", bias = \"normal-offset\"",
+            "technique = \"shadow-map\", bias = \"normal-offset\", compare = \"gequal\", format = \"depth32f\"",
+            "technique = \"midpoint\"",
+            "technique = \"midpoint\", compare = \"gequal\", format = \"depth16\"",
+            "technique = \"second-depth\"",
+        ] {
+            let light = format!("kind = \"directional\", direction = {direction:?}");
+            let set = [format!("light.0={{ {light}, shadow = {{ {keys}, size = 512 }} }}")];
             for name in ["box.toml", "sphere.toml"] {
-                let found = errors(&load(name, &set), (512.0 / COARSER) as u32, &mut renderer).all;
+                let found = errors(&load(name, &set), (512.0 / COARSER) as u32, &mut renderer);
+                // What looks away is compared with itself by second depth: that is its error, and no other's.
+                let found = if keys.contains("second-depth") { found.facing } else { found.all };
                 let wrong = (found.false_shadow.outside, found.leak.outside);
-                println!("{name} {direction:?} {filter} {format}: {wrong:?}, in the band {}", found.compared_in_band);
-                assert_eq!(wrong, (0, 0), "{name} {direction:?} {filter} {format}: {found:?}");
+                println!("{name} {direction:?} {keys}: {wrong:?}, in the band {}", found.compared_in_band);
+                // At a caster's rim both layers meet, and the middle is no farther than the surface: single pixels there.
+                // And where the box stands on the floor, its bottom and what it shades are one surface for second depth.
+                let dark = if keys.contains("midpoint") { 4 } else { 0 };
+                let lit = if keys.contains("second-depth") { 2 } else { 0 };
+                assert!(wrong.0 <= dark && wrong.1 <= lit, "{name} {direction:?} {keys}: {found:?}");
                 assert!(found.compared_in_band > 50, "too little to see");
             }
         }

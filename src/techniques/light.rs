@@ -14,7 +14,7 @@ use crate::pass::{
     Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
     Redraw, Shade, Uniform, glsl,
 };
-use crate::scene::{Frustum, Light, Reader, Scene, SettingsError};
+use crate::scene::{Frustum, Light, Scene};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +32,6 @@ pub struct LightView<'a> {
 impl<'a> LightView<'a> {
     pub fn light(&self) -> &'a Light {
         &self.scene.lights[self.index]
-    }
-
-    /// The light in the frustum that it has.
-    ///
-    /// # Errors
-    ///
-    /// A light that has none: one that a technique does not serve which asks for it.
-    pub fn in_its_frustum(&self, keys: &Reader<'_>) -> Result<FrustumView<'a>, SettingsError> {
-        let frustum = self.light().frustum();
-        let frustum = frustum.ok_or_else(|| keys.error("technique", "draws the map of a light with a frustum"))?;
-        Ok(FrustumView { light_view: *self, projector: Projector::of_frustum(frustum) })
     }
 }
 
