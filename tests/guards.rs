@@ -150,6 +150,9 @@ fn without_a_guard_the_picture_is_wrong() {
         }
         assert!(changed > 0, "no shader has the test");
         let (right, wrong) = (picture(&mut renderer, &right), picture(&mut renderer, &unguarded));
+        let none = plan(&mut renderer, &guarded(set, "none"), false);
+        assert!(none.warnings.iter().any(|warning| warning.contains("it lights what lies behind it")));
+        assert!(wrong == picture(&mut renderer, &none), "{set:?}: guard = none is another picture");
         let differ = differing(&right, &wrong, 20);
         println!("{set:?}: {differ} pixels of {}", right.len() / 4);
         assert!(differ > 300, "{set:?}: only {differ} pixels are lit by mistake");

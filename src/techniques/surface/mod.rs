@@ -227,6 +227,9 @@ fn light_parts(
     }
     if spot.is_some() {
         add_guard(&mut parts, reach, list);
+        if term.guard == Guard::None {
+            parts.meaning.shade = Shade::Shader("light behind a light, which guard = \"none\" asks for");
+        }
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
         parts.defines.push(format!("MAP_ADDRESSING_{index}"));
