@@ -17,6 +17,8 @@ const KNOWN_LIMITS: &[&str] = &[
     "more comparisons than one",
     "in a cube map",
     "tag in the stencil buffer",
+    "volumes have no modelview",
+    "a clip plane of the vertex stage",
     "waves in the vertex stage",
 ];
 
