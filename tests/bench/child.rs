@@ -164,7 +164,11 @@ fn keep(plan: &mut Plan, keep: Keep) {
     for pass in passes.iter_mut().filter(|pass| pass.label.starts_with("light 0: ")) {
         let Work::Draw(pass) = &mut pass.work else { continue };
         match keep {
-            Keep::Scissor => pass.state.scissor = None,
+            Keep::Scissor => {
+                pass.state.scissor = None;
+                pass.batches.dedup_by(|next, batch| next.scissor.is_some() && batch.scissor.is_some());
+                pass.batches.iter_mut().for_each(|batch| batch.scissor = None);
+            }
             Keep::Color => {
                 let (label, size) = (String::from("colour"), pass.viewport);
                 images.push(ImageDesc { label, size, format: Format::Rgba8, storage: Storage::Renderbuffer });
