@@ -273,8 +273,7 @@ impl Device {
 
     fn draw_batch(&mut self, state: &DrawState, batch: &Batch) {
         let Some(program) = self.programs.get(&batch.program) else { return };
-        let (cull, clip_distances) = (batch.cull.or(state.cull), state.clip_distances.max(batch.clip_planes));
-        apply(&self.gl, &DrawState { cull, clip_distances, ..*state }, &mut self.state);
+        apply(&self.gl, &batch.state(state), &mut self.state);
         unsafe { self.gl.use_program(Some(program.name)) };
         for (unit, input) in (0..).zip(&batch.inputs) {
             let image = self.gpu_image(input.image);

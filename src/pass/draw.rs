@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{Face, Input, Meaning, Program, Uniform};
+use super::{DrawState, Face, Input, Meaning, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -37,10 +37,24 @@ pub struct Batch {
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.
     pub cull: Option<Face>,
+    /// In the place of the pass's own, and no wider.
+    pub scissor: Option<[u32; 4]>,
     /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
     /// that clips by a distance of its own.
     pub clip_planes: u8,
     pub draws: Vec<Draw>,
+}
+
+impl Batch {
+    /// What it is drawn under in a pass of this state.
+    pub fn state(&self, pass: &DrawState) -> DrawState {
+        DrawState {
+            cull: self.cull.or(pass.cull),
+            scissor: self.scissor.or(pass.scissor),
+            clip_distances: pass.clip_distances.max(self.clip_planes),
+            ..*pass
+        }
+    }
 }
 
 /// One glDrawElements.

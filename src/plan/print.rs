@@ -107,10 +107,11 @@ impl Plan {
             for input in &batch.inputs {
                 push_new(&mut summary.inputs, self.input_words(input));
             }
+            let part = batch.scissor.map_or(String::new(), |scissor| format!(", {}", scissor_words(scissor)));
             for draw in &batch.draws {
                 let order = if draw.order == IndexOrder::VertexCache { ", vertex-cache order" } else { "" };
                 summary.draws.push(format!(
-                    "{}: {} {} of {}{order}",
+                    "{}: {} {} of {}{order}{part}",
                     draw.label,
                     draw.primitive_count(),
                     if draw.primitive == Primitive::Lines { "lines" } else { "triangles" },
@@ -200,10 +201,12 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
         Some(Blend::Over) => words.push(String::from("blend SRC_ALPHA ONE_MINUS_SRC_ALPHA")),
         None => {}
     }
-    if let Some([left, bottom, width, height]) = scissor {
-        words.push(format!("scissor {width}x{height} at ({left}, {bottom})"));
-    }
+    words.extend(scissor.map(scissor_words));
     words
+}
+
+fn scissor_words([left, bottom, width, height]: [u32; 4]) -> String {
+    format!("scissor {width}x{height} at ({left}, {bottom})")
 }
 
 fn stencil_words(stencil: &Stencil) -> Vec<String> {

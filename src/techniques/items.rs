@@ -231,6 +231,7 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
                 uniforms: test.uniforms,
                 inputs: test.inputs,
                 cull: None,
+                scissor: None,
                 clip_planes: 0,
                 draws: vec![draw],
             }),

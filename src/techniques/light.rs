@@ -115,6 +115,8 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
+    /// Whether its light is added to a picture that has its ambient part: what it does not reach is then not drawn.
+    pub added: bool,
     /// What keeps a spotlight's light from what lies behind it.
     pub guard: Guard,
     /// The depth texture, for views of it.
@@ -223,7 +225,7 @@ impl Counting {
             attributes: vec![Attribute::Position],
         };
         let draws = draws.iter().map(|draw| draw.under(viewer)).collect();
-        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, clip_planes: 0, draws }]
+        vec![Batch { program, meaning, uniforms, inputs: Vec::new(), cull, scissor: None, clip_planes: 0, draws }]
     }
 }
 
@@ -282,6 +284,7 @@ impl LightTerm {
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
+            added: false,
             guard: Guard::Auto,
             map: None,
             counting: None,

@@ -16,6 +16,7 @@ pub mod light;
 mod midpoint;
 mod projector;
 mod second_depth;
+mod seen;
 mod shadow_map;
 mod shadow_volume;
 pub mod surface;

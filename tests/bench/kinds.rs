@@ -60,12 +60,12 @@ pub fn light_matrices(kind: Kind, numbers: &Numbers) -> (Mat4, Mat4) {
     let [near, far] = numbers.light_near_far;
     let view = look_at_mat4(numbers.light, numbers.light_target, Vec3::Y);
     if kind == Kind::Parallel {
-        // Around the floor and what stands on it.
-        let half = numbers.floor_half;
+        // Around what casts: the floor has nothing behind it, and what is looked up beside the map is lit.
+        let half = 0.56;
         let corners: Vec<Vec3> = (0..8)
             .map(|k| {
                 let side = |bit: u32| if k >> bit & 1 == 1 { half } else { -half };
-                view.transform_point3(Vec3::new(side(0), if k & 2 == 2 { 2.0 } else { 0.0 }, side(2)))
+                view.transform_point3(Vec3::new(side(0), if k & 2 == 2 { 1.62 } else { -0.02 }, side(2)))
             })
             .collect();
         let low = corners.iter().copied().fold(Vec3::INFINITY, Vec3::min);

@@ -90,7 +90,7 @@ impl FixedFunction {
         layer: &Layer,
         draw: &Draw,
     ) -> Result<(), Error> {
-        let state = DrawState { cull: batch.cull.or(pass.state.cull), ..pass.state };
+        let state = batch.state(&pass.state);
         self.set_state(&state, layer, draw.mirrored);
         self.set_matrices(batch, draw);
         let attributes = attributes(layer);

@@ -42,6 +42,7 @@ pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
         uniforms,
         inputs: Vec::new(),
         cull: None,
+        scissor: None,
         clip_planes: 0,
         draws,
     })

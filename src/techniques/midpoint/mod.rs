@@ -114,25 +114,33 @@ impl Technique for Midpoint {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         }
         let single = settings.single.unwrap_or_else(|| needed(view));
-        let shared = second::shared_texels(view, &casters, &settings.map).unwrap_or_default();
-        let shared = (!view.keep_all).then_some(shared);
-        // Without a second layer beside it, the nearest layer is asked for only to be stored itself.
-        let asked = if single == Single::First { None } else { shared };
-        let mut draw = |name, image, ending, offset, scissor| {
-            let layer = Layer { name, image, ending, offset, scissor, casters: &casters };
+        let shared = second::shared_texels(view, &casters, &settings.map);
+        let mut draw = |name, image, ending, offset, shared_alone| {
+            let layer = Layer { name, image, ending, offset, scissor: None, casters: &casters, in_parts: &[] };
+            let layer = match shared_alone && !view.keep_all {
+                true => Layer {
+                    scissor: Some(shared.scissor),
+                    casters: &shared.casters,
+                    in_parts: &shared.in_parts,
+                    ..layer
+                },
+                false => layer,
+            };
             depth::draw(view, &layer, &settings.map, list, notes)
         };
-        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, asked);
-        let midpoint = draw("midpoint", "midpoint map", Some(peel(view, nearest, &settings)), NO_OFFSET, shared);
+        // Without a second layer beside it, the nearest one is asked for only to be stored itself.
+        let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, single != Single::First);
+        let peel = peel(view, nearest, &settings);
+        let midpoint = draw("midpoint", "midpoint map", Some(peel), NO_OFFSET, true);
         let first = match single {
             Single::Far => None,
             Single::First => Some(nearest),
             Single::FirstOffset => {
                 let offset = bias::offset(&settings.map).polygon;
-                Some(draw("offset layer", "offset layer", None, offset, None))
+                Some(draw("offset layer", "offset layer", None, offset, false))
             }
         };
-        note_scissor(view, shared, settings.map.size, notes);
+        note_shared(view, shared.scissor, settings.map.size, notes);
         let map = match first {
             Some(first) => single::fill(view, first, midpoint, &settings.map, list),
             None => {
@@ -146,8 +154,7 @@ impl Technique for Midpoint {
 }
 
 /// Says how much of the map is left out because no two layers can share a texel of it.
-fn note_scissor(view: &FrustumView<'_>, shared: Option<[u32; 4]>, size: u32, notes: &mut Notes) {
-    let Some([_, _, width, height]) = shared else { return };
+fn note_shared(view: &FrustumView<'_>, [_, _, width, height]: [u32; 4], size: u32, notes: &mut Notes) {
     let share = f64::from(width) * f64::from(height) / (f64::from(size) * f64::from(size));
     if share < 1.0 {
         let what = format!("{:.1} % of the texels of light {}'s two layers", 100.0 * (1.0 - share), view.index);

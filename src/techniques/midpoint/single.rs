@@ -41,6 +41,7 @@ pub fn fill(
         uniforms: Vec::new(),
         inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
         cull: None,
+        scissor: None,
         clip_planes: 0,
         draws: vec![whole_target()],
     };

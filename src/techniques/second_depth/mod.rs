@@ -101,8 +101,15 @@ impl Technique for SecondDepth {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer =
-            Layer { name: "second depth", image: "map", ending: None, offset, scissor: None, casters: &casters };
+        let layer = Layer {
+            name: "second depth",
+            image: "map",
+            ending: None,
+            offset,
+            scissor: None,
+            casters: &casters,
+            in_parts: &[],
+        };
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
         Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))

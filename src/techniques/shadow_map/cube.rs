@@ -180,6 +180,7 @@ fn draw(
             offset: bias::offset(settings).polygon,
             scissor: None,
             casters,
+            in_parts: &[],
         };
         let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());

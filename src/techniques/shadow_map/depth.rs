@@ -24,6 +24,14 @@ pub struct Layer<'a> {
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
     pub casters: &'a [&'a Item],
+    /// Casters that are drawn in parts of these texels alone, once in each.
+    pub in_parts: &'a [InParts<'a>],
+}
+
+/// A caster, and the scissors under which it is drawn.
+pub struct InParts<'a> {
+    pub item: &'a Item,
+    pub scissors: Vec<[u32; 4]>,
 }
 
 /// What a fragment of a layer does once it has passed the alpha test.
@@ -128,6 +136,12 @@ pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset
 /// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
 pub fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
     let mut batches = depth_batches(layer.casters, clip_from_world, list);
+    for InParts { item, scissors } in layer.in_parts {
+        let whole = depth_batches(&[item], clip_from_world, list);
+        for scissor in scissors {
+            batches.extend(whole.iter().map(|batch| Batch { scissor: Some(*scissor), ..batch.clone() }));
+        }
+    }
     let Some(ending) = &layer.ending else { return batches };
     for batch in &mut batches {
         batch.meaning = Meaning::Shader(ending.label);

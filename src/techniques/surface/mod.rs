@@ -47,7 +47,10 @@ pub fn batches(
     list: &mut PassList,
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
-    let pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    let mut pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    if terms.iter().any(|term| term.added) {
+        pieces.retain(|piece| piece.reaches.iter().any(|reach| *reach != Reach::Nowhere));
+    }
     let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
     for piece in &pieces {
         for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
@@ -77,7 +80,16 @@ pub fn batches(
                 debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
                 batch.draws.push(draw);
             }
-            None => batches.push(Batch { program, meaning, uniforms, inputs, cull, clip_planes, draws: vec![draw] }),
+            None => batches.push(Batch {
+                program,
+                meaning,
+                uniforms,
+                inputs,
+                cull,
+                scissor: None,
+                clip_planes,
+                draws: vec![draw],
+            }),
         }
     }
     Some(batches)
@@ -224,6 +236,9 @@ fn light_parts(
     }
     if spot.is_some() {
         add_guard(&mut parts, reach, list);
+        if term.guard == Guard::None {
+            parts.meaning.shade = Shade::Shader("light behind a light, which guard = \"none\" asks for");
+        }
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
         parts.defines.push(format!("MAP_ADDRESSING_{index}"));
