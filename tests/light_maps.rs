@@ -82,14 +82,24 @@ fn no_seam_shades_a_wall() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let mut lit = 0;
-    for (filter, size) in [("linear", 16), ("linear", 61), ("linear", 256), ("nearest", 61)] {
+    // A kernel's slope is met over its own reach: of a tap 1.1 texels of it, and as many more as it is wide of centre.
+    for (filter, size, kernel) in [
+        ("linear", 16, 1),
+        ("linear", 61, 1),
+        ("linear", 256, 1),
+        ("nearest", 61, 1),
+        ("linear", 61, 4),
+        ("nearest", 61, 5),
+    ] {
         for way in directions() {
             let target = DVec3::new(0.35, 0.1, 0.25) + way;
+            let factor = 1.1 + 0.5 * f64::from(kernel - 1);
             let set = [
                 format!("camera.target=[{:?}, {:?}, {:?}]", target.x, target.y, target.z + 0.01),
                 format!("light.shadow.filter={filter}"),
                 format!("light.shadow.size={size}"),
-                String::from("light.shadow.offset={ factor = 1.1, units = 4.0 }"),
+                format!("light.shadow.kernel={kernel}"),
+                format!("light.shadow.offset={{ factor = {factor:?}, units = 4.0 }}"),
             ];
             let mut scene = load("room.toml", &set);
             scene.objects.truncate(1);
@@ -97,7 +107,7 @@ fn no_seam_shades_a_wall() {
             // At a corner three texels are averaged, whose weights may add up to a little less than 1.
             let darkest = shade.shade.iter().fold(1.0, |least: f32, shade| least.min(*shade));
             let dark = shade.shade.iter().filter(|shade| **shade < 0.999).count();
-            assert_eq!(dark, 0, "{filter} {size} {way}: {darkest}");
+            assert_eq!(dark, 0, "{filter} {size} {kernel} {way}: {darkest}");
             lit += shade.shade.len();
         }
     }

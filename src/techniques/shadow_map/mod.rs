@@ -71,10 +71,10 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has those of the first two grids alone; nothing lies behind parallel light.
+    /// Of these keys a cube map has those of the first three grids alone; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         match kind {
-            LightKind::Point(_) => &settings::MORE_AXES[..2],
+            LightKind::Point(_) => &settings::MORE_AXES[..3],
             LightKind::Directional { .. } => &settings::MORE_AXES[..settings::MORE_AXES.len() - 1],
             LightKind::Spot(_) => settings::MORE_AXES,
         }
