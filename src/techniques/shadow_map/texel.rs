@@ -41,8 +41,9 @@ pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings
     casters.iter().map(of).collect()
 }
 
-/// A quarter of a texel by quadrics, which take the mean of what bends: half of one at most places. In the item's own
-/// units: of the texels that it meets, those nearest to the light are the smallest.
+/// A sixteenth of a texel by quadrics, which take the mean of what bends: an eighth of one at most places. A silhouette
+/// that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's hundred models had
+/// 0.037 points more of wrong pixels than full ones. In the item's own units: of the texels that it meets, those nearest to the light are the smallest.
 fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
     let projector = &view.projector;
     let light_from_model = projector.light_from_world * item.world_from_model;
@@ -52,9 +53,9 @@ fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f6
         Rays::From { near, .. } => nearest.max(near),
         Rays::Along(_) => 1.0,
     };
-    let quarter = 0.25 * bias::texel_at_one(projector, settings) * distance;
+    let allowed = 0.0625 * bias::texel_at_one(projector, settings) * distance;
     let axes = [item.world_from_model.x_axis, item.world_from_model.y_axis, item.world_from_model.z_axis];
-    quarter / axes.map(|axis| axis.truncate().length()).into_iter().fold(0.0, f64::max)
+    allowed / axes.map(|axis| axis.truncate().length()).into_iter().fold(0.0, f64::max)
 }
 
 /// A simplified range of a mesh and the exponent of its error, kept as long as the mesh lives: a plan is made for every
