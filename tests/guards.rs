@@ -55,6 +55,9 @@ const VARIANTS: &[(&str, &[&str])] = &[
     ),
     ("a far eye", &["camera.eye=[0.6, 3.4, 350.0]", "camera.fov_y=1.1", "camera.near=300", "camera.far=400"]),
     ("three lights", &[LIGHTS]),
+    ("tags", &["light.shadow.into=stencil"]),
+    ("tags per vertex", &["light.shadow.into=stencil", "shading.lighting=per-vertex", "light.ambient=[0.1, 0.0, 0.1]"]),
+    ("volumes per vertex", &["light.shadow.technique=shadow-volume", "shading.lighting=per-vertex"]),
 ];
 
 fn load(set: &[&str]) -> Scene {
@@ -109,6 +112,8 @@ fn every_guard_shows_the_same() {
             let scene = guarded(set, guard);
             let plan = match renderer.plan(&scene, &Request::default()) {
                 Ok(plan) => plan,
+                // Tags of the shadow fill the stencil buffer, and their pass meets depths again.
+                Err(_) if name.starts_with("tags") && ["clip-plane", "stencil"].contains(&guard) => continue,
                 Err(error) => {
                     wrong.push(format!("{name}, {guard}: {error}"));
                     continue;
@@ -145,6 +150,9 @@ fn without_a_guard_the_picture_is_wrong() {
         }
         assert!(changed > 0, "no shader has the test");
         let (right, wrong) = (picture(&mut renderer, &right), picture(&mut renderer, &unguarded));
+        let none = plan(&mut renderer, &guarded(set, "none"), false);
+        assert!(none.warnings.iter().any(|warning| warning.contains("it lights what lies behind it")));
+        assert!(wrong == picture(&mut renderer, &none), "{set:?}: guard = none is another picture");
         let differ = differing(&right, &wrong, 20);
         println!("{set:?}: {differ} pixels of {}", right.len() / 4);
         assert!(differ > 300, "{set:?}: only {differ} pixels are lit by mistake");
@@ -178,7 +186,7 @@ fn a_cut_floor_misses_no_pixel() {
         };
         let (whole, cut) = (fragments("fragment"), fragments("clip-plane"));
         println!("{target:?}: {whole:?} {cut:?}");
-        assert!(whole.1 > 1000 && whole.0 == 1 && cut.0 == 2, "{target:?}: {whole:?} {cut:?}");
+        assert!(whole.1 > 500 && whole.0 == 1 && cut.0 == 2, "{target:?}: {whole:?} {cut:?}");
         // The cut is some fifty pixels long; where it ends, the floor's edge has a vertex that is rounded to the raster's
         // grid, which can win or lose a pixel.
         assert!(whole.1.abs_diff(cut.1) <= 2, "{target:?}: {whole:?} {cut:?}");

@@ -21,12 +21,17 @@ fn half() -> f64 {
 
 /// The square covers the map up to texel coordinate `edge`. `fov_y` in degrees; the picture is 16 times as wide as high.
 fn scene(edge: f64, fov_y: f64, keys: &str) -> Scene {
-    let end = (2.0 * edge / f64::from(SIZE) - 1.0) * half() * (LIGHT - SQUARE);
+    let spot = "target = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, -1.0]\ncone = 40.0\nshape = \"frustum\"";
+    scene_under(spot, half(), edge, fov_y, keys)
+}
+
+/// Under a light whose map ends at the tangent `half`.
+fn scene_under(light: &str, half: f64, edge: f64, fov_y: f64, keys: &str) -> Scene {
+    let end = (2.0 * edge / f64::from(SIZE) - 1.0) * half * (LIGHT - SQUARE);
     let text = format!(
         "[image]\nsize = [{WIDTH}, 16]\n[camera]\neye = [0.0, {CAMERA:?}, 0.0]\ntarget = [0.0, 0.0, 0.0]\n\
          up = [0.0, 0.0, -1.0]\nfov_y = {fov_y:?}\nnear = 0.1\nfar = 10.0\n\
-         [[light]]\nposition = [0.0, {LIGHT:?}, 0.0]\ntarget = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, -1.0]\ncone = 40.0\n\
-         shape = \"frustum\"\nnear = 1.0\nfar = 9.0\n[light.shadow]\ntechnique = \"shadow-map\"\nsize = {SIZE}\n{keys}\n\
+         [[light]]\nposition = [0.0, {LIGHT:?}, 0.0]\n{light}\nnear = 1.0\nfar = 9.0\n[light.shadow]\ntechnique = \"shadow-map\"\nsize = {SIZE}\n{keys}\n\
          [[object]]\nmesh = \"quad\"\nscale = [6.0, 1.0, 6.0]\n\
          [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\ntranslate = [{:?}, {SQUARE:?}, 0.0]\n",
         end - 4.0
@@ -75,7 +80,19 @@ fn check(
     renderer: &mut Renderer,
     expected: &dyn Fn([f64; 2]) -> Option<f64>,
 ) {
-    let shade = draw_shade(&scene(edge, fov_y, keys), 0, renderer).unwrap();
+    let scene = scene(edge, fov_y, keys);
+    check_scene(&scene, name, edge, fov_y, renderer, expected);
+}
+
+fn check_scene(
+    scene: &Scene,
+    name: &str,
+    edge: f64,
+    fov_y: f64,
+    renderer: &mut Renderer,
+    expected: &dyn Fn([f64; 2]) -> Option<f64>,
+) {
+    let shade = draw_shade(scene, 0, renderer).unwrap();
     let row = &shade.shade[7 * WIDTH as usize..8 * WIDTH as usize];
     let (mut compared, mut partial, mut worst) = (0, 0, 0.0_f64);
     for (point, found) in floor_points(fov_y).zip(row) {
@@ -115,6 +132,25 @@ fn kernels_weigh_as_gl_does() {
                     let expected = |[x, _]: [f64; 2]| kernel(texel(x, 0.0, SIZE), edge, side, linear);
                     check(&keys.replace('\n', ", "), edge, 5.0, &keys, &mut renderer, &expected);
                 }
+            }
+        }
+    }
+}
+
+/// A cube's kernel on the face below the light, whose columns run along x: the same weights.
+#[test]
+fn a_cube_s_kernels_weigh_as_gl_does() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    for (filter, linear) in [("nearest", false), ("linear", true)] {
+        for side in [1, 2, 3, 5, 7] {
+            for edge in [14.37, 16.0] {
+                let keys = format!("kernel = {side}\nfilter = \"{filter}\"");
+                let scene = scene_under("kind = \"point\"", 1.0, edge, 5.0, &keys);
+                let texel = |x: f64| f64::from(SIZE) * (0.5 + 0.5 * x / LIGHT);
+                let name = format!("a cube, {}", keys.replace('\n', ", "));
+                let expected = |[x, _]: [f64; 2]| kernel(texel(x), edge, side, linear);
+                check_scene(&scene, &name, edge, 5.0, &mut renderer, &expected);
             }
         }
     }

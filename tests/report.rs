@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use glumbra::report::merge::{self, equal_but_for_times};
-use glumbra::report::results::{Report, SceneReport};
+use glumbra::report::results::{Report, Row, SceneReport};
 
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
 
@@ -110,6 +110,30 @@ fn a_report_says_how_wrong_and_for_what_price() {
     let csv = std::fs::read_to_string(work.path("out/report.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + scene.rows.len());
     assert!(!work.path("out/report.journal.jsonl").exists());
+}
+
+/// Without a grid of one's own: every technique has a row that was drawn, and its documents' claims their numbers.
+#[test]
+fn a_report_tells_what_the_documents_claim() {
+    let work = Work::new();
+    let mut command = Command::new(GLUMBRA);
+    command.current_dir(work.folder.path());
+    let told = succeed(command.args(["report", "scene.toml", "--quick", "--runs", "1", "-o", "out"]));
+    assert!(
+        told.contains("What the documents claim, on scene.toml:") && told.contains("second-depth: moves the error")
+    );
+    let report = work.load("out");
+    let scene = only_scene(&report);
+    for technique in ["none", "shadow-map", "midpoint", "second-depth", "shadow-volume"] {
+        let drawn = |row: &&Row| row.technique == technique && row.measured().is_some();
+        assert!(scene.rows.iter().any(|row| drawn(&row)), "{technique}");
+    }
+    // Each has both its numbers, or says why not: of the box nothing is seen that is turned away from the light.
+    let sides = || scene.claims.iter().flat_map(|claim| [&claim.first, &claim.second]);
+    assert!(sides().all(|side| side.value.is_some() != side.why.is_some()), "{told}");
+    assert!(sides().filter(|side| side.value.is_some()).count() >= 18, "{told}");
+    let page = std::fs::read_to_string(work.path("out/report.html")).unwrap();
+    assert!(page.contains("What the documents claim, on this scene"));
 }
 
 #[test]

@@ -15,9 +15,9 @@ use crate::report::grid::{self, Grid};
 use crate::report::html::{Goals, Pictures};
 use crate::report::journal::{self, Journal};
 use crate::report::kept;
-use crate::report::results::{Report, VERSION};
+use crate::report::results::{Report, SceneReport, VERSION};
 use crate::report::run::{self, Options, Sweep};
-use crate::report::{merge, pictures, write};
+use crate::report::{claims, merge, pictures, write};
 
 /// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
 #[derive(Debug, Args)]
@@ -124,6 +124,8 @@ Examples:
   glumbra report a.toml b.toml -o out/report --grid grid.toml --error 0.05
   parallel glumbra report a.toml -o part{} --shard {}/4 ::: 1 2 3 4 && glumbra report merge part* -o out/report
 
+Without a grid file the report also holds what the documents claim of the techniques against each scene.
+
 Ctrl-C leaves a report of what was done; --resume goes on from there.";
 
 /// `I/N`.
@@ -160,12 +162,16 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     let journal = measure(arguments, &folder, &sweeps, &options, &stop, &mut report)?;
     report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    if arguments.grid.is_none() && options.shard.0 == 1 && !stop.load(Ordering::Relaxed) {
+        measure_claims(&sweeps, &mut report, &options)?;
+    }
     let pictures = draw_pictures(&sweeps, &mut report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Interrupted { folder });
     }
     journal.remove();
+    report.scenes.iter().for_each(print_claims);
     println!("{}", folder.join("report.html").display());
     Ok(())
 }
@@ -249,6 +255,31 @@ fn measure(
     }
     bar.finish_and_clear();
     Ok(journal)
+}
+
+/// Holds what the documents claim against each scene.
+fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
+    let context = context::open(&options.context)?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let bar = super::spinner("what the documents claim, on {msg}");
+    for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
+        bar.set_message(scene.path.display().to_string());
+        bar.tick();
+        let (light, band) = (options.light, options.band_texels);
+        scene.claims = claims::measure(&sweep.scene, light, &sweep.truth, band, &mut renderer)?;
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn print_claims(scene: &SceneReport) {
+    if scene.claims.is_empty() {
+        return;
+    }
+    println!("What the documents claim, on {}:", scene.path.display());
+    for claim in &scene.claims {
+        println!("  {claim}");
+    }
 }
 
 /// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.

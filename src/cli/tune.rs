@@ -100,15 +100,15 @@ fn print(tuned: &Tuned, options: &Options) -> Result<(), Error> {
             write!(out, "{}", point.to_toml())?;
         }
     }
-    writeln!(out, "\n# Without an offset to tune, by default:")?;
+    writeln!(out, "\n# Without an offset to tune:")?;
     for rival in &tuned.rivals {
         match &rival.errors {
             Ok(errors) => writeln!(
                 out,
-                "# {:<24} false shadow {:>9.4} %  leak {:>8.4} %  wrong {:>8.4} %",
-                rival.technique, errors.false_shadow_percent, errors.leak_percent, errors.wrong_percent
+                "# {:<60} false shadow {:>9.4} %  leak {:>8.4} %  wrong {:>8.4} %",
+                rival.settings, errors.false_shadow_percent, errors.leak_percent, errors.wrong_percent
             )?,
-            Err(why) => writeln!(out, "# {:<24} {why}", rival.technique)?,
+            Err(why) => writeln!(out, "# {:<60} {why}", rival.settings)?,
         }
     }
     Ok(())

@@ -142,7 +142,7 @@ impl Builder<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let mut lit = LightTerm { dimming, ..once_counted(&scene, term) };
+        let mut lit = LightTerm { dimming, added: true, ..once_counted(&scene, term) };
         if scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             (scene.shading.ambient, scene.lights[term.index]) =

@@ -48,6 +48,15 @@ fn tags_are_closed() {
 }
 
 #[test]
+fn claims_are_told_with_their_verdicts() {
+    let page = page(|_| ());
+    assert!(page.contains("What the documents claim, on this scene"));
+    assert!(page.contains(">holds</td>") && page.contains(" class=\"failure\">does not hold</td>"));
+    let without = self::page(|report| report.scenes[0].claims.clear());
+    assert!(!without.contains("What the documents claim"));
+}
+
+#[test]
 fn the_page_needs_no_other_file() {
     let page = page(|_| ());
     for part in page.split(" src=\"").skip(1) {

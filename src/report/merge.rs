@@ -173,9 +173,15 @@ fn join_scene(scene: &SceneReport, parts: &[(PathBuf, Report)]) -> Result<SceneR
     let mut rows: BTreeMap<usize, (&PathBuf, &Row)> = BTreeMap::new();
     for (path, part) in parts {
         for other in part.scenes.iter().filter(same) {
-            match &joined {
+            match &mut joined {
                 None => joined = Some((path, SceneReport { rows: Vec::new(), ..other.clone() })),
-                Some((first, known)) => check_scene(first, known, path, other)?,
+                Some((first, known)) => {
+                    check_scene(first, known, path, other)?;
+                    // The first part alone measures them.
+                    if known.claims.is_empty() {
+                        known.claims.clone_from(&other.claims);
+                    }
+                }
             }
             for row in &other.rows {
                 let (first, known) = rows.entry(row.index).or_insert((path, row));

@@ -2,6 +2,8 @@
 //! costs. Drives frames and the oracle; names no technique and makes no GL call of its own.
 
 mod band;
+pub mod claimed;
+pub mod claims;
 pub mod csv;
 pub mod difference;
 mod edges;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::claimed::Claimed;
 use super::metrics::Metrics;
 
 /// A whole report, or a part of one.
@@ -55,6 +56,9 @@ pub struct SceneReport {
     /// What the plan leaves out of the scene as written, and what that saves.
     #[serde(default)]
     pub saved: Option<Saved>,
+    /// What the documents claim of the techniques, measured here.
+    #[serde(default)]
+    pub claims: Vec<Claimed>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.
     pub grid_rows: usize,
     /// By their place in the grid.

@@ -84,6 +84,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),
         truth: summarise(&truth, trace_ms),
         saved: None,
+        claims: Vec::new(),
         grid_rows: rows.len(),
         rows: Vec::new(),
     };

@@ -1,5 +1,6 @@
 //! A made-up report for tests: times grow with the map, errors shrink with it, as they would.
 
+use super::claimed::{Claimed, Measurement, Verdict};
 use super::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};
 use super::results::{Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION};
 
@@ -20,6 +21,20 @@ pub fn report() -> Report {
         notes: Vec::new(),
         asked_scenes: 1,
         scenes: vec![scene("scenes/main.toml", "f1")],
+    }
+}
+
+fn claimed(value: f64, verdict: Verdict) -> Claimed {
+    let side = |value| Measurement { settings: String::from("technique = \"a <b>\""), value: Some(value), why: None };
+    Claimed {
+        technique: String::from("pcf"),
+        source: String::from("Papers & Pages"),
+        says: String::from("leaks less"),
+        quantity: String::from("leak, %"),
+        first: side(value),
+        relation: String::from("at most 0.5 ×"),
+        second: side(1.0),
+        verdict,
     }
 }
 
@@ -53,6 +68,7 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
             trace_ms: 1_834.2,
         },
         saved: None,
+        claims: vec![claimed(0.2, Verdict::Holds), claimed(0.9, Verdict::Fails)],
         grid_rows: rows.len(),
         rows,
     }

@@ -47,8 +47,12 @@ pub struct Point {
     pub units: f64,
     /// On surfaces that face the light, beyond the edge band, in percent of those compared.
     pub false_shadow_percent: f64,
+    /// The same, the band included.
+    pub false_shadow_with_band_percent: f64,
     /// Of all pixels compared.
     pub leak_percent: f64,
+    /// On surfaces that face the light, in percent of those compared: what shading does not hide.
+    pub leak_facing_percent: f64,
     pub wrong_percent: f64,
     /// Whether the false shadow is within [`Options::false_per_100_000`].
     pub clean: bool,
@@ -72,6 +76,8 @@ pub struct Tuned {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Rival {
     pub technique: &'static str,
+    /// In TOML.
+    pub settings: String,
     /// As in [`Point`]; or why it cannot draw this scene.
     pub errors: Result<RivalErrors, String>,
 }
@@ -102,10 +108,10 @@ pub fn tune(
     let count = scene.lights.len();
     scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
     let truth = ray::trace(scene, options.light, &ray::Options::default())?;
-    let mut search = Search { scene, truth, options, renderer, curve: Vec::new(), tick: &mut tick };
+    let mut search = Search::new(scene, &truth, options, renderer, &mut tick);
     let mut best = Vec::new();
     for size in &options.sizes {
-        if let Some(point) = search.best_of(*size)? {
+        if let Some(point) = search.best_of(*size, &FACTORS, |point| point.leak_percent, &|point| point.clean)? {
             best.push(point);
             if point.leak_percent <= options.leak_percent {
                 break; // the smallest: larger maps cost more
@@ -118,22 +124,39 @@ pub fn tune(
     Ok(Tuned { curve: search.curve, best, chosen: within.or(least), within_leak: within.is_some(), rivals })
 }
 
-struct Search<'a> {
+/// What was seen of a scene so far.
+pub(super) struct Search<'a> {
     scene: &'a Scene,
-    truth: Truth,
+    truth: &'a Truth,
     options: &'a Options,
     renderer: &'a mut Renderer,
     curve: Vec<Point>,
     tick: &'a mut dyn FnMut(&Point),
 }
 
-impl Search<'_> {
-    /// The clean point of least leak at one map size.
-    fn best_of(&mut self, size: u32) -> Result<Option<Point>, Error> {
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        scene: &'a Scene,
+        truth: &'a Truth,
+        options: &'a Options,
+        renderer: &'a mut Renderer,
+        tick: &'a mut dyn FnMut(&Point),
+    ) -> Self {
+        Self { scene, truth, options, renderer, curve: Vec::new(), tick }
+    }
+
+    /// Of the points at one map size and among slope factors that are `enough`, the one of least `leak`.
+    pub(super) fn best_of(
+        &mut self,
+        size: u32,
+        factors: &[f64],
+        leak: fn(&Point) -> f64,
+        enough: &dyn Fn(&Point) -> bool,
+    ) -> Result<Option<Point>, Error> {
         let mut best: Option<Point> = None;
-        for factor in FACTORS {
-            if let Some(point) = self.least_units(size, factor)?
-                && best.is_none_or(|best| point.leak_percent < best.leak_percent)
+        for factor in factors {
+            if let Some(point) = self.least_units(size, *factor, enough)?
+                && best.is_none_or(|best| leak(&point) < leak(&best))
             {
                 best = Some(point);
             }
@@ -141,18 +164,18 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// The least power of two of units, or none at all, that is clean with `factor`.
-    fn least_units(&mut self, size: u32, factor: f64) -> Result<Option<Point>, Error> {
+    /// The least power of two of units, or none at all, that is `enough` with `factor`.
+    fn least_units(&mut self, size: u32, factor: f64, enough: &dyn Fn(&Point) -> bool) -> Result<Option<Point>, Error> {
         // Exponents; -1 stands for no units.
         let (mut low, mut high) = (-1, MOST_UNITS_LOG2);
         let mut found = self.point(size, factor, units_of(high))?;
-        if !found.clean {
+        if !enough(&found) {
             return Ok(None);
         }
         while low < high {
             let middle = (low + high).div_euclid(2);
             let point = self.point(size, factor, units_of(middle))?;
-            if point.clean {
+            if enough(&point) {
                 (found, high) = (point, middle);
             } else {
                 low = middle + 1;
@@ -161,19 +184,38 @@ impl Search<'_> {
         Ok(Some(found))
     }
 
+    /// Units between those of a `point` that is `enough` and half of them, to a sixteenth of them, as few as are enough.
+    pub(super) fn refined(&mut self, point: Point, enough: &dyn Fn(&Point) -> bool) -> Result<Point, Error> {
+        let (mut low, mut found) = (0.5 * point.units, point);
+        for _ in 0..3 {
+            let middle = self.point(point.size, point.factor, 0.5 * (low + found.units))?;
+            if enough(&middle) {
+                found = middle;
+            } else {
+                low = middle.units;
+            }
+        }
+        Ok(found)
+    }
+
     /// Every technique of the table whose report varies something, but no offset.
     fn rivals(&mut self) -> Vec<Rival> {
         let has_offset = |technique: &&&dyn Technique| technique.axes().iter().any(|axis| axis.key == "offset");
         let rows = TABLE.iter().filter(|technique| !technique.axes().is_empty() && !has_offset(technique));
-        rows.map(|technique| Rival { technique: technique.name(), errors: self.errors_of(technique.name()) }).collect()
+        let rivals = rows.map(|technique| {
+            let settings = plainest(*technique);
+            let errors = self.errors_of(&settings);
+            Rival { technique: technique.name(), settings, errors }
+        });
+        rivals.collect()
     }
 
-    fn errors_of(&mut self, technique: &str) -> Result<RivalErrors, String> {
-        let shadow = scene::shadow_settings(&format!("technique = \"{technique}\"")).map_err(|e| e.to_string())?;
+    fn errors_of(&mut self, settings: &str) -> Result<RivalErrors, String> {
+        let shadow = scene::shadow_settings(settings).map_err(|error| error.to_string())?;
         let scene = with_shadow(self.scene, self.options.light, &shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer).map_err(|error| error.to_string())?;
         let band = Band { texels: self.options.band_texels, map_size: [DEFAULT_SIZE; 2] };
-        let metrics = metrics::compare(&self.truth, &shade, &band).map_err(|error| error.to_string())?;
+        let metrics = metrics::compare(self.truth, &shade, &band).map_err(|error| error.to_string())?;
         Ok(RivalErrors {
             false_shadow_percent: metrics.facing.false_shadow.outside_percent,
             leak_percent: metrics.all.leak_percent,
@@ -186,14 +228,16 @@ impl Search<'_> {
         let scene = with_shadow(self.scene, self.options.light, &shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer)?;
         let band = Band { texels: self.options.band_texels, map_size: [size; 2] };
-        let Metrics { all, facing, .. } = metrics::compare(&self.truth, &shade, &band)?;
+        let Metrics { all, facing, .. } = metrics::compare(self.truth, &shade, &band)?;
         let false_shadow_percent = facing.false_shadow.outside_percent;
         let point = Point {
             size,
             factor,
             units,
             false_shadow_percent,
+            false_shadow_with_band_percent: facing.false_shadow_percent,
             leak_percent: all.leak_percent,
+            leak_facing_percent: facing.leak_percent,
             wrong_percent: all.wrong_percent,
             clean: facing.false_shadow.outside as f64 <= self.spare(facing.compared),
         };
@@ -210,8 +254,14 @@ impl Search<'_> {
     }
 }
 
+/// A technique under the first value of each of its quick report's axes.
+fn plainest(technique: &dyn Technique) -> String {
+    let firsts = technique.axes().iter().filter_map(|axis| Some(format!(", {} = {}", axis.key, axis.quick.first()?)));
+    format!("technique = \"{}\"{}", technique.name(), firsts.collect::<String>())
+}
+
 /// The side of a map by default, by which the edge band of techniques without one is measured.
-const DEFAULT_SIZE: u32 = 1024;
+pub(super) const DEFAULT_SIZE: u32 = 1024;
 
 /// See [`Search::spare`].
 const SPARE_PIXELS: f64 = 2.0;
@@ -222,13 +272,16 @@ fn units_of(exponent: i32) -> f64 {
 
 /// `shadow` as a shadow map of another size and offset.
 fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
-    let replaced = ["technique", "size", "offset"];
+    let offset = format!("offset = {{ factor = {factor:?}, units = {units:?} }}");
+    under(shadow, size, &format!("technique = \"shadow-map\", {offset}"))
+}
+
+/// `shadow` with another technique, size and `keys`, which are not its own.
+pub(super) fn under(shadow: &Settings, size: u32, keys: &str) -> Result<Settings, scene::Error> {
+    let replaced = ["technique", "size", "offset", "closed", "single", "average"];
     let kept = shadow.entries.iter().filter(|(key, _)| !replaced.contains(&key.as_str()));
-    let mut keys: Vec<String> = kept.map(|(key, entry)| format!("{key} = {}", entry.value.to_toml())).collect();
-    keys.push(String::from("technique = \"shadow-map\""));
-    keys.push(format!("size = {size}"));
-    keys.push(format!("offset = {{ factor = {factor:?}, units = {units:?} }}"));
-    scene::shadow_settings(&keys.join(", "))
+    let kept: Vec<String> = kept.map(|(key, entry)| format!(", {key} = {}", entry.value.to_toml())).collect();
+    scene::shadow_settings(&format!("{keys}, size = {size}{}", kept.concat()))
 }
 
 impl Point {

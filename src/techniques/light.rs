@@ -14,7 +14,7 @@ use crate::pass::{
     Attribute, Batch, Chunk, Draw, DrawState, Face, ImageId, IndexOrder, Input, Meaning, MeshRef, Primitive, Program,
     Redraw, Shade, Uniform, glsl,
 };
-use crate::scene::{Frustum, Light, Reader, Scene, SettingsError};
+use crate::scene::{Frustum, Light, Scene};
 
 /// What a technique may know when it describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +32,6 @@ pub struct LightView<'a> {
 impl<'a> LightView<'a> {
     pub fn light(&self) -> &'a Light {
         &self.scene.lights[self.index]
-    }
-
-    /// The light in the frustum that it has.
-    ///
-    /// # Errors
-    ///
-    /// A light that has none: one that a technique does not serve which asks for it.
-    pub fn in_its_frustum(&self, keys: &Reader<'_>) -> Result<FrustumView<'a>, SettingsError> {
-        let frustum = self.light().frustum();
-        let frustum = frustum.ok_or_else(|| keys.error("technique", "draws the map of a light with a frustum"))?;
-        Ok(FrustumView { light_view: *self, projector: Projector::of_frustum(frustum) })
     }
 }
 
@@ -126,6 +115,8 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
+    /// Whether its light is added to a picture that has its ambient part: what it does not reach is then not drawn.
+    pub added: bool,
     /// What keeps a spotlight's light from what lies behind it.
     pub guard: Guard,
     /// The depth texture, for views of it.
@@ -293,6 +284,7 @@ impl LightTerm {
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
+            added: false,
             guard: Guard::Auto,
             map: None,
             counting: None,

@@ -8,6 +8,7 @@
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
+pub mod claims;
 pub mod guard;
 pub mod guides;
 pub mod items;
@@ -15,6 +16,7 @@ pub mod light;
 mod midpoint;
 mod projector;
 mod second_depth;
+mod seen;
 mod shadow_map;
 mod shadow_volume;
 pub mod surface;
@@ -22,6 +24,7 @@ mod unseen;
 mod unshadowed;
 pub mod views;
 
+use self::claims::Claim;
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, Scene, SettingsError, suggest};
 pub use items::Item;
@@ -55,6 +58,11 @@ pub trait Technique: Sync {
 
     /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
     fn more_axes(&self, _kind: &LightKind) -> &'static [&'static [Axis]] {
+        &[]
+    }
+
+    /// What its documents claim of it, for a report to hold against its scene.
+    fn claims(&self) -> &'static [Claim] {
         &[]
     }
 

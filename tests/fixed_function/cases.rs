@@ -16,7 +16,9 @@ const KNOWN_LIMITS: &[&str] = &[
     "saturate",
     "more comparisons than one",
     "in a cube map",
-    "in the stencil buffer",
+    "tag in the stencil buffer",
+    "volumes have no modelview",
+    "a clip plane of the vertex stage",
     "waves in the vertex stage",
 ];
 

@@ -144,6 +144,7 @@ fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
             "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
              caps where it puts the surfaces"
         }
+        _ if batch.clip_planes > 0 => "a clip plane of the vertex stage's own",
         DrawState { blend: Some(_), .. } if layered => "a pass that blends, as its own layers do",
         _ => return Ok(()),
     };

@@ -3,6 +3,7 @@
 //! Readable without its script, which only sorts, filters and copies. Everything that comes from a scene, a driver or a
 //! system is escaped.
 
+mod claims;
 mod columns;
 mod scene;
 mod table;

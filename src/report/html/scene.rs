@@ -5,6 +5,7 @@ use super::super::metrics::Band;
 use super::super::numbers::{bytes, grouped, plain};
 use super::super::plots;
 use super::super::results::{Cost, Machine, Measured, Row, SceneReport};
+use super::claims;
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
 use super::{Goals, ScenePictures};
@@ -39,6 +40,7 @@ pub(super) fn section(
     text += "<h3>The settings to take</h3>\n<div class=\"cards\">\n";
     text += &cards(scene, number, goals);
     text += "</div>\n";
+    text += &claims::section(scene);
     text += &saved_text(scene);
     text += "<h3>Error against time</h3>\n";
     text += &plot(plots::error_against_time(scene, machine), "There is no row to plot.");

@@ -20,6 +20,7 @@ mod settings;
 mod single;
 
 use self::settings::{Average, Peel, Settings, Single};
+use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::in_frustum;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
@@ -31,6 +32,41 @@ use crate::pass::{
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 
 pub struct Midpoint;
+
+const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
+
+/// [Hardware Shadow Mapping, "Advantages and Limitations"]. The edge band is told apart, for at a caster's rim its two
+/// layers meet and nothing lies between them.
+const CLAIMS: &[Claim] = &[
+    Claim {
+        says: "needs no offset to leave no more acne than a tuned offset does",
+        quantity: Quantity::FalseShadow,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "needs none to lose no more light at shadow edges, either",
+        quantity: Quantity::FalseShadowWithBand,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "leaves at most half of the leak where light falls",
+        quantity: Quantity::LeakFacing,
+        first: BARE,
+        relation: Relation::AtMost(0.5),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "leaves at most half of the leak, with what is turned away",
+        quantity: Quantity::Leak,
+        first: BARE,
+        relation: Relation::AtMost(0.5),
+        second: Contender::SlopeScaled,
+    },
+];
 
 impl Technique for Midpoint {
     fn name(&self) -> &'static str {
@@ -46,11 +82,15 @@ impl Technique for Midpoint {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::has_one_frustum(kind)
+        shadow_map::has_one_map(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
         settings::AXES
+    }
+
+    fn claims(&self) -> &'static [Claim] {
+        CLAIMS
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
@@ -65,8 +105,10 @@ impl Technique for Midpoint {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let view = &view.in_its_frustum(keys)?;
         refuse(&settings.map, keys)?;
+        let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
+            return Ok(shadow_map::without_casters(view, &settings.map, notes));
+        };
         let casters = in_frustum(view, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
@@ -168,6 +210,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending
         ending.defines.push("COMPARE");
         ending.inputs.push(input("nearest_compared", Some(behind)));
     }
+    // Of parallel light a window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {

@@ -8,6 +8,7 @@
 
 use std::sync::Arc;
 
+use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
@@ -17,6 +18,33 @@ use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct SecondDepth;
+
+const BARE: Contender = Contender::Keys("technique = \"second-depth\", closed = \"assume\"");
+
+/// [Hardware Shadow Mapping, on Wang and Molnar].
+const CLAIMS: &[Claim] = &[
+    Claim {
+        says: "needs no offset to leave no more acne than a tuned offset does",
+        quantity: Quantity::FalseShadow,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "moves the error to faces turned away from the light",
+        quantity: Quantity::WrongAway,
+        first: BARE,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "is no more wrong than a tuned offset on faces turned to the light",
+        quantity: Quantity::WrongFacing,
+        first: BARE,
+        relation: Relation::AtMost(1.0),
+        second: Contender::SlopeScaled,
+    },
+];
 
 const AXES: &[Axis] = &[
     Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
@@ -38,11 +66,15 @@ impl Technique for SecondDepth {
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
-        shadow_map::has_one_frustum(kind)
+        shadow_map::has_one_map(kind)
     }
 
     fn axes(&self) -> &'static [Axis] {
         AXES
+    }
+
+    fn claims(&self) -> &'static [Claim] {
+        CLAIMS
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
@@ -57,7 +89,9 @@ impl Technique for SecondDepth {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let (mut settings, is_assumed) = read(keys)?;
-        let view = &view.in_its_frustum(keys)?;
+        let Some(view) = &shadow_map::one_view(view, &settings, keys, notes)? else {
+            return Ok(shadow_map::without_casters(view, &settings, notes));
+        };
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
         if !is_assumed {

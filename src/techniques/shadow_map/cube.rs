@@ -12,6 +12,7 @@ use super::depth::{self, Layer};
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
 use super::term::{sampler, texture_from_light_clip};
+use super::texel;
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform, Work,
@@ -27,6 +28,11 @@ use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, No
 /// rounding.
 const SEAM_TEXELS: f64 = 4.0;
 
+/// Of a kernel's outermost comparison, beside its filter's own reach; in texels.
+fn kernel_reach(settings: &Settings) -> f64 {
+    0.5 * f64::from(settings.kernel - 1)
+}
+
 /// What a cube map cannot do.
 ///
 /// # Errors
@@ -34,11 +40,9 @@ const SEAM_TEXELS: f64 = 4.0;
 /// The key, and why.
 pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
     let refused = [
-        (settings.kernel != 1, "kernel", "steps from texel to texel of a square map"),
         (settings.bias != Bias::Offset, "bias", "reckons with the texels of a square map"),
         (settings.mipmaps != Mipmaps::None, "mipmaps", "are of square maps"),
         (settings.fit != Fit::None, "fit", "moves the texels of a square map"),
-        (settings.simplified, "casters", "= \"texel\" reckons with the texels of a square map"),
         (settings.guard != Guard::Auto, "guard", "keeps a spotlight from lighting what lies behind it"),
         (settings.addressing != Addressing::OpenGl, "addressing", "= \"direct3d\" is of square maps"),
     ];
@@ -69,7 +73,8 @@ pub fn describe(
 /// The items whose shadow can be seen.
 fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
     let any_face = seen_from(view, point, CubeFace::PositiveX);
-    let unseen = (!view.shown_whole && !view.keep_all).then(|| Unseen::new(&any_face, settings.size, 0.0));
+    let unseen =
+        (!view.shown_whole && !view.keep_all).then(|| Unseen::new(&any_face, settings.size, kernel_reach(settings)));
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
@@ -113,7 +118,7 @@ fn needed<'a>(
 
 /// Whether the camera may see something that looks the face up.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
-    let half_angle = (1.0 + 2.0 * SEAM_TEXELS / f64::from(settings.size)).atan();
+    let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
     let face_clip = frustum.unbounded().clip_from_world();
     let camera = &view.scene.camera;
@@ -164,6 +169,10 @@ fn draw(
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
     for (face, face_view, casters) in faces {
+        let fewer =
+            if settings.simplified { texel::simplified(face_view, casters, settings, notes) } else { Vec::new() };
+        let fewer: Vec<&Item> = fewer.iter().collect();
+        let casters = if settings.simplified { &fewer } else { casters };
         let layer = Layer {
             name: "depth",
             image: "map",
@@ -219,10 +228,14 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler: sampler(settings) });
     term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
     term.defines.push(format!("CUBE_{index}"));
-    if settings.filter == Filter::Linear {
-        term.defines.push(format!("LINEAR_{index}"));
-        // Half a texel of the seam, of which a face has 2 / size; rounding may bring a lookup nearer.
-        let seam = (1.0 - 1.01 / f64::from(settings.size)).max(0.0);
+    if settings.kernel > 1 {
+        term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
+    }
+    let reach = kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
+    if reach > 0.0 {
+        term.defines.push(format!("SEAMS_{index}"));
+        // That much of the seam, of a face of 2; rounding may bring a lookup nearer.
+        let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
     term.dimming = settings.dimming;

@@ -16,12 +16,39 @@ mod texel;
 use self::casters::casters;
 use self::depth::Layer;
 use self::settings::Settings;
+use super::claims::{Claim, Contender, Quantity, Relation};
 use super::projector::Projector;
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
+
+/// A constant cannot take the place of the slope factor [Hardware Shadow Mapping, on polygon offset; techniques A8].
+const CLAIMS: &[Claim] = &[
+    Claim {
+        says: "a constant offset must be larger than a slope-scaled one for equal false shadow",
+        quantity: Quantity::Offset,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+    Claim {
+        says: "a constant offset leaks more where light falls",
+        quantity: Quantity::LeakFacing,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+    // The slope factor knows no bound at a caster's rim: what is turned away behind it is told apart.
+    Claim {
+        says: "a constant offset leaks more, with what is turned away",
+        quantity: Quantity::Leak,
+        first: Contender::Constant,
+        relation: Relation::Greater,
+        second: Contender::SlopeScaled,
+    },
+];
 
 impl Technique for ShadowMap {
     fn name(&self) -> &'static str {
@@ -44,13 +71,17 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has those of the first two grids alone; nothing lies behind parallel light.
+    /// Of these keys a cube map has those of the first three grids alone; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         match kind {
-            LightKind::Point(_) => &settings::MORE_AXES[..2],
+            LightKind::Point(_) => &settings::MORE_AXES[..3],
             LightKind::Directional { .. } => &settings::MORE_AXES[..settings::MORE_AXES.len() - 1],
             LightKind::Spot(_) => settings::MORE_AXES,
         }
+    }
+
+    fn claims(&self) -> &'static [Claim] {
+        CLAIMS
     }
 
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
@@ -65,19 +96,12 @@ impl Technique for ShadowMap {
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
         let settings = settings::read(keys)?;
-        let projector = match &view.light().kind {
-            LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
-            LightKind::Directional { direction } => {
-                parallel::refuse(&settings, keys)?;
-                parallel::projector(view, *direction, &settings, notes)
-            }
-            LightKind::Point(point) => {
-                cube::refuse(&settings, keys)?;
-                return Ok(cube::describe(view, point, &settings, list, notes));
-            }
-        };
-        match projector {
-            Some(projector) => Ok(one_map(&FrustumView { light_view: *view, projector }, settings, list, notes)),
+        if let LightKind::Point(point) = &view.light().kind {
+            cube::refuse(&settings, keys)?;
+            return Ok(cube::describe(view, point, &settings, list, notes));
+        }
+        match one_view(view, &settings, keys, notes)? {
+            Some(view) => Ok(one_map(&view, settings, list, notes)),
             None => Ok(without_casters(view, &settings, notes)),
         }
     }
@@ -120,13 +144,34 @@ pub(super) fn looked_up(
     term
 }
 
-/// For techniques that draw one map in perspective and no other.
-pub(super) fn has_one_frustum(kind: &LightKind) -> Result<(), &'static str> {
+/// For techniques that draw one square map and no other.
+pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
     match kind {
-        LightKind::Spot(_) => Ok(()),
+        LightKind::Spot(_) | LightKind::Directional { .. } => Ok(()),
         LightKind::Point(_) => Err("draws one square map, and a point light needs six"),
-        LightKind::Directional { .. } => Err("draws its map in perspective, and a directional light has none"),
     }
+}
+
+/// The light as its one map sees it; `None` where a directional light has nothing to shadow.
+///
+/// # Errors
+///
+/// A key that does not go with the light's kind, or a light that has no one map.
+pub(super) fn one_view<'a>(
+    view: &LightView<'a>,
+    settings: &Settings,
+    keys: &Reader<'_>,
+    notes: &mut Notes,
+) -> Result<Option<FrustumView<'a>>, SettingsError> {
+    let projector = match &view.light().kind {
+        LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
+        LightKind::Directional { direction } => {
+            parallel::refuse(settings, keys)?;
+            parallel::projector(view, *direction, settings, notes)
+        }
+        LightKind::Point(_) => return Err(keys.error("technique", "draws one square map, and a point light needs six")),
+    };
+    Ok(projector.map(|projector| FrustumView { light_view: *view, projector }))
 }
 
 /// A light in whose frustum nothing casts a shadow that is seen.

@@ -12,7 +12,7 @@
 use glam::DVec3;
 
 use super::fit::rim_texels;
-use super::settings::{Bias, Mipmaps, Settings};
+use super::settings::{Mipmaps, Settings};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::guard::Guard;
@@ -26,11 +26,8 @@ const STEPS: f64 = 8.0;
 ///
 /// # Errors
 ///
-/// A key that reckons with a light at a finite distance, or a map too small for its own rim.
+/// Levels of which one reaches across the whole, or a map too small for its own rim.
 pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
-    if settings.bias == Bias::NormalOffset {
-        return Err(keys.error("bias", "= \"normal-offset\" reckons with a perspective map, not a directional light's"));
-    }
     if settings.mipmaps == Mipmaps::All {
         return Err(keys.error(
             "mipmaps",

@@ -1,11 +1,13 @@
 //! The comparison's outcome as a tag in the stencil buffer, for later passes [lecture, "Combining Shadow Mapping with other
-//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in.
+//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in. As many pixels are on
+//! the wrong side of one half as a shader leaves there; the root mean square error of GL_LINEAR grows by a tenth
+//! (`glumbra report` on teapot.toml and main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Counting, Layer};
-use crate::techniques::shadow_volume::ends;
+use crate::techniques::seen;
 
 /// The pass that tags what the light's shade calls shadowed; `None`: the lit pass asks for the shade itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
@@ -29,7 +31,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         infinite: false,
         clamped: false,
         ledge: false,
-        scissor: if view.keep_all { None } else { ends::scissor(view) },
+        scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: Vec::new(),
         silhouettes: Vec::new(),
     })

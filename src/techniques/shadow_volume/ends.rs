@@ -1,13 +1,12 @@
 //! What lies beyond all that is seen: where volumes may end, and which casters shadow nothing. Conservative, from
 //! bounding boxes in world space.
 
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 
 use super::casters::Casting;
-use crate::geometry::volume::{self, Source};
-use crate::math::frustum::{self, Overlap};
-use crate::math::{Aabb, frustum::corners};
-use crate::techniques::LightView;
+use crate::geometry::volume::Source;
+use crate::math::frustum::corners;
+use crate::techniques::{LightView, seen};
 
 /// `normal · x = distance`; beyond it is where the dot product is greater.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +24,7 @@ const STEEPNESS: f64 = 1e-2;
 /// A plane beyond the eye, the near rectangle and all that is seen, which every ray from the light through the caster's
 /// box crosses: the one of six that cuts the volume shortest. `None`: none of the six does.
 pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Option<Plane> {
-    let bounds = seen_bounds(view);
+    let bounds = seen::bounds(view);
     let margin = 1e-3 * bounds.radius() + SLACK * bounds.min.abs().max(bounds.max.abs()).max_element();
     let box_corners = caster.bounds.corners().map(|corner| caster.world_from_model.transform_point3(corner));
     let faces = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
@@ -45,21 +44,6 @@ pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Opt
     shortest.0.is_finite().then_some(shortest.1)
 }
 
-/// The eye, the near rectangle, and the boxes of all that is in view.
-fn seen_bounds(view: &LightView<'_>) -> Aabb {
-    let clip_from_world = camera(view);
-    let near = corners(&clip_from_world.inverse()).into_iter().take(4).chain([view.scene.camera.eye]);
-    let seen = view
-        .items
-        .iter()
-        .filter(|item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside);
-    seen.fold(Aabb::from_points(near), |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
-}
-
-fn camera(view: &LightView<'_>) -> DMat4 {
-    view.scene.camera.clip_from_view(view.scene.aspect()) * view.scene.camera.view_from_world()
-}
-
 /// Whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
 /// nothing that is seen, itself included.
 pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source) -> bool {
@@ -75,27 +59,11 @@ pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source
     let slack = |point: DVec3| SLACK * (point.abs().max_element() + middle.abs().max_element());
     let is_before = |point: DVec3| side * height(point) >= -slack(point);
     let clear = |point: DVec3| side * height(point) > slack(point);
-    let near = corners(&camera(view).inverse()).into_iter().take(4);
+    let near = corners(&seen::clip_from_world(view).inverse()).into_iter().take(4);
     let light_is_clear = side * above > SLACK * source.away(middle).length();
     let others = view
         .items
         .iter()
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
     light_is_clear && clear(view.scene.camera.eye) && { near }.all(clear) && { others }.all(is_before)
-}
-
-/// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights reach them all.
-pub fn scissor(view: &LightView<'_>) -> Option<[u32; 4]> {
-    let frustum = view.light().frustum()?;
-    let bounds = seen_bounds(view);
-    // Its pyramid, from the light to beyond all that is seen.
-    let depth = bounds.corners().map(|corner| corner.distance(frustum.position)).into_iter().fold(0.0, f64::max);
-    let side = depth * (0.5 * frustum.cone_radians).tan();
-    let world_from_light = frustum.view_from_world().inverse();
-    let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
-    let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
-    let size = view.scene.image.size;
-    // No pixel at all: the light contributes nothing, and the plan has seen that already.
-    volume::scissor(&points, &camera(view), size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])
 }

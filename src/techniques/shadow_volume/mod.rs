@@ -4,7 +4,7 @@
 mod casters;
 mod choice;
 mod counts;
-pub(super) mod ends;
+mod ends;
 mod settings;
 mod shapes;
 
@@ -12,7 +12,7 @@ use self::casters::{Casting, casting};
 use self::choice::Way;
 use self::settings::Settings;
 use super::light::Counting;
-use super::{Axis, LightTerm, LightView, Notes, Technique};
+use super::{Axis, LightTerm, LightView, Notes, Technique, seen};
 use crate::geometry::volume::{Kind, Source};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
@@ -87,7 +87,7 @@ fn counting(
         infinite: has(Way::ZFail),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
-        scissor: if view.keep_all { None } else { ends::scissor(view) },
+        scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use glam::Vec3;
 
-use super::{LightParts, Viewer};
+use super::Viewer;
+use super::lights::LightParts;
 use crate::geometry::Material;
 use crate::pass::{Attribute, Chunk, Input, LightMeaning, Lit, Meaning, PassList, Program, Sampled, Uniform, glsl};
 use crate::scene::Scene;
