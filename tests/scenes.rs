@@ -287,3 +287,14 @@ fn what_is_in_the_data_folder_loads() {
         assert_eq!(loaded.warnings, [""; 0], "{}", path.display());
     }
 }
+
+#[test]
+fn the_scenes_of_the_readmes_can_be_planned() {
+    for page in [include_str!("../README.md"), include_str!("../data/scenes/README.md")] {
+        let (_, rest) = page.split_once("```toml\n").unwrap();
+        let (text, _) = rest.split_once("```").unwrap();
+        let scene = scene_of(text, &[]);
+        glumbra::plan::make(&scene, &Default::default()).unwrap();
+        assert!(!scene.lights.is_empty() && !scene.objects.is_empty());
+    }
+}

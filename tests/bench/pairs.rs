@@ -78,7 +78,7 @@ const LEFT_OUT: &[Pair] = &[
     pair("the map's colour buffer", Of::Shadow, keeping(Keep::Color, &[]), by(&[]), None),
     pair("normals in the map's pass", Of::Shadow, keeping(Keep::Normals, &[]), by(&[]), None),
     pair("what no seen point looks up (fit), half the texels a side", Of::Frame, by(&[]), FITTED, None),
-    pair("a guard where nothing lies behind the light", Of::Frame, by(&["light.guard=fragment"]), by(&[]), None),
+    pair("a guard where nothing lies behind the light", Of::Frame, by(&["light.shadow.guard=fragment"]), by(&[]), None),
     pair("texels without a second layer", Of::Shadow, keeping(Keep::Scissor, &[MIDPOINT]), by(&[MIDPOINT]), None),
     pair(
         "triangles below a texel (casters = \"texel\")",

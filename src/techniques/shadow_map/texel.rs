@@ -43,7 +43,8 @@ pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings
 
 /// A sixteenth of a texel by quadrics, which take the mean of what bends: an eighth of one at most places. A silhouette
 /// that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's hundred models had
-/// 0.037 points more of wrong pixels than full ones. In the item's own units: of the texels that it meets, those nearest to the light are the smallest.
+/// 0.037 points more of wrong pixels than full ones. In the item's own units: of the texels that it meets, those nearest
+/// to the light are the smallest.
 fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
     let projector = &view.projector;
     let light_from_model = projector.light_from_world * item.world_from_model;

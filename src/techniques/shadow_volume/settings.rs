@@ -63,7 +63,7 @@ pub const AXES: &[Axis] = &[Axis {
     quick: &["\"auto\"", "\"z-fail\""],
 }];
 
-/// Reads the settings; what is absent takes the default that the README names.
+/// Reads the settings; what is absent takes the default that data/scenes/README.md names.
 pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     Ok(Settings {
         method: keys.choice("method", &METHODS)?.unwrap_or(Method::Auto),
