@@ -51,6 +51,9 @@ pub struct Arguments {
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
+    /// Of these the ones whose names hold this text
+    #[arg(long, value_name = "TEXT", requires = "techniques")]
+    only: Option<String>,
     /// glumbra against itself, instead: multiples, and what is saved by what is left out
     #[arg(long)]
     pairs: bool,

@@ -47,7 +47,7 @@ fn default_offset(settings: &Settings) -> Offset {
     };
     // A texel of the coarser level is as wide as two; that of any level, where all may be met, as many: see the report.
     let width = if settings.mipmaps == Mipmaps::None { 1.0 } else { 2.0 };
-    // A simplified caster lies up to an eighth of a texel before the surface that is lit; twice that is safe.
+    // A simplified caster lies up to a sixth of a texel before the surface that is lit; half as much again is safe.
     let moved = if settings.simplified { 0.25 } else { 0.0 };
     Offset { polygon: PolygonOffset { factor: factor as f32, units }, texels: width * texels + moved }
 }
