@@ -113,10 +113,13 @@ fn casters_at_the_map_s_resolution_cast_the_same_shadow() {
                 );
                 (plan.summary().passes[0].triangles, found)
             });
-            assert!(3 * texel.0 < 2 * full.0, "{kind}: {} of {}", texel.0, full.0);
-            // A hundredth of a point; in the coarsest, where a facet of the model is a half texel, four of them.
+            // The model's facets are half as wide as a texel of the coarsest of these maps, and two of the finest's.
+            let most = if size == sizes[0] { 0.6 } else { 0.9 };
+            let left = texel.0 as f64 / full.0 as f64;
+            assert!(left < most, "{kind}, map {size}: {} of {}", texel.0, full.0);
+            // A hundredth of a point; in the coarsest map, where silhouettes lose more facets, four of them.
             let more = texel.1.all.wrong_percent - full.1.all.wrong_percent;
-            assert!(more < if size == sizes[0] { 0.06 } else { 0.01 }, "{kind}, map {size}: {more} points more");
+            assert!(more < if size == sizes[0] { 0.045 } else { 0.01 }, "{kind}, map {size}: {more} points more");
         }
     }
 }

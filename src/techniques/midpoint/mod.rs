@@ -11,9 +11,9 @@
 //!   lies behind itself. That is moved towards the light by two codes of the format, which no rounding reaches;
 //!   float maps keep the fragment's own bits. Both passes compute positions by the same arithmetic.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
-//!   `tests/midpoint.rs`) and costs nothing, so it is taken wherever the scene allows it.
-//! - A caster that is left out of the map because nothing that it shadows is seen may be the second layer of one that
-//!   is not: here every caster in the frustum is drawn.
+//!   `tests/layers.rs`) and costs nothing, so it is taken wherever the scene allows it.
+//! - A caster that a plain map leaves out because nothing that it shadows is seen may be the second layer of one that
+//!   it does not: see [`second::needed`].
 
 mod second;
 mod settings;
@@ -109,7 +109,10 @@ impl Technique for Midpoint {
         let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         };
-        let casters = in_frustum(view, notes);
+        let mut casters = in_frustum(view, notes);
+        if !view.shown_whole && !view.keep_all {
+            casters = second::needed(view, casters, &settings.map, notes);
+        }
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         }
