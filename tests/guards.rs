@@ -159,7 +159,8 @@ fn without_a_guard_the_picture_is_wrong() {
     }
 }
 
-/// Both sides of a clip plane together cover what the whole covers: along the cut no pixel is missing, none drawn twice [GL 4.6, 13.7].
+/// Both sides of a clip plane together cover what the whole covers: along the cut no pixel is missing, none drawn twice
+/// [GL 4.6, 13.7].
 #[test]
 fn a_cut_floor_misses_no_pixel() {
     let context = context::open(&ContextRequest::default()).unwrap();

@@ -193,7 +193,8 @@ fn eight_taps_are_two_levels_half_and_half() {
     }
 }
 
-/// Where a pixel is as wide as `2^level` texels, that level is met:. GL leaves the level's last bits open (8.14.1), so that the value is held between both neighbours'.
+/// Where a pixel is as wide as `2^level` texels, that level is met. GL leaves the level's last bits open (8.14.1), so that
+/// the value is held between both neighbours'.
 #[test]
 fn minified_maps_meet_the_level_of_their_pixels() {
     let context = context::open(&ContextRequest::default()).unwrap();

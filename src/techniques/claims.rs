@@ -15,7 +15,8 @@ pub struct Claim {
 /// Whose picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {
-    /// A shadow map under the slope-scaled polygon offset that leaves no acne and leaks least on surfaces that face the light.
+    /// A shadow map under the slope-scaled polygon offset that leaves no acne and leaks least on surfaces that face the
+    /// light.
     SlopeScaled,
     /// The same map under the least constant offset with no more false shadow, in the edge band and beyond it.
     Constant,

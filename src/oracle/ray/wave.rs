@@ -13,8 +13,8 @@ pub(super) fn moved(place: DVec3, wave: &Wave) -> DVec3 {
     place + wave.reach * ((turns - turns.floor()) * TAU).sin()
 }
 
-/// How far f32 may bring a vertex from where its wave has it: the turns are a sum of four products, each with its factors rounded; a
-/// sine is good to 2^-20 on the least of drivers; the sum is rounded once more.
+/// How far f32 may bring a vertex from where its wave has it: the turns are a sum of four products, each with its factors
+/// rounded; a sine is good to 2^-20 on the least of drivers; the sum is rounded once more.
 pub(super) fn error(wave: &Wave, mesh: &Mesh, world_from_model: &DMat4) -> f64 {
     let rounding = 0.5 * f64::from(f32::EPSILON);
     let size = |position: &[f32; 3]| DVec3::from_array(position.map(f64::from)).length();

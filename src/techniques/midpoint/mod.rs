@@ -1,10 +1,10 @@
 //! Woo's midpoint map, in two passes by depth peeling [Hardware Shadow Mapping, "Advantages and Limitations";
 //! techniques A14].
 //!
-//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (as
-//! the document has it by the texture unit's comparison, or by its own: [`settings::Peel`]), and stores the middle between the nearest depth and its own; the nearest fragment
-//! that is left is the second layer. A surface's own depth then lies half a caster's thickness before what it is
-//! compared with, and no polygon offset is needed.
+//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (as the
+//! document has it by the texture unit's comparison, or by its own: [`settings::Peel`]), and stores the middle between the
+//! nearest depth and its own; the nearest fragment that is left is the second layer. A surface's own depth then lies half
+//! a caster's thickness before what it is compared with, and no polygon offset is needed.
 //!
 //! # Pitfalls that the document does not mention
 //! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer
