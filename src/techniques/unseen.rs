@@ -2,9 +2,8 @@
 //!
 //! What a box shadows are the points c + t (c - L) with c in the box, t >= 0 and L the light's position, or c + t d with
 //! the way d of parallel light. Once all eight corners have crossed one face of the scene's bounds, nothing is left to be
-//! shadowed; up to there, the hull of the
-//! corners and of where they then are holds the shadow. Where that hull, grown by what a filter can reach, lies beyond
-//! one of the camera's planes, no visible point looks the caster up.
+//! shadowed; up to there, the hull of the corners and of where they then are holds the shadow. Where that hull, grown by
+//! what a filter can reach, lies beyond one of the camera's planes, no visible point looks the caster up.
 
 use glam::{DVec3, DVec4};
 
