@@ -29,6 +29,26 @@ const fn panel(title: &'static str, set: &'static [&'static str], view: Option<V
 /// At the teapot's shadow on the floor.
 const CLOSE: [&str; 3] = ["camera.eye=[4.3, 3.4, 3.6]", "camera.target=[1.15, 0.2, -0.45]", "camera.fov_y=26"];
 
+/// The two roles swapped: a light in the eye's place, of its angle, and the eye in the light's, at `eye`.
+macro_rules! from_the_light {
+    ($eye:literal) => {
+        panel(
+            "from the light: pixels of the eye a pixel here",
+            &[
+                $eye,
+                "camera.target=[0.1, 0.3, -0.1]",
+                "camera.fov_y=50",
+                "light.position=[2.3, 3.1, 6.2]",
+                "light.target=[0.1, 0.5, 0.0]",
+                "light.cone=46.8",
+                "light.shape=frustum",
+                "light.shadow.size=400",
+            ],
+            Some(View::TexelsPerPixel),
+        )
+    };
+}
+
 /// Over the light's shoulder, and against the light.
 const BESIDE: [&str; 2] = ["light.position=[2.9, 3.9, 6.6]", "light.cone=50"];
 const AGAINST: [&str; 2] = ["light.position=[-2.2, 2.6, -5.6]", "light.cone=50"];
@@ -95,40 +115,14 @@ pub const FIGURES: &[Figure] = &[
                 &[BESIDE[0], BESIDE[1], "light.shadow.size=512"],
                 Some(View::TexelsPerPixel),
             ),
-            panel(
-                "from the light: pixels of the eye a pixel here",
-                &[
-                    "camera.eye=[2.9, 3.9, 6.6]",
-                    "camera.target=[0.1, 0.3, -0.1]",
-                    "camera.fov_y=50",
-                    "light.position=[2.3, 3.1, 6.2]",
-                    "light.target=[0.1, 0.5, 0.0]",
-                    "light.cone=46.8",
-                    "light.shape=frustum",
-                    "light.shadow.size=400",
-                ],
-                Some(View::TexelsPerPixel),
-            ),
+            from_the_light!("camera.eye=[2.9, 3.9, 6.6]"),
             panel("the light opposite the eye", &[AGAINST[0], AGAINST[1], "light.shadow.size=512"], None),
             panel(
                 "texels of the map a pixel of the eye's view",
                 &[AGAINST[0], AGAINST[1], "light.shadow.size=512"],
                 Some(View::TexelsPerPixel),
             ),
-            panel(
-                "from the light: pixels of the eye a pixel here",
-                &[
-                    "camera.eye=[-2.2, 2.6, -5.6]",
-                    "camera.target=[0.1, 0.3, -0.1]",
-                    "camera.fov_y=50",
-                    "light.position=[2.3, 3.1, 6.2]",
-                    "light.target=[0.1, 0.5, 0.0]",
-                    "light.cone=46.8",
-                    "light.shape=frustum",
-                    "light.shadow.size=400",
-                ],
-                Some(View::TexelsPerPixel),
-            ),
+            from_the_light!("camera.eye=[-2.2, 2.6, -5.6]"),
         ],
         caption: "One map of 512 x 512. Where eye and light look the same way, texels are spent evenly (b, c). Where they face \
                   each other, the floor that is nearest to the eye is farthest from the light: it has the fewest texels \

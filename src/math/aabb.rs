@@ -16,6 +16,11 @@ impl Aabb {
     /// The box that contains everything.
     pub const EVERYTHING: Self = Self { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
 
+    /// The axis along which it has no extent; `None` where it has some along each.
+    pub fn flat_axis(&self) -> Option<DVec3> {
+        DVec3::AXES.into_iter().find(|axis| axis.dot(self.max - self.min) == 0.0)
+    }
+
     /// The smallest box around `points`.
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::including)

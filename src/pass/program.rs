@@ -52,16 +52,6 @@ pub struct Program {
     pub attributes: Vec<Attribute>,
 }
 
-impl Program {
-    /// Makes the vertex stage of a surface clip by `count` planes in eye space, the uniform `clip_planes`.
-    pub fn clip(&mut self, count: u8) {
-        self.defines.push(("CLIP_PLANES".into(), count.to_string()));
-        if !self.defines.iter().any(|(name, _)| name == "EYE_SPACE") {
-            self.defines.push(("EYE_SPACE".into(), String::new()));
-        }
-    }
-}
-
 /// A vertex attribute at a fixed location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Attribute {

@@ -12,6 +12,19 @@ pub struct Claim {
     pub second: Contender,
 }
 
+impl Claim {
+    /// Of what comes without a polygon offset.
+    pub const fn needs_no_offset(who: Contender) -> Self {
+        Self {
+            says: "needs no offset to leave no more acne than a tuned offset does",
+            quantity: Quantity::FalseShadow,
+            first: who,
+            relation: Relation::AtMost(1.0),
+            second: Contender::SlopeScaled,
+        }
+    }
+}
+
 /// Whose picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {

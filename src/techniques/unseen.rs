@@ -72,7 +72,7 @@ impl Unseen {
     /// Whether `item` is flat and nothing of the scene lies behind it: what it could shadow is itself, and that it cannot.
     pub fn shadows_nothing(&self, item: &Item) -> bool {
         let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
-        let is_flat = (item.bounds.max - item.bounds.min).min_element() == 0.0;
+        let is_flat = item.bounds.flat_axis().is_some();
         is_flat && self.end_of_shadow(&corners).is_some_and(|end| end <= 1e-9)
     }
 

@@ -59,7 +59,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
             let expected = f32::from(u8::from(clamps));
             let measured = format!("1.5 EQUAL 1 gives {above}, -0.5 GEQUAL 0 gives {below}; {expected} is due");
             let kind = if clamps { "is clamped" } else { "is not clamped" };
-            findings.expect(
+            findings.must_hold(
                 format!("{}: the reference {kind}", format.name()),
                 [above, below] == [expected; 2],
                 measured,
@@ -82,7 +82,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
             let image = subject.bench.depth_image(format, [2, 1], &[&[-0.5, 1.5]])?;
             let stored = subject.bench.image_depths(&image)?;
             let measured = format!("-0.5 and 1.5 are stored as {} and {}", stored[0], stored[1]);
-            findings.expect(format!("{}: an upload is clamped", format.name()), stored == [0.0, 1.0], measured);
+            findings.must_hold(format!("{}: an upload is clamped", format.name()), stored == [0.0, 1.0], measured);
             Ok(())
         });
     }

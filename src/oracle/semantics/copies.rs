@@ -68,7 +68,7 @@ fn same_format(subject: &Subject, findings: &mut Findings, format: Format) -> Re
     let wrong = after.iter().enumerate().filter(|(index, depth)| **depth != due(*index)).count();
     findings.none_wrong(format!("{}: a rectangle copied", format.name()), wrong, after.len());
     if let Some(error) = error.or(part) {
-        findings.expect(format!("{}: copying", format.name()), false, error);
+        findings.must_hold(format!("{}: copying", format.name()), false, error);
     }
     Ok(())
 }
@@ -78,7 +78,7 @@ fn other_format(subject: &Subject, findings: &mut Findings, from: Format, to: Fo
     let image = subject.bench.image(to, [SIDE; 2])?;
     let name = format!("{} copied to {}", from.name(), to.name());
     if let Some(error) = subject.bench.copy_depth(&surface, [0, 0, SIDE as i32, SIDE as i32], &image, [0, 0]) {
-        findings.expect(name, false, error);
+        findings.must_hold(name, false, error);
         return Ok(());
     }
     let mut tally = Tally::default();
@@ -107,7 +107,7 @@ fn refusals(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     ];
     for (name, surface, image, to, due) in cases {
         let error = subject.bench.copy_depth(surface, area, image, to).unwrap_or_else(|| "no error".to_owned());
-        findings.expect(format!("a copy {name}"), error == due, format!("{error}; {due} is due"));
+        findings.must_hold(format!("a copy {name}"), error == due, format!("{error}; {due} is due"));
     }
     Ok(())
 }

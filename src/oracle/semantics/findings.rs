@@ -70,7 +70,7 @@ impl Findings {
     }
 
     /// Fails unless `holds`; `measured` says what was seen.
-    pub fn expect(&mut self, what: impl Into<String>, holds: bool, measured: impl Into<String>) {
+    pub fn must_hold(&mut self, what: impl Into<String>, holds: bool, measured: impl Into<String>) {
         self.add(what, if holds { Verdict::Pass } else { Verdict::Fail }, measured);
     }
 
@@ -80,7 +80,7 @@ impl Findings {
             0 => format!("all {count} right"),
             _ => format!("{wrong} of {count} wrong"),
         };
-        self.expect(what, wrong == 0 && count > 0, measured);
+        self.must_hold(what, wrong == 0 && count > 0, measured);
     }
 
     /// By the tally's worst grade; `unit` names what its worst distance is counted in.

@@ -133,7 +133,7 @@ fn queried(fixed: &FixedBench, findings: &mut Findings, setup: &Setup) {
     fixed.set_texgen(&Texgen { eye: false, planes, modelview: setup.world_from_model });
     let kept = fixed.eye_planes() == first;
     let measured = if kept { "as they were" } else { "changed with the modelview" };
-    findings.expect("eye planes asked back under another modelview", kept, measured);
+    findings.must_hold("eye planes asked back under another modelview", kept, measured);
 }
 
 /// The image by glTexGen, by a shader from GL's own planes, and by the verifier in f64.

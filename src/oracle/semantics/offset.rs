@@ -44,7 +44,7 @@ fn unit(subject: &Subject, findings: &mut Findings, format: Format) -> Result<()
     let kind = if float { "2^(e-23)" } else { "the least step" };
     findings.grade(format!("{}: r against {kind}", format.name()), grade, text);
     let measured = if one_unit_shows { "moves every depth that was tried" } else { "leaves the stored depth as it is" };
-    findings.expect(format!("{}: one unit", format.name()), one_unit_shows, measured);
+    findings.must_hold(format!("{}: one unit", format.name()), one_unit_shows, measured);
     Ok(())
 }
 
@@ -153,7 +153,7 @@ fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     }
     for (factor, due) in [(500.0, 1.0), (-500.0, 0.0)] {
         let stored = plain + moved(factor, 0.0)?;
-        findings.expect(format!("an offset beyond {due}"), stored == due, format!("{stored} is stored"));
+        findings.must_hold(format!("an offset beyond {due}"), stored == due, format!("{stored} is stored"));
     }
     Ok(())
 }

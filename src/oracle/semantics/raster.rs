@@ -125,7 +125,7 @@ fn subpixel_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error
         "bits below the pixel, measured",
         format!("{}{bits}; the driver says {claimed}", if bits >= 10 { "at least " } else { "" }),
     );
-    findings.expect("vertices keep 4 bits below the pixel", bits >= 4, format!("{bits} bits"));
+    findings.must_hold("vertices keep 4 bits below the pixel", bits >= 4, format!("{bits} bits"));
     Ok(())
 }
 

@@ -103,7 +103,7 @@ fn repeated(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
         surface.clear_stencil(from);
         subject.bench.draw(&Draw::plain(&surface, State::counting(op, op), &quads))?;
         let value = surface.stencils()[5];
-        findings.expect(format!("{op:?}, 261 times"), value == due, format!("{from} becomes {value}; {due} is due"));
+        findings.must_hold(format!("{op:?}, 261 times"), value == due, format!("{from} becomes {value}; {due} is due"));
     }
     Ok(())
 }
@@ -127,7 +127,7 @@ pub fn facing(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
         let seen =
             [(11, "front"), (9, "back")].into_iter().find(|(due, _)| *due == value).map_or("neither", |(_, side)| side);
         let due = if front { "front" } else { "back" };
-        findings.expect(format!("{name}: stencil"), seen == due, format!("{seen}; {due} is due"));
+        findings.must_hold(format!("{name}: stencil"), seen == due, format!("{seen}; {due} is due"));
         for cull in [Face::Front, Face::Back] {
             surface.clear_color([0.5; 4]);
             let shader = Shader { fragment: "result = vec4(gl_FrontFacing ? 1.0 : 0.0);", ..Shader::PLAIN };
@@ -136,7 +136,7 @@ pub fn facing(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
             let color = surface.colors()[5][0];
             let due = if (cull == Face::Front) == front { 128 } else { u8::from(front) * 255 };
             let right = color == due || (due == 128 && color == 127);
-            findings.expect(
+            findings.must_hold(
                 format!("{name}: {cull:?} faces culled, gl_FrontFacing"),
                 right,
                 format!("{color}; {due} is due"),

@@ -38,13 +38,7 @@ const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
 /// [Hardware Shadow Mapping, "Advantages and Limitations"]. The edge band is told apart, for at a caster's rim its two
 /// layers meet and nothing lies between them.
 const CLAIMS: &[Claim] = &[
-    Claim {
-        says: "needs no offset to leave no more acne than a tuned offset does",
-        quantity: Quantity::FalseShadow,
-        first: BARE,
-        relation: Relation::AtMost(1.0),
-        second: Contender::SlopeScaled,
-    },
+    Claim::needs_no_offset(BARE),
     Claim {
         says: "needs none to lose no more light at shadow edges, either",
         quantity: Quantity::FalseShadowWithBand,
@@ -119,7 +113,7 @@ impl Technique for Midpoint {
         let single = settings.single.unwrap_or_else(|| needed(view));
         let shared = second::shared_texels(view, &casters, &settings.map);
         let mut draw = |name, image, ending, offset, shared_alone| {
-            let layer = Layer { name, image, ending, offset, scissor: None, casters: &casters, in_parts: &[] };
+            let layer = Layer { ending, ..Layer::plain(name, image, offset, &casters) };
             let layer = match shared_alone && !view.keep_all {
                 true => Layer {
                     scissor: Some(shared.scissor),

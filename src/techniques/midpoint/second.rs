@@ -6,8 +6,7 @@ use glam::{DMat4, DVec3};
 use crate::geometry::volume;
 use crate::math::Aabb;
 use crate::techniques::projector::Rays;
-use crate::techniques::shadow_map::bias;
-use crate::techniques::shadow_map::casters::in_the_map;
+use crate::techniques::shadow_map::casters::{in_the_map, reach};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
 use crate::techniques::unseen::Unseen;
@@ -67,7 +66,7 @@ pub fn needed<'a>(
     notes: &mut Notes,
 ) -> Vec<&'a Item> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
-    let unseen = Unseen::new(view, settings.size, kernel_reach(settings));
+    let unseen = Unseen::new(view, settings.size, reach(settings));
     let (unseen, seen): (Vec<&Item>, Vec<&Item>) = casters.iter().partition(|item| unseen.shadow_of(item));
     let seen: Vec<(&Item, Rectangle)> =
         seen.into_iter().map(|item| (item, covered(item, &clip_from_world, settings))).collect();
@@ -86,11 +85,6 @@ pub fn needed<'a>(
     casters.into_iter().filter(|item| !idle.iter().any(|other| std::ptr::eq(*other, *item))).collect()
 }
 
-/// Of a kernel, beside one comparison's own.
-fn kernel_reach(settings: &Settings) -> f64 {
-    bias::reach_texels(settings) - bias::filter_reach(settings)
-}
-
 fn covered(item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
     let scissor = volume::scissor(&corners(item), clip_from_world, [settings.size; 2]);
     scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle([x, y, x + width, y + height]))
@@ -98,10 +92,6 @@ fn covered(item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectang
 
 fn corners(item: &Item) -> [DVec3; 8] {
     item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner))
-}
-
-fn is_flat(item: &Item) -> bool {
-    (item.bounds.max - item.bounds.min).min_element() == 0.0
 }
 
 /// Whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
@@ -124,10 +114,7 @@ fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
     if farthest < nearest - slack {
         return true;
     }
-    let extent = other.bounds.max - other.bounds.min;
-    let Some(axis) = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|axis| axis.dot(extent) == 0.0) else {
-        return false;
-    };
+    let Some(axis) = other.bounds.flat_axis() else { return false };
     let normal = other.world_from_model.inverse().transpose().transform_vector3(axis).normalize();
     let height = |point: &DVec3| normal.dot(*point - others[0]);
     let of_light = match rays {
@@ -147,7 +134,7 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, casters: &[&'a Item], settings:
     let mut shared = Shared { scissor: [0; 4], casters: Vec::new(), in_parts: Vec::new() };
     let mut all = Rectangle::NOTHING;
     for (index, (item, own)) in casters.iter().zip(&covered).enumerate() {
-        if !is_flat(item) {
+        if item.bounds.flat_axis().is_none() {
             all = all.with(*own);
             shared.casters.push(item);
             continue;

@@ -23,13 +23,7 @@ const BARE: Contender = Contender::Keys("technique = \"second-depth\", closed = 
 
 /// [Hardware Shadow Mapping, on Wang and Molnar].
 const CLAIMS: &[Claim] = &[
-    Claim {
-        says: "needs no offset to leave no more acne than a tuned offset does",
-        quantity: Quantity::FalseShadow,
-        first: BARE,
-        relation: Relation::AtMost(1.0),
-        second: Contender::SlopeScaled,
-    },
+    Claim::needs_no_offset(BARE),
     Claim {
         says: "moves the error to faces turned away from the light",
         quantity: Quantity::WrongAway,
@@ -101,15 +95,7 @@ impl Technique for SecondDepth {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer = Layer {
-            name: "second depth",
-            image: "map",
-            ending: None,
-            offset,
-            scissor: None,
-            casters: &casters,
-            in_parts: &[],
-        };
+        let layer = Layer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
         Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))

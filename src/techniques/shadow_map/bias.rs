@@ -9,7 +9,12 @@ use crate::techniques::projector::{Projector, Rays};
 /// How far a lookup reaches from its place along each axis, in texels: the kernel's taps, and of each its filter: the
 /// half texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
 pub fn reach_texels(settings: &Settings) -> f64 {
-    0.5 * f64::from(settings.kernel - 1) + filter_reach(settings)
+    kernel_reach(settings) + filter_reach(settings)
+}
+
+/// Of a kernel's outermost tap.
+pub fn kernel_reach(settings: &Settings) -> f64 {
+    0.5 * f64::from(settings.kernel - 1)
 }
 
 /// Of one tap.

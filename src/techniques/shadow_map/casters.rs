@@ -26,8 +26,8 @@ pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Note
 }
 
 /// What kernels, normal offsets and the coarser of two levels reach beside a filter's own, in texels.
-fn reach(settings: &Settings) -> f64 {
-    let kernel = bias::reach_texels(settings) - bias::filter_reach(settings);
+pub fn reach(settings: &Settings) -> f64 {
+    let kernel = bias::kernel_reach(settings);
     match (settings.mipmaps, settings.bias) {
         (Mipmaps::None, Bias::NormalOffset) => kernel + std::f64::consts::SQRT_2 * bias::reach_texels(settings),
         (Mipmaps::None, _) => kernel,

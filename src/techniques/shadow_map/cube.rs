@@ -28,11 +28,6 @@ use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, No
 /// rounding.
 const SEAM_TEXELS: f64 = 4.0;
 
-/// Of a kernel's outermost comparison, beside its filter's own reach; in texels.
-fn kernel_reach(settings: &Settings) -> f64 {
-    0.5 * f64::from(settings.kernel - 1)
-}
-
 /// What a cube map cannot do.
 ///
 /// # Errors
@@ -73,8 +68,8 @@ pub fn describe(
 /// The items whose shadow can be seen.
 fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
     let any_face = seen_from(view, point, CubeFace::PositiveX);
-    let unseen =
-        (!view.shown_whole && !view.keep_all).then(|| Unseen::new(&any_face, settings.size, kernel_reach(settings)));
+    let unseen = (!view.shown_whole && !view.keep_all)
+        .then(|| Unseen::new(&any_face, settings.size, bias::kernel_reach(settings)));
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
@@ -118,7 +113,7 @@ fn needed<'a>(
 
 /// Whether the camera may see something that looks the face up.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
-    let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + kernel_reach(settings)) / f64::from(settings.size)).atan();
+    let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
     let face_clip = frustum.unbounded().clip_from_world();
     let camera = &view.scene.camera;
@@ -173,15 +168,7 @@ fn draw(
             if settings.simplified { texel::simplified(face_view, casters, settings, notes) } else { Vec::new() };
         let fewer: Vec<&Item> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
-        let layer = Layer {
-            name: "depth",
-            image: "map",
-            ending: None,
-            offset: bias::offset(settings).polygon,
-            scissor: None,
-            casters,
-            in_parts: &[],
-        };
+        let layer = Layer::plain("depth", "map", bias::offset(settings).polygon, casters);
         let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
@@ -231,7 +218,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     if settings.kernel > 1 {
         term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
     }
-    let reach = kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
+    let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
         term.defines.push(format!("SEAMS_{index}"));
         // That much of the seam, of a face of 2; rounding may bring a lookup nearer.

@@ -28,6 +28,13 @@ pub struct Layer<'a> {
     pub in_parts: &'a [InParts<'a>],
 }
 
+impl<'a> Layer<'a> {
+    /// The depth of `casters`, all over the map.
+    pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Item]) -> Self {
+        Self { name, image, ending: None, offset, scissor: None, casters, in_parts: &[] }
+    }
+}
+
 /// A caster, and the scissors under which it is drawn.
 pub struct InParts<'a> {
     pub item: &'a Item,

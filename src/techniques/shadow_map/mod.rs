@@ -118,15 +118,7 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
     let fewer: Vec<&Item> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
-    let layer = Layer {
-        name: "depth",
-        image: "map",
-        ending: None,
-        offset: offset.polygon,
-        scissor: None,
-        casters,
-        in_parts: &[],
-    };
+    let layer = Layer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, &settings, list, notes);
     looked_up(view, map, &settings, offset.texels, notes)
 }

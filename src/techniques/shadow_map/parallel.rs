@@ -77,7 +77,7 @@ fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
         let own = boxes[index];
-        let is_flat = (caster.bounds.max - caster.bounds.min).min_element() == 0.0;
+        let is_flat = caster.bounds.flat_axis().is_some();
         let behind = boxes
             .iter()
             .enumerate()

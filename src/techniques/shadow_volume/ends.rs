@@ -47,10 +47,7 @@ pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Opt
 /// Whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
 /// nothing that is seen, itself included.
 pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source) -> bool {
-    let extent = caster.bounds.max - caster.bounds.min;
-    let Some(axis) = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|axis| axis.dot(extent) == 0.0) else {
-        return false;
-    };
+    let Some(axis) = caster.bounds.flat_axis() else { return false };
     let normal = caster.world_from_model.inverse().transpose().transform_vector3(axis).normalize();
     let middle = caster.world_from_model.transform_point3(caster.bounds.center());
     let height = |point: DVec3| normal.dot(point - middle);

@@ -62,12 +62,8 @@ pub fn batches(
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
-        let variant::Variant { mut program, meaning, mut uniforms, inputs } = surface;
         let clip_planes = piece.clip_planes.len() as u8;
-        if clip_planes > 0 {
-            program.clip(clip_planes);
-            uniforms.push(Uniform::new("clip_planes", piece.clip_planes.clone()));
-        }
+        let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
         let cull = culls.then_some(Face::Back);
         let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
         let joins =

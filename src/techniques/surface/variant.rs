@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use super::Viewer;
 use super::lights::LightParts;
@@ -40,6 +40,21 @@ pub struct Variant {
     pub meaning: Meaning,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
+}
+
+impl Variant {
+    /// The same, cut to half-spaces in eye space.
+    pub fn cut(mut self, clip_planes: &[Vec4]) -> Self {
+        if !clip_planes.is_empty() {
+            let defines = &mut self.program.defines;
+            defines.push(("CLIP_PLANES".into(), clip_planes.len().to_string()));
+            if !defines.iter().any(|(name, _)| name == "EYE_SPACE") {
+                defines.push(("EYE_SPACE".into(), String::new()));
+            }
+            self.uniforms.push(Uniform::new("clip_planes", clip_planes.to_vec()));
+        }
+        self
+    }
 }
 
 /// The variant of `item`.
