@@ -113,6 +113,36 @@ impl Lamp {
         }
     }
 
+    /// The distance along the light's axis (a point light's: along the nearest coordinate axis); 1 for parallel light.
+    pub fn depth_at(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { .. } | Shape::Cube { .. } => self.depth(point),
+            Shape::Square { .. } => 1.0,
+        }
+    }
+
+    /// The halves of a square around `point` across the light's axis, `reach` at distance 1 along it, or in world units
+    /// for parallel light, whose maps may be turned any way: there the square holds every turned one.
+    pub fn footprint(&self, point: DVec3, reach: f64) -> [DVec3; 2] {
+        let reach = reach * self.depth_at(point);
+        match &self.shape {
+            Shape::Spot { axes: [_, right, up], .. } => [*right * reach, *up * reach],
+            Shape::Cube { .. } => {
+                let from_light = -self.towards(point);
+                let size = from_light.abs();
+                // The two axes of the face that the point lies in.
+                if size.x >= size.y && size.x >= size.z {
+                    [DVec3::Y * reach, DVec3::Z * reach]
+                } else if size.y >= size.z {
+                    [DVec3::X * reach, DVec3::Z * reach]
+                } else {
+                    [DVec3::X * reach, DVec3::Y * reach]
+                }
+            }
+            Shape::Square { right, up, .. } => [*right, *up].map(|side| side * reach * std::f64::consts::SQRT_2),
+        }
+    }
+
     /// The distance that near and far are measured by.
     fn depth(&self, point: DVec3) -> f64 {
         let from_light = -self.towards(point);

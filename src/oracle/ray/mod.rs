@@ -20,6 +20,7 @@
 //! the same surface that touches the point counts only by its folds; any other surface within the error of the point
 //! makes it [`Reason::Contact`].
 
+mod around;
 mod beam;
 mod camera;
 mod cutout;
@@ -37,6 +38,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::scene::Scene;
+pub use around::{Around, Blocker, Surroundings};
 use beam::Beam;
 use camera::Eye;
 use cutout::Alpha;
@@ -85,20 +87,7 @@ pub enum Error {
 
 /// Asks for each pixel of the scene's image whether light number `light` reaches it.
 pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
-    let tracer = Tracer::new(scene, light, options)?;
-    let [width, height] = scene.image.size;
-    let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
-    let pixels = rows.map(|(x, y)| tracer.answer(x, y)).collect();
-    let truth = Truth { width, height, pixels };
-    if truth.ambiguous_share() > options.most_ambiguous {
-        let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));
-        return Err(Error::TooAmbiguous {
-            percent: 100.0 * truth.ambiguous_share(),
-            most_percent: 100.0 * options.most_ambiguous,
-            reasons: reasons.collect::<Vec<_>>().join(", "),
-        });
-    }
-    Ok(truth)
+    Tracer::new(scene, light, options)?.trace(scene.image.size, options)
 }
 
 /// All that a pixel's question needs.
@@ -132,6 +121,22 @@ impl<'a> Tracer<'a> {
         tracer.errors = tracer.world.placed.iter().map(|placed| tracer.error_of(placed, placed.reach)).collect();
         tracer.largest_error = tracer.errors.iter().copied().fold(0.0, f64::max);
         Ok(tracer)
+    }
+
+    /// The answers for a picture of `size`.
+    fn trace(&self, [width, height]: [u32; 2], options: &Options) -> Result<Truth, Error> {
+        let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
+        let pixels = rows.map(|(x, y)| self.answer(x, y)).collect();
+        let truth = Truth { width, height, pixels };
+        if truth.ambiguous_share() > options.most_ambiguous {
+            let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));
+            return Err(Error::TooAmbiguous {
+                percent: 100.0 * truth.ambiguous_share(),
+                most_percent: 100.0 * options.most_ambiguous,
+                reasons: reasons.collect::<Vec<_>>().join(", "),
+            });
+        }
+        Ok(truth)
     }
 
     /// Of a point at `reach` from its object's origin. The third term is the rounding of this computation itself.
