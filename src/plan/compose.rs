@@ -36,13 +36,17 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         views.push((*wanted, image));
     }
     let picture = target.color.unwrap_or(ImageId(0));
-    Ok(Plan { list, picture, views, left_out: notes.left_out, chosen: notes.chosen, warnings: notes.warnings })
+    let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
+    let Notes { left_out, chosen, warnings } = notes;
+    Ok(Plan { list, picture, views, left_out, chosen, warnings, maps })
 }
 
 /// A light's term, and whether the picture needs it.
 pub struct PlannedLight {
     pub term: LightTerm,
     pub contributes: bool,
+    /// Whether the picture or a view needs it.
+    pub is_drawn: bool,
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
@@ -82,7 +86,7 @@ fn light_terms(
         if let Some(why) = absent {
             notes.left_out(format!("light {index}"), why);
         }
-        planned.push(PlannedLight { term, contributes: absent.is_none() });
+        planned.push(PlannedLight { term, contributes: absent.is_none(), is_drawn: absent.is_none() || shown });
     }
     Ok(planned)
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{Chosen, LeftOut, views::View};
+use crate::techniques::{Chosen, LeftOut, MapInfo, views::View};
 
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]
@@ -89,6 +89,8 @@ pub struct Plan {
     pub left_out: Vec<LeftOut>,
     pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
+    /// The maps of the lights that the picture or a view asks for one, in the scene's order.
+    pub maps: Vec<MapInfo>,
 }
 
 /// Why a scene cannot be planned.

@@ -5,6 +5,7 @@ use std::ops::{Deref, Range};
 use glam::{DMat4, Vec4};
 
 use super::guard::Guard;
+use super::map::MapInfo;
 use super::projector::Projector;
 use super::surface::Viewer;
 use super::{Item, items};
@@ -121,6 +122,8 @@ pub struct LightTerm {
     pub guard: Guard,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
+    /// The same in numbers, for bounds of the picture's error.
+    pub map_info: Option<MapInfo>,
     /// Passes after which the stencil buffer is 0 where the light reaches; where they tag surfaces by `shade`, it is not
     /// asked again.
     pub counting: Option<Counting>,
@@ -287,6 +290,7 @@ impl LightTerm {
             added: false,
             guard: Guard::Auto,
             map: None,
+            map_info: None,
             counting: None,
         }
     }

@@ -13,6 +13,7 @@ pub mod guard;
 pub mod guides;
 pub mod items;
 pub mod light;
+pub mod map;
 mod midpoint;
 mod projector;
 mod second_depth;
@@ -29,6 +30,7 @@ use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, Scene, SettingsError, suggest};
 pub use items::Item;
 pub use light::{Coordinates, FrustumView, LightTerm, LightView};
+pub use map::{MapInfo, MapShape};
 
 /// A way to find out which points a light reaches.
 pub trait Technique: Sync {

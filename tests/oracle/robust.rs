@@ -247,6 +247,29 @@ fn every_sample_within_the_granted_doubt_agrees() {
     check_nine("crossing", &scene(vec![floor(), tilted], lamp));
 }
 
+/// A nearer near plane leaves a depth buffer fewer codes: what it may misplace is ambiguous to shadow volumes, and nothing
+/// else changes.
+#[test]
+fn the_doubt_of_a_depth_buffer_grows_with_its_error() {
+    for mut scene in in_each_light(&busy_scene(), DVec3::new(1.5, 4.5, -1.0)) {
+        let mut last = 0;
+        for (near, bits) in [(0.1, None), (0.1, Some(24)), (1e-2, Some(24)), (1e-2, Some(21))] {
+            scene.camera.near = near;
+            let plain = trace_scene(&scene);
+            let options = Options { depth_buffer_bits: bits, most_ambiguous: 1.0, ..Options::default() };
+            let truth = trace(&scene, 0, &options).unwrap();
+            let mut ambiguous = 0;
+            for (with, without) in truth.pixels.iter().zip(&plain.pixels) {
+                assert!(with == without || is_ambiguous(with.answer));
+                ambiguous += usize::from(with.answer != without.answer);
+            }
+            assert!(ambiguous > last || bits.is_none(), "{near} {bits:?}: {ambiguous} pixels, {last} before");
+            last = ambiguous;
+        }
+        assert!(last < trace_scene(&scene).drawn() / 4, "{last}");
+    }
+}
+
 #[test]
 fn coplanar_surfaces_are_ties_and_too_many_are_an_error() {
     let scene = scene(vec![floor(), floor()], light(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO));

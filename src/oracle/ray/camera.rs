@@ -52,9 +52,21 @@ impl Eye {
     /// How far apart a depth buffer of 24 bits may put two surfaces that lie at the same depth: 2⁻²² of the range in
     /// window space, as measured on llvmpipe (`shared/semantics.md` §3), in world units along the axis.
     pub fn depth_error(&self, depth: f64, rise_per_pixel: f64) -> f64 {
-        let window = depth * depth * (1.0 / self.near - 1.0 / self.far);
-        let slope = rise_per_pixel * 2.0 * (self.half_size[0] + self.half_size[1]);
-        (window + slope) / f64::from(1 << 22)
+        (self.window(depth, self.far) + self.slope(rise_per_pixel)) / f64::from(1 << 22)
+    }
+
+    /// The same for a depth buffer of `bits` bits, whose far plane may be at infinity: four of its codes.
+    pub fn infinite_depth_error(&self, bits: u32, depth: f64, rise_per_pixel: f64) -> f64 {
+        (self.window(depth, f64::INFINITY) + self.slope(rise_per_pixel)) * (2.0 - f64::from(bits)).exp2()
+    }
+
+    /// What all of the depth range would be in world units, if it were everywhere as long as at `depth`.
+    fn window(&self, depth: f64, far: f64) -> f64 {
+        depth * depth * (1.0 / self.near - 1.0 / far)
+    }
+
+    fn slope(&self, rise_per_pixel: f64) -> f64 {
+        rise_per_pixel * 2.0 * (self.half_size[0] + self.half_size[1])
     }
 
     pub fn depth_of(&self, vector: DVec3) -> f64 {

@@ -57,13 +57,17 @@ pub struct Options {
     /// its object's origin, and the origin's from eye and light (from the middle of the scene, and that once across, for
     /// a directional one). A row of a 4×4 product makes four.
     pub position_roundings: f64,
+    /// Bits of a depth buffer that the shadow itself is found by, in 1..=32: shadow volumes compare their sides with the
+    /// visible surface as much nearer or farther as rounding may misplace both. `None`, for shadow maps: no such doubt.
+    /// [`volume_count`] takes 24 bits then.
+    pub depth_buffer_bits: Option<u32>,
     /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth.
     pub most_ambiguous: f64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { subpixel_bits: 8, position_roundings: 4.0, most_ambiguous: 0.03 }
+        Self { subpixel_bits: 8, position_roundings: 4.0, depth_buffer_bits: None, most_ambiguous: 0.03 }
     }
 }
 
@@ -99,6 +103,8 @@ struct Tracer<'a> {
     subpixel: f64,
     /// [`Options::position_roundings`] times 2⁻²⁴.
     rounding: f64,
+    /// See [`Options::depth_buffer_bits`].
+    depth_buffer_bits: Option<u32>,
     /// Each object's error of position at its farthest vertex, in world units.
     errors: Vec<f64>,
     largest_error: f64,
@@ -117,7 +123,9 @@ impl<'a> Tracer<'a> {
         }
         let rounding = options.position_roundings * 0.5 * f64::from(f32::EPSILON);
         let subpixel = (-f64::from(options.subpixel_bits)).exp2();
-        let mut tracer = Self { world, eye, lamp, subpixel, rounding, errors: Vec::new(), largest_error: 0.0 };
+        let depth_buffer_bits = options.depth_buffer_bits;
+        let (errors, largest_error) = (Vec::new(), 0.0);
+        let mut tracer = Self { world, eye, lamp, subpixel, rounding, depth_buffer_bits, errors, largest_error };
         tracer.errors = tracer.world.placed.iter().map(|placed| tracer.error_of(placed, placed.reach)).collect();
         tracer.largest_error = tracer.errors.iter().copied().fold(0.0, f64::max);
         Ok(tracer)
@@ -148,6 +156,15 @@ impl<'a> Tracer<'a> {
 
     fn position_error(&self, triangle: &Triangle<'_>, position: DVec3) -> f64 {
         self.error_of(triangle.placed, position.distance(triangle.placed.origin()))
+    }
+
+    /// How far, in world units along the view ray, a depth buffer may misplace the visible point against another surface
+    /// of the same pixel: each of the two by its own error.
+    fn depth_misplacement(&self, seen: &Seen<'_>, bits: u32) -> f64 {
+        let ray = seen.position - self.eye.position;
+        let depth = self.eye.depth_of(ray);
+        let rise = seen.spread.iter().map(|way| self.eye.depth_of(*way).abs()).sum::<f64>() / self.subpixel;
+        2.0 * self.eye.infinite_depth_error(bits, depth, rise) * ray.length() / depth
     }
 
     fn answer(&self, x: u32, y: u32) -> Pixel {

@@ -137,7 +137,8 @@ impl<'t, 'a> Counting<'t, 'a> {
             let count = doubtful_view.map_or(Count::Background, Count::Ambiguous);
             return CountPixel { count, at_center: None, hit: None };
         };
-        let beam = self.beam(seen.position, seen.spread, seen.error + 2.0 * self.depth_error(&seen));
+        let bits = self.tracer.depth_buffer_bits.unwrap_or(24);
+        let beam = self.beam(seen.position, seen.spread, seen.error + self.tracer.depth_misplacement(&seen, bits));
         let (center, doubtful_count) = self.along(&beam, Some(&seen));
         let reason = doubtful_view.or(self.grazing(&seen)).or(doubtful_count);
         let count = reason.map_or(Count::Exactly(center), Count::Ambiguous);
@@ -157,14 +158,6 @@ impl<'t, 'a> Counting<'t, 'a> {
             start: 0.0,
             levers: false,
         }
-    }
-
-    /// Of the depth buffer at the visible point, in world units.
-    fn depth_error(&self, seen: &Seen<'_>) -> f64 {
-        let eye = &self.tracer.eye;
-        let depth = eye.depth_of(seen.position - eye.position);
-        let rise = seen.spread.iter().map(|way| eye.depth_of(*way).abs()).sum::<f64>() / self.tracer.subpixel;
-        eye.depth_error(depth, rise)
     }
 
     /// Whether the light may stand in the visible triangle's own plane, and it counts.

@@ -57,6 +57,16 @@ fn default_offset(settings: &Settings) -> Offset {
     Offset { polygon: PolygonOffset { factor: factor as f32, units }, texels: width * texels + moved }
 }
 
+/// How many levels are drawn. Depths cannot be averaged: every one that is met is drawn [lecture, "Mipmapping for Depth
+/// Textures"].
+pub fn levels(settings: &Settings) -> u32 {
+    match settings.mipmaps {
+        Mipmaps::None => 1,
+        Mipmaps::EightTaps => settings.size.ilog2().min(1) + 1,
+        Mipmaps::All => settings.size.ilog2() + 1,
+    }
+}
+
 /// The width of a texel, along its longer side, at a distance of 1 along the light's axis; of parallel light, anywhere.
 pub fn texel_at_one(projector: &Projector, settings: &Settings) -> f64 {
     settings.crop.half().max_element() * projector.extent(1.0) / f64::from(settings.size)

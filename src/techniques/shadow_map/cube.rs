@@ -22,7 +22,7 @@ use crate::scene::{Frustum, Point, Reader, SettingsError};
 use crate::techniques::guard::Guard;
 use crate::techniques::projector::Projector;
 use crate::techniques::unseen::Unseen;
-use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, Notes};
+use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, MapInfo, Notes};
 
 /// How far beyond a face's sides something may lie that looks it up across a seam, in texels: a filter's neighbour and
 /// rounding.
@@ -228,6 +228,9 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
+    let offset = bias::offset(settings);
+    let info = MapInfo::new(&seen_from(view, point, CubeFace::PositiveX), settings, offset.texels);
+    term.map_info = Some(MapInfo { polygon: offset.polygon, ..info });
     term
 }
 

@@ -2,7 +2,8 @@
 
 use glam::DMat4;
 
-use super::settings::{Mipmaps, Order, Settings, Transfer};
+use super::bias;
+use super::settings::{Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
     Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
@@ -60,7 +61,7 @@ pub fn draw(
     notes: &mut Notes,
 ) -> ImageId {
     let Layer { name, image, .. } = layer;
-    let levels = levels(settings);
+    let levels = bias::levels(settings);
     let storage = if levels > 1 { Storage::Mipmapped(levels) } else { Storage::Texture };
     let map = list.image(desc(view, image, settings, storage));
     let drawn = match settings.transfer {
@@ -99,15 +100,6 @@ pub fn draw(
 /// Raster, crop, and the light's own clip space.
 pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
     raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
-}
-
-/// Depths cannot be averaged: every level that is met is drawn [lecture, "Mipmapping for Depth Textures"].
-fn levels(settings: &Settings) -> u32 {
-    match settings.mipmaps {
-        Mipmaps::None => 1,
-        Mipmaps::EightTaps => settings.size.ilog2().min(1) + 1,
-        Mipmaps::All => settings.size.ilog2() + 1,
-    }
 }
 
 /// An image of the map's size and format.

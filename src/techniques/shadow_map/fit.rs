@@ -170,9 +170,14 @@ fn widened(needed: Crop, settings: &Settings) -> Crop {
     Crop { min: center - half, max: center + half }
 }
 
-/// A rim that a lookup cannot reach across, in texels: the kernel's and the filter's, those of a normal offset, twice as
-/// wide ones of a second level, and one for the rounding of positions.
+/// A rim that a lookup cannot reach across, in texels, with one for the rounding of positions.
 pub fn rim_texels(settings: &Settings) -> f64 {
+    lookup_texels(settings) + 1.0
+}
+
+/// How far a lookup reaches from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as
+/// wide ones of a second level.
+pub fn lookup_texels(settings: &Settings) -> f64 {
     let mut texels = bias::reach_texels(settings);
     if settings.bias == Bias::NormalOffset {
         texels *= 1.0 + std::f64::consts::SQRT_2;
@@ -180,5 +185,5 @@ pub fn rim_texels(settings: &Settings) -> f64 {
     if settings.mipmaps != Mipmaps::None {
         texels *= 2.0;
     }
-    texels + 1.0
+    texels
 }

@@ -18,7 +18,7 @@ use self::depth::Layer;
 use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::projector::Projector;
-use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -120,7 +120,9 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, &settings, list, notes);
-    looked_up(view, map, &settings, offset.texels, notes)
+    let mut term = looked_up(view, map, &settings, offset.texels, notes);
+    term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
+    term
 }
 
 /// The term of a light with a square map, guarded as its keys say.

@@ -9,7 +9,7 @@ use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::techniques::projector::Rays;
-use crate::techniques::{Coordinates, FrustumView, LightTerm};
+use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
 /// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
 pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
@@ -40,6 +40,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
+    term.map_info = Some(MapInfo::new(view, settings, texels));
     look_up(&mut term, &coordinates, view, settings);
     term.coordinates = Some(coordinates);
     term

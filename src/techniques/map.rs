@@ -1,0 +1,72 @@
+//! A light's shadow map in numbers: what decides how far a picture may be from the truth. Lengths are in world units.
+
+use super::FrustumView;
+use super::projector::Projector;
+use super::shadow_map::settings::Settings;
+use super::shadow_map::{bias, fit};
+use crate::pass::{DepthFormat, PolygonOffset};
+use crate::scene::LightKind;
+
+pub use super::shadow_map::settings::Bias;
+
+/// A light's shadow map in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapInfo {
+    /// Into [`crate::scene::Scene::lights`].
+    pub light: usize,
+    pub shape: MapShape,
+    /// Texels a side of the first level; of a cube, a side of each face.
+    pub size: u32,
+    /// How many levels there are; 1 without mipmaps. A texel of level n, from 0, is 2^n times as wide as `texel`.
+    pub levels: u32,
+    pub format: DepthFormat,
+    /// The width of a texel along its longer side. Of a parallel map, anywhere. Of a perspective map, at a distance of 1
+    /// along its axis: at a distance d along that axis (of a cube, along the axis of the face) it is d times as wide.
+    pub texel: f64,
+    /// How far one lookup reaches from its point along each axis of the map, in texels: the kernel's taps, of each tap the
+    /// texels that its filter weighs, and the move of the point by a normal offset. Of several levels, in texels of the
+    /// first one under "8-tap", and of the finer one of the two that are met under `mipmaps = true`.
+    pub reach_texels: f64,
+    pub bias: Bias,
+    /// The polygon offset that the map is drawn with, positive away from the light; 0 of techniques that need none.
+    pub polygon: PolygonOffset,
+    /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
+    pub texels: f64,
+}
+
+/// The frustum of a map, and the depths that it can hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MapShape {
+    /// One frustum. At a distance d along its axis the depth is `far (d - near) / (d (far - near))`, from 0 to 1.
+    Spot { near: f64, far: f64 },
+    /// Six faces, each a frustum as a spotlight's.
+    Cube { near: f64, far: f64 },
+    /// A box across the rays. Depth is linear, from 0 to 1 over the length `depth`.
+    Parallel { depth: f64 },
+}
+
+impl MapInfo {
+    /// Of a map as `projector` sees it, one face of a cube or the whole of a square map, drawn without polygon offset.
+    pub(super) fn new(view: &FrustumView<'_>, settings: &Settings, texels: f64) -> Self {
+        Self {
+            light: view.index,
+            shape: shape(&view.light().kind, &view.projector),
+            size: settings.size,
+            levels: bias::levels(settings),
+            format: settings.format,
+            texel: bias::texel_at_one(&view.projector, settings),
+            reach_texels: fit::lookup_texels(settings),
+            bias: settings.bias,
+            polygon: PolygonOffset { factor: 0.0, units: 0.0 },
+            texels,
+        }
+    }
+}
+
+fn shape(kind: &LightKind, projector: &Projector) -> MapShape {
+    match kind {
+        LightKind::Spot(spot) => MapShape::Spot { near: spot.frustum.near, far: spot.frustum.far },
+        LightKind::Point(point) => MapShape::Cube { near: point.near, far: point.far },
+        LightKind::Directional { .. } => MapShape::Parallel { depth: 2.0 / projector.clip_from_light.z_axis.z.abs() },
+    }
+}
