@@ -39,5 +39,6 @@ pub mod pass;
 pub mod plan;
 pub mod report;
 pub mod scene;
+pub mod stress;
 pub mod techniques;
 pub mod viewer;

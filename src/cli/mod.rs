@@ -10,6 +10,7 @@ mod report;
 mod road;
 pub mod sample;
 mod scene_args;
+mod stress;
 mod tune;
 
 use std::process::ExitCode;
@@ -38,6 +39,7 @@ enum Command {
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
     Report(report::ReportArgs),
+    Stress(stress::StressArgs),
     Tune(tune::TuneArgs),
 }
 
@@ -105,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Stress(arguments) => stress::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
     };
     exit_code(result)

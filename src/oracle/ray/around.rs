@@ -159,7 +159,9 @@ impl<'a> Surroundings<'a> {
         for u in STEPS {
             for v in STEPS {
                 let base = beam.base + u * beam.spread[0] + v * beam.spread[1];
-                let Some(gap) = gap(beam, base, seen, triangle).filter(|gap| *gap > seen.error + error) else { continue };
+                let Some(gap) = gap(beam, base, seen, triangle).filter(|gap| *gap > seen.error + error) else {
+                    continue;
+                };
                 around.rise = around.rise.max(gap);
                 if (u, v) == (0.0, 0.0) {
                     blockers.push((place, gap));

@@ -1,0 +1,236 @@
+//! One row of a case: drawn, and held against the truth pixel by pixel.
+//!
+//! # The bound
+//! A pixel counts where the oracle is certain and the picture shows the same surface.
+//!
+//! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
+//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is
+//!   accounted for in three ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
+//!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*);
+//!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
+//!   3. it is lit, and what shadows it lies so close before it that the bias reaches across.
+//!
+//!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
+//! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
+
+use std::collections::HashMap;
+
+use super::results::{Row, Verdict};
+use super::rows::RowSettings;
+use crate::device::Pixels;
+use crate::frame::Renderer;
+use crate::oracle::ray::{self, Answer, Around, Blocker, Surroundings, Truth};
+use crate::pass::DepthFormat;
+use crate::plan::{Plan, Request, ViewRequest};
+use crate::report::metrics::ShadeImage;
+use crate::report::run::with_shadow;
+use crate::scene::{self, Scene};
+use crate::techniques::map::Bias;
+use crate::techniques::views::View;
+use crate::techniques::{MapInfo, MapShape};
+
+/// The greatest part of the pixels compared that may be wrong although each is accounted for. A map whose band is wider
+/// is too coarse for its picture.
+pub const MOST_WRONG: f64 = 0.015;
+
+/// Fewer pixels compared than this say nothing about a share.
+const FEWEST_FOR_A_SHARE: usize = 1000;
+
+/// One light's truths.
+pub struct Judge<'a> {
+    scene: &'a Scene,
+    light: usize,
+    surroundings: Surroundings<'a>,
+    /// For maps.
+    pub truth: Truth,
+    /// For shadow volumes: with the depth buffer's doubt.
+    pub volume_truth: Truth,
+    /// By pixel and reach.
+    known: HashMap<(usize, u64), Option<Around>>,
+}
+
+/// A row, and what a picture of it needs.
+pub struct Judged {
+    pub row: Row,
+    pub shade: Option<ShadeImage>,
+    /// Pixels beyond the bound, by index.
+    pub beyond: Vec<usize>,
+}
+
+impl<'a> Judge<'a> {
+    /// Traces the truths of light number `light`.
+    ///
+    /// # Errors
+    ///
+    /// A scene that the oracle cannot read.
+    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, ray::Error> {
+        let options = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
+        let surroundings = Surroundings::new(scene, light, &options)?;
+        let truth = surroundings.truth(scene.image.size)?;
+        let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
+        let volume_truth = ray::trace(scene, light, &doubtful)?;
+        Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
+    }
+
+    /// Draws the light under `settings` and says how far from the truth it is.
+    pub fn row(&mut self, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
+        let row = Row::new(self.light, settings);
+        let (plan, shade) = match self.draw(settings, renderer) {
+            Ok(drawn) => drawn,
+            Err(Failure::Refused(why)) => {
+                return Judged { row: Row { verdict: Verdict::Refused, why, ..row }, shade: None, beyond: Vec::new() };
+            }
+            Err(Failure::Broken(why)) => {
+                return Judged {
+                    row: Row { verdict: Verdict::SilentlyWrong, why, ..row },
+                    shade: None,
+                    beyond: Vec::new(),
+                };
+            }
+        };
+        let counts = self.compare(settings, &plan, &shade);
+        let is_right = counts.beyond.is_empty() && !counts.is_coarse();
+        let verdict = match (is_right, plan.warnings.is_empty()) {
+            (true, true) => Verdict::Right,
+            (true, false) => Verdict::FalseAlarm,
+            (false, false) => Verdict::Warned,
+            (false, true) => Verdict::SilentlyWrong,
+        };
+        let row = Row {
+            verdict,
+            compared: counts.compared,
+            wrong: counts.wrong,
+            beyond: counts.beyond.len(),
+            why: plan.warnings.join("; "),
+            ..row
+        };
+        Judged { row, shade: Some(shade), beyond: counts.beyond }
+    }
+
+    fn draw(&self, settings: &RowSettings, renderer: &mut Renderer) -> Result<(Plan, ShadeImage), Failure> {
+        let refused = |error: &dyn std::fmt::Display| Failure::Refused(error.to_string());
+        let shadow = scene::shadow_settings(&settings.to_inline()).map_err(|error| refused(&error))?;
+        let scene = with_shadow(self.scene, self.light, &shadow);
+        let request =
+            Request { views: vec![ViewRequest { view: View::Shade, light: self.light }], ..Request::default() };
+        let plan = renderer.plan(&scene, &request).map_err(|error| match error {
+            crate::frame::Error::Plan(error) => refused(&error),
+            other => Failure::Broken(other.to_string()),
+        })?;
+        let broken = |error: crate::frame::Error| Failure::Broken(error.to_string());
+        renderer.draw(&plan).map_err(broken)?;
+        let texels = match renderer.read(&plan).map_err(broken)?.views.pop() {
+            Some(Pixels::RgbaF32 { data, .. }) => data,
+            _ => return Err(Failure::Broken(String::from("the shade was not read back"))),
+        };
+        let [width, height] = scene.image.size;
+        let shade = ShadeImage {
+            width,
+            height,
+            shade: texels.chunks_exact(4).map(|texel| texel[0].clamp(0.0, 1.0)).collect(),
+            covered: texels.chunks_exact(4).map(|texel| texel[3] > 0.0).collect(),
+        };
+        Ok((plan, shade))
+    }
+
+    fn compare(&mut self, settings: &RowSettings, plan: &Plan, shade: &ShadeImage) -> Counts {
+        let is_volume = settings.technique == "shadow-volume";
+        let map = plan.maps.iter().find(|map| map.light == self.light).copied();
+        let mut counts = Counts::default();
+        for index in 0..self.truth.pixels.len() {
+            let pixel = if is_volume { self.volume_truth.pixels[index] } else { self.truth.pixels[index] };
+            let should_be_lit = match (pixel.answer, shade.covered[index]) {
+                (Answer::Lit, true) => true,
+                (Answer::Shadowed, true) => false,
+                (Answer::Lit | Answer::Shadowed, false) | (Answer::Background, true) => {
+                    counts.beyond.push(index);
+                    counts.wrong += 1;
+                    continue;
+                }
+                _ => continue,
+            };
+            let faces = pixel.hit.is_some_and(|hit| hit.faces_light());
+            if !(faces || is_volume) {
+                continue;
+            }
+            counts.compared += 1;
+            if (shade.shade[index] >= 0.5) == should_be_lit {
+                continue;
+            }
+            counts.wrong += 1;
+            let is_explained = !is_volume && map.is_some_and(|map| self.accounts_for(index, should_be_lit, &map));
+            if !is_explained {
+                counts.beyond.push(index);
+            }
+        }
+        counts
+    }
+
+    /// Whether the map's own texels explain a wrong pixel.
+    fn accounts_for(&mut self, index: usize, should_be_lit: bool, map: &MapInfo) -> bool {
+        // One texel more: positions round to a texel's neighbour.
+        let reach = (map.reach_texels + 1.0) * map.texel * f64::from(1_u32 << (map.levels - 1).min(16));
+        let width = self.truth.width as usize;
+        let (x, y) = ((index % width) as u32, (index / width) as u32);
+        let surroundings = &self.surroundings;
+        let around =
+            self.known.entry((index, reach.to_bits())).or_insert_with(|| surroundings.around(x, y, reach)).as_ref();
+        let Some(around) = around else { return false };
+        if around.edge {
+            return true;
+        }
+        if should_be_lit {
+            return around.rise > 0.0;
+        }
+        !around.blockers.is_empty()
+            && around.blockers.iter().all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
+    }
+}
+
+/// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.
+fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
+    let texel = map.texel * around.scale;
+    // GL's slope is the steeper of both axes', of a texel's width; the caster's depth is stored a reach aside, and the
+    // receiver is compared a reach aside.
+    let caster = (f64::from(map.polygon.factor.abs()) + map.reach_texels) * blocker.slope;
+    let receiver = match map.bias {
+        Bias::Offset => map.reach_texels * around.slope,
+        Bias::ReceiverPlane | Bias::NormalOffset | Bias::Adaptive => 2.0 * map.reach_texels * around.slope,
+    };
+    texel * (caster + receiver + map.texels + 1.0)
+        + (f64::from(map.polygon.units.abs()) + 2.0) * code(map, around.scale)
+}
+
+/// What one code of the map's depth measures along the light's axis at distance `depth`, in world units.
+fn code(map: &MapInfo, depth: f64) -> f64 {
+    let code = match map.format {
+        DepthFormat::Depth16 => 2.0_f64.powi(-16),
+        _ => 2.0_f64.powi(-23),
+    };
+    match map.shape {
+        MapShape::Spot { near, far } | MapShape::Cube { near, far } => {
+            code * depth * depth * (far - near) / (near * far)
+        }
+        MapShape::Parallel { depth } => code * depth,
+    }
+}
+
+#[derive(Default)]
+struct Counts {
+    compared: usize,
+    wrong: usize,
+    beyond: Vec<usize>,
+}
+
+impl Counts {
+    fn is_coarse(&self) -> bool {
+        self.compared >= FEWEST_FOR_A_SHARE && self.wrong as f64 > MOST_WRONG * self.compared as f64
+    }
+}
+
+enum Failure {
+    /// A clear error before anything was drawn.
+    Refused(String),
+    /// An error of the driver or of ours.
+    Broken(String),
+}

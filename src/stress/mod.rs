@@ -1,0 +1,18 @@
+//! Scenes against truth: named extreme cases and random scenes, each drawn by every technique and each of its settings
+//! that matters, each picture judged by the ray caster.
+//!
+//! Whatever is wrong must be said: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]). `judge.rs`
+//! derives the bound between right and wrong.
+
+mod case;
+mod judge;
+pub mod random;
+mod results;
+mod rows;
+mod run;
+
+pub use case::Case;
+pub use judge::{Judge, Judged, MOST_WRONG};
+pub use results::{CaseResult, Row, Verdict, tally};
+pub use rows::{RowSettings, rows};
+pub use run::{Options, draw_case, run};

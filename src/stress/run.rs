@@ -1,0 +1,115 @@
+//! Runs cases on as many contexts as there are jobs.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, mpsc};
+use std::time::Instant;
+
+use super::case::Case;
+use super::judge::Judge;
+use super::results::CaseResult;
+use super::rows::rows;
+use crate::context::{self, ContextRequest};
+use crate::frame::Renderer;
+use crate::oracle::ray::Truth;
+
+/// What is run, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Cases drawn at once, each on a context of its own.
+    pub jobs: usize,
+    /// Only rows of this technique; `None`: of all.
+    pub technique: Option<String>,
+    pub context: ContextRequest,
+}
+
+/// Draws and judges `cases`, calling `finished` with each as it is done, until all are or `stop` is set.
+///
+/// # Errors
+///
+/// A context that cannot be had; a folder for scene files that cannot be made.
+pub fn run(
+    cases: &[Case],
+    options: &Options,
+    stop: &Arc<AtomicBool>,
+    mut finished: impl FnMut(usize, CaseResult),
+) -> Result<(), context::Error> {
+    let next = AtomicUsize::new(0);
+    let (send, receive) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..options.jobs.clamp(1, cases.len().max(1)) {
+            let (send, next) = (send.clone(), &next);
+            scope.spawn(move || {
+                let context = match context::open(&options.context) {
+                    Ok(context) => context,
+                    Err(error) => {
+                        let _ = send.send(Err(error)); // the receiver outlives the senders
+                        return;
+                    }
+                };
+                let mut renderer = Renderer::new(context.as_ref());
+                while !stop.load(Ordering::Relaxed) {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(case) = cases.get(index) else { return };
+                    let result = draw_case(case, options, &mut renderer);
+                    let _ = send.send(Ok((index, result)));
+                }
+            });
+        }
+        drop(send);
+        for result in receive {
+            let (index, result) = result?;
+            finished(index, result);
+        }
+        Ok(())
+    })
+}
+
+/// Draws one case by every row and judges each.
+pub fn draw_case(case: &Case, options: &Options, renderer: &mut Renderer) -> CaseResult {
+    let start = Instant::now();
+    let mut result = CaseResult {
+        name: case.name.clone(),
+        sweep: case.sweep.clone(),
+        decided: 1.0,
+        seconds: 0.0,
+        refused: None,
+        refusal_expected: case.refused,
+        rows: Vec::new(),
+    };
+    let drawn = tempfile::tempdir()
+        .map_err(|error| error.to_string())
+        .and_then(|folder| draw_rows(case, folder.path(), options, renderer, &mut result));
+    result.refused = drawn.err();
+    result.seconds = start.elapsed().as_secs_f64();
+    result
+}
+
+fn draw_rows(
+    case: &Case,
+    folder: &Path,
+    options: &Options,
+    renderer: &mut Renderer,
+    result: &mut CaseResult,
+) -> Result<(), String> {
+    let loaded = case.load(folder)?;
+    let scene = loaded.scene;
+    let mut shares = Vec::new();
+    for (light, source) in scene.lights.iter().enumerate() {
+        let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;
+        shares.push(decided(&judge.truth));
+        // All settings of one light; of the others each technique's own.
+        let rows = rows(&scene, &source.kind, case.defaults || light > 0);
+        for settings in rows.iter().filter(|row| options.technique.as_ref().is_none_or(|name| *name == row.technique)) {
+            let mut judged = judge.row(settings, renderer).row;
+            judged.add_warnings(&loaded.warnings);
+            result.rows.push(judged);
+        }
+    }
+    result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+    Ok(())
+}
+
+fn decided(truth: &Truth) -> f64 {
+    1.0 - truth.ambiguous_share()
+}
