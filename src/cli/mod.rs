@@ -82,6 +82,8 @@ pub enum Error {
     Merge(#[from] crate::report::merge::Error),
     #[error(transparent)]
     ReportFiles(#[from] crate::report::write::Error),
+    #[error(transparent)]
+    StressCases(#[from] crate::stress::named::Error),
     #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
     Interrupted { folder: std::path::PathBuf },
     #[error("standard output: {0}")]

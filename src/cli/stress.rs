@@ -39,7 +39,8 @@ pub struct StressArgs {
 }
 
 pub fn run(arguments: &StressArgs) -> Result<(), Error> {
-    let cases: Vec<_> = (0..arguments.count).map(|index| random::case(arguments.seed, index)).collect();
+    let mut cases = stress::named::cases()?;
+    cases.extend((0..arguments.count).map(|index| random::case(arguments.seed, index)));
     let cases: Vec<_> =
         cases.into_iter().filter(|case| arguments.case.as_ref().is_none_or(|name| case.name.contains(name))).collect();
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

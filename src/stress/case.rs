@@ -1,7 +1,6 @@
 //! A case: a scene file as text and the files that it names, so that it can be saved, changed and loaded anywhere.
 
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::scene::{self, Loaded};
@@ -11,18 +10,22 @@ use crate::scene::{self, Loaded};
 pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
+    /// What is extreme in it.
+    pub why: String,
     /// The scene file.
     pub toml: String,
     /// Changes to it, as `--set` takes them.
     pub set: Vec<String>,
     /// Names of the meshes and pictures of [`FILES`] that the scene names.
     pub files: Vec<&'static str>,
+    /// Mesh files made for this case, each with its name.
+    pub made: Vec<(String, Vec<u8>)>,
+    /// Insides of `[light.shadow]` to draw; empty: every technique's rows.
+    pub rows: Vec<String>,
     /// The stiff parameter that the case varies, and its value.
     pub sweep: Option<(String, f64)>,
     /// Whether the scene cannot be drawn, and must be refused.
     pub refused: bool,
-    /// Whether each technique is drawn with its default settings alone.
-    pub defaults: bool,
 }
 
 macro_rules! files {
@@ -47,6 +50,8 @@ files! {
     "soup.obj" at "stress/meshes/soup.obj",
     "tetrahedron.obj" at "stress/meshes/tetrahedron.obj",
     "crossed.obj" at "stress/meshes/crossed.obj",
+    "nested_256.obj" at "stress/meshes/nested_256.obj",
+    "nested_300.obj" at "stress/meshes/nested_300.obj",
     "fence.png" at "meshes/fence.png",
 }
 
@@ -56,20 +61,23 @@ pub fn files_named_in(toml: &str) -> Vec<&'static str> {
 }
 
 impl Case {
-    /// Writes the scene and its files into `folder`, which is there. Returns the scene file's path.
+    /// Writes the scene, with all changes in it, and its files into `folder`, which is there. Returns the scene file's path.
     ///
     /// # Errors
     ///
-    /// A file that cannot be written.
-    pub fn write(&self, folder: &Path) -> io::Result<PathBuf> {
-        for (name, bytes) in FILES.iter().filter(|(name, _)| self.files.contains(name)) {
-            let path = folder.join(name);
-            if !path.exists() {
-                fs::write(path, bytes)?;
-            }
-        }
+    /// A change that does not fit the scene, or a file that cannot be written, as a sentence.
+    pub fn write(&self, folder: &Path) -> Result<PathBuf, String> {
+        let made = self.made.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
+        let named = FILES.iter().filter(|(name, _)| self.files.contains(name)).copied();
         let path = folder.join(format!("{}.toml", self.name));
-        fs::write(&path, &self.toml)?;
+        let files = named.chain(made).map(|(name, bytes)| (folder.join(name), bytes));
+        for (path, bytes) in files.chain([(path.clone(), self.toml.as_bytes())]) {
+            write(&path, bytes)?;
+        }
+        if !self.set.is_empty() {
+            let changed = scene::settings(&path, &self.set).map_err(|error| error.to_string())?;
+            write(&path, changed.to_toml().as_bytes())?;
+        }
         Ok(path)
     }
 
@@ -79,7 +87,10 @@ impl Case {
     ///
     /// Why the scene is refused, or why a file cannot be written, as a sentence.
     pub fn load(&self, folder: &Path) -> Result<Loaded, String> {
-        let path = self.write(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        scene::load(&path, &self.set).map_err(|error| error.to_string())
+        scene::load(&self.write(folder)?, &[]).map_err(|error| error.to_string())
     }
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    fs::write(path, bytes).map_err(|error| format!("{}: cannot be written: {error}", path.display()))
 }

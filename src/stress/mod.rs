@@ -6,6 +6,7 @@
 
 mod case;
 mod judge;
+pub mod named;
 pub mod random;
 mod results;
 mod rows;

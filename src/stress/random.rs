@@ -18,10 +18,12 @@ pub fn case(seed: u64, index: u64) -> Case {
         name: format!("random-{seed}-{index}"),
         files: files_named_in(&toml),
         toml,
+        why: String::from("a random scene"),
         set: Vec::new(),
+        made: Vec::new(),
+        rows: Vec::new(),
         sweep: None,
         refused: false,
-        defaults: false,
     }
 }
 
@@ -55,7 +57,7 @@ impl Dice {
 
 /// Three decimals or, of small numbers, three digits: what a person would write.
 fn short(value: f64) -> f64 {
-    let decimals = if value.abs() >= 0.1 || value == 0.0 { 3 } else { 2 - value.abs().log10().floor() as usize as i32 };
+    let decimals = if value.abs() >= 0.1 || value == 0.0 { 3 } else { 2 - value.abs().log10().floor() as i32 };
     format!("{value:.*}", decimals.clamp(0, 20) as usize).parse().unwrap_or(value)
 }
 

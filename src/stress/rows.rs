@@ -24,6 +24,13 @@ impl RowSettings {
     }
 }
 
+/// A row from the inside of an inline table that begins with `technique = "…"`.
+pub fn row_of(inside: &str) -> RowSettings {
+    let rest = inside.strip_prefix("technique = \"").unwrap_or(inside);
+    let (technique, keys) = rest.split_once('"').unwrap_or((rest, ""));
+    RowSettings { technique: technique.to_owned(), keys: keys.trim_start_matches([',', ' ']).to_owned() }
+}
+
 /// What every map has.
 const MAP: &[&str] = &[
     "filter = \"nearest\"",

@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::case::Case;
 use super::judge::Judge;
 use super::results::CaseResult;
-use super::rows::rows;
+use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::Renderer;
 use crate::oracle::ray::Truth;
@@ -99,7 +99,10 @@ fn draw_rows(
         let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;
         shares.push(decided(&judge.truth));
         // All settings of one light; of the others each technique's own.
-        let rows = rows(&scene, &source.kind, case.defaults || light > 0);
+        let rows = match case.rows.is_empty() {
+            true => rows(&scene, &source.kind, light > 0),
+            false => case.rows.iter().map(|inside| row_of(inside)).collect(),
+        };
         for settings in rows.iter().filter(|row| options.technique.as_ref().is_none_or(|name| *name == row.technique)) {
             let mut judged = judge.row(settings, renderer).row;
             judged.add_warnings(&loaded.warnings);

@@ -25,7 +25,7 @@ pub struct Surroundings<'a> {
 /// What lies around a visible point, as the light sees it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Around {
-    /// Whether a silhouette or an open edge of a caster lies within the reach.
+    /// Whether a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
     pub edge: bool,
     /// How far a caster stands before the plane of the visible surface somewhere within the reach, along the light's ray
     /// and in world units; 0: nowhere.
@@ -91,7 +91,7 @@ impl<'a> Surroundings<'a> {
         let (mut blockers, mut met) = (Vec::new(), Vec::new());
         self.tracer.world.visit(&segment, radius, |triangle| {
             self.look_at(triangle, &beam, &seen, &mut around, &mut blockers, &mut met);
-            ControlFlow::Continue(())
+            if around.edge { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         around.blockers = blockers
             .iter()
