@@ -82,6 +82,10 @@ pub enum Error {
     Merge(#[from] crate::report::merge::Error),
     #[error(transparent)]
     ReportFiles(#[from] crate::report::write::Error),
+    #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
+    NoSuchCase { name: String },
+    #[error(transparent)]
+    Stress(#[from] crate::stress::Error),
     #[error(transparent)]
     StressCases(#[from] crate::stress::named::Error),
     #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
@@ -109,7 +113,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
-        Command::Stress(arguments) => stress::run(&arguments),
+        Command::Stress(arguments) => return stress::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
     };
     exit_code(result)

@@ -129,7 +129,7 @@ Without a grid file the report also holds what the documents claim of the techni
 Ctrl-C leaves a report of what was done; --resume goes on from there.";
 
 /// `I/N`.
-fn parse_shard(text: &str) -> Result<(usize, usize), String> {
+pub(super) fn parse_shard(text: &str) -> Result<(usize, usize), String> {
     let parts = text.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
     match parts {
         Some((index, count)) if (1..=count).contains(&index) => Ok((index, count)),
@@ -202,7 +202,7 @@ fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec
 }
 
 /// Set by the first Ctrl-C; a second one ends the process.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub(super) fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
     let handled = ctrlc::set_handler(move || {

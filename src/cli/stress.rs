@@ -1,92 +1,203 @@
 //! `glumbra stress`: scenes against truth.
 
 use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{ContextArgs, Error};
-use crate::context::Profile;
-use crate::stress::{self, CaseResult, Options, Row, Verdict, random, tally};
+use super::report::{parse_shard, stop_on_interrupt};
+use super::{ContextArgs, Error, spinner};
+use crate::context::{self, Profile};
+use crate::frame::Renderer;
+use crate::output::whole;
+use crate::stress::{self, Case, CaseResult, Options, Verdict, named, random};
+use crate::techniques::TABLE;
 
 /// Draws extreme and random scenes by every technique and holds each picture against ray-traced truth.
 #[derive(Debug, Args)]
+#[command(after_help = HELP)]
 pub struct StressArgs {
-    /// The random scenes' seed
+    /// The random scenes' seed: the same seed is the same scenes on every machine
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// How many random scenes
+    /// How many random scenes, beside the named cases
     #[arg(long, value_name = "N", default_value_t = 100)]
     count: u64,
 
-    /// Only cases whose name contains this text
+    /// Only cases whose name contains this, e.g. `cone` or `random-1-17`
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
 
-    /// Only rows of this technique
-    #[arg(long, value_name = "NAME")]
+    /// Only this technique
+    #[arg(long, value_name = "NAME", value_parser = parse_technique)]
     technique: Option<String>,
 
-    /// Cases drawn at once
+    /// Cases drawn at once; one a core where absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
+
+    /// Only the I-th of N parts of the cases
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard)]
+    shard: (usize, usize),
+
+    /// Writes every row as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+
+    /// A folder for stress.html, stress.json, and failing scenes made small; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Lists the cases and draws nothing
+    #[arg(long)]
+    list: bool,
 
     #[command(flatten)]
     context: ContextArgs,
 }
 
-pub fn run(arguments: &StressArgs) -> Result<(), Error> {
-    let mut cases = stress::named::cases()?;
-    cases.extend((0..arguments.count).map(|index| random::case(arguments.seed, index)));
-    let cases: Vec<_> =
-        cases.into_iter().filter(|case| arguments.case.as_ref().is_none_or(|name| case.name.contains(name))).collect();
+const HELP: &str = "\
+Verdicts:
+  right           within the technique's bound
+  false alarm     within it, although the plan warns
+  warned          outside it, and the plan says why
+  refused         a clear error in place of a picture
+  silently wrong  outside it, and nothing said
+
+The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's
+reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face the
+light. A scene that fails is reduced, and written as a scene file for `glumbra render`.
+
+Exit status: 0 nothing is silently wrong, 1 something is, 2 nothing could be run.
+
+Examples:
+  glumbra stress
+  glumbra stress --seed 7 --count 1000 -o out/stress
+  glumbra stress --count 0 --case cone --technique shadow-map
+  parallel glumbra stress --count 10000 --shard {}/4 -o part{} ::: 1 2 3 4";
+
+/// Scenes reduced at most: each takes some seconds.
+const MOST_REDUCED: usize = 12;
+
+fn parse_technique(text: &str) -> Result<String, String> {
+    let names = || TABLE.iter().map(|technique| technique.name()).filter(|name| *name != "none");
+    match names().any(|name| name == text) {
+        true => Ok(text.to_owned()),
+        false => Err(crate::scene::suggest(text, names())),
+    }
+}
+
+/// Draws, judges, prints, writes.
+pub fn run(arguments: &StressArgs) -> ExitCode {
+    match stress(arguments) {
+        Ok(fails) => ExitCode::from(u8::from(fails)),
+        // A reader that has seen enough (`glumbra stress | head`) is no error.
+        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "error: {error}"); // nowhere else to say it
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn stress(arguments: &StressArgs) -> Result<bool, Error> {
+    let cases = cases(arguments)?;
+    if arguments.list {
+        let mut out = std::io::stdout().lock();
+        cases.iter().try_for_each(|case| writeln!(out, "{}: {}", case.name, case.why))?;
+        return Ok(false);
+    }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let options = Options {
         jobs: arguments.jobs.map_or(cores, usize::from),
         technique: arguments.technique.clone(),
+        pictures: arguments.output.is_some(),
         context: arguments.context.request(Profile::Core33),
     };
+    let stop = stop_on_interrupt();
+    let results = draw(&cases, &options, &stop)?;
+    if let Some(folder) = &arguments.output {
+        let reduced = reduce(&cases, &results, &options)?;
+        stress::write(folder, arguments.seed, &results, &reduced)?;
+    }
+    if let Some(path) = &arguments.json {
+        let json = stress::to_json(arguments.seed, &results)?;
+        let written = whole::write_all(&[path], |_, path| std::fs::write(path, &json));
+        written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
+    }
+    print(arguments, &results)?;
+    Ok(results.iter().any(CaseResult::fails))
+}
+
+/// The named cases and the random ones, of this shard, by the filter.
+fn cases(arguments: &StressArgs) -> Result<Vec<Case>, Error> {
+    let named = named::cases()?.into_iter();
+    let random = (0..arguments.count).map(|index| random::case(arguments.seed, index));
+    let (part, parts) = arguments.shard;
+    let of_shard = named.chain(random).enumerate().filter(|(index, _)| index % parts == part - 1);
+    let is_wanted = |case: &Case| arguments.case.as_ref().is_none_or(|name| case.name.contains(name.as_str()));
+    let cases: Vec<Case> = of_shard.map(|(_, case)| case).filter(is_wanted).collect();
+    match (cases.is_empty(), &arguments.case) {
+        (true, Some(name)) => Err(Error::NoSuchCase { name: name.clone() }),
+        _ => Ok(cases),
+    }
+}
+
+fn draw(cases: &[Case], options: &Options, stop: &Arc<AtomicBool>) -> Result<Vec<CaseResult>, Error> {
     let bar = ProgressBar::new(cases.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left  {msg}") {
         bar.set_style(style);
     }
     let mut results: Vec<Option<CaseResult>> = cases.iter().map(|_| None).collect();
-    stress::run(&cases, &options, &Arc::new(AtomicBool::new(false)), |index, result| {
+    let mut failing = 0;
+    stress::run(cases, options, stop, |index, result| {
+        failing += usize::from(result.fails());
+        if failing > 0 {
+            bar.set_message(format!("{failing} silently wrong"));
+        }
         results[index] = Some(result);
         bar.inc(1);
     })?;
     bar.finish_and_clear();
-    let results: Vec<CaseResult> = results.into_iter().flatten().collect();
-    let mut out = std::io::stdout().lock();
-    for result in &results {
-        if let Some(why) = &result.refused {
-            writeln!(out, "{}: refused: {why}", result.name)?;
-        }
-        for row in result.rows.iter().filter(|row| row.verdict != Verdict::Right) {
-            writeln!(
-                out,
-                "{}: light {} {} | {} {:.3} % beyond {} of {} | {}",
-                result.name,
-                row.light,
-                row.settings.to_inline(),
-                row.verdict.name(),
-                row.wrong_percent(),
-                row.beyond,
-                row.compared,
-                row.why
-            )?;
-        }
+    Ok(results.into_iter().flatten().collect())
+}
+
+/// The first failing cases, each made small under its first setting that is silently wrong.
+fn reduce(cases: &[Case], results: &[CaseResult], options: &Options) -> Result<Vec<Case>, Error> {
+    let failing = results.iter().filter_map(|result| {
+        let row = result.rows.iter().find(|row| row.verdict == Verdict::SilentlyWrong)?;
+        Some((cases.iter().find(|case| case.name == result.name)?, row.settings.to_inline()))
+    });
+    let failing: Vec<_> = failing.take(MOST_REDUCED).collect();
+    if failing.is_empty() {
+        return Ok(Vec::new());
     }
-    let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
-    writeln!(out, "{:?}", tally(rows.iter().copied()))?;
-    let seconds: f64 = results.iter().map(|r| r.seconds).sum();
-    writeln!(
-        out,
-        "{seconds:.1} s, decided {:.3}",
-        results.iter().map(|r| r.decided).sum::<f64>() / results.len() as f64
-    )?;
+    let context = context::open(&options.context)?;
+    let mut renderer = Renderer::new(context.as_ref());
+    let options = Options { pictures: false, ..options.clone() };
+    let bar = spinner("making {msg} small");
+    let mut reduced = Vec::new();
+    for (case, inside) in failing {
+        bar.set_message(case.name.clone());
+        bar.tick();
+        reduced.extend(stress::reduce(case, &inside, &options, &mut renderer));
+    }
+    bar.finish_and_clear();
+    Ok(reduced)
+}
+
+fn print(arguments: &StressArgs, results: &[CaseResult]) -> Result<(), Error> {
+    const UNKNOWN_WIDTH: u16 = 160;
+    let width = terminal_size::terminal_size().map_or(UNKNOWN_WIDTH, |(width, _)| width.0);
+    let mut out = std::io::stdout().lock();
+    out.write_all(stress::to_text(results, width).as_bytes())?;
+    if let Some(folder) = &arguments.output {
+        writeln!(out, "{}", folder.join("stress.html").display())?;
+    }
     Ok(())
 }

@@ -35,6 +35,15 @@ pub fn truth_picture(truth: &Truth) -> RgbImage {
     paint(truth, |_, pixel| true_color(pixel))
 }
 
+/// A shade as a picture: from black, shadow, to white, light; [`BACKGROUND`] where nothing is drawn.
+pub fn shade_picture(shade: &ShadeImage) -> RgbImage {
+    RgbImage::from_fn(shade.width, shade.height, |x, y| {
+        let index = y as usize * shade.width as usize + x as usize;
+        let gray = shade.shade.get(index).map_or(0, |value| (255.0 * value).round() as u8);
+        Rgb(if shade.covered.get(index) == Some(&true) { [gray; 3] } else { BACKGROUND })
+    })
+}
+
 /// The truth, and over it what the picture has wrong.
 ///
 /// # Errors

@@ -10,6 +10,7 @@ use crate::scene::{self, Loaded};
 pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
+    pub is_random: bool,
     /// What is extreme in it.
     pub why: String,
     /// The scene file.
@@ -79,6 +80,15 @@ impl Case {
             write(&path, changed.to_toml().as_bytes())?;
         }
         Ok(path)
+    }
+
+    /// The scene file with all changes in it, before it is resolved.
+    ///
+    /// # Errors
+    ///
+    /// As [`Case::write`].
+    pub fn settings(&self, folder: &Path) -> Result<scene::Settings, String> {
+        scene::settings(&self.write(folder)?, &[]).map_err(|error| error.to_string())
     }
 
     /// Loads the scene by way of files in `folder`, a folder for this purpose alone.

@@ -72,6 +72,11 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
     }
 
+    /// The truth that rows of these settings are held against.
+    pub fn truth_of(&self, settings: &RowSettings) -> &Truth {
+        if is_volume(settings) { &self.volume_truth } else { &self.truth }
+    }
+
     /// Draws the light under `settings` and says how far from the truth it is.
     pub fn row(&mut self, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
         let row = Row::new(self.light, settings);
@@ -134,16 +139,17 @@ impl<'a> Judge<'a> {
     }
 
     fn compare(&mut self, settings: &RowSettings, plan: &Plan, shade: &ShadeImage) -> Counts {
-        let is_volume = settings.technique == "shadow-volume";
+        let is_volume = is_volume(settings);
         let map = plan.maps.iter().find(|map| map.light == self.light).copied();
         let mut counts = Counts::default();
         for index in 0..self.truth.pixels.len() {
-            let pixel = if is_volume { self.volume_truth.pixels[index] } else { self.truth.pixels[index] };
+            let pixel = self.truth_of(settings).pixels[index];
             let should_be_lit = match (pixel.answer, shade.covered[index]) {
                 (Answer::Lit, true) => true,
                 (Answer::Shadowed, true) => false,
                 (Answer::Lit | Answer::Shadowed, false) | (Answer::Background, true) => {
                     counts.beyond.push(index);
+                    counts.compared += 1;
                     counts.wrong += 1;
                     continue;
                 }
@@ -185,6 +191,11 @@ impl<'a> Judge<'a> {
         !around.blockers.is_empty()
             && around.blockers.iter().all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
     }
+}
+
+/// Counted in the stencil buffer, without texels to be wrong by.
+fn is_volume(settings: &RowSettings) -> bool {
+    settings.technique == "shadow-volume"
 }
 
 /// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.

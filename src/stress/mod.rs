@@ -7,13 +7,21 @@
 mod case;
 mod judge;
 pub mod named;
+mod page;
+mod plot;
 pub mod random;
+mod reduce;
 mod results;
 mod rows;
 mod run;
+mod table;
+mod write;
 
 pub use case::Case;
 pub use judge::{Judge, Judged, MOST_WRONG};
+pub use reduce::reduce;
 pub use results::{CaseResult, Row, Verdict, tally};
 pub use rows::{RowSettings, rows};
 pub use run::{Options, draw_case, run};
+pub use table::to_text;
+pub use write::{Error, to_json, write};

@@ -94,6 +94,7 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
     let made = entry.files.iter().map(|made| make(made, value)).collect::<Result<_, _>>()?;
     Ok(Case {
         name: sweep.map_or_else(|| entry.name.clone(), |(_, value)| format!("{}-{value:e}", entry.name)),
+        is_random: false,
         why: entry.why.clone(),
         toml: (*toml).to_owned(),
         set,

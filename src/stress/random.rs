@@ -18,6 +18,7 @@ pub fn case(seed: u64, index: u64) -> Case {
         name: format!("random-{seed}-{index}"),
         files: files_named_in(&toml),
         toml,
+        is_random: true,
         why: String::from("a random scene"),
         set: Vec::new(),
         made: Vec::new(),

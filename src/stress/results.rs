@@ -57,15 +57,44 @@ impl Row {
         Self { light, settings, verdict: Verdict::Right, compared: 0, wrong: 0, beyond: 0, why: String::new() }
     }
 
+    /// What is not the technique's default, for tables.
+    pub fn keys(&self) -> &str {
+        if self.settings.keys.is_empty() { "defaults" } else { &self.settings.keys }
+    }
+
+    /// Whether the picture must not be used, or was not drawn.
+    pub fn is_unusable(&self) -> bool {
+        matches!(self.verdict, Verdict::FalseAlarm | Verdict::Warned | Verdict::Refused)
+    }
+
+    /// Wrong pixels in percent of [`Row::compared`].
     pub fn wrong_percent(&self) -> f64 {
         100.0 * self.wrong as f64 / self.compared.max(1) as f64
     }
+}
+
+/// A row as PNG files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowPictures {
+    /// Into [`CaseResult::rows`].
+    pub row: usize,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The shade as it was drawn: white lit, black shadowed.
+    pub drawn: Vec<u8>,
+    /// What the oracle says.
+    pub truth: Vec<u8>,
+    /// The truth, with what is wrong in colours.
+    pub difference: Vec<u8>,
 }
 
 /// One case with all its rows.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CaseResult {
     pub name: String,
+    pub is_random: bool,
+    /// What is extreme in it.
+    pub why: String,
     /// The stiff parameter of a sweep and its value.
     pub sweep: Option<(String, f64)>,
     /// Drawn pixels of which the oracle is certain, in [0, 1], over all lights.
@@ -76,6 +105,32 @@ pub struct CaseResult {
     /// Whether a refusal is what the case expects.
     pub refusal_expected: bool,
     pub rows: Vec<Row>,
+    /// Of each technique whose rows are not all right, the worst one's, where pictures are asked for.
+    #[serde(skip)]
+    pub pictures: Vec<RowPictures>,
+}
+
+impl CaseResult {
+    /// Whether the case was not drawn although it should have been, or the other way around.
+    pub fn is_misjudged(&self) -> bool {
+        self.refused.is_some() != self.refusal_expected
+    }
+
+    /// Whether there is more to say than that all is right.
+    pub fn has_news(&self) -> bool {
+        self.is_misjudged() || self.rows.iter().any(|row| row.verdict != Verdict::Right)
+    }
+
+    /// Whether something is wrong and nothing said.
+    pub fn fails(&self) -> bool {
+        self.is_misjudged() || self.rows.iter().any(|row| row.verdict == Verdict::SilentlyWrong)
+    }
+}
+
+/// Rows of random scenes under default settings.
+pub fn random_defaults(results: &[CaseResult]) -> impl Iterator<Item = &Row> {
+    let random = results.iter().filter(|result| result.is_random);
+    random.flat_map(|result| &result.rows).filter(|row| row.settings.is_default())
 }
 
 /// How many rows have each verdict, in the order of [`Verdict::ALL`].

@@ -3,6 +3,9 @@
 use crate::scene::{LightKind, Scene};
 use crate::techniques::{TABLE, Technique};
 
+/// Second-depth maps refuse open casters on principle: a scene that has one is drawn with them as they are.
+const ASSUMED: &str = "closed = \"assume\"";
+
 /// One way to draw a light's shadow.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct RowSettings {
@@ -20,7 +23,7 @@ impl RowSettings {
 
     /// Whether these are the settings that a scene without further keys gets.
     pub fn is_default(&self) -> bool {
-        self.keys.is_empty()
+        self.keys.is_empty() || self.keys == ASSUMED
     }
 }
 
@@ -105,8 +108,7 @@ fn rows_of(technique: &dyn Technique, scene: &Scene, kind: &LightKind, defaults:
     let (own, prefix) = match name {
         "shadow-map" => (map_keys(kind), ""),
         "midpoint" => (MIDPOINT.to_vec(), ""),
-        // Its own check refuses open casters; they are drawn as they are.
-        "second-depth" if !all_closed(scene) => (SECOND_DEPTH.to_vec(), "closed = \"assume\""),
+        "second-depth" if !all_closed(scene) => (SECOND_DEPTH.to_vec(), ASSUMED),
         "second-depth" => (SECOND_DEPTH.to_vec(), ""),
         "shadow-volume" => (VOLUMES.to_vec(), ""),
         _ => (Vec::new(), ""),

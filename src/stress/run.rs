@@ -6,12 +6,13 @@ use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
 use super::case::Case;
-use super::judge::Judge;
-use super::results::CaseResult;
+use super::judge::{Judge, Judged};
+use super::results::{CaseResult, Row, RowPictures, Verdict};
 use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::Renderer;
 use crate::oracle::ray::Truth;
+use crate::report::difference;
 
 /// What is run, and how.
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Options {
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
     pub technique: Option<String>,
+    /// Whether pictures are kept of what is not right.
+    pub pictures: bool,
     pub context: ContextRequest,
 }
 
@@ -70,12 +73,15 @@ pub fn draw_case(case: &Case, options: &Options, renderer: &mut Renderer) -> Cas
     let start = Instant::now();
     let mut result = CaseResult {
         name: case.name.clone(),
+        is_random: case.is_random,
+        why: case.why.clone(),
         sweep: case.sweep.clone(),
         decided: 1.0,
         seconds: 0.0,
         refused: None,
         refusal_expected: case.refused,
         rows: Vec::new(),
+        pictures: Vec::new(),
     };
     let drawn = tempfile::tempdir()
         .map_err(|error| error.to_string())
@@ -104,13 +110,42 @@ fn draw_rows(
             false => case.rows.iter().map(|inside| row_of(inside)).collect(),
         };
         for settings in rows.iter().filter(|row| options.technique.as_ref().is_none_or(|name| *name == row.technique)) {
-            let mut judged = judge.row(settings, renderer).row;
-            judged.add_warnings(&loaded.warnings);
-            result.rows.push(judged);
+            let mut judged = judge.row(settings, renderer);
+            judged.row.add_warnings(&loaded.warnings);
+            if options.pictures {
+                keep_pictures(&judge, &judged, result);
+            }
+            result.rows.push(judged.row);
         }
     }
     result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     Ok(())
+}
+
+/// Keeps the pictures of a row that will be `result`'s next, if it is the technique's worst so far.
+fn keep_pictures(judge: &Judge<'_>, judged: &Judged, result: &mut CaseResult) {
+    let row = &judged.row;
+    let Some(shade) = judged.shade.as_ref().filter(|_| row.verdict != Verdict::Right) else { return };
+    let known = result.pictures.iter().position(|pictures| {
+        let other = &result.rows[pictures.row];
+        other.settings.technique == row.settings.technique && other.light == row.light
+    });
+    let is_worse = |other: &Row| (row.verdict as u8, row.wrong) > (other.verdict as u8, other.wrong);
+    if known.is_some_and(|known| !is_worse(&result.rows[result.pictures[known].row])) {
+        return;
+    }
+    let truth = judge.truth_of(&row.settings);
+    let drawn = difference::shade_picture(shade);
+    let Ok(differs) = difference::difference_picture(truth, shade) else { return };
+    let pngs = [drawn, difference::truth_picture(truth), differs].map(|picture| difference::to_png(&picture));
+    if let [Ok(drawn), Ok(truth), Ok(difference)] = pngs {
+        let size = [shade.width, shade.height];
+        let pictures = RowPictures { row: result.rows.len(), size, drawn, truth, difference };
+        match known {
+            Some(known) => result.pictures[known] = pictures,
+            None => result.pictures.push(pictures),
+        }
+    }
 }
 
 fn decided(truth: &Truth) -> f64 {

@@ -7,7 +7,7 @@ mod claims;
 mod columns;
 mod scene;
 mod table;
-mod tags;
+pub(crate) mod tags;
 
 use super::results::{Machine, Report};
 use tags::{escape, list};
@@ -53,7 +53,7 @@ pub struct DifferencePicture {
     pub png: Vec<u8>,
 }
 
-const STYLE: &str = include_str!("style.css");
+pub(crate) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// The whole page.

@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 /// For text and for attributes in double quotes.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -22,7 +22,7 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// A picture with its caption, in the page itself.
-pub(super) fn figure(png: &[u8], [width, height]: [u32; 2], alt: &str, caption: &str) -> String {
+pub(crate) fn figure(png: &[u8], [width, height]: [u32; 2], alt: &str, caption: &str) -> String {
     format!(
         "<figure><img width=\"{width}\" height=\"{height}\" alt=\"{}\" src=\"data:image/png;base64,{}\">\
          <figcaption>{}</figcaption></figure>\n",
@@ -33,7 +33,7 @@ pub(super) fn figure(png: &[u8], [width, height]: [u32; 2], alt: &str, caption: 
 }
 
 /// `<ul>` of the items, or nothing without any.
-pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
+pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
     let items: String = items.into_iter().map(|item| format!("<li>{}</li>\n", escape(&item))).collect();
     if items.is_empty() { items } else { format!("<ul>\n{items}</ul>\n") }
 }

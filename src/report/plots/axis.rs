@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A logarithmic axis that holds some values.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     pub range: Range<f64>,
     /// With a label and a line.
     pub ticks: Vec<f64>,

@@ -11,7 +11,7 @@ use super::super::numbers::plain;
 use super::Error;
 use super::axis::Axis;
 
-pub(super) const SIZE: (u32, u32) = (900, 560);
+pub(crate) const SIZE: (u32, u32) = (900, 560);
 const LEGEND_LEFT: i32 = 708;
 const TEXT: RGBColor = RGBColor(0x22, 0x22, 0x28);
 const FAINT: RGBColor = RGBColor(0x5c, 0x5c, 0x66);
@@ -32,7 +32,7 @@ type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, LogAxis>>
 type Place = (i32, i32);
 
 /// What is written around the plot.
-pub(super) struct Words<'a> {
+pub(crate) struct Words<'a> {
     pub title: String,
     pub captions: &'a [String],
     pub x: &'a str,
@@ -41,7 +41,7 @@ pub(super) struct Words<'a> {
 
 /// How a kind of point looks: the number of its kind gives colour and shape.
 #[derive(Clone, Copy)]
-pub(super) struct Marker {
+pub(crate) struct Marker {
     pub kind: usize,
     pub radius: i32,
     /// In [0, 1].
@@ -49,14 +49,14 @@ pub(super) struct Marker {
     pub is_outlined: bool,
 }
 
-pub(super) struct Canvas<'a> {
+pub(crate) struct Canvas<'a> {
     root: Root<'a>,
     chart: Chart<'a>,
     legend_y: i32,
 }
 
 /// Draws on a new sheet; the result is SVG.
-pub(super) fn draw(
+pub(crate) fn draw(
     words: &Words<'_>,
     axes: [&Axis; 2],
     draw: impl FnOnce(&mut Canvas<'_>) -> Result<(), Error>,

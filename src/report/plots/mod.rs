@@ -3,8 +3,8 @@
 //! Both axes are logarithmic. A picture without any wrong pixel has no place there, so that it lies on a marked floor.
 //! Knows a report's values only.
 
-mod axis;
-mod canvas;
+pub(crate) mod axis;
+pub(crate) mod canvas;
 
 use std::path::Path;
 

@@ -1,0 +1,85 @@
+//! A run's outcome as files: `stress.json`, `stress.html`, and scenes that fail, made small.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::case::Case;
+use super::results::CaseResult;
+use super::{page, plot};
+use crate::output::whole;
+use crate::report::plots;
+
+/// Why a run's outcome could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
+    Folder { path: PathBuf, reason: io::Error },
+    #[error("{path}: cannot be written: {reason}", path = .path.display())]
+    Write { path: PathBuf, reason: io::Error },
+    #[error("JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error(transparent)]
+    Plot(#[from] plots::Error),
+    #[error("{0}")]
+    Scene(String),
+}
+
+/// All of a run, as JSON has it.
+#[derive(serde::Serialize)]
+struct Run<'a> {
+    glumbra: &'static str,
+    seed: u64,
+    cases: &'a [CaseResult],
+}
+
+/// The JSON of a run.
+///
+/// # Errors
+///
+/// What the encoder says.
+pub fn to_json(seed: u64, results: &[CaseResult]) -> Result<Vec<u8>, Error> {
+    Ok(serde_json::to_vec_pretty(&Run { glumbra: env!("CARGO_PKG_VERSION"), seed, cases: results })?)
+}
+
+/// Writes `stress.html` and `stress.json` into `folder`, and the `reduced` scenes into its folder `scenes`. Both folders
+/// are made where they are missing. Scenes of an earlier run are removed.
+///
+/// # Errors
+///
+/// The first thing that could not be written.
+pub fn write(folder: &Path, seed: u64, results: &[CaseResult], reduced: &[Case]) -> Result<(), Error> {
+    make(folder)?;
+    let scenes = folder.join("scenes");
+    remove_scenes(&scenes);
+    if !reduced.is_empty() {
+        make(&scenes)?;
+    }
+    for case in reduced {
+        case.write(&scenes).map_err(Error::Scene)?;
+    }
+    let plots = plot::sweeps(results)?;
+    let files = [
+        (folder.join("stress.json"), to_json(seed, results)?),
+        (folder.join("stress.html"), page::to_html(results, &plots).into_bytes()),
+    ];
+    let paths: Vec<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
+    let written = whole::write_all(&paths, |index, path| fs::write(path, &files[index].1));
+    written.map_err(|(index, reason)| Error::Write { path: paths[index].to_owned(), reason })
+}
+
+fn make(folder: &Path) -> Result<(), Error> {
+    fs::create_dir_all(folder).map_err(|reason| Error::Folder { path: folder.to_owned(), reason })
+}
+
+/// Removes what an earlier run reduced, so that the folder holds this run's scenes alone.
+fn remove_scenes(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name.starts_with("reduced-") && name.ends_with(".toml") {
+            // What cannot be removed is overwritten or stays: the page names the scenes of this run.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
