@@ -7,7 +7,7 @@ use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
-use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
+use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::techniques::projector::Rays;
 use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
@@ -18,7 +18,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     let clamped = settings.format == DepthFormat::Depth32F;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
     term.meaning = Shade::Texture { input: name.clone().into(), clamped };
-    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(settings) });
+    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) });
     if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
@@ -59,14 +59,21 @@ fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
     }
 }
 
-pub fn sampler(settings: &Settings) -> Sampler {
-    let compare = match settings.order {
-        Order::LessEqual => Compare::LessEqual,
-        Order::GreaterEqual => Compare::GreaterEqual,
+/// How the map of such rays is sampled. Beyond the box of parallel light nothing is shadowed, whatever its outermost
+/// texels hold: there the map goes on with what it is cleared to. Beyond a frustum no light falls, and what lies there
+/// is best guessed from the texel beside it.
+pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
+    let (compare, farthest) = match settings.order {
+        Order::LessEqual => (Compare::LessEqual, Border::One),
+        Order::GreaterEqual => (Compare::GreaterEqual, Border::Zero),
+    };
+    let wrap = match rays {
+        Rays::From { .. } => Wrap::ClampToEdge,
+        Rays::Along(_) => Wrap::ClampToBorder(farthest),
     };
     // Where the shader weighs the texels itself, it asks for them one by one.
     let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
-    let plain = Sampler { filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
+    let plain = Sampler { filter, wrap, compare: Some(compare), lod_halves: None };
     match settings.mipmaps {
         Mipmaps::None => plain,
         Mipmaps::All => Sampler { filter: Filter::Trilinear, ..plain },
