@@ -93,6 +93,9 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
     term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
     term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
+    if let Rays::Along(_) = view.projector.rays {
+        term.defines.push(format!("PARALLEL_{index}"));
+    }
     let towards_light = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
     match settings.bias {
         Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
@@ -115,17 +118,15 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
             let texture_from_light = texture * light_clip;
             if let Rays::Along(_) = view.projector.rays {
                 let light_from_texture = texture_from_light.inverse().as_mat4();
-                term.defines.push(format!("PARALLEL_{index}"));
                 term.uniforms.push(Uniform::of_light("light_from_texture", index, light_from_texture));
             } else {
                 let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
                 let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
                 term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
             }
-            let radius =
-                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(&view.projector, settings);
+            let reach = bias::reach_texels(settings) * bias::texel_sides_at_one(&view.projector, settings);
             term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light.as_mat4()));
-            term.uniforms.push(of_light("offset_radius", radius as f32));
+            term.uniforms.push(Uniform::of_light("offset_reach", index, reach.as_vec2()));
         }
     }
     if settings.bias != Bias::Offset {
