@@ -6,6 +6,10 @@ uniform float towards_light_@; // 1, or -1 where depth is reversed
 
 float compare_@(vec2 centre, vec3 at, vec2 size)
 {
+#ifndef PARALLEL_@
+    // Beyond the frustum the texel beside it is met, and met where it lies.
+    centre = clamp(centre, vec2(0.5), size - 0.5);
+#endif
     vec2 texture_coord = centre / size;
     // Beyond its facet the receiver's plane is no surface: where it falls away from the light, the next facet may not.
     float along = dot(receiver_slope_@, texture_coord - at.xy);

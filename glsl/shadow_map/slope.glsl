@@ -7,8 +7,9 @@ void derive_shade_@()
 {
     vec4 coord = light_coord_@;
     vec3 at = coord.xyz / coord.w;
-    vec4 dx = dFdx(coord);
-    vec4 dy = dFdy(coord);
+    // Over q, so that no product depends on the scene's unit: its square may be too large or too small for a float.
+    vec4 dx = dFdx(coord) / coord.w;
+    vec4 dy = dFdy(coord) / coord.w;
     vec3 a = dx.xyz - at * dx.w; // along the plane, after projection
     vec3 b = dy.xyz - at * dy.w;
     float area = a.x * b.y - a.y * b.x;

@@ -29,7 +29,10 @@ Surface surface_here()
 #ifdef TWO_SIDED
     // Seen from behind, whichever way the file winds it: both the normal and, so that smooth silhouettes and slivers
     // keep theirs, the facet say so.
-    vec3 facet = cross(dFdx(eye_position), dFdy(eye_position)); // towards the viewer
+    // By shares of the distance: products of lengths may be too small for a float.
+    vec3 way = abs(eye_position);
+    float unit = 1.0 / max(way.x, max(way.y, way.z));
+    vec3 facet = cross(unit * dFdx(eye_position), unit * dFdy(eye_position)); // towards the viewer
     if (dot(surface.normal, eye_position) > 0.0 && dot(surface.normal, facet) < 0.0)
         surface.normal = -surface.normal;
 #endif

@@ -197,6 +197,7 @@ pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSam
     let wrap = match sampler.wrap {
         Wrap::Repeat => glow::REPEAT,
         Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
+        Wrap::ClampToBorder(_) => glow::CLAMP_TO_BORDER,
     };
     unsafe {
         let name = gl.create_sampler().map_err(Error::Create)?;
@@ -204,6 +205,9 @@ pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSam
         gl.sampler_parameter_i32(name, glow::TEXTURE_MAG_FILTER, mag as i32);
         gl.sampler_parameter_i32(name, glow::TEXTURE_WRAP_S, wrap as i32);
         gl.sampler_parameter_i32(name, glow::TEXTURE_WRAP_T, wrap as i32);
+        if let Wrap::ClampToBorder(border) = sampler.wrap {
+            gl.sampler_parameter_f32_slice(name, glow::TEXTURE_BORDER_COLOR, &border.color());
+        }
         if let Some(compare) = sampler.compare {
             gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE as i32);
             gl.sampler_parameter_i32(name, glow::TEXTURE_COMPARE_FUNC, compare_code(compare) as i32);

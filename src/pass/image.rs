@@ -184,4 +184,22 @@ pub enum Filter {
 pub enum Wrap {
     Repeat,
     ClampToEdge,
+    /// Beyond [0, 1] lie texels whose components are all this [GL 4.6, 8.14.2].
+    ClampToBorder(Border),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Border {
+    Zero,
+    One,
+}
+
+impl Border {
+    /// GL_TEXTURE_BORDER_COLOR.
+    pub fn color(self) -> [f32; 4] {
+        match self {
+            Self::Zero => [0.0; 4],
+            Self::One => [1.0; 4],
+        }
+    }
 }

@@ -8,7 +8,9 @@ mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
-pub use image::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap};
+pub use image::{
+    Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
+};
 pub use meaning::{AlphaTest, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};

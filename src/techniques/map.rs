@@ -1,7 +1,7 @@
 //! A light's shadow map in numbers: what decides how far a picture may be from the truth. Lengths are in world units.
 
 use super::FrustumView;
-use super::projector::Projector;
+use super::projector::{Projector, Rays};
 use super::shadow_map::settings::Settings;
 use super::shadow_map::{bias, fit};
 use crate::pass::{DepthFormat, PolygonOffset};
@@ -55,11 +55,19 @@ impl MapInfo {
             levels: bias::levels(settings),
             format: settings.format,
             texel: bias::texel_at_one(&view.projector, settings),
-            reach_texels: fit::lookup_texels(settings),
+            reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
             bias: settings.bias,
             polygon: PolygonOffset { factor: 0.0, units: 0.0 },
             texels,
         }
+    }
+}
+
+/// The secant of the angle between the axis and the corner of the frustum; 1 of parallel light.
+fn slant(projector: &Projector) -> f64 {
+    match projector.rays {
+        Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
+        Rays::Along(_) => 1.0,
     }
 }
 

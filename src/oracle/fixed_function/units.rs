@@ -66,6 +66,7 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
     let wrap = match sampler.wrap {
         Wrap::Repeat => glow::REPEAT,
         Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
+        Wrap::ClampToBorder(_) => glow::CLAMP_TO_BORDER,
     };
     let (mode, function) = match sampler.compare {
         Some(compare) => (glow::COMPARE_REF_TO_TEXTURE, compare_code(compare)),
@@ -84,6 +85,10 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
     for (name, value) in parameters {
         // SAFETY: as above.
         unsafe { gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32) };
+    }
+    if let Wrap::ClampToBorder(border) = sampler.wrap {
+        // SAFETY: as above; four values are read.
+        unsafe { gl.tex_parameter_f32_slice(glow::TEXTURE_2D, glow::TEXTURE_BORDER_COLOR, &border.color()) };
     }
 }
 

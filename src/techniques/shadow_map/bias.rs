@@ -1,6 +1,6 @@
 //! How far a map and what is compared with it are held apart, so that no surface shades itself.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::settings::{Bias, Mipmaps, Offset, Settings};
 use crate::pass::{DepthFormat, Filter, PolygonOffset};
@@ -69,7 +69,13 @@ pub fn levels(settings: &Settings) -> u32 {
 
 /// The width of a texel, along its longer side, at a distance of 1 along the light's axis; of parallel light, anywhere.
 pub fn texel_at_one(projector: &Projector, settings: &Settings) -> f64 {
-    settings.crop.half().max_element() * projector.extent(1.0) / f64::from(settings.size)
+    texel_sides_at_one(projector, settings).max_element()
+}
+
+/// The same along both sides.
+pub fn texel_sides_at_one(projector: &Projector, settings: &Settings) -> DVec2 {
+    let clip = &projector.clip_from_light;
+    2.0 * settings.crop.half() / (DVec2::new(clip.x_axis.x, clip.y_axis.y) * f64::from(settings.size))
 }
 
 /// Light clip space with every point moved towards the light, along its ray, by `texels` widths of a texel where it

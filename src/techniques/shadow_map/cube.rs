@@ -20,7 +20,7 @@ use crate::pass::{
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
 use crate::techniques::guard::Guard;
-use crate::techniques::projector::Projector;
+use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, MapInfo, Notes};
 
@@ -212,7 +212,9 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
         set_up: settings.set_up,
         split: settings.split,
     });
-    term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler: sampler(settings) });
+    let rays = Rays::From { position: point.position, near: point.near };
+    let sampler = sampler(rays, settings);
+    term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
     term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
     term.defines.push(format!("CUBE_{index}"));
     if settings.kernel > 1 {

@@ -172,15 +172,18 @@ fn widened(needed: Crop, settings: &Settings) -> Crop {
 
 /// A rim that a lookup cannot reach across, in texels, with one for the rounding of positions.
 pub fn rim_texels(settings: &Settings) -> f64 {
-    lookup_texels(settings) + 1.0
+    lookup_texels(settings, 1.0) + 1.0
 }
 
 /// How far a lookup reaches from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as
 /// wide ones of a second level.
-pub fn lookup_texels(settings: &Settings) -> f64 {
+///
+/// A normal offset moves a point by up to √2 times the kernel's and filter's reach, and its place in the map by no more
+/// than that times `slant`, the secant of the greatest angle between the light's rays and its axis.
+pub fn lookup_texels(settings: &Settings, slant: f64) -> f64 {
     let mut texels = bias::reach_texels(settings);
     if settings.bias == Bias::NormalOffset {
-        texels *= 1.0 + std::f64::consts::SQRT_2;
+        texels *= 1.0 + std::f64::consts::SQRT_2 * slant;
     }
     if settings.mipmaps != Mipmaps::None {
         texels *= 2.0;

@@ -7,7 +7,7 @@ use super::fit::Crop;
 use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
 use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
-use crate::pass::{Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
+use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 use crate::techniques::projector::Rays;
 use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
@@ -18,7 +18,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     let clamped = settings.format == DepthFormat::Depth32F;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
     term.meaning = Shade::Texture { input: name.clone().into(), clamped };
-    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(settings) });
+    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) });
     if clamped {
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
@@ -59,14 +59,21 @@ fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
     }
 }
 
-pub fn sampler(settings: &Settings) -> Sampler {
-    let compare = match settings.order {
-        Order::LessEqual => Compare::LessEqual,
-        Order::GreaterEqual => Compare::GreaterEqual,
+/// How the map of such rays is sampled. Beyond the box of parallel light nothing is shadowed, whatever its outermost
+/// texels hold: there the map goes on with what it is cleared to. Beyond a frustum no light falls, and what lies there
+/// is best guessed from the texel beside it.
+pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
+    let (compare, farthest) = match settings.order {
+        Order::LessEqual => (Compare::LessEqual, Border::One),
+        Order::GreaterEqual => (Compare::GreaterEqual, Border::Zero),
+    };
+    let wrap = match rays {
+        Rays::From { .. } => Wrap::ClampToEdge,
+        Rays::Along(_) => Wrap::ClampToBorder(farthest),
     };
     // Where the shader weighs the texels itself, it asks for them one by one.
     let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
-    let plain = Sampler { filter, wrap: Wrap::ClampToEdge, compare: Some(compare), lod_halves: None };
+    let plain = Sampler { filter, wrap, compare: Some(compare), lod_halves: None };
     match settings.mipmaps {
         Mipmaps::None => plain,
         Mipmaps::All => Sampler { filter: Filter::Trilinear, ..plain },
@@ -86,6 +93,9 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
     term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
     term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
+    if let Rays::Along(_) = view.projector.rays {
+        term.defines.push(format!("PARALLEL_{index}"));
+    }
     let towards_light = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
     match settings.bias {
         Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
@@ -108,17 +118,15 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
             let texture_from_light = texture * light_clip;
             if let Rays::Along(_) = view.projector.rays {
                 let light_from_texture = texture_from_light.inverse().as_mat4();
-                term.defines.push(format!("PARALLEL_{index}"));
                 term.uniforms.push(Uniform::of_light("light_from_texture", index, light_from_texture));
             } else {
                 let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
                 let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
                 term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
             }
-            let radius =
-                std::f64::consts::SQRT_2 * bias::reach_texels(settings) * bias::texel_at_one(&view.projector, settings);
+            let reach = bias::reach_texels(settings) * bias::texel_sides_at_one(&view.projector, settings);
             term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light.as_mat4()));
-            term.uniforms.push(of_light("offset_radius", radius as f32));
+            term.uniforms.push(Uniform::of_light("offset_reach", index, reach.as_vec2()));
         }
     }
     if settings.bias != Bias::Offset {
