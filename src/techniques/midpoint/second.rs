@@ -204,12 +204,7 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
 
 impl<'a> Drawn<'a> {
     /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
-    fn share<'r>(
-        &mut self,
-        item: &'a Item,
-        own: &Rectangle,
-        others: impl Iterator<Item = &'r Rectangle>,
-    ) -> Rectangle {
+    fn share<'r>(&mut self, item: &'a Item, own: &Rectangle, others: impl Iterator<Item = &'r Rectangle>) -> Rectangle {
         let parts: Vec<Rectangle> = others.map(|other| own.within(*other)).filter(|part| part.area() > 0).collect();
         let together = parts.iter().fold(Rectangle::NOTHING, |sum, part| sum.with(*part));
         let triangles = item.indices.len() / 3 * parts.len();

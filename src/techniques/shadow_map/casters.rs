@@ -74,9 +74,8 @@ pub fn warn_of_near(view: &FrustumView<'_>, casters: &[&Item], notes: &mut Notes
     let Rays::From { near, position } = view.projector.rays else { return };
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let is_seen = |item: &Item| {
-        frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside
-    };
+    let is_seen =
+        |item: &Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     let before: Vec<&Item> = casters.iter().copied().filter(|item| is_before_near(view, item)).collect();
     let shaded = |item: &Item| {
         before.iter().copied().find(|caster| !std::ptr::eq(*caster, item) && may_shade(caster, item, position))
