@@ -1,9 +1,10 @@
-// GL_ALPHA_TEST with GL_GEQUAL 0.5: holes in surfaces and, in the map, in their shadows.
+// GL_ALPHA_TEST with GL_GEQUAL 0.5: holes in surfaces and, in the map, in their shadows. Of level 0 alone, so that they
+// are the same from everywhere.
 in vec2 st;
 
 uniform float opacity;
 #ifdef DECAL_ALPHA
-uniform sampler2D decal_map;
+uniform sampler2D decal_alpha_map;
 #endif
 #ifdef ALPHA_MAP
 uniform sampler2D alpha_map;
@@ -13,7 +14,7 @@ void alpha_test()
 {
     float alpha = opacity;
 #ifdef DECAL_ALPHA
-    alpha *= texture(decal_map, st).a;
+    alpha *= texture(decal_alpha_map, st).a;
 #endif
 #ifdef ALPHA_MAP
     alpha *= texture(alpha_map, st).ALPHA_MAP;

@@ -17,6 +17,10 @@ void main()
     alpha_test();
 #endif
     float own = gl_FragCoord.z;
+#ifdef CLAMPED
+    // As the depth test has it, which comes later [GL 4.6, 17.3.4].
+    own = clamp(own, 0.0, 1.0);
+#endif
     float first = texelFetch(nearest, ivec2(gl_FragCoord.xy), 0).r;
 #ifdef COMPARE
     // The document's way: by the texture unit.

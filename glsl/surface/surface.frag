@@ -8,9 +8,7 @@ in vec3 eye_normal;
 #ifndef ALPHA_TEST
 in vec2 st;
 #endif
-#ifndef DECAL_ALPHA
 uniform sampler2D decal_map;
-#endif
 #endif
 
 out vec4 fragment;

@@ -35,15 +35,49 @@ pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     }
     match inside {
         true => Overlap::Inside,
-        false if beyond_a_face(clip_from_box, bounds) => Overlap::Outside,
+        false if beyond_a_face(&volume_of(clip_from_box), bounds) => Overlap::Outside,
         false => Overlap::Partial,
     }
 }
 
-/// Whether the whole clip volume lies beyond one face of the box: what the clip planes alone do not see of large boxes.
-fn beyond_a_face(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
+/// As [`overlap`] under GL_DEPTH_CLAMP, where no near and no far plane clips: whether something of the box may be drawn.
+pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
+    if bounds.is_empty() {
+        return false;
+    }
+    if *bounds == Aabb::EVERYTHING {
+        return true;
+    }
+    let corners = bounds.corners().map(|corner| *clip_from_box * corner.extend(1.0));
+    // Where the sides meet, and behind that, is what w alone tells [GL 4.6, 13.7].
+    corners.iter().any(|corner| corner.w >= -slack(corner))
+        && (0..4).all(|plane| corners.iter().any(|corner| signed_distance(corner, plane) >= -slack(corner)))
+}
+
+/// Whether something of the box may lie within the sides of a perspective volume before its near plane: what
+/// GL_DEPTH_CLAMP draws at the near plane's depth, and clipping would leave out.
+pub fn may_be_before_near(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
+    let before = |corner: DVec3| {
+        let clip = *clip_from_box * corner.extend(1.0);
+        clip.z + clip.w < slack(&clip)
+    };
+    if !may_show_clamped(clip_from_box, bounds) || !bounds.corners().into_iter().any(before) {
+        return false;
+    }
+    // The tip of the pyramid, where x, y and w are 0, and the square that the near plane cuts it off by.
     let box_from_clip = clip_from_box.inverse();
-    let volume = Aabb::from_points(corners(&box_from_clip));
+    let tip = box_from_clip.z_axis.truncate() / box_from_clip.z_axis.w;
+    !beyond_a_face(&Aabb::from_points(corners(&box_from_clip).into_iter().take(4).chain([tip])), bounds)
+}
+
+/// The box, in the box's space, around the whole clip volume.
+fn volume_of(clip_from_box: &DMat4) -> Aabb {
+    Aabb::from_points(corners(&clip_from_box.inverse()))
+}
+
+/// Whether all of a clip volume, of which `volume` is the box in the box's own space, lies beyond one face of the box:
+/// what the clip planes alone do not see of large boxes.
+fn beyond_a_face(volume: &Aabb, bounds: &Aabb) -> bool {
     if !(volume.min.is_finite() && volume.max.is_finite()) {
         return false;
     }

@@ -26,7 +26,7 @@ pub enum Meaning {
     Shader(&'static str),
 }
 
-/// A surface's own textures: the inputs `decal_map` and `alpha_map`, where the batch has them.
+/// A surface's own textures: the inputs `decal_map`, `decal_alpha_map` and `alpha_map`, where the batch has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texturing {
     /// Generates (s, t) from the position in model space, in place of the mesh's coordinates.

@@ -42,16 +42,22 @@ fn keep_all(plan: &mut Plan) {
     plan.left_out.clear();
 }
 
-/// Draws whose bounds lie beyond one of the pass's clip planes.
+/// Draws whose bounds lie beyond one of the pass's clip planes: its sides alone where depth is clamped, unless a clip
+/// distance stands in for the near plane.
 fn cull_draws(plan: &mut Plan) {
     let left_out = &mut plan.left_out;
     for pass in &mut plan.list.passes {
         let label = pass.label.clone();
         let Work::Draw(draw_pass) = &mut pass.work else { continue };
+        let has_no_ends = draw_pass.state.depth_clamp && draw_pass.state.clip_distances == 0;
         for batch in &mut draw_pass.batches {
-            let culls = batch.cull.is_some();
+            // Of depth alone, faces are left out by a key of the scene.
+            let culls = batch.cull.is_some() && draw_pass.state.color_write;
             batch.draws.retain(|draw| {
-                let seen = frustum::overlap(&draw.clip_from_model, &draw.bounds) != Overlap::Outside;
+                let seen = match has_no_ends {
+                    true => frustum::may_show_clamped(&draw.clip_from_model, &draw.bounds),
+                    false => frustum::overlap(&draw.clip_from_model, &draw.bounds) != Overlap::Outside,
+                };
                 if !seen {
                     left_out.push(LeftOut {
                         what: format!("{} in \"{label}\"", draw.label),

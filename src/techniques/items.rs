@@ -157,6 +157,11 @@ pub struct Cutout {
 pub const DECAL_SAMPLER: Sampler =
     Sampler { filter: Filter::Trilinear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
 
+/// What the alpha test asks is the texture itself, level 0, in every pass: averages of smaller levels would close or open
+/// all holes at once where they are small, at another size for the eye than for the light.
+pub const ALPHA_SAMPLER: Sampler =
+    Sampler { filter: Filter::Linear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
+
 /// The alpha test of `item`, and texture coordinates where it or (with `decal`) the lit pass needs them.
 pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
     let material = &item.material;
@@ -189,15 +194,16 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
         out.fragment.push(glsl!("common/alpha_test.frag"));
         out.uniforms.push(Uniform::new("opacity", material.opacity));
     }
-    if let Some(texture) = item.decal().filter(|_| item.decal_alpha() || decal.is_some()) {
-        if item.decal_alpha() {
-            out.defines.push(("DECAL_ALPHA".into(), String::new()));
-        }
+    if let Some(texture) = decal {
         out.inputs.push(upload("decal_map", texture, DECAL_SAMPLER, list));
+    }
+    if let Some(texture) = item.decal().filter(|_| item.decal_alpha()) {
+        out.defines.push(("DECAL_ALPHA".into(), String::new()));
+        out.inputs.push(upload("decal_alpha_map", texture, ALPHA_SAMPLER, list));
     }
     if let Some(texture) = alpha_map {
         out.defines.push(("ALPHA_MAP".into(), String::from(if texture.has_alpha { "a" } else { "r" })));
-        out.inputs.push(upload("alpha_map", texture, DECAL_SAMPLER, list));
+        out.inputs.push(upload("alpha_map", texture, ALPHA_SAMPLER, list));
     }
     out
 }

@@ -54,11 +54,11 @@ impl<'a> Stack<'a> {
     pub fn surface(&mut self, texturing: &Texturing, decal: bool, tested: bool) -> Result<(), String> {
         let coordinates = texturing.object_linear.map_or(Coordinates::Mesh, Coordinates::ObjectLinear);
         let test = texturing.alpha_test.as_ref().filter(|_| tested);
-        let decal_alpha = test.is_some_and(|test| test.decal);
-        if decal || decal_alpha {
-            let rgb = if decal { BY_TEXTURE } else { KEPT };
-            let alpha = if decal_alpha { BY_TEXTURE } else { KEPT };
-            self.push(self.input("decal_map")?, coordinates.clone(), rgb, alpha);
+        if decal {
+            self.push(self.input("decal_map")?, coordinates.clone(), BY_TEXTURE, KEPT);
+        }
+        if test.is_some_and(|test| test.decal) {
+            self.push(self.input("decal_alpha_map")?, coordinates.clone(), KEPT, BY_TEXTURE);
         }
         if let (Some(test), Ok(UnitImage::Input { index, .. })) = (test, self.input("alpha_map")) {
             let image = UnitImage::Input { index, red_as_alpha: test.map_in_red };

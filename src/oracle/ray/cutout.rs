@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::geometry::{Material, Texture};
+use crate::geometry::{Material, ObjectLinear, Texture};
 
 /// GL filters RGBA8 with weights of at least 8 bits and rounds nothing else: 1/256 of the texels' range a direction.
 const FILTER_ERROR: f64 = 2.0 / 256.0;
@@ -46,11 +46,14 @@ pub(super) struct Cutout {
     opacity: f64,
     /// A texture and the channel of it that counts.
     textures: Vec<(Arc<Texture>, usize)>,
+    /// In place of the mesh's own coordinates.
+    texgen: Option<ObjectLinear>,
 }
 
 impl Cutout {
-    /// `None`: no fragment of this material can fail the test. Textures need `has_texcoords`.
+    /// `None`: no fragment of this material can fail the test. Textures need `has_texcoords`, or planes of the material's.
     pub fn new(material: &Material, has_texcoords: bool) -> Option<Self> {
+        let has_texcoords = has_texcoords || material.texgen.is_some();
         let mut textures = Vec::new();
         if let Some(decal) = material.decal.as_ref().filter(|decal| has_texcoords && decal.has_alpha) {
             textures.push((decal.clone(), 3));
@@ -60,7 +63,18 @@ impl Cutout {
         }
         textures.retain(|(texture, _)| is_whole(texture));
         let opacity = f64::from(material.opacity);
-        (opacity < 0.5 || !textures.is_empty()).then_some(Self { opacity, textures })
+        (opacity < 0.5 || !textures.is_empty()).then_some(Self { opacity, textures, texgen: material.texgen })
+    }
+
+    /// The coordinates at a vertex, by its place in the mesh before any wave moves it; `None`: the mesh's own.
+    pub fn texcoord_at(&self, position: [f32; 3]) -> Option<DVec2> {
+        let texgen = self.texgen.as_ref()?;
+        let [x, y, z] = position.map(f64::from);
+        let on = |plane: [f32; 4]| {
+            let [a, b, c, d] = plane.map(f64::from);
+            a * x + b * y + c * z + d
+        };
+        Some(f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t)))
     }
 
     /// Over the box of texture coordinates `middle ± reach`.

@@ -105,14 +105,6 @@ impl Lamp {
         }
     }
 
-    /// The fraction of the way from the light to the point before which blockers do not count.
-    pub fn start(&self, point: DVec3) -> f64 {
-        match &self.shape {
-            Shape::Spot { near, .. } | Shape::Cube { near, .. } => (near / self.depth(point)).clamp(0.0, 1.0),
-            Shape::Square { .. } => 0.0,
-        }
-    }
-
     /// The distance along the light's axis (a point light's: along the nearest coordinate axis); 1 for parallel light.
     pub fn depth_at(&self, point: DVec3) -> f64 {
         match &self.shape {

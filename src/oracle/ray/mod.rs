@@ -9,8 +9,9 @@
 //! for sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose
 //! visible side is turned away from the light is in its own shadow. The light lights what its shape holds: a point
 //! outside the cone (or the square frustum), nearer than its near plane or beyond its far plane along its axis is
-//! [`Answer::OutsideCone`]; a blocker nearer than the near plane does not cast. A point light's planes are the six of a
-//! cube around it; a directional light has none, and its rays are parallel: no far place stands in for infinity.
+//! [`Answer::OutsideCone`]. Blockers count from the light on: those planes are of the maps that are drawn of it, not of its
+//! rays. A point light's planes are the six of a cube around it; a directional light has none, and its rays are parallel:
+//! no far place stands in for infinity.
 //!
 //! # When it does not answer
 //! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off

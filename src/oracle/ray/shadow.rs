@@ -55,7 +55,7 @@ impl Tracer<'_> {
             surface_spread: seen.spread,
             error,
             depth_error: error,
-            start: self.lamp.start(seen.position),
+            start: 0.0,
             levers: true,
         };
         let direction = beam.axis();
@@ -108,12 +108,13 @@ impl Tracer<'_> {
         Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
     }
 
-    /// Whether the triangle may cut the beam off at one of its ends. A triangle that shares a corner with the visible
+    /// Whether the triangle may cut the beam off at one of its ends: at the light, to which it may come as near as it
+    /// likes, within the error of both it may stand on either side. A triangle that shares a corner with the visible
     /// one is the same surface: within the error of the point, and without a fold between, it cannot be in the way.
     fn doubt_depth(&self, meeting: &Meeting, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<Reason> {
         match (meeting.at_base, meeting.at_start) {
             (Side::Near, _) if !seen.triangle.touches(triangle) => Some(Reason::Contact),
-            (Side::Before | Side::Near, Side::Near) => Some(Reason::ClipPlane),
+            (Side::Before | Side::Near, Side::Near) => Some(Reason::Contact),
             _ => None,
         }
     }

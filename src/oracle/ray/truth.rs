@@ -44,7 +44,7 @@ pub enum Reason {
     DepthTie,
     /// The surface is seen edge-on.
     GrazingView,
-    /// The surface meets the camera's or the light's near or far plane, or a blocker meets the light's near plane.
+    /// The surface meets the camera's or the light's near or far plane.
     ClipPlane,
     /// The point lies on the light's cone or on a side of its frustum.
     ConeEdge,
@@ -52,7 +52,7 @@ pub enum Reason {
     GrazingLight,
     /// The shadow ray passes a silhouette or an open edge.
     ShadowEdge,
-    /// Another, unconnected surface touches the visible point.
+    /// Another, unconnected surface touches the visible point, or a blocker the light.
     Contact,
     /// A texture's alpha is near 0.5 where a ray crosses it.
     AlphaTest,

@@ -244,19 +244,23 @@ impl Triangle<'_> {
         let Some(cutout) = self.cutout() else { return Alpha::OPAQUE };
         let at = self.texcoord(middle);
         let reach = around.iter().fold(DVec2::ZERO, |reach, &point| reach.max((self.texcoord(point) - at).abs()));
-        cutout.alpha(at, reach)
+        // GL interpolates what the corners have, in f32: a few roundings of the largest.
+        let largest = self.corners.iter().map(|&corner| self.texcoord(corner).abs().max_element()).fold(0.0, f64::max);
+        cutout.alpha(at, reach + 4.0 * f64::from(f32::EPSILON) * largest)
     }
 
     fn texcoord(&self, point: DVec3) -> DVec2 {
-        let Some(texcoords) = &self.solid.mesh.texcoords else { return DVec2::ZERO };
         let [a, b, c] = self.corners;
         let area = (b - a).cross(c - a);
         let scale = area.length_squared().recip();
         let v = (point - a).cross(c - a).dot(area) * scale;
         let w = (b - a).cross(point - a).dot(area) * scale;
         let [ta, tb, tc] = self.solid.corners(self.index).map(|corner| {
-            let texcoord = texcoords.get(corner as usize).copied().unwrap_or_default();
-            DVec2::from_array(texcoord.map(f64::from))
+            let mesh = self.solid.mesh;
+            let at = mesh.positions.get(corner as usize).copied().unwrap_or_default();
+            let own = || mesh.texcoords.as_ref()?.get(corner as usize).copied();
+            let generated = self.cutout().and_then(|cutout| cutout.texcoord_at(at));
+            generated.unwrap_or_else(|| DVec2::from_array(own().unwrap_or_default().map(f64::from)))
         });
         ta + v * (tb - ta) + w * (tc - ta)
     }

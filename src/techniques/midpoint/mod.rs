@@ -11,7 +11,10 @@
 //!   lies behind itself. That is moved towards the light by two codes of the format, which no rounding reaches;
 //!   float maps keep the fragment's own bits. Both passes compute positions by the same arithmetic.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
-//!   `tests/layers.rs`) and costs nothing, so it is taken wherever the scene allows it.
+//!   `tests/layers.rs`) and costs nothing. It is right where all that can be shadowed is a layer, so that the second one
+//!   has what casts no shadow too, and both are drawn under GL_DEPTH_CLAMP where something lies beyond the far plane:
+//!   it is then a second layer at depth 1. What casts nothing is never a first layer: before the nearest caster it is
+//!   peeled away with it, and lit.
 //! - A caster that a plain map leaves out because nothing that it shadows is seen may be the second layer of one that
 //!   it does not: see [`second::needed`].
 
@@ -19,13 +22,14 @@ mod second;
 mod settings;
 mod single;
 
+use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::shadow_map::casters::in_frustum;
+use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias};
-use super::{Axis, FrustumView, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
@@ -103,22 +107,28 @@ impl Technique for Midpoint {
         let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         };
-        let mut casters = in_frustum(view, notes);
+        let mut layers = second::layers(view, notes);
         if !view.shown_whole && !view.keep_all {
-            casters = second::needed(view, casters, &settings.map, notes);
+            layers.casters = second::needed(view, layers.casters, &settings.map, notes);
         }
-        if casters.is_empty() && !view.keep_all {
+        if layers.casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         }
-        let single = settings.single.unwrap_or_else(|| needed(view));
-        let shared = second::shared_texels(view, &casters, &settings.map);
-        let mut draw = |name, image, ending, offset, shared_alone| {
-            let layer = Layer { ending, ..Layer::plain(name, image, offset, &casters) };
+        let single = settings.single.unwrap_or(Single::Far);
+        let shared = second::shared_texels(view, &layers, &settings.map);
+        let clamped = is_clamped(view, &layers);
+        note_chosen(view, &layers, notes);
+        let mut draw = |name, image, ending: Option<Ending>, offset, shared_alone| {
+            let is_second = ending.is_some();
+            let receivers: &[&Item] = if is_second { &layers.receivers } else { &[] };
+            let layer = Layer { ending, clamped, receivers, ..Layer::plain(name, image, offset, &layers.casters) };
             let layer = match shared_alone && !view.keep_all {
                 true => Layer {
                     scissor: Some(shared.scissor),
-                    casters: &shared.casters,
-                    in_parts: &shared.in_parts,
+                    casters: &shared.casters.whole,
+                    in_parts: &shared.casters.in_parts,
+                    receivers: if is_second { &shared.receivers.whole } else { &[] },
+                    receivers_in_parts: if is_second { &shared.receivers.in_parts } else { &[] },
                     ..layer
                 },
                 false => layer,
@@ -127,7 +137,7 @@ impl Technique for Midpoint {
         };
         // Without a second layer beside it, the nearest one is asked for only to be stored itself.
         let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, single != Single::First);
-        let peel = peel(view, nearest, &settings);
+        let peel = peel(view, nearest, clamped, &settings);
         let midpoint = draw("midpoint", "midpoint map", Some(peel), NO_OFFSET, true);
         let first = match single {
             Single::Far => None,
@@ -172,19 +182,28 @@ fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
 
 const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
 
-/// What texels with one layer alone must store. Behind a layer that is the last in the map only what is not drawn into
-/// the map can be shadowed: what does not cast, and what lies beyond the light's far plane.
-fn needed(view: &FrustumView<'_>) -> Single {
-    let clip_from_world = view.clip_from_world();
-    let all_is_drawn = view.items.iter().all(|item| {
-        let corners = item.bounds.corners().map(|corner| clip_from_world * item.world_from_model * corner.extend(1.0));
-        item.casts_shadow && corners.iter().all(|clip| clip.z <= clip.w)
-    });
-    if all_is_drawn { Single::Far } else { Single::FirstOffset }
+/// Whether both layers are drawn under GL_DEPTH_CLAMP: the same for both, whose depths must be equal to the bit.
+fn is_clamped(view: &FrustumView<'_>, layers: &Layers<'_>) -> bool {
+    layers.beyond_far.is_some() || layers.casters.iter().any(|item| is_before_near(view, item))
+}
+
+/// What stands in the second layer beside the casters.
+fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
+    if let Some(name) = &layers.beyond_far {
+        let why = format!("{name} reaches beyond the far plane: it is a second layer at depth 1");
+        notes.chosen(format!("both layers of light {}'s map", view.index), "GL_DEPTH_CLAMP", why);
+    }
+    let mut names: Vec<&str> = layers.receivers.iter().map(|item| item.label.as_str()).collect();
+    names.dedup();
+    if !names.is_empty() {
+        let of = format!("the second layer of light {}'s map", view.index);
+        let why = "they cast nothing, but are shadowed: the middle lies before them";
+        notes.chosen(of, format!("with {}", names.join(", ")), why);
+    }
 }
 
 /// How the second pass ends its fragments.
-fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending {
+fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Settings) -> Ending {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),
@@ -200,6 +219,9 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, settings: &Settings) -> Ending
         uniforms: vec![Uniform::new("margin", sign * margin(settings.map.format))],
         inputs: vec![input("nearest", None)],
     };
+    if clamped {
+        ending.defines.push("CLAMPED");
+    }
     if settings.map.order == Order::GreaterEqual {
         ending.defines.push("REVERSED");
     }

@@ -1,12 +1,12 @@
-//! Which casters and which texels of the map may have a second layer: what its passes draw, and are scissored to. From
-//! bounding boxes.
+//! What is drawn into both layers of the map and what into the second alone, and which texels may have a second layer: what
+//! the passes draw, and are scissored to. From bounding boxes.
 
 use glam::{DMat4, DVec3};
 
 use crate::geometry::volume;
-use crate::math::Aabb;
+use crate::math::{Aabb, frustum};
 use crate::techniques::projector::Rays;
-use crate::techniques::shadow_map::casters::{in_the_map, reach};
+use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach, warn_of_near};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
 use crate::techniques::unseen::Unseen;
@@ -45,10 +45,56 @@ impl Rectangle {
 pub struct Shared<'a> {
     /// Left, bottom, width and height of all such texels; zeros where there are none.
     pub scissor: [u32; 4],
-    /// Casters that are drawn under it.
-    pub casters: Vec<&'a Item>,
-    /// Flat ones, each under the scissors of the other casters: the large floor that many small things stand on.
+    pub casters: Drawn<'a>,
+    pub receivers: Drawn<'a>,
+}
+
+/// What is drawn there.
+#[derive(Default)]
+pub struct Drawn<'a> {
+    /// Under the scissor of all such texels.
+    pub whole: Vec<&'a Item>,
+    /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
+    /// on.
     pub in_parts: Vec<InParts<'a>>,
+}
+
+/// What the two layers are made of.
+pub struct Layers<'a> {
+    /// Drawn into both.
+    pub casters: Vec<&'a Item>,
+    /// Drawn into the second alone, before which the middle must lie: what casts no shadow but may be shadowed, and what
+    /// lies beyond the light's far plane, where it is all of one depth.
+    pub receivers: Vec<&'a Item>,
+    /// Something lies beyond the far plane: its name. Without clipping it is a second layer at depth 1.
+    pub beyond_far: Option<String>,
+}
+
+/// Sorts out what the light meets.
+pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
+    let clip_from_world = view.clip_from_world();
+    let (mut casters, mut receivers, mut beyond_far) = (Vec::new(), Vec::new(), None);
+    for item in view.items {
+        let clip_from_model = clip_from_world * item.world_from_model;
+        if item.casts_shadow && (view.keep_all || may_cast(view, item)) {
+            casters.push(item);
+        } else if view.keep_all || frustum::may_show_clamped(&clip_from_model, &item.bounds) {
+            receivers.push(item);
+        } else {
+            let why = if item.casts_shadow { "outside the light's frustum" } else { "casts_shadow = false" };
+            notes.left_out(in_the_map(item, view), why);
+            continue;
+        }
+        let is_beyond = |corner: DVec3| {
+            let clip = clip_from_model * corner.extend(1.0);
+            clip.z >= clip.w && clip.w > 0.0
+        };
+        if beyond_far.is_none() && item.bounds.corners().into_iter().any(is_beyond) {
+            beyond_far = Some(item.label.clone());
+        }
+    }
+    warn_of_near(view, &casters, notes);
+    Layers { casters, receivers, beyond_far }
 }
 
 /// More triangles are not drawn again and again to spare texels.
@@ -69,9 +115,9 @@ pub fn needed<'a>(
     let unseen = Unseen::new(view, settings.size, reach(settings));
     let (unseen, seen): (Vec<&Item>, Vec<&Item>) = casters.iter().partition(|item| unseen.shadow_of(item));
     let seen: Vec<(&Item, Rectangle)> =
-        seen.into_iter().map(|item| (item, covered(item, &clip_from_world, settings))).collect();
+        seen.into_iter().map(|item| (item, covered(view, item, &clip_from_world, settings))).collect();
     let is_idle = |item: &Item| {
-        let own = covered(item, &clip_from_world, settings);
+        let own = covered(view, item, &clip_from_world, settings);
         let may_follow = |(first, covered): &(&Item, Rectangle)| {
             own.within(*covered).area() > 0 && !lies_before(item, first, &view.projector.rays)
         };
@@ -85,7 +131,11 @@ pub fn needed<'a>(
     casters.into_iter().filter(|item| !idle.iter().any(|other| std::ptr::eq(*other, *item))).collect()
 }
 
-fn covered(item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
+fn covered(view: &FrustumView<'_>, item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
+    // Near the light, a small thing is wide.
+    if is_before_near(view, item) {
+        return Rectangle([0, 0, settings.size, settings.size]);
+    }
     let scissor = volume::scissor(&corners(item), clip_from_world, [settings.size; 2]);
     scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle([x, y, x + width, y + height]))
 }
@@ -127,31 +177,43 @@ fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
 /// Finds the texels that two layers may share.
 ///
 /// A flat caster is one layer: it shares texels with others alone. (Triangles of one plane that cover one another count
-/// as one too: nothing lies between them, and what holds their depths apart is rounding.)
-pub fn shared_texels<'a>(view: &FrustumView<'_>, casters: &[&'a Item], settings: &Settings) -> Shared<'a> {
+/// as one too: nothing lies between them, and what holds their depths apart is rounding.) What casts nothing is never the
+/// first of two, and shares texels with casters alone.
+pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: &Settings) -> Shared<'a> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
-    let covered: Vec<Rectangle> = casters.iter().map(|item| covered(item, &clip_from_world, settings)).collect();
-    let mut shared = Shared { scissor: [0; 4], casters: Vec::new(), in_parts: Vec::new() };
+    let covered = |items: &[&'a Item]| -> Vec<Rectangle> {
+        items.iter().map(|item| covered(view, item, &clip_from_world, settings)).collect()
+    };
+    let (of_casters, of_receivers) = (covered(&layers.casters), covered(&layers.receivers));
+    let (mut casters, mut receivers) = (Drawn::default(), Drawn::default());
     let mut all = Rectangle::NOTHING;
-    for (index, (item, own)) in casters.iter().zip(&covered).enumerate() {
+    for (index, (item, own)) in layers.casters.iter().zip(&of_casters).enumerate() {
         if item.bounds.flat_axis().is_none() {
             all = all.with(*own);
-            shared.casters.push(item);
-            continue;
+            casters.whole.push(item);
+        } else {
+            let others = of_casters.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
+            all = all.with(casters.share(item, own, others.chain(&of_receivers)));
         }
-        let others = covered.iter().enumerate().filter(|(other, _)| *other != index);
-        let parts: Vec<Rectangle> =
-            others.map(|(_, other)| own.within(*other)).filter(|part| part.area() > 0).collect();
+    }
+    for (item, own) in layers.receivers.iter().zip(&of_receivers) {
+        all = all.with(receivers.share(item, own, of_casters.iter()));
+    }
+    Shared { scissor: all.scissor(), casters, receivers }
+}
+
+impl<'a> Drawn<'a> {
+    /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
+    fn share<'r>(&mut self, item: &'a Item, own: &Rectangle, others: impl Iterator<Item = &'r Rectangle>) -> Rectangle {
+        let parts: Vec<Rectangle> = others.map(|other| own.within(*other)).filter(|part| part.area() > 0).collect();
         let together = parts.iter().fold(Rectangle::NOTHING, |sum, part| sum.with(*part));
-        all = all.with(together);
         let triangles = item.indices.len() / 3 * parts.len();
         if triangles <= MOST_TRIANGLES && parts.iter().map(Rectangle::area).sum::<u64>() < together.area() {
             let scissors = parts.iter().map(Rectangle::scissor).collect();
-            shared.in_parts.push(InParts { item, scissors });
+            self.in_parts.push(InParts { item, scissors });
         } else if together.area() > 0 {
-            shared.casters.push(item);
+            self.whole.push(item);
         }
+        together
     }
-    shared.scissor = all.scissor();
-    shared
 }

@@ -18,7 +18,7 @@ pub enum Average {
 pub enum Single {
     /// That layer: it shades itself as a map without polygon offset does.
     First,
-    /// The far plane: it shades nothing. Right where all that can be seen behind a caster is drawn into the map too.
+    /// The far plane: it shades nothing. Right where all that can be seen behind a caster is a layer too, as it is here.
     Far,
     /// That layer under the polygon offset of an ordinary map.
     FirstOffset,
@@ -37,7 +37,7 @@ pub struct Settings {
     pub map: Map,
     pub average: Average,
     pub peel: Peel,
-    /// `None`: as the scene needs it.
+    /// `None`: [`Single::Far`].
     pub single: Option<Single>,
 }
 

@@ -1,6 +1,6 @@
 //! Which of the scene's items are drawn into a light's map.
 
-use glam::{DMat4, DVec4};
+use glam::DVec3;
 
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
@@ -36,42 +36,72 @@ pub fn reach(settings: &Settings) -> f64 {
     }
 }
 
-/// The items that can stand in the light's way inside its frustum.
+/// The items that can stand in the light's way inside its frustum's sides, up to its far plane.
 pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
-    let clip_from_world = view.clip_from_world();
     let mut casters = Vec::new();
     for item in view.items {
-        let clip_from_model = clip_from_world * item.world_from_model;
         if !item.casts_shadow {
             notes.left_out(in_the_map(item, view), "casts_shadow = false");
-        } else if !view.keep_all && frustum::overlap(&clip_from_model, &item.bounds) == Overlap::Outside {
+        } else if !view.keep_all && !may_cast(view, item) {
             notes.left_out(in_the_map(item, view), "outside the light's frustum");
         } else {
-            warn_of_near(view, item, notes);
             casters.push(item);
         }
     }
+    warn_of_near(view, &casters, notes);
     casters
+}
+
+/// Whether some of the item may lie in the light's frustum, or between it and the light.
+pub fn may_cast(view: &FrustumView<'_>, item: &Item) -> bool {
+    let clip_from_model = view.clip_from_world() * item.world_from_model;
+    frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
+}
+
+/// Whether some of the item may lie between the light and its near plane. Parallel light has none.
+pub fn is_before_near(view: &FrustumView<'_>, item: &Item) -> bool {
+    let Rays::From { .. } = view.projector.rays else { return false };
+    frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)
 }
 
 pub fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
     format!("{} in the map of light {}", item.label, view.index)
 }
 
-/// A caster between the light and its near plane casts no shadow from what is cut off: say so. Parallel light has none.
-pub fn warn_of_near(view: &FrustumView<'_>, item: &Item, notes: &mut Notes) {
-    let Rays::From { near, .. } = view.projector.rays else { return };
-    // The pyramid's tip, by the map's own sides.
-    let clip = view.projector.clip_from_light;
-    let tip = DMat4::from_cols(clip.x_axis, clip.y_axis, DVec4::new(0.0, 0.0, -1.002, -1.0), DVec4::Z * -2e-3 * near);
-    let clip_from_model = tip * view.projector.light_from_world * item.world_from_model;
-    if frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside {
-        let warning = format!(
-            "{} may come nearer to light {} than its near plane at {near}: what lies before that plane casts no shadow",
-            item.label, view.index,
-        );
-        if !notes.warnings.contains(&warning) {
-            notes.warnings.push(warning);
-        }
+/// Before its near plane a map has one depth alone: what casts there shadows all that lies beyond the plane, and nothing
+/// before it. Says so where something seen may lie there, behind something else.
+pub fn warn_of_near(view: &FrustumView<'_>, casters: &[&Item], notes: &mut Notes) {
+    let Rays::From { near, position } = view.projector.rays else { return };
+    let camera = &view.scene.camera;
+    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let is_seen =
+        |item: &Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let before: Vec<&Item> = casters.iter().copied().filter(|item| is_before_near(view, item)).collect();
+    let shaded = |item: &Item| {
+        before.iter().copied().find(|caster| !std::ptr::eq(*caster, item) && may_shade(caster, item, position))
+    };
+    let seen = view.items.iter().filter(|item| !before.is_empty() && is_seen(item) && is_before_near(view, item));
+    let Some((item, caster)) = seen.filter_map(|item| Some((item, shaded(item)?))).next() else { return };
+    let of = format!("the near plane of light {} at {near}: ", view.index);
+    // One is enough of each light, whose cube has six such planes.
+    if !notes.warnings.iter().any(|warning| warning.starts_with(&of)) {
+        let both = format!("{} and {}", caster.label, item.label);
+        notes.warnings.push(format!("{of}{both} may both come nearer to the light, and no shadow falls there"));
     }
+}
+
+/// Whether a ray from the light may meet `item` behind `caster`: by the balls around their boxes.
+fn may_shade(caster: &Item, item: &Item, position: DVec3) -> bool {
+    let ball = |item: &Item| {
+        let bounds = item.bounds.transformed(&item.world_from_model);
+        (0.5 * (bounds.min + bounds.max) - position, bounds.radius())
+    };
+    let ((first, first_radius), (second, second_radius)) = (ball(caster), ball(item));
+    let (near, far) = (first.length(), second.length());
+    if near <= first_radius || far <= second_radius {
+        return true;
+    }
+    let apart = first.angle_between(second);
+    near - first_radius < far + second_radius
+        && apart <= (first_radius / near).min(1.0).asin() + (second_radius / far).min(1.0).asin()
 }

@@ -7,7 +7,7 @@
 use glam::{DMat4, DVec3, Vec2};
 
 use super::bias;
-use super::casters::{in_the_map, warn_of_near};
+use super::casters::{in_the_map, may_cast, warn_of_near};
 use super::depth::{self, Layer};
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
@@ -94,12 +94,9 @@ fn needed<'a>(
 ) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Item>)> {
     let face_view = seen_from(view, point, face);
     let what = format!("face {} of the map of light {}", face.name(), view.index);
-    let clip_from_world = face_view.clip_from_world();
-    let holds = |item: &&&Item| {
-        view.keep_all || frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
-    };
+    let holds = |item: &&&Item| view.keep_all || may_cast(&face_view, item);
     let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
-    casters.iter().for_each(|item| warn_of_near(&face_view, item, notes));
+    warn_of_near(&face_view, &inside, notes);
     if inside.is_empty() {
         notes.left_out(what, "no caster that matters stands in it");
         return None;
@@ -157,7 +154,8 @@ fn draw(
     notes: &mut Notes,
 ) -> ImageId {
     let index = view.index;
-    let (state, cleared) = depth::state(settings, bias::offset(settings).polygon);
+    let offset = bias::offset(settings).polygon;
+    let (_, cleared) = depth::state(settings, offset, false);
     let drawn = CubeFace::ALL.map(|face| faces.iter().any(|(other, ..)| *other == face));
     let map = list.image(depth::desc(view, "map", settings, Storage::Cube(Cube { drawn, rest: cleared })));
     let buffer = (settings.transfer == Transfer::Copy)
@@ -168,7 +166,9 @@ fn draw(
             if settings.simplified { texel::simplified(face_view, casters, settings, notes) } else { Vec::new() };
         let fewer: Vec<&Item> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
-        let layer = Layer::plain("depth", "map", bias::offset(settings).polygon, casters);
+        let layer = Layer::plain("depth", "map", offset, casters);
+        let clamped = depth::is_clamped(face_view, &layer, &format!("face {}", face.name()), notes);
+        let (state, _) = depth::state(settings, offset, clamped);
         let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {

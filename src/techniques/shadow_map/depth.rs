@@ -3,6 +3,7 @@
 use glam::DMat4;
 
 use super::bias;
+use super::casters::is_before_near;
 use super::settings::{Order, Settings, Transfer};
 use super::term::raster_from_clip;
 use crate::pass::{
@@ -10,7 +11,8 @@ use crate::pass::{
     PolygonOffset, Storage, Target, Uniform, Work,
 };
 use crate::techniques::items::depth_batches;
-use crate::techniques::{FrustumView, Item, LightView, Notes};
+use crate::techniques::projector::Rays;
+use crate::techniques::{Chosen, FrustumView, Item, LightView, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
@@ -22,17 +24,33 @@ pub struct Layer<'a> {
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
+    /// Whether depth is clamped even where no caster comes before the near plane.
+    pub clamped: bool,
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
     pub casters: &'a [&'a Item],
     /// Casters that are drawn in parts of these texels alone, once in each.
     pub in_parts: &'a [InParts<'a>],
+    /// Drawn after them, both faces whatever the map leaves out: what casts nothing.
+    pub receivers: &'a [&'a Item],
+    pub receivers_in_parts: &'a [InParts<'a>],
 }
 
 impl<'a> Layer<'a> {
     /// The depth of `casters`, all over the map.
     pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Item]) -> Self {
-        Self { name, image, ending: None, offset, scissor: None, casters, in_parts: &[] }
+        Self {
+            name,
+            image,
+            ending: None,
+            offset,
+            clamped: false,
+            scissor: None,
+            casters,
+            in_parts: &[],
+            receivers: &[],
+            receivers_in_parts: &[],
+        }
     }
 }
 
@@ -43,6 +61,7 @@ pub struct InParts<'a> {
 }
 
 /// What a fragment of a layer does once it has passed the alpha test.
+#[derive(Clone)]
 pub struct Ending {
     pub label: &'static str,
     /// Has `main`.
@@ -68,11 +87,21 @@ pub fn draw(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
-    let batches = batches(layer, &map_clip_from_world(view, settings), list);
+    let clip_from_world = map_clip_from_world(view, settings);
+    let mut batches = batches(layer, &clip_from_world, list);
+    let received =
+        Layer { casters: layer.receivers, in_parts: layer.receivers_in_parts, ending: layer.ending.clone(), ..*layer };
+    let received = self::batches(&received, &clip_from_world, list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
-    let (plain, cleared) = state(settings, layer.offset);
-    let state = DrawState { scissor: layer.scissor, ..plain };
+    let clamped = is_clamped(view, layer, "depth", notes);
+    let (plain, cleared) = state(settings, layer.offset, clamped);
+    let mut state = DrawState { scissor: layer.scissor, ..plain };
+    if !received.is_empty() {
+        let cull = state.cull.take();
+        batches.iter_mut().for_each(|batch| batch.cull = cull);
+        batches.extend(received);
+    }
     for level in 0..levels {
         list.passes.push(Pass {
             label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },
@@ -112,12 +141,35 @@ pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Stor
     }
 }
 
+/// Whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
+/// that plane's depth instead of being clipped; says so of `what`. Near and far are the map's, not the light's.
+pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
+    let in_parts = layer.in_parts.iter().map(|part| part.item);
+    let Some(item) = layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item)) else {
+        return layer.clamped;
+    };
+    let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };
+    let why = format!("{} may come nearer than the near plane at {near}: it casts from there", item.label);
+    let chosen = Chosen { of: format!("{what} of light {}'s map", view.index), choice: "GL_DEPTH_CLAMP".into(), why };
+    if !notes.chosen.contains(&chosen) {
+        notes.chosen.push(chosen);
+    }
+    true
+}
+
 /// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
-pub fn state(settings: &Settings, PolygonOffset { factor, units }: PolygonOffset) -> (DrawState, f32) {
+///
+/// GL adds the offset before it clamps [GL 4.6, 14.6.5 and 17.3.4]: an offset away from the light moves what lies before
+/// the near plane by as much as any other, and only what is then still before it to the plane.
+pub fn state(
+    settings: &Settings,
+    PolygonOffset { factor, units }: PolygonOffset,
+    depth_clamp: bool,
+) -> (DrawState, f32) {
     let offset = |sign: f32| {
         (factor != 0.0 || units != 0.0).then_some(PolygonOffset { factor: sign * factor, units: sign * units })
     };
-    let plain = DrawState { cull: settings.cull, ..DrawState::DEPTH_ONLY };
+    let plain = DrawState { cull: settings.cull, depth_clamp, ..DrawState::DEPTH_ONLY };
     match settings.order {
         Order::LessEqual => (DrawState { polygon_offset: offset(1.0), ..plain }, 1.0),
         Order::GreaterEqual => {

@@ -7,6 +7,7 @@
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
 
 use super::bias;
+use super::casters::may_cast;
 use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
@@ -97,7 +98,7 @@ fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     let mut crop = Crop::NOTHING;
     for item in view.items.iter().filter(|item| item.casts_shadow && !unseen.shadows_nothing(item)) {
         let clip_from_model = clip_from_world * item.world_from_model;
-        if frustum::overlap(&clip_from_model, &item.bounds) == Overlap::Outside {
+        if !may_cast(view, item) {
             continue;
         }
         for corner in item.bounds.corners() {
