@@ -66,7 +66,7 @@ impl<'a> Judge<'a> {
     pub fn new(scene: &'a Scene, light: usize) -> Result<Self, ray::Error> {
         let options = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
         let surroundings = Surroundings::new(scene, light, &options)?;
-        let truth = surroundings.truth(scene.image.size)?;
+        let truth = surroundings.truth()?;
         let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
         let volume_truth = ray::trace(scene, light, &doubtful)?;
         Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })

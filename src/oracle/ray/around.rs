@@ -19,6 +19,7 @@ use crate::scene::Scene;
 /// One light of one scene, ready for questions about single pixels.
 pub struct Surroundings<'a> {
     tracer: Tracer<'a>,
+    scene: &'a Scene,
     options: Options,
 }
 
@@ -64,7 +65,7 @@ impl<'a> Surroundings<'a> {
     ///
     /// As [`super::trace`], but never [`Error::TooAmbiguous`].
     pub fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
-        Ok(Self { tracer: Tracer::new(scene, light, options)?, options: options.clone() })
+        Ok(Self { tracer: Tracer::new(scene, light, options)?, scene, options: options.clone() })
     }
 
     /// The truth of every pixel, as [`super::trace`] finds it.
@@ -72,8 +73,8 @@ impl<'a> Surroundings<'a> {
     /// # Errors
     ///
     /// [`Error::TooAmbiguous`] where more than [`Options::most_ambiguous`] of the drawn pixels are undecided.
-    pub fn truth(&self, size: [u32; 2]) -> Result<Truth, Error> {
-        self.tracer.trace(size, &self.options)
+    pub fn truth(&self) -> Result<Truth, Error> {
+        self.tracer.trace(self.scene, &self.options)
     }
 
     /// What lies within `reach` of the point that the pixel shows, in lengths on the plane at distance 1 along the light's

@@ -58,9 +58,9 @@ pub struct Options {
     /// its object's origin, and the origin's from eye and light (from the middle of the scene, and that once across, for
     /// a directional one). A row of a 4×4 product makes four.
     pub position_roundings: f64,
-    /// Bits of a depth buffer that the shadow itself is found by, in 1..=32: shadow volumes compare their sides with the
-    /// visible surface as much nearer or farther as rounding may misplace both. `None`, for shadow maps: no such doubt.
-    /// [`volume_count`] takes 24 bits then.
+    /// For shadow volumes, whose sides a depth buffer compares with what is seen: its bits, in 1..=32. Where the count of
+    /// volumes may come to 0 or leave it because rounding misplaces a side against the visible surface, [`trace`] is of
+    /// two minds. `None`, for shadow maps: no such doubt. [`volume_count`] takes 24 bits then.
     pub depth_buffer_bits: Option<u32>,
     /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth.
     pub most_ambiguous: f64,
@@ -92,7 +92,7 @@ pub enum Error {
 
 /// Asks for each pixel of the scene's image whether light number `light` reaches it.
 pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
-    Tracer::new(scene, light, options)?.trace(scene.image.size, options)
+    Tracer::new(scene, light, options)?.trace(scene, options)
 }
 
 /// All that a pixel's question needs.
@@ -132,10 +132,17 @@ impl<'a> Tracer<'a> {
         Ok(tracer)
     }
 
-    /// The answers for a picture of `size`.
-    fn trace(&self, [width, height]: [u32; 2], options: &Options) -> Result<Truth, Error> {
+    /// The answers for every pixel of the scene's picture.
+    fn trace(&self, scene: &Scene, options: &Options) -> Result<Truth, Error> {
+        let [width, height] = scene.image.size;
         let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
-        let pixels = rows.map(|(x, y)| self.answer(x, y)).collect();
+        let counting = options.depth_buffer_bits.map(|_| volumes::Counting::new(scene, self));
+        let answer = |(x, y)| {
+            let pixel = self.answer(x, y);
+            let reason = counting.as_ref().and_then(|counting| counting.doubt(x, y, pixel.answer));
+            Pixel { answer: reason.map_or(pixel.answer, Answer::Ambiguous), ..pixel }
+        };
+        let pixels = rows.map(answer).collect();
         let truth = Truth { width, height, pixels };
         if truth.ambiguous_share() > options.most_ambiguous {
             let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));

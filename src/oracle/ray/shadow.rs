@@ -46,15 +46,13 @@ impl Tracer<'_> {
     }
 
     fn trace_to_light(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
-        let misplaced = self.depth_buffer_bits.map_or(0.0, |bits| self.depth_misplacement(seen, bits));
-        let error = seen.error + misplaced;
         let beam = Beam {
             apex: self.lamp.apex(seen.position),
             base: seen.position,
             spread: seen.spread,
             surface_spread: seen.spread,
-            error,
-            depth_error: error,
+            error: seen.error,
+            depth_error: seen.error,
             start: 0.0,
             levers: true,
         };

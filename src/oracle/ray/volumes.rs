@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::beam::{Beam, Side, crossing_once};
 use super::primary::Seen;
 use super::shells::{Rule, rules};
-use super::truth::{Hit, Reason};
+use super::truth::{Answer, Hit, Reason};
 use super::world::{Segment, Triangle};
 use super::{Error, Options, Tracer, doubt};
 use crate::scene::Scene;
@@ -104,8 +104,8 @@ pub fn volume_count_at(
     let tracer = Tracer::new(scene, light, options)?;
     let counting = Counting::new(scene, &tracer);
     let count = |point: &DVec3| {
-        let (count, reason) = counting.along(&counting.beam(*point, [DVec3::ZERO; 2], error), None);
-        reason.is_none().then_some(count)
+        let tally = counting.along(&counting.beam(*point, [DVec3::ZERO; 2], error), None);
+        tally.reason.is_none().then_some(tally.center)
     };
     Ok(points.par_iter().map(count).collect())
 }
@@ -116,14 +116,22 @@ struct Share {
     reason: Option<Reason>,
 }
 
-struct Counting<'t, 'a> {
+/// What all triangles add.
+struct Tally {
+    center: u32,
+    /// Triangles that may count or not: by so much the count may be off, either way.
+    doubtful: u32,
+    reason: Option<Reason>,
+}
+
+pub(super) struct Counting<'t, 'a> {
     tracer: &'t Tracer<'a>,
     /// Of each object, of each triangle.
     rules: Vec<Vec<Rule>>,
 }
 
 impl<'t, 'a> Counting<'t, 'a> {
-    fn new(scene: &Scene, tracer: &'t Tracer<'a>) -> Self {
+    pub fn new(scene: &Scene, tracer: &'t Tracer<'a>) -> Self {
         let light = tracer.lamp.place();
         let of_object = |(object, placed): (usize, _)| {
             rules(&scene.objects[object], tracer.world.solid(object as u32), placed, light)
@@ -137,12 +145,32 @@ impl<'t, 'a> Counting<'t, 'a> {
             let count = doubtful_view.map_or(Count::Background, Count::Ambiguous);
             return CountPixel { count, at_center: None, hit: None };
         };
+        let tally = self.behind(&seen);
+        let reason = doubtful_view.or(tally.reason);
+        let count = reason.map_or(Count::Exactly(tally.center), Count::Ambiguous);
+        CountPixel { count, at_center: Some(tally.center), hit: Some(self.tracer.describe(&seen)) }
+    }
+
+    /// Why a count may say something else about a pixel than `answer`, although that is sure.
+    pub fn doubt(&self, x: u32, y: u32, answer: Answer) -> Option<Reason> {
+        if !matches!(answer, Answer::Lit | Answer::Shadowed) {
+            return None;
+        }
+        let tally = self.behind(&self.tracer.look(x, y).0?);
+        let stays_dark = answer == Answer::Shadowed && tally.center > tally.doubtful;
+        tally.reason.filter(|_| !stays_dark)
+    }
+
+    /// The count at a visible point, and what a small move of the sample or a depth buffer's error would change.
+    fn behind(&self, seen: &Seen<'_>) -> Tally {
         let bits = self.tracer.depth_buffer_bits.unwrap_or(24);
-        let beam = self.beam(seen.position, seen.spread, seen.error + self.tracer.depth_misplacement(&seen, bits));
-        let (center, doubtful_count) = self.along(&beam, Some(&seen));
-        let reason = doubtful_view.or(self.grazing(&seen)).or(doubtful_count);
-        let count = reason.map_or(Count::Exactly(center), Count::Ambiguous);
-        CountPixel { count, at_center: Some(center), hit: Some(self.tracer.describe(&seen)) }
+        let error = seen.error + self.tracer.depth_misplacement(seen, bits);
+        let mut tally = self.along(&self.beam(seen.position, seen.spread, error), Some(seen));
+        if let Some(reason) = self.grazing(seen) {
+            tally.doubtful += 1;
+            tally.reason = Some(reason);
+        }
+        tally
     }
 
     /// From the light to a point that may lie anywhere in `spread` and `error`. Corners are extruded along their own
@@ -188,21 +216,22 @@ impl<'t, 'a> Counting<'t, 'a> {
         }
     }
 
-    /// The count at the beam's base, and what makes it doubtful.
-    fn along(&self, beam: &Beam, seen: Option<&Seen<'_>>) -> (u32, Option<Reason>) {
+    /// The count at the beam's base.
+    fn along(&self, beam: &Beam, seen: Option<&Seen<'_>>) -> Tally {
         let direction = beam.axis();
         let radius = beam.radius(self.tracer.largest_error);
         let segment = Segment { origin: beam.origin(), direction, start: 0.0, end: 1.0 + radius / direction.length() };
-        let (mut count, mut reason) = (0, None);
+        let mut tally = Tally { center: 0, doubtful: 0, reason: None };
         self.tracer.world.visit(&segment, radius, |triangle| {
             if self.rule(triangle) != Rule::Never && !triangle.is_degenerate() {
                 let share = self.share(beam, seen, triangle);
-                count += share.center;
-                doubt(&mut reason, share.reason);
+                tally.center += share.center;
+                tally.doubtful += u32::from(share.reason.is_some());
+                doubt(&mut tally.reason, share.reason);
             }
             ControlFlow::Continue(())
         });
-        (count, reason)
+        tally
     }
 
     fn share(&self, beam: &Beam, seen: Option<&Seen<'_>>, triangle: &Triangle<'_>) -> Share {
