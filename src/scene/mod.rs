@@ -11,6 +11,7 @@ mod print;
 mod ranges;
 mod resolve;
 mod settings;
+mod sight;
 mod supply;
 mod views;
 

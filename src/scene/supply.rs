@@ -3,7 +3,6 @@
 
 use glam::DVec3;
 
-use super::Camera;
 use super::frame;
 use super::resolve::{DEFAULT_BACKGROUND, DEFAULT_SIZE};
 use super::settings::{Entry, Origin, Settings, Value};
@@ -60,12 +59,6 @@ impl Stage {
         rounded(FLOOR_RADII * self.radius, self.radius)
     }
 
-    fn floor_corners(&self) -> [DVec3; 4] {
-        let half = self.floor_half();
-        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, z]| DVec3::new(self.center.x + half * x, self.floor_y, self.center.z + half * z))
-    }
-
     /// Where the light throws the model's corners on the floor.
     fn shadow_corners(&self) -> [DVec3; 8] {
         self.bounds.corners().map(|corner| {
@@ -80,32 +73,10 @@ impl Stage {
         let fov_y_radians = frame::FOV_Y_DEGREES.to_radians();
         let (eye, target) = frame::fit(&points, frame::THREE_QUARTER, fov_y_radians, aspect, self.radius);
         let (eye, target) = (rounded_vector(eye, self.radius), rounded_vector(target, self.radius));
-        let camera = Camera { eye, target, up: DVec3::Y, fov_y_radians, near: 0.0, far: 0.0 };
-        let [near, _] = frame::depth_range(&points, &camera, self.radius);
-        points.extend(self.floor_corners());
-        let [_, far] = frame::depth_range(&points, &camera, self.radius);
-        let near = near.min(0.5 * self.nearest_floor(&camera));
-        table(
-            "camera",
-            vec![
-                ("eye", vector(eye)),
-                ("target", vector(target)),
-                ("fov_y", number(frame::FOV_Y_DEGREES)),
-                ("near", number(rounded(near, self.radius))),
-                ("far", number(rounded(far, self.radius))),
-            ],
-        )
-    }
-
-    /// The depth at which the picture's lower edge meets the floor.
-    fn nearest_floor(&self, camera: &Camera) -> f64 {
-        let down = (camera.eye - camera.target).normalize().y;
-        let tan = (0.5 * camera.fov_y_radians).tan();
-        (camera.eye.y - self.floor_y) / (down + tan * (1.0 - down * down).sqrt())
+        table("camera", vec![("eye", vector(eye)), ("target", vector(target)), ("fov_y", number(frame::FOV_Y_DEGREES))])
     }
 
     fn light(&self) -> Entry {
-        let [near, far] = self.light_range();
         // GL_LINEAR reaches up to a texel away along each axis, where a plane is up to two slopes nearer.
         let offset = vec![("factor", number(2.0)), ("units", number(4.0))];
         let shadow = vec![
@@ -122,24 +93,10 @@ impl Stage {
                 ("position", vector(self.light)),
                 ("target", vector(self.center)),
                 ("cone", number(CONE_DEGREES)),
-                ("near", number(near)),
-                ("far", number(far)),
                 ("shape", text("cone")),
                 ("shadow", table("light.shadow", shadow)),
             ],
         )
-    }
-
-    /// From just before the model to just behind the farthest floor that the frustum shows.
-    fn light_range(&self) -> [f64; 2] {
-        let forward = (self.center - self.light).normalize();
-        let depths = self.bounds.corners().map(|corner| forward.dot(corner - self.light));
-        let height = self.light.y - self.floor_y;
-        let (down, across) = (-forward.y, (1.0 - forward.y * forward.y).sqrt());
-        let tan = (0.5 * CONE_DEGREES).to_radians().tan();
-        let near = depths.into_iter().fold(height / (down + tan * across), f64::min);
-        let far = depths.into_iter().fold(height / (down - tan * across), f64::max);
-        [rounded(0.95 * near, self.radius), rounded(1.05 * far, self.radius)]
     }
 
     fn floor(&self) -> Entry {
