@@ -48,7 +48,8 @@ impl Stage {
     fn new(bounds: &Aabb) -> Self {
         let radius = frame::working_radius(bounds);
         let flat = bounds.max.y - bounds.min.y < FLAT_RADII * radius;
-        let lowest = if flat { rounded(bounds.min.y - LIFT_RADII * radius, radius) } else { shortest(bounds.min.y) };
+        let lowest =
+            if flat { rounded(bounds.min.y - LIFT_RADII * radius, radius) } else { lowest(bounds.min.y, radius) };
         let center = rounded_vector(bounds.center(), radius);
         let light = rounded_vector(center + TOWARD_LIGHT.normalize() * LIGHT_RADII * radius, radius);
         Self { bounds: *bounds, radius, center, floor_y: lowest, light }
@@ -137,6 +138,11 @@ fn rounded(value: f64, size: f64) -> f64 {
 
 fn rounded_vector(vector: DVec3, size: f64) -> DVec3 {
     DVec3::from_array(vector.to_array().map(|value| rounded(value, size)))
+}
+
+/// The height of a floor under what ends at `value`: a short decimal that is the same f32, or as good as the same.
+fn lowest(value: f64, radius: f64) -> f64 {
+    if f64::from(value as f32) == value { shortest(value) } else { rounded(value, 1e-5 * radius) }
 }
 
 /// The shortest decimal that is the same f32.

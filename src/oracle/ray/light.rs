@@ -96,15 +96,6 @@ impl Lamp {
         }
     }
 
-    /// How far rounded coordinates reach that are taken from the light: from its place, or from the middle of the
-    /// scene's ball, around which a map of a light without a place would lie.
-    pub fn span(&self, point: DVec3) -> f64 {
-        match &self.shape {
-            Shape::Square { center, radius, .. } => point.distance(*center) + radius,
-            Shape::Spot { .. } | Shape::Cube { .. } => self.towards(point).length(),
-        }
-    }
-
     /// The fraction of the way from the light to the point before which blockers do not count.
     pub fn start(&self, point: DVec3) -> f64 {
         match &self.shape {
