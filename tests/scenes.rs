@@ -237,13 +237,15 @@ fn point_lights_take_their_range_from_the_objects() {
     };
     let Point { position, near, far, attenuation } = point(&[]);
     assert_eq!((position, attenuation), (dvec3(0.0, 4.0, 0.0), [1.0, 0.0, 0.0]));
-    assert!((near - 1.5).abs() < 1e-12 && (far - 5.5).abs() < 1e-12, "{near} {far}");
+    assert!((near - 2.4).abs() < 1e-12 && (far - 5.5).abs() < 1e-12, "{near} {far}");
     for (overrides, expected) in [
         (&["light.near=0.25", "light.far=9"][..], [0.25, 9.0]),
         (&["light.far=2"], [1.0, 2.0]),
         (&["light.near=4"], [4.0, 8.0]),
-        // In the box: the planes are as far apart as a map bears.
-        (&["light.position=[0, 0, 0]"], [5.5e-3, 5.5]),
+        // In the box, whose sides are 1 away.
+        (&["light.position=[0, 0, 0]"], [0.8, 5.5]),
+        // In its top: the planes are as far apart as a map bears.
+        (&["light.position=[0, 1, 0]"], [5.5 / 16384.0, 5.5]),
     ] {
         let Point { near, far, .. } = point(overrides);
         assert!((near - expected[0]).abs() < 1e-12 && (far - expected[1]).abs() < 1e-12, "{overrides:?}: {near} {far}");

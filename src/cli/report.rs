@@ -196,8 +196,9 @@ fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec
         bar.tick();
         run::prepare(path, &overrides, grid, options)
     });
-    let sweeps = prepared.collect::<Result<_, _>>()?;
+    let sweeps: Vec<Sweep> = prepared.collect::<Result<_, _>>()?;
     bar.finish_and_clear();
+    sweeps.iter().flat_map(|sweep| &sweep.warnings).for_each(|warning| eprintln!("warning: {warning}"));
     Ok(sweeps)
 }
 

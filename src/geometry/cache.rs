@@ -70,6 +70,7 @@ impl Mesh {
             parts: self.parts.clone(),
             materials: self.materials.clone(),
             bounds: self.bounds,
+            origin: self.origin,
             ..Mesh::default()
         }
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 /// Colours are linear and as written (no colour management), each channel in [0, 1].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -32,6 +34,21 @@ pub struct ObjectLinear {
     /// Plane of t, in model space.
     pub t: [f32; 4],
     pub scale: f32,
+}
+
+impl ObjectLinear {
+    /// The same coordinates for positions that are relative to `origin`, but for whole turns of a texture that repeats.
+    #[must_use]
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        let scale = f64::from(self.scale);
+        let moved = |plane: [f32; 4]| {
+            let [x, y, z, w] = plane.map(f64::from);
+            let w = w + DVec3::new(x, y, z).dot(origin);
+            let w = if scale == 0.0 { w } else { (w * scale).rem_euclid(1.0) / scale };
+            [plane[0], plane[1], plane[2], w as f32]
+        };
+        if origin == DVec3::ZERO { *self } else { Self { s: moved(self.s), t: moved(self.t), scale: self.scale } }
+    }
 }
 
 impl Default for Material {

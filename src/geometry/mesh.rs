@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::Material;
 use crate::math::Aabb;
@@ -19,6 +19,10 @@ pub struct Mesh {
     /// Where it comes from: a built-in's name or the file's path as written.
     pub name: String,
     pub positions: Vec<[f32; 3]>,
+    /// The place in its file's space that `positions` are relative to: the file's own origin, but where that is so far
+    /// away that f32 would lose the vertices' places. An object's `world_from_model` holds it; whoever takes a mesh from
+    /// elsewhere than a scene adds it.
+    pub origin: DVec3,
     /// Positions with w in place of `positions`, which is then empty: of shadow volumes, whose far vertices have w = 0.
     pub homogeneous: Vec<[f32; 4]>,
     /// Of unit length; (0, 0, 1) where a vertex has no triangle of any area.

@@ -33,6 +33,7 @@ impl Mesh {
             positions,
             indices,
             parts: vec![part],
+            origin: self.origin,
             ..Mesh::default()
         };
         mesh.update_bounds();

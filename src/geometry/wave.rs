@@ -35,6 +35,12 @@ impl Wave {
         Aabb { min: rest.min - reach, max: rest.max + reach }
     }
 
+    /// The same wave for positions that are relative to `origin`.
+    #[must_use]
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        Self { phase: (self.phase + self.vector.dot(origin)).rem_euclid(1.0), ..*self }
+    }
+
     /// Whether it is so steep along its own way that the surface may fold over and turn inside out: the Jacobian
     /// `I + 2 pi cos(...) reach vector^T` then has a determinant that is not above zero everywhere.
     pub fn folds(&self) -> bool {

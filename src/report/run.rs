@@ -16,7 +16,7 @@ use crate::frame::{self, Renderer};
 use crate::oracle::ray::{self, Answer, Truth};
 use crate::pass::{Pass, Work};
 use crate::plan::{Plan, Request, ViewRequest};
-use crate::scene::{self, Scene, Settings};
+use crate::scene::{self, Loaded, Scene, Settings};
 use crate::techniques::views::View;
 
 /// Why a report cannot be begun. What goes wrong in a row is told in that row.
@@ -54,6 +54,8 @@ pub struct Sweep {
     pub scene: Scene,
     pub truth: Truth,
     pub report: SceneReport,
+    /// What loading the scene warned of.
+    pub warnings: Vec<String>,
     /// By index; row 0 is the scene as written.
     rows: Vec<(Row, Settings)>,
 }
@@ -64,7 +66,7 @@ pub struct Sweep {
 ///
 /// A scene that does not load, a light that is not there, a truth that the oracle does not know.
 pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options) -> Result<Sweep, Error> {
-    let scene = scene::load(path, overrides)?.scene;
+    let Loaded { scene, warnings } = scene::load(path, overrides)?;
     let count = scene.lights.len();
     let light = scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
     let start = Instant::now();
@@ -88,7 +90,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
-    Ok(Sweep { scene, truth, report, rows })
+    Ok(Sweep { scene, truth, report, warnings, rows })
 }
 
 /// Row 0 is the scene as written; the others are the grid's.

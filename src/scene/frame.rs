@@ -2,14 +2,22 @@
 
 use glam::DVec3;
 
-use super::{Camera, Object};
+use super::sight::{Pyramid, Span};
+use super::{Camera, Frustum, Object};
 use crate::math::{Aabb, spaces};
 
 /// The part of the picture's half height and half width that framed points may reach.
 const MARGIN: f64 = 0.82;
 
-/// The far plane of a supplied camera or map is at most this many times as far as the near plane.
+/// The far plane is so many times as far as the near plane where nothing is in view.
 const DEPTH_RATIO: f64 = 1e3;
+
+/// A supplied near plane stands at this part of the way to what is nearest in view.
+const ROOM: f64 = 0.8;
+
+/// What is looked at is at most this many times as far as a supplied near plane, whatever is cut: there a depth buffer of
+/// 24 bits then tells apart a thousandth of the distance ([`depth_step`]).
+const STIFFEST: f64 = (1 << 14) as f64;
 
 /// The default vertical angle of a camera.
 pub(super) const FOV_Y_DEGREES: f64 = 40.0;
@@ -17,11 +25,14 @@ pub(super) const FOV_Y_DEGREES: f64 = 40.0;
 /// From what is looked at to a pleasant three-quarter view: from the front, the right and a little above.
 pub(super) const THREE_QUARTER: DVec3 = DVec3::new(0.55, 0.52, 0.8);
 
-/// The radius to work with: never zero, and not below what f32 resolves at the box's place.
+/// The radius to work with: never zero, nor so small that f64 does not resolve it at the box's place.
 pub(super) fn working_radius(bounds: &Aabb) -> f64 {
-    let least = bounds.min.abs().max(bounds.max.abs()).max_element() * 1e-5;
-    let radius = bounds.radius().max(least);
-    if radius > 0.0 { radius } else { 1.0 }
+    let place = bounds.min.abs().max(bounds.max.abs()).max_element();
+    match bounds.radius() {
+        radius if radius > 1e-12 * place => radius,
+        _ if place > 0.0 => 1e-5 * place,
+        _ => 1.0,
+    }
 }
 
 /// Eye and target that hold all `points` tightly within a picture, looking against `toward_eye`.
@@ -56,29 +67,46 @@ pub(super) fn sphere_distance(radius: f64, fov_y_radians: f64, aspect: f64) -> f
     radius / tan.atan().sin()
 }
 
-/// Near and far planes around `points` as `camera` sees them (its own planes are not read).
-pub(super) fn depth_range(points: &[DVec3], camera: &Camera, radius: f64) -> [f64; 2] {
+/// Near and far planes of `camera` (its own are not read): just before what is nearest in view, and behind all that is
+/// ahead. `points`: the corners of boxes around all objects.
+pub(super) fn depth_range(points: &[DVec3], camera: &Camera, seen: Span, radius: f64) -> [f64; 2] {
     let view_from_world = camera.view_from_world();
     let depths = points.iter().map(|point| -view_from_world.transform_point3(*point).z);
-    let (least, most) =
-        depths.fold((f64::INFINITY, 0.0_f64), |(least, most), depth| (least.min(depth), most.max(depth)));
-    range_around(least, most, radius)
+    let far = (1.1 * depths.fold(0.0_f64, f64::max)).max(radius);
+    [near_before(seen, far, camera.eye.distance(camera.target)), far]
+}
+
+/// Near and far planes of a spotlight (its own are not read), around what its frustum holds.
+pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
+    let pyramid = Pyramid::of_frustum(frustum);
+    let seen = objects.iter().fold(Span::EMPTY, |span, object| span.union(pyramid.span(object)));
+    let reach = frustum.position.distance(frustum.target);
+    let far = if seen.is_empty() { 2.0 * reach } else { 1.1 * seen.most };
+    let near = near_before(seen, far, reach);
+    // Of what lies in the light's own place no map can be drawn.
+    [near, far.max(2.0 * near)]
 }
 
 /// Near and far planes of the faces of a cube map at `position`, around all `objects` (one or more).
 pub(super) fn cube_range(position: DVec3, objects: &[Object]) -> [f64; 2] {
-    let depth = |point: DVec3| (point - position).abs().max_element();
-    let (mut least, mut most, mut all) = (f64::INFINITY, 0.0_f64, Aabb::EMPTY);
-    for bounds in objects.iter().map(Object::world_bounds) {
-        least = least.min(depth(position.max(bounds.min).min(bounds.max)));
-        most = bounds.corners().into_iter().map(depth).fold(most, f64::max);
-        all = all.union(bounds);
-    }
-    range_around(least, most, working_radius(&all))
+    let faces = Pyramid::of_cube(position);
+    let spans = objects.iter().flat_map(|object| faces.iter().map(|face| face.span(object)));
+    let seen = spans.fold(Span::EMPTY, Span::union);
+    let far = if seen.is_empty() || seen.most <= 0.0 { 1.0 } else { 1.1 * seen.most };
+    // It looks at nothing: only what lies in its own place is cut.
+    let aim = if ROOM * seen.least < far / f64::from(1 << 24) { far } else { 0.0 };
+    [near_before(seen, far, aim), far]
 }
 
-/// Planes with some room around depths in [least, most].
-fn range_around(least: f64, most: f64, radius: f64) -> [f64; 2] {
-    let far = (1.1 * most).max(radius);
-    [(0.5 * least).clamp(far / DEPTH_RATIO, 0.5 * far), far]
+/// A near plane just before what is seen: farther off it would cut, nearer it would waste the depth buffer's precision,
+/// which goes with its distance. `aim`: how far away what is looked at is.
+fn near_before(seen: Span, far: f64, aim: f64) -> f64 {
+    let near = if seen.is_empty() { far / DEPTH_RATIO } else { ROOM * seen.least };
+    near.max(aim.min(far) / STIFFEST).min(0.5 * far)
+}
+
+/// The least distance in depth that a buffer of 24 bits tells apart at `depth`, behind a near plane at `near`: its step in
+/// window space, 2⁻²⁴, is so long there.
+pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
+    depth * (depth / near) / f64::from(1 << 24)
 }

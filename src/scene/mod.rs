@@ -11,6 +11,7 @@ mod print;
 mod ranges;
 mod resolve;
 mod settings;
+mod sight;
 mod supply;
 mod views;
 
@@ -24,6 +25,7 @@ pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
 pub use supply::framing;
 
+use crate::math::Aabb;
 use assets::{Assets, has_extension};
 
 /// No scene file is longer, in bytes.
@@ -102,14 +104,15 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
-    let mut first = framing(&name, &model.bounds, 1.0);
+    let bounds = Aabb { min: model.bounds.min + model.origin, max: model.bounds.max + model.origin };
+    let mut first = framing(&name, &bounds, 1.0);
     overrides::apply(&mut first, overrides)?;
 
     let mut reader = first.read();
     let aspect = resolve::image(reader.table("image")?)?.aspect();
     let bounds = match reader.tables("object")?.first() {
         Some(object) => resolve::object::read(object, assets)?.world_bounds(),
-        None => model.bounds,
+        None => bounds,
     };
     let mut root = framing(&name, &bounds, aspect);
     overrides::apply(&mut root, overrides)?;

@@ -3,7 +3,6 @@
 
 use glam::DVec3;
 
-use super::Camera;
 use super::frame;
 use super::resolve::{DEFAULT_BACKGROUND, DEFAULT_SIZE};
 use super::settings::{Entry, Origin, Settings, Value};
@@ -49,7 +48,8 @@ impl Stage {
     fn new(bounds: &Aabb) -> Self {
         let radius = frame::working_radius(bounds);
         let flat = bounds.max.y - bounds.min.y < FLAT_RADII * radius;
-        let lowest = if flat { rounded(bounds.min.y - LIFT_RADII * radius, radius) } else { shortest(bounds.min.y) };
+        let lowest =
+            if flat { rounded(bounds.min.y - LIFT_RADII * radius, radius) } else { lowest(bounds.min.y, radius) };
         let center = rounded_vector(bounds.center(), radius);
         let light = rounded_vector(center + TOWARD_LIGHT.normalize() * LIGHT_RADII * radius, radius);
         Self { bounds: *bounds, radius, center, floor_y: lowest, light }
@@ -58,12 +58,6 @@ impl Stage {
     /// Half the floor's side.
     fn floor_half(&self) -> f64 {
         rounded(FLOOR_RADII * self.radius, self.radius)
-    }
-
-    fn floor_corners(&self) -> [DVec3; 4] {
-        let half = self.floor_half();
-        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, z]| DVec3::new(self.center.x + half * x, self.floor_y, self.center.z + half * z))
     }
 
     /// Where the light throws the model's corners on the floor.
@@ -80,32 +74,10 @@ impl Stage {
         let fov_y_radians = frame::FOV_Y_DEGREES.to_radians();
         let (eye, target) = frame::fit(&points, frame::THREE_QUARTER, fov_y_radians, aspect, self.radius);
         let (eye, target) = (rounded_vector(eye, self.radius), rounded_vector(target, self.radius));
-        let camera = Camera { eye, target, up: DVec3::Y, fov_y_radians, near: 0.0, far: 0.0 };
-        let [near, _] = frame::depth_range(&points, &camera, self.radius);
-        points.extend(self.floor_corners());
-        let [_, far] = frame::depth_range(&points, &camera, self.radius);
-        let near = near.min(0.5 * self.nearest_floor(&camera));
-        table(
-            "camera",
-            vec![
-                ("eye", vector(eye)),
-                ("target", vector(target)),
-                ("fov_y", number(frame::FOV_Y_DEGREES)),
-                ("near", number(rounded(near, self.radius))),
-                ("far", number(rounded(far, self.radius))),
-            ],
-        )
-    }
-
-    /// The depth at which the picture's lower edge meets the floor.
-    fn nearest_floor(&self, camera: &Camera) -> f64 {
-        let down = (camera.eye - camera.target).normalize().y;
-        let tan = (0.5 * camera.fov_y_radians).tan();
-        (camera.eye.y - self.floor_y) / (down + tan * (1.0 - down * down).sqrt())
+        table("camera", vec![("eye", vector(eye)), ("target", vector(target)), ("fov_y", number(frame::FOV_Y_DEGREES))])
     }
 
     fn light(&self) -> Entry {
-        let [near, far] = self.light_range();
         // GL_LINEAR reaches up to a texel away along each axis, where a plane is up to two slopes nearer.
         let offset = vec![("factor", number(2.0)), ("units", number(4.0))];
         let shadow = vec![
@@ -122,24 +94,10 @@ impl Stage {
                 ("position", vector(self.light)),
                 ("target", vector(self.center)),
                 ("cone", number(CONE_DEGREES)),
-                ("near", number(near)),
-                ("far", number(far)),
                 ("shape", text("cone")),
                 ("shadow", table("light.shadow", shadow)),
             ],
         )
-    }
-
-    /// From just before the model to just behind the farthest floor that the frustum shows.
-    fn light_range(&self) -> [f64; 2] {
-        let forward = (self.center - self.light).normalize();
-        let depths = self.bounds.corners().map(|corner| forward.dot(corner - self.light));
-        let height = self.light.y - self.floor_y;
-        let (down, across) = (-forward.y, (1.0 - forward.y * forward.y).sqrt());
-        let tan = (0.5 * CONE_DEGREES).to_radians().tan();
-        let near = depths.into_iter().fold(height / (down + tan * across), f64::min);
-        let far = depths.into_iter().fold(height / (down - tan * across), f64::max);
-        [rounded(0.95 * near, self.radius), rounded(1.05 * far, self.radius)]
     }
 
     fn floor(&self) -> Entry {
@@ -180,6 +138,11 @@ fn rounded(value: f64, size: f64) -> f64 {
 
 fn rounded_vector(vector: DVec3, size: f64) -> DVec3 {
     DVec3::from_array(vector.to_array().map(|value| rounded(value, size)))
+}
+
+/// The height of a floor under what ends at `value`: a short decimal that is the same f32, or as good as the same.
+fn lowest(value: f64, radius: f64) -> f64 {
+    if f64::from(value as f32) == value { shortest(value) } else { rounded(value, 1e-5 * radius) }
 }
 
 /// The shortest decimal that is the same f32.

@@ -1,7 +1,8 @@
-//! OBJ files: the text is scanned for mistakes ([`scan`]), written anew where tobj would misread it ([`rewrite`]),
+//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), written anew where tobj would misread it ([`rewrite`]),
 //! parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks ([`super::normals`]).
 //! Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons only.
 
+mod place;
 mod polygon;
 mod rewrite;
 pub(super) mod scan;
@@ -22,15 +23,19 @@ pub const CREASE_DEGREES: f64 = 60.0;
 ///
 /// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
 /// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. A library that does not exist and a material
-/// that no library has are warnings; a texture that cannot be had is an error.
+/// that no library has are warnings; a texture that cannot be had is an error. Positions that are far away from the
+/// file's origin, for their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let bytes = text::read(path)?;
     let text = text::decode(&bytes, path)?;
     let scan = scan(&text, path)?;
-    if u32::try_from(scan.positions.max(text.len())).is_err() {
+    if u32::try_from(scan.places.count().max(text.len())).is_err() {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
     }
     let mut warnings = Vec::new();
+    if let Some((line, message)) = place::warning(&scan, &text) {
+        warnings.push(Warning { path: path.to_owned(), line, message });
+    }
     let library = load_libraries(&scan, path, &mut warnings)?;
     let models = parse(&text, &scan, &library).map_err(|error| {
         // The scan has refused all that tobj refuses; should it not, the file is still named.
@@ -43,6 +48,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         warnings.push(Warning { path: path.to_owned(), line: 0, message });
     }
     mesh.materials = library.load_materials()?;
+    mesh.origin = scan.origin;
     mesh.update_bounds();
     Ok((mesh, warnings))
 }

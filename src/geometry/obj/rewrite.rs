@@ -1,10 +1,13 @@
 //! Writes an OBJ text anew so that tobj reads it right: libraries and vertices first, one statement a line, every
-//! number counted from the start, no lines, points, colours or short texture coordinates. Where only some corners
-//! have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a missing one.
+//! number counted from the start, positions relative to the origin, no lines, points, colours or short texture
+//! coordinates. Where only some corners have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a missing one.
 
 use std::fmt::Write as _;
 
+use glam::DVec3;
+
 use super::super::text::logical_lines;
+use super::place::Places;
 use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
 
 /// The name of a material that is named by nothing.
@@ -16,6 +19,7 @@ pub(super) fn rewrite(text: &str, scan: &Scan) -> String {
         vertices: String::with_capacity(text.len()),
         faces: String::with_capacity(text.len() / 2),
         counts: Counts::default(),
+        moved: (scan.origin != DVec3::ZERO).then_some((&scan.places, scan.origin)),
         first_texcoord: usize::from(scan.mixed_texcoords),
         first_normal: usize::from(scan.mixed_normals),
     };
@@ -34,21 +38,29 @@ pub(super) fn rewrite(text: &str, scan: &Scan) -> String {
     rewriter.vertices + &rewriter.faces
 }
 
-struct Rewriter {
+struct Rewriter<'a> {
     vertices: String,
     faces: String,
     counts: Counts,
+    /// The vertices and what they are written relative to; `None`: as they are.
+    moved: Option<(&'a Places, DVec3)>,
     /// How many texture coordinates (normals) stand before the file's own.
     first_texcoord: usize,
     first_normal: usize,
 }
 
-impl Rewriter {
+impl Rewriter<'_> {
     fn add_line(&mut self, line: &str) {
         let mut words = line.split_ascii_whitespace();
         match words.next() {
             Some("v") => {
                 self.counts.v += 1;
+                if let Some((places, origin)) = self.moved {
+                    let [x, y, z] = places.relative(self.counts.v - 1, origin);
+                    // The shortest digits that are read as the same f32; writing to a String cannot fail.
+                    let _ = writeln!(self.vertices, "v {x} {y} {z}");
+                    return;
+                }
                 let words: Vec<_> = words.collect();
                 let kept = if words.len() == 4 { 4 } else { 3 };
                 self.add_vertex("v", words.into_iter().take(kept));

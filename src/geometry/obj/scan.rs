@@ -3,8 +3,11 @@
 
 use std::path::Path;
 
+use glam::DVec3;
+
 use super::super::Error;
 use super::super::text::logical_lines;
+use super::place::Places;
 
 /// What the text holds.
 #[derive(Debug, Default)]
@@ -14,7 +17,9 @@ pub(super) struct Scan {
     /// `usemtl` statements whose name differs from the one before: line and name.
     pub uses: Vec<(usize, String)>,
     pub faces: usize,
-    pub positions: usize,
+    pub places: Places,
+    /// What the mesh's positions are relative to.
+    pub origin: DVec3,
     /// Whether tobj would misread the text as it is.
     pub needs_rewrite: bool,
     /// Some corners name a texture coordinate (a normal), others do not.
@@ -48,6 +53,8 @@ struct Scanner {
     scan: Scan,
     counts: Counts,
     forward: Vec<Forward>,
+    /// Of the face that is read, the vertices.
+    face: Vec<usize>,
     corners: usize,
     corners_with_texcoord: usize,
     corners_with_normal: usize,
@@ -62,6 +69,7 @@ pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
         scan: Scan::default(),
         counts: Counts::default(),
         forward: Vec::new(),
+        face: Vec::new(),
         corners: 0,
         corners_with_texcoord: 0,
         corners_with_normal: 0,
@@ -139,6 +147,7 @@ impl Scanner {
             // Colours, which tobj takes only as exactly three numbers.
             _ => self.scan.needs_rewrite = true,
         }
+        self.scan.places.add(xyz, if count == 4 { weight } else { "" });
         self.counts.v += 1;
         Ok(())
     }
@@ -175,7 +184,7 @@ impl Scanner {
     }
 
     fn read_face<'a>(&mut self, line: usize, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
-        let mut count = 0;
+        self.face.clear();
         for word in words {
             if word.starts_with('#') {
                 self.scan.needs_rewrite = true;
@@ -183,11 +192,12 @@ impl Scanner {
             }
             let corner = read_corner(word, self.counts)?;
             self.note_corner(line, corner);
-            count += 1;
+            self.face.push(corner.v);
         }
-        if count < 3 {
-            return Err(format!("a face of {count} vertices; it takes 3"));
+        if self.face.len() < 3 {
+            return Err(format!("a face of {} vertices; it takes 3", self.face.len()));
         }
+        self.scan.places.add_face(&self.face);
         self.scan.faces += 1;
         Ok(())
     }
@@ -206,7 +216,7 @@ impl Scanner {
 
     /// Judges the faces that named vertices before they were read, now that all are.
     fn finish(self, path: &Path) -> Result<Scan, Error> {
-        let Self { mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal } = self;
+        let Self { mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal, .. } = self;
         for Forward { line, corner } in &forward {
             let named = [
                 ("vertex", Some(corner.v), counts.v),
@@ -223,10 +233,11 @@ impl Scanner {
         if scan.faces == 0 {
             return Err(Error::NoFaces { path: path.to_owned() });
         }
-        scan.positions = counts.v;
+        scan.origin = scan.places.origin();
         scan.mixed_texcoords = !(corners_with_texcoord == 0 || corners_with_texcoord == corners);
         scan.mixed_normals = !(corners_with_normal == 0 || corners_with_normal == corners);
-        scan.needs_rewrite |= !forward.is_empty() || scan.mixed_texcoords || scan.mixed_normals;
+        let is_moved = scan.origin != DVec3::ZERO;
+        scan.needs_rewrite |= is_moved || !forward.is_empty() || scan.mixed_texcoords || scan.mixed_normals;
         Ok(scan)
     }
 }

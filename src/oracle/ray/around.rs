@@ -146,7 +146,7 @@ impl<'a> Surroundings<'a> {
         if !triangle.placed.casts_shadow || triangle.is(&seen.triangle) || triangle.is_degenerate() {
             return;
         }
-        let error = self.tracer.errors[triangle.object as usize];
+        let error = self.tracer.error_in(beam, triangle);
         let Some(meeting) = beam.meet(&triangle.corners, error) else { return };
         let near_edge = self.tracer.passes_any_edge(beam, triangle, error);
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {

@@ -96,15 +96,6 @@ impl Lamp {
         }
     }
 
-    /// How far rounded coordinates reach that are taken from the light: from its place, or from the middle of the
-    /// scene's ball, around which a map of a light without a place would lie.
-    pub fn span(&self, point: DVec3) -> f64 {
-        match &self.shape {
-            Shape::Square { center, radius, .. } => point.distance(*center) + radius,
-            Shape::Spot { .. } | Shape::Cube { .. } => self.towards(point).length(),
-        }
-    }
-
     /// The distance along the light's axis (a point light's: along the nearest coordinate axis); 1 for parallel light.
     pub fn depth_at(&self, point: DVec3) -> f64 {
         match &self.shape {

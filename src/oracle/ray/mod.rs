@@ -55,14 +55,17 @@ pub struct Options {
     /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL asks for 4 at least.
     pub subpixel_bits: u32,
     /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates that meet in it: its distance from
-    /// its object's origin, and the origin's from eye and light (from the middle of the scene, and that once across, for
-    /// a directional one). A row of a 4×4 product makes four.
+    /// its object's origin, and the origin's from eye and light (from the eye again for a directional one, whose map may
+    /// lie around what is seen). A row of a 4×4 product makes four. How far the scene or a triangle reaches elsewhere
+    /// does not count: if that makes a picture wrong here, the picture is wrong.
     pub position_roundings: f64,
     /// For shadow volumes, whose sides a depth buffer compares with what is seen: its bits, in 1..=32. Where the count of
     /// volumes may come to 0 or leave it because rounding misplaces a side against the visible surface, [`trace`] is of
     /// two minds. `None`, for shadow maps: no such doubt. [`volume_count`] takes 24 bits then.
     pub depth_buffer_bits: Option<u32>,
-    /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth.
+    /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth. Left out on both
+    /// sides are pixels of [`Reason::GrazingLight`] on surfaces that shading keeps dark either way: walls under an
+    /// overhead sun are undecided by nature, and show less than a 256th of the light.
     pub most_ambiguous: f64,
 }
 
@@ -94,6 +97,21 @@ pub enum Error {
 pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
     Tracer::new(scene, light, options)?.trace(scene, options)
 }
+
+/// Ambiguous over drawn pixels, without those that are dark by shading alone.
+fn doubtful_share(truth: &Truth, scene: &Scene) -> f64 {
+    let is_dark = |hit: &Hit| {
+        let is_lit = scene.objects.get(hit.object as usize).is_none_or(|object| object.lit);
+        is_lit && hit.cos_light.abs() < FAINT
+    };
+    let grazing = |pixel: &&Pixel| pixel.answer == Answer::Ambiguous(Reason::GrazingLight);
+    let dark = truth.pixels.iter().filter(grazing).filter(|pixel| pixel.hit.as_ref().is_some_and(is_dark)).count();
+    let doubtful = truth.count(|answer| matches!(answer, Answer::Ambiguous(_))) - dark;
+    doubtful as f64 / (truth.drawn() - dark).max(1) as f64
+}
+
+/// A cosine below which diffuse light is less than a code of eight bits.
+const FAINT: f64 = 1.0 / 256.0;
 
 /// All that a pixel's question needs.
 struct Tracer<'a> {
@@ -144,10 +162,11 @@ impl<'a> Tracer<'a> {
         };
         let pixels = rows.map(answer).collect();
         let truth = Truth { width, height, pixels };
-        if truth.ambiguous_share() > options.most_ambiguous {
+        let share = doubtful_share(&truth, scene);
+        if share > options.most_ambiguous {
             let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));
             return Err(Error::TooAmbiguous {
-                percent: 100.0 * truth.ambiguous_share(),
+                percent: 100.0 * share,
                 most_percent: 100.0 * options.most_ambiguous,
                 reasons: reasons.collect::<Vec<_>>().join(", "),
             });
@@ -155,11 +174,13 @@ impl<'a> Tracer<'a> {
         Ok(truth)
     }
 
-    /// Of a point at `reach` from its object's origin. The third term is the rounding of this computation itself.
+    /// Of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in
+    /// which the object's farthest vertex enters too.
     fn error_of(&self, placed: &Placed, reach: f64) -> f64 {
-        let origin = placed.origin();
-        let met = reach + origin.distance(self.eye.position) + self.lamp.span(origin);
-        self.rounding * met + 64.0 * f64::EPSILON * (origin.abs().max_element() + met) + placed.wave_error
+        let (origin, eye) = (placed.origin(), self.eye.position);
+        let met = reach + origin.distance(eye) + origin.distance(self.lamp.place().unwrap_or(eye));
+        let own = 64.0 * f64::EPSILON * (origin.abs().max_element() + met + placed.reach);
+        self.rounding * met + own + placed.wave_error
     }
 
     fn position_error(&self, triangle: &Triangle<'_>, position: DVec3) -> f64 {
@@ -173,6 +194,27 @@ impl<'a> Tracer<'a> {
         let depth = self.eye.depth_of(ray);
         let rise = seen.spread.iter().map(|way| self.eye.depth_of(*way).abs()).sum::<f64>() / self.subpixel;
         2.0 * self.eye.infinite_depth_error(bits, depth, rise) * ray.length() / depth
+    }
+
+    /// Of the triangle where the beam may meet it: the axis within the triangle's box. Elsewhere a huge triangle may be
+    /// off by more.
+    fn error_in(&self, beam: &Beam, triangle: &Triangle<'_>) -> f64 {
+        let most = self.errors[triangle.object as usize];
+        let [a, b, c] = triangle.corners;
+        let pad = beam.radius(most);
+        let (min, max) = (a.min(b).min(c) - pad, a.max(b).max(c) + pad);
+        let (origin, axis) = (beam.origin(), beam.axis());
+        // Past the base as far as a beam is wide.
+        let (mut start, mut end) = (beam.start, 1.0 + pad / axis.length());
+        for k in 0..3 {
+            let ends = [(min[k] - origin[k]) / axis[k], (max[k] - origin[k]) / axis[k]];
+            // f64::min and max leave out a NaN: a face in which the axis lies.
+            start = start.max(ends[0].min(ends[1]));
+            end = end.min(ends[0].max(ends[1]));
+        }
+        // A distance along a line is greatest at an end.
+        let at = |t: f64| self.position_error(triangle, origin + t * axis);
+        if start <= end { at(start).max(at(end)).min(most) } else { most }
     }
 
     fn answer(&self, x: u32, y: u32) -> Pixel {

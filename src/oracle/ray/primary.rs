@@ -77,7 +77,8 @@ impl Tracer<'_> {
         let behind = beam.surface_spread.iter().map(|way| way.length()).sum::<f64>() + beam.depth_error;
         let end = 1.0 + (behind + self.largest_error) / axis.length();
         let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
-        self.world.visit(&segment, beam.radius(self.largest_error), |triangle| {
+        let pads = |object: u32| beam.radius(self.errors[object as usize]);
+        self.world.visit_within(&segment, beam.radius(self.largest_error), pads, |triangle| {
             let found = self.judge_view(beam, hit, triangle, &mut widened);
             doubt(&mut reason, found);
             ControlFlow::Continue(())
@@ -93,7 +94,7 @@ impl Tracer<'_> {
         widened: &mut f64,
     ) -> Option<Reason> {
         let is_hit = hit.is_some_and(|hit| hit.is(triangle));
-        let error = self.errors[triangle.object as usize];
+        let error = self.error_in(beam, triangle);
         if triangle.is_degenerate() {
             return None;
         }

@@ -61,7 +61,8 @@ impl Tracer<'_> {
         let segment =
             Segment { origin: beam.origin(), direction, start: beam.start, end: 1.0 + radius / direction.length() };
         let (mut lit, mut reason) = (true, None);
-        self.world.visit(&segment, radius, |triangle| match self.judge_shadow(&beam, seen, triangle) {
+        let pads = |object: u32| beam.radius(self.errors[object as usize]);
+        self.world.visit_within(&segment, radius, pads, |triangle| match self.judge_shadow(&beam, seen, triangle) {
             Verdict::Blocks => {
                 (lit, reason) = (false, None);
                 ControlFlow::Break(())
@@ -80,7 +81,7 @@ impl Tracer<'_> {
         if !triangle.placed.casts_shadow || triangle.is(&seen.triangle) || triangle.is_degenerate() {
             return Verdict::Passes;
         }
-        let error = self.errors[triangle.object as usize];
+        let error = self.error_in(beam, triangle);
         let Some(meeting) = beam.meet(&triangle.corners, error) else { return Verdict::Passes };
         let near_edge = !meeting.surely_inside && self.passes_any_edge(beam, triangle, error);
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {

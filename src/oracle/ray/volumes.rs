@@ -235,7 +235,7 @@ impl<'t, 'a> Counting<'t, 'a> {
     }
 
     fn share(&self, beam: &Beam, seen: Option<&Seen<'_>>, triangle: &Triangle<'_>) -> Share {
-        let error = self.tracer.errors[triangle.object as usize];
+        let error = self.tracer.error_in(beam, triangle);
         let near_edge = self.tracer.passes_any_edge(beam, triangle, error);
         let is_fold = near_edge && self.tracer.folds_inside(beam, triangle, error);
         let fold = is_fold.then_some(Reason::ShadowEdge);

@@ -107,14 +107,25 @@ impl<'a> World<'a> {
 
     /// Calls `look` with each triangle whose box comes within `pad` world units of the segment, in no order; stops
     /// where it breaks.
-    pub fn visit(&self, segment: &Segment, pad: f64, mut look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
-        let outer = Slab::new(segment, pad);
+    pub fn visit(&self, segment: &Segment, pad: f64, look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
+        self.visit_within(segment, pad, |_| pad, look);
+    }
+
+    /// The same with a pad for each object, none above `most`.
+    pub fn visit_within(
+        &self,
+        segment: &Segment,
+        most: f64,
+        pads: impl Fn(u32) -> f64,
+        mut look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>,
+    ) {
+        let outer = Slab::new(segment, most);
         self.top.traverse(|node| {
             if outer.enter(node, segment.end) == f64::MAX {
                 return TraversalAction::Prune;
             }
             let Some(object) = node.leaf_data() else { return TraversalAction::Continue };
-            match self.visit_object(object, segment, pad, &mut look) {
+            match self.visit_object(object, segment, pads(object), &mut look) {
                 ControlFlow::Continue(()) => TraversalAction::Continue,
                 ControlFlow::Break(()) => TraversalAction::EarlyExit,
             }

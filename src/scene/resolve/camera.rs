@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use crate::math::Aabb;
 use crate::scene::frame;
-use crate::scene::settings::{Settings, SettingsError};
-use crate::scene::{Camera, Object};
+use crate::scene::settings::{Plain, Settings, SettingsError};
+use crate::scene::sight::{Cut, Pyramid, Span};
+use crate::scene::{Camera, Image, Object};
 
 /// `[camera]` as written; what depends on the objects comes later.
 pub(super) struct Written {
@@ -19,7 +20,8 @@ pub(super) struct Written {
 
 /// Reads and checks what can be checked without the objects.
 pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
-    let settings = table.cloned().unwrap_or_default();
+    let absent = || Settings { path: String::from("camera"), ..Settings::default() };
+    let settings = table.cloned().unwrap_or_else(absent);
     let mut reader = settings.read();
     let (eye, target) = (reader.vector("eye")?, reader.vector("target")?);
     match (eye, target) {
@@ -33,19 +35,31 @@ pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
 }
 
 impl Written {
-    /// The camera, framed on `objects` where it is not written; `aspect` is the picture's width over its height.
-    pub fn complete(self, objects: &[Object], aspect: f64) -> Result<Camera, SettingsError> {
+    /// The camera, framed on `objects` where it is not written; what its planes cut or make too coarse is added to
+    /// `warnings`.
+    pub fn complete(
+        self,
+        objects: &[Object],
+        image: &Image,
+        warnings: &mut Vec<String>,
+    ) -> Result<Camera, SettingsError> {
         let corners: Vec<DVec3> = objects.iter().flat_map(|object| object.world_bounds().corners()).collect();
         let bounds = Aabb::from_points(corners.iter().copied());
         let radius = frame::working_radius(&bounds);
-        let (eye, target) = self.eye_and_target(&corners, &bounds, radius, aspect);
+        let (eye, target) = self.eye_and_target(&corners, &bounds, radius, image.aspect());
         let mut reader = self.settings.read();
         let up = reader.up(["eye", "target"], eye, target)?;
         let mut camera = Camera { eye, target, up, fov_y_radians: self.fov_y_radians, near: 0.0, far: 0.0 };
-        let [near, far] = frame::depth_range(&corners, &camera, radius);
+        let pyramid = Pyramid::of_camera(&camera, image.aspect());
+        let spans: Vec<Span> = objects.iter().map(|object| pyramid.span(object)).collect();
+        let seen = spans.iter().copied().fold(Span::EMPTY, Span::union);
+        let [near, far] = frame::depth_range(&corners, &camera, seen, radius);
         camera.near = self.near.unwrap_or_else(|| self.far.map_or(near, |far| near.min(far / 2.0)));
         camera.far = self.far.unwrap_or_else(|| far.max(2.0 * camera.near));
         reader.check_far(camera.near, camera.far)?;
+        let view = View { camera: &camera, pyramid, objects, spans, size: image.size };
+        let said = [view.cut_before(), view.cut_beyond(), view.coarse()].into_iter().flatten();
+        warnings.extend(said.map(|(key, what)| reader.error(key, what).to_string()));
         Ok(camera)
     }
 
@@ -64,4 +78,92 @@ impl Written {
             (None, None) => frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius),
         }
     }
+}
+
+/// What a camera with its planes shows of the objects; `spans` has one for each.
+struct View<'a> {
+    camera: &'a Camera,
+    pyramid: Pyramid,
+    objects: &'a [Object],
+    spans: Vec<Span>,
+    size: [u32; 2],
+}
+
+/// A key, and what is to be said of its value.
+type Said = (&'static str, String);
+
+impl View<'_> {
+    /// Each object with its depths, the nearest first.
+    fn by_depth(&self) -> Vec<(&Object, Span)> {
+        let mut objects: Vec<_> = self.objects.iter().zip(self.spans.iter().copied()).collect();
+        objects.sort_by(|a, b| a.1.least.total_cmp(&b.1.least));
+        objects
+    }
+
+    /// What is nearest hides nothing that is nearer: if it is cut, the picture lacks it.
+    fn cut_before(&self) -> Option<Said> {
+        let near = self.camera.near;
+        let cut = self.by_depth().into_iter().take_while(|(_, span)| span.least < near);
+        let mut cut = cut.filter(|(object, _)| self.pyramid.is_cut(object, Cut::Before(near), self.size));
+        let (object, span) = cut.next()?;
+        let part = if span.most < near { "" } else { "part of " };
+        let begins = Plain(brief(span.least));
+        let what = format!("= {} cuts off {part}`{}`, which begins at {begins}", Plain(brief(near)), object.name);
+        Some(("near", what))
+    }
+
+    fn cut_beyond(&self) -> Option<Said> {
+        let far = self.camera.far;
+        let cut = self.objects.iter().zip(&self.spans).filter(|(_, span)| span.most > far);
+        let mut cut = cut.filter(|(object, _)| self.pyramid.shows_beyond(object, far, self.objects, self.size));
+        let (object, span) = cut.next()?;
+        let part = if span.least > far { "" } else { "part of " };
+        let ends = Plain(brief(span.most));
+        let what = format!("= {} cuts off {part}`{}`, which ends at {ends}", Plain(brief(far)), object.name);
+        Some(("far", what))
+    }
+
+    /// A solid whose front and back fall on one depth: which of them is shown is left to chance.
+    fn coarse(&self) -> Option<Said> {
+        let near = self.camera.near;
+        let is_lost = |object: &Object, span: Span| {
+            let [thin, _, long] = extents(object);
+            let pixel = self.camera.pixel_at(span.least, self.size);
+            // Without back faces only what is all at one depth is lost.
+            let room = if object.closed { long } else { thin };
+            thin > 0.0 && long > pixel && frame::depth_step(near, span.least) > room
+        };
+        let seen = self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near);
+        let (object, span) = seen.filter(|(object, span)| is_lost(object, *span)).next()?;
+        let what = format!(
+            "= {} is so near that a depth buffer of 24 bits tells apart no less than {} at `{}`, {} away",
+            Plain(brief(near)),
+            Plain(brief(frame::depth_step(near, span.least))),
+            object.name,
+            Plain(brief(span.least)),
+        );
+        Some(("near", what))
+    }
+}
+
+impl Camera {
+    /// A pixel's side at a depth, in world units.
+    fn pixel_at(&self, depth: f64, size: [u32; 2]) -> f64 {
+        2.0 * depth * (0.5 * self.fov_y_radians).tan() / f64::from(size[1])
+    }
+}
+
+/// The lengths of an object's box along its own axes, the shortest first.
+fn extents(object: &Object) -> [f64; 3] {
+    let size = object.mesh.bounds.max - object.mesh.bounds.min;
+    let mut lengths = [DVec3::X, DVec3::Y, DVec3::Z]
+        .map(|axis| object.world_from_model.transform_vector3(axis * size.dot(axis)).length());
+    lengths.sort_by(f64::total_cmp);
+    lengths
+}
+
+/// A number to four digits.
+fn brief(value: f64) -> f64 {
+    // Adding zero turns -0 to 0.
+    format!("{value:.3e}").parse().unwrap_or(value) + 0.0
 }

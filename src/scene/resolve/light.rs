@@ -26,7 +26,7 @@ const KINDS: [(&str, Kind); 3] = [("spot", Kind::Spot), ("point", Kind::Point), 
 /// `[[light]]` as written; what depends on the objects comes later.
 pub(super) struct Written {
     settings: Settings,
-    /// A point light's planes are not known yet where they are not written.
+    /// Its planes are not known yet.
     light: Light,
     near: Option<f64>,
     far: Option<f64>,
@@ -39,7 +39,7 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let [near, far] = reader.near_and_far()?;
     let image = reader.file("image")?;
     let kind = match kind {
-        Kind::Spot => LightKind::Spot(spot(&mut reader, [near, far])?),
+        Kind::Spot => LightKind::Spot(spot(&mut reader)?),
         Kind::Point => LightKind::Point(point(&mut reader)?),
         Kind::Directional => LightKind::Directional { direction: direction(&mut reader)? },
     };
@@ -61,17 +61,21 @@ impl Written {
     /// The light, its maps' range around `objects` where that is not written.
     pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
         let Self { settings, mut light, near: written_near, far: written_far } = self;
-        if let LightKind::Point(point) = &mut light.kind {
-            let [near, far] = frame::cube_range(point.position, objects);
-            point.near = written_near.unwrap_or_else(|| written_far.map_or(near, |far| near.min(far / 2.0)));
-            point.far = written_far.unwrap_or_else(|| far.max(2.0 * point.near));
-            settings.read().check_far(point.near, point.far)?;
-        }
+        let (found, near, far) = match &mut light.kind {
+            LightKind::Point(point) => (frame::cube_range(point.position, objects), &mut point.near, &mut point.far),
+            LightKind::Spot(Spot { frustum, .. }) => {
+                (frame::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
+            }
+            LightKind::Directional { .. } => return Ok(light),
+        };
+        *near = written_near.unwrap_or_else(|| written_far.map_or(found[0], |far| found[0].min(far / 2.0)));
+        *far = written_far.unwrap_or_else(|| found[1].max(2.0 * *near));
+        settings.read().check_far(*near, *far)?;
         Ok(light)
     }
 }
 
-fn spot(reader: &mut Reader<'_>, [near, far]: [Option<f64>; 2]) -> Result<Spot, SettingsError> {
+fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
     reader.refuse(&["direction"], "is no key of a spotlight, which has a `target`")?;
     let cone_radians = reader
         .angle_between("cone", 1.0, 179.0)?
@@ -80,9 +84,7 @@ fn spot(reader: &mut Reader<'_>, [near, far]: [Option<f64>; 2]) -> Result<Spot, 
     let position = position(reader)?;
     let target = reader.vector("target")?.ok_or_else(|| reader.missing("target", "what the light points at"))?;
     let up = reader.up(["position", "target"], position, target)?;
-    let near = near.ok_or_else(|| reader.missing("near", "the near plane of the light's frustum"))?;
-    let far = far.ok_or_else(|| reader.missing("far", "the far plane of the light's frustum"))?;
-    let frustum = Frustum { position, target, up, cone_radians, near, far };
+    let frustum = Frustum { position, target, up, cone_radians, near: 0.0, far: 0.0 };
     let attenuation = attenuation(reader)?;
     let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
     Ok(Spot { frustum, shape, attenuation, image: None, frustum_shown })

@@ -39,7 +39,7 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets) -> Result<Scene, Error
         assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
     }
     let lights = lights.into_iter().map(|light| light.complete(&objects)).collect::<Result<Vec<_>, _>>()?;
-    let camera = camera.complete(&objects, image.aspect())?;
+    let camera = camera.complete(&objects, &image, &mut assets.warnings)?;
     Ok(Scene { image, camera, shading, lights, objects })
 }
 

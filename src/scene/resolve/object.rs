@@ -1,9 +1,11 @@
 //! `[[object]]`: a mesh, where it stands and what it is made of.
 
+use std::sync::Arc;
+
 use glam::{DMat4, DVec3};
 
 use super::material;
-use crate::geometry::{Mesh, Wave};
+use crate::geometry::{Material, Mesh, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
@@ -15,7 +17,7 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let (mesh, mesh_origin) =
         reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh or an .obj file"))?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
-    let world_from_model = placement(&mut reader)?;
+    let world_from_file = placement(&mut reader)?;
     let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
@@ -27,9 +29,20 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
     }
+    let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
+    let wave = wave.map(|wave| wave.relative_to(mesh.origin));
+    let material = material.map(|material| relative_to(material, mesh.origin));
     let object = Object { name, mesh, world_from_model, wave, material, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     Ok(object)
+}
+
+/// A material whose generated coordinates are those of the file's space.
+fn relative_to(material: Arc<Material>, origin: DVec3) -> Arc<Material> {
+    match material.texgen {
+        Some(texgen) => Arc::new(Material { texgen: Some(texgen.relative_to(origin)), ..(*material).clone() }),
+        None => material,
+    }
 }
 
 /// Why a mesh is not what `closed = true` says of it.

@@ -1,0 +1,126 @@
+//! Where a file's vertices are: read in f64, and taken relative to an origin near them where f32, which meshes and tobj
+//! hold, would lose what f64 tells apart (map coordinates).
+
+use glam::DVec3;
+
+use super::scan::{Counts, Scan, read_corner};
+use crate::geometry::text::logical_lines;
+use crate::math::Aabb;
+
+/// An origin is taken where the vertices are at least so many times as far away as they are apart: it saves three bits.
+/// Other files are read as they are.
+const FAR: f64 = 8.0;
+
+/// A face whose longest edge is off by more than this part of its length has no longer its shape.
+const MOST_OFF: f64 = 1.0 / 16.0;
+
+/// The vertices of a file.
+#[derive(Debug)]
+pub(in super::super) struct Places {
+    positions: Vec<DVec3>,
+    bounds: Aabb,
+    /// The least, over the faces, of their longest edge's length.
+    finest: f64,
+}
+
+impl Default for Places {
+    fn default() -> Self {
+        Self { positions: Vec::new(), bounds: Aabb::EMPTY, finest: f64::INFINITY }
+    }
+}
+
+impl Places {
+    /// Of a position as written; `weight` divides it where it is not empty.
+    pub fn add(&mut self, xyz: [&str; 3], weight: &str) {
+        let number = |word: &str| word.parse::<f64>().unwrap_or(0.0);
+        let weight = if weight.is_empty() { 1.0 } else { number(weight) };
+        let place = DVec3::from_array(xyz.map(number)) / weight;
+        self.bounds = self.bounds.including(place);
+        self.positions.push(place);
+    }
+
+    pub fn count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Notes how fine a face is. `corners` count from 1; those that are not read yet do not count.
+    pub fn add_face(&mut self, corners: &[usize]) {
+        let longest = self.edges(corners).map(|[a, b]| a.distance_squared(b)).fold(0.0, f64::max).sqrt();
+        if longest > 0.0 {
+            self.finest = self.finest.min(longest);
+        }
+    }
+
+    fn edges(&self, corners: &[usize]) -> impl Iterator<Item = [DVec3; 2]> {
+        let place = |k: usize| self.positions.get(corners[k % corners.len()].wrapping_sub(1)).copied();
+        (0..corners.len()).filter_map(move |k| Some([place(k)?, place(k + 1)?]))
+    }
+
+    /// What the mesh's positions are relative to; zero where that saves nothing.
+    pub fn origin(&self) -> DVec3 {
+        let away = self.bounds.min.abs().max(self.bounds.max.abs()).max_element();
+        let size = (self.bounds.max - self.bounds.min).max_element();
+        if self.bounds.is_empty() || away < FAR * size || away == 0.0 {
+            return DVec3::ZERO;
+        }
+        // A power of two not below the size: what is taken off is short, and the rest exact.
+        let step = size.max(away * f64::EPSILON).log2().ceil().exp2();
+        (self.bounds.center() / step).round() * step
+    }
+
+    /// The position of vertex `index`, from 0, relative to `origin`.
+    pub fn relative(&self, index: usize, origin: DVec3) -> [f32; 3] {
+        let place = self.positions.get(index).copied().unwrap_or_default();
+        (place - origin).as_vec3().to_array()
+    }
+
+    /// The worst face that f32 does not hold: its line, its longest edge and what that is off by; and how many such
+    /// faces there are.
+    pub fn lost(&self, text: &str, origin: DVec3) -> Option<(usize, [f64; 2], usize)> {
+        let reach = (self.bounds.min - origin).abs().max((self.bounds.max - origin).abs()).length();
+        // Half a step for either end: no face as large as this can be lost.
+        if self.finest * MOST_OFF > reach * f64::from(f32::EPSILON) {
+            return None;
+        }
+        let (mut counts, mut worst, mut lost) = (Counts::default(), None, 0);
+        for line in logical_lines(text) {
+            let mut words = line.text.split_ascii_whitespace();
+            match words.next() {
+                Some("v") => counts.v += 1,
+                Some("vt") => counts.vt += 1,
+                Some("vn") => counts.vn += 1,
+                Some("f") => {
+                    let corners = words.map_while(|word| read_corner(word, counts).ok());
+                    let corners: Vec<usize> = corners.map(|corner| corner.v).collect();
+                    let Some([length, off]) = self.longest(&corners, origin) else { continue };
+                    if off > MOST_OFF * length {
+                        lost += 1;
+                        let ratio = off / length;
+                        if worst.is_none_or(|(_, [length, off]): (_, [f64; 2])| ratio > off / length) {
+                            worst = Some((line.number, [length, off]));
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        worst.map(|(line, edge)| (line, edge, lost))
+    }
+
+    /// A face's longest edge, and what f32 makes it wrong by.
+    fn longest(&self, corners: &[usize], origin: DVec3) -> Option<[f64; 2]> {
+        let held = |place: DVec3| (place - origin).as_vec3().as_dvec3();
+        let edges = self.edges(corners).map(|[a, b]| [(b - a).length(), (held(b) - held(a) - (b - a)).length()]);
+        edges.max_by(|a, b| a[0].total_cmp(&b[0])).filter(|[length, _]| *length > 0.0)
+    }
+}
+
+/// What is to be said of a file whose faces f32 does not hold: the line, and why.
+pub(super) fn warning(scan: &Scan, text: &str) -> Option<(usize, String)> {
+    let (line, [length, off], count) = scan.places.lost(text, scan.origin)?;
+    let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };
+    let message = format!(
+        "{faces} too fine for 32-bit floats so far from the file's middle: its longest edge, {length:.3e}, is off by {off:.1e}"
+    );
+    Some((line, message))
+}

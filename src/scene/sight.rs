@@ -1,0 +1,219 @@
+//! What a viewer's pyramid holds of the objects: how near and how far they come, by depth along its axis, and what a
+//! plane across the axis cuts off. Triangles are clipped one by one: a box's corners say nothing of a floor that passes
+//! under the eye. The work is linear in the triangles.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec2, DVec3, DVec4};
+
+use super::{Camera, Frustum, Object};
+use crate::geometry::Mesh;
+use crate::math::{Aabb, frustum::clip_polygon, spaces};
+
+/// A piece smaller than this, in pixels, is not missed.
+const LEAST_PIECE: f64 = 0.5;
+
+/// What is cut off is looked for behind other surfaces at so many of its triangles.
+const SAMPLES: usize = 16;
+
+/// A pyramid of view, without end: x right, y up, -z ahead.
+#[derive(Clone, Debug)]
+pub(super) struct Pyramid {
+    view_from_world: DMat4,
+    /// Half its width and half its height at depth 1.
+    tan: DVec2,
+}
+
+/// Depths, least and most, of what is in view; empty where `least` exceeds `most`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub least: f64,
+    pub most: f64,
+}
+
+impl Span {
+    pub const EMPTY: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+
+    pub fn is_empty(&self) -> bool {
+        self.least > self.most
+    }
+
+    pub fn union(self, other: Self) -> Self {
+        Self { least: self.least.min(other.least), most: self.most.max(other.most) }
+    }
+
+    fn including(self, polygon: &[DVec3]) -> Self {
+        polygon.iter().fold(self, |span, point| span.union(Self { least: -point.z, most: -point.z }))
+    }
+}
+
+impl Pyramid {
+    /// `aspect` is the picture's width over its height.
+    pub fn of_camera(camera: &Camera, aspect: f64) -> Self {
+        let tan = (0.5 * camera.fov_y_radians).tan();
+        Self { view_from_world: camera.view_from_world(), tan: DVec2::new(tan * aspect, tan) }
+    }
+
+    pub fn of_frustum(frustum: &Frustum) -> Self {
+        let tan = (0.5 * frustum.cone_radians).tan();
+        Self { view_from_world: frustum.view_from_world(), tan: DVec2::splat(tan) }
+    }
+
+    /// The six of a cube around `position`, which together hold everything.
+    pub fn of_cube(position: DVec3) -> [Self; 6] {
+        [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].map(|way| {
+            let up = if way.y == 0.0 { DVec3::Y } else { DVec3::Z };
+            let view_from_world = spaces::view_from_world(DVec3::ZERO, way, up) * DMat4::from_translation(-position);
+            Self { view_from_world, tan: DVec2::ONE }
+        })
+    }
+
+    /// The depths of all of `object` that is in view.
+    pub fn span(&self, object: &Object) -> Span {
+        let mut span = Span::EMPTY;
+        self.visit(object, |polygon| {
+            span = span.including(polygon);
+            true
+        });
+        span
+    }
+
+    /// How many pixels of a picture of `size` the pieces of `object` fill whose depths `plane` keeps; no more than
+    /// needed to tell whether they can be missed.
+    pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2]) -> bool {
+        let mut area = 0.0;
+        self.visit(object, |polygon| {
+            area += self.pixels(&clip_polygon(polygon, &cut.plane()), size);
+            area < LEAST_PIECE
+        });
+        area >= LEAST_PIECE
+    }
+
+    /// Whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
+    pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
+        let mut pieces: Vec<(f64, DVec3)> = Vec::new();
+        self.visit(object, |polygon| {
+            let piece = clip_polygon(polygon, &Cut::Beyond(far).plane());
+            let area = self.pixels(&piece, size);
+            if area >= LEAST_PIECE {
+                pieces.push((area, piece.iter().sum::<DVec3>() / piece.len() as f64));
+            }
+            true
+        });
+        pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
+        pieces.truncate(SAMPLES);
+        for other in objects {
+            if pieces.is_empty() {
+                break;
+            }
+            self.visit(other, |polygon| {
+                pieces.retain(|(_, point)| !hides(polygon, *point, far));
+                !pieces.is_empty()
+            });
+        }
+        !pieces.is_empty()
+    }
+
+    /// The area of a polygon in view, in pixels.
+    fn pixels(&self, polygon: &[DVec3], size: [u32; 2]) -> f64 {
+        if polygon.len() < 3 {
+            return 0.0;
+        }
+        let seen = |point: &DVec3| point.truncate() / (-point.z * self.tan);
+        let corner = |k: usize| seen(&polygon[k % polygon.len()]);
+        let twice: f64 =
+            (1..polygon.len() - 1).map(|k| (corner(k) - corner(0)).perp_dot(corner(k + 1) - corner(0))).sum();
+        // At the very apex a polygon fills any part of the picture.
+        let area = if twice.is_finite() { 0.5 * twice.abs() } else { 4.0 };
+        area * 0.25 * f64::from(size[0]) * f64::from(size[1])
+    }
+
+    /// Calls `look` with what of each triangle that is drawn lies in view, in view space, until it says `false`.
+    fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
+        let mesh = drawn_mesh(object);
+        let view_from_model = self.view_from_world * object.world_from_model;
+        for part in &mesh.parts {
+            if is_clear(object, part.material) || self.misses(&part.bounds, &view_from_model) {
+                continue;
+            }
+            let indices = &mesh.indices[part.indices.start as usize..part.indices.end as usize];
+            for triangle in indices.as_chunks::<3>().0 {
+                let corners = triangle.map(|index| {
+                    let place = DVec3::from_array(mesh.positions[index as usize].map(f64::from));
+                    view_from_model.transform_point3(place)
+                });
+                let outside = corners.map(|corner| self.outside(corner));
+                let goes_on = if outside == [0; 3] {
+                    look(&corners)
+                } else if outside.iter().fold(u8::MAX, |all, bits| all & bits) == 0 {
+                    let inside = self.planes().iter().fold(corners.to_vec(), |left, plane| clip_polygon(&left, plane));
+                    inside.is_empty() || look(&inside)
+                } else {
+                    true
+                };
+                if !goes_on {
+                    return;
+                }
+            }
+        }
+    }
+
+    fn misses(&self, bounds: &Aabb, view_from_model: &DMat4) -> bool {
+        let corners = bounds.corners().map(|corner| self.outside(view_from_model.transform_point3(corner)));
+        corners.iter().fold(u8::MAX, |all, bits| all & bits) != 0
+    }
+
+    /// A bit for each side that the point lies beyond.
+    fn outside(&self, point: DVec3) -> u8 {
+        let reach = -point.z * self.tan;
+        u8::from(point.x < -reach.x)
+            | u8::from(point.x > reach.x) << 1
+            | u8::from(point.y < -reach.y) << 2
+            | u8::from(point.y > reach.y) << 3
+    }
+
+    /// The sides, positive inside.
+    fn planes(&self) -> [DVec4; 4] {
+        let DVec2 { x, y } = self.tan;
+        [[1.0, 0.0, -x], [-1.0, 0.0, -x], [0.0, 1.0, -y], [0.0, -1.0, -y]].map(|[a, b, c]| DVec4::new(a, b, c, 0.0))
+    }
+}
+
+/// Which depths a plane across the axis takes away.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Cut {
+    Before(f64),
+    Beyond(f64),
+}
+
+impl Cut {
+    /// Positive on the side that is taken away.
+    fn plane(self) -> DVec4 {
+        match self {
+            Self::Before(depth) => DVec4::new(0.0, 0.0, 1.0, depth),
+            Self::Beyond(depth) => DVec4::new(0.0, 0.0, -1.0, -depth),
+        }
+    }
+}
+
+/// Whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
+fn hides(polygon: &[DVec3], point: DVec3, far: f64) -> bool {
+    let sides = (0..polygon.len()).map(|k| polygon[k].cross(polygon[(k + 1) % polygon.len()]).dot(point));
+    let (mut left, mut right) = (false, false);
+    sides.for_each(|side| (left, right) = (left || side > 0.0, right || side < 0.0));
+    let normal =
+        (1..polygon.len() - 1).map(|k| (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0])).sum::<DVec3>();
+    let at = normal.dot(polygon[0]) / normal.dot(point);
+    left != right && 0.0 < at && at * -point.z < far
+}
+
+/// The mesh as this frame draws it.
+fn drawn_mesh(object: &Object) -> Arc<Mesh> {
+    object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh))
+}
+
+/// Whether the alpha test leaves nothing of a part.
+fn is_clear(object: &Object, material: Option<usize>) -> bool {
+    let own = || object.mesh.materials.get(material?);
+    object.material.as_deref().or_else(own).is_some_and(|material| material.opacity < 0.5)
+}
