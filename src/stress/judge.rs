@@ -5,10 +5,12 @@
 //!
 //! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
 //! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is
-//!   accounted for in three ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
+//!   accounted for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
 //!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*);
 //!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
-//!   3. it is lit, and what shadows it lies so close before it that the bias reaches across.
+//!   3. it is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset makes
+//!      up for: an offset knows the slope of the surface that is stored, not of the one that is compared;
+//!   4. it is lit, and what shadows it lies so close before it that the bias reaches across.
 //!
 //!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
@@ -19,7 +21,7 @@ use super::results::{Row, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::Renderer;
-use crate::oracle::ray::{self, Answer, Around, Blocker, Surroundings, Truth};
+use crate::oracle::ray::{self, Answer, Around, Blocker, Nearer, Surroundings, Truth};
 use crate::pass::DepthFormat;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::report::metrics::ShadeImage;
@@ -46,6 +48,7 @@ pub struct Judge<'a> {
     /// For shadow volumes: with the depth buffer's doubt.
     pub volume_truth: Truth,
     /// By pixel and reach.
+    pub map: Option<MapInfo>,
     known: HashMap<(usize, u64), Option<Around>>,
 }
 
@@ -69,7 +72,7 @@ impl<'a> Judge<'a> {
         let truth = surroundings.truth()?;
         let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
         let volume_truth = ray::trace(scene, light, &doubtful)?;
-        Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
+        Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new(), map: None })
     }
 
     /// The truth that rows of these settings are held against.
@@ -141,6 +144,7 @@ impl<'a> Judge<'a> {
     fn compare(&mut self, settings: &RowSettings, plan: &Plan, shade: &ShadeImage) -> Counts {
         let is_volume = is_volume(settings);
         let map = plan.maps.iter().find(|map| map.light == self.light).copied();
+        self.map = map;
         let mut counts = Counts::default();
         for index in 0..self.truth.pixels.len() {
             let pixel = self.truth_of(settings).pixels[index];
@@ -172,6 +176,13 @@ impl<'a> Judge<'a> {
         counts
     }
 
+    /// DEBUG
+    pub fn around(&self, index: usize, texels: f64) -> (Option<MapInfo>, Option<Around>) {
+        let width = self.truth.width as usize;
+        let Some(map) = self.map else { return (None, None) };
+        (None, self.surroundings.around((index % width) as u32, (index / width) as u32, texels * map.texel))
+    }
+
     /// Whether the map's own texels explain a wrong pixel.
     fn accounts_for(&mut self, index: usize, should_be_lit: bool, map: &MapInfo) -> bool {
         // One texel more: positions round to a texel's neighbour.
@@ -186,7 +197,8 @@ impl<'a> Judge<'a> {
             return true;
         }
         if should_be_lit {
-            return around.rise > 0.0;
+            return around.rise > 0.0
+                || (map.bias == Bias::Offset && around.nearer.iter().any(|near| shades(map, around, near)));
         }
         !around.blockers.is_empty()
             && around.blockers.iter().all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
@@ -196,6 +208,13 @@ impl<'a> Judge<'a> {
 /// Counted in the stencil buffer, without texels to be wrong by.
 fn is_volume(settings: &RowSettings) -> bool {
     settings.technique == "shadow-volume"
+}
+
+/// Whether a surface beside a point shades it for all of its own polygon offset, of which GL's slope is the steeper of the
+/// two along the map's axes: at least a part of 1/√2 of the slope itself.
+fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
+    let factor = f64::from(map.polygon.factor) * std::f64::consts::FRAC_1_SQRT_2;
+    near.by > map.texel * around.scale * (factor * near.slope + map.texels)
 }
 
 /// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.

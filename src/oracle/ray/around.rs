@@ -33,11 +33,22 @@ pub struct Around {
     pub rise: f64,
     /// What the point's own ray meets before the point.
     pub blockers: Vec<Blocker>,
+    /// Surfaces of other planes within the reach that lie nearer to the light than the point itself.
+    pub nearer: Vec<Nearer>,
     /// The tangent of the angle between the light's ray and the visible surface's normal.
     pub slope: f64,
     /// What a length of 1 on the plane at distance 1 from the light measures at the point, in world units; 1 for parallel
     /// light.
     pub scale: f64,
+}
+
+/// A surface beside a point that is nearer to the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearer {
+    /// By how much, along the light's axis and in world units.
+    pub by: f64,
+    /// As [`Around::slope`].
+    pub slope: f64,
 }
 
 /// A surface between the light and a point.
@@ -54,6 +65,9 @@ type Place = (u32, u32);
 
 /// Lengths of the reach at which rises are sampled, on each axis.
 const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+
+/// The cosine between the normals of two triangles of one plane, at least.
+const SAME_PLANE: f64 = 1.0 - 1e-9;
 
 /// Slopes beyond this one count as this: a surface seen edge-on.
 const STEEPEST: f64 = 1e6;
@@ -157,12 +171,18 @@ impl<'a> Surroundings<'a> {
         // The edge of a hole in a cut-out is an edge too, wherever the beam meets the cut-out.
         let is_cut = triangle.has_cutout() && !self.tracer.alpha_in(beam, triangle).surely_opaque();
         around.edge |= is_cut || (near_edge && self.tracer.folds_inside(beam, triangle, error));
+        let is_same_plane = triangle.normal().dot(seen.normal).abs() > SAME_PLANE;
         for u in STEPS {
             for v in STEPS {
                 let base = beam.base + u * beam.spread[0] + v * beam.spread[1];
-                let Some(gap) = gap(beam, base, seen, triangle).filter(|gap| *gap > seen.error + error) else {
+                let Some((gap, at)) = gap(beam, base, seen, triangle) else { continue };
+                let by = self.tracer.lamp.depth_between(at, seen.position);
+                if !is_same_plane && by > seen.error + error {
+                    around.nearer.push(Nearer { by, slope: slope(triangle.normal(), beam.axis()) });
+                }
+                if gap <= seen.error + error {
                     continue;
-                };
+                }
                 around.rise = around.rise.max(gap);
                 if (u, v) == (0.0, 0.0) {
                     blockers.push((place, gap));
@@ -172,8 +192,8 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// How far before the visible surface's plane the ray to `base` crosses the triangle; `None` where it does not.
-fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<f64> {
+/// How far before the visible surface's plane the ray to `base` crosses the triangle, and where; `None` where it does not.
+fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<(f64, DVec3)> {
     let way = match beam.apex {
         Apex::At(apex) => base - apex,
         Apex::Infinity { travel, length } => length * travel,
@@ -181,7 +201,7 @@ fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Op
     let origin = base - way;
     let at = crossing(origin, way, &triangle.corners)?;
     let plane = seen.normal.dot(seen.position - origin) / seen.normal.dot(way);
-    (at > 0.0 && plane.is_finite()).then_some((plane - at) * way.length())
+    (at > 0.0 && plane.is_finite()).then_some(((plane - at) * way.length(), origin + at * way))
 }
 
 fn slope(normal: DVec3, way: DVec3) -> f64 {

@@ -104,6 +104,20 @@ impl Lamp {
         }
     }
 
+    /// How much farther along the light's axis `to` lies than `from` (a point light's: along its nearest coordinate axis at
+    /// `to`), in world units.
+    pub fn depth_between(&self, from: DVec3, to: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { .. } => self.depth(to) - self.depth(from),
+            Shape::Cube { .. } => {
+                let from_light = -self.towards(to);
+                let axis = from_light.abs().max_position();
+                (to[axis] - from[axis]) * from_light[axis].signum()
+            }
+            Shape::Square { .. } => -self.towards(to).dot(to - from),
+        }
+    }
+
     /// The halves of a square around `point` across the light's axis, `reach` at distance 1 along it, or in world units
     /// for parallel light, whose maps may be turned any way: there the square holds every turned one.
     pub fn footprint(&self, point: DVec3, reach: f64) -> [DVec3; 2] {

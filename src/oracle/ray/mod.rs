@@ -39,7 +39,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::scene::Scene;
-pub use around::{Around, Blocker, Surroundings};
+pub use around::{Around, Blocker, Nearer, Surroundings};
 use beam::Beam;
 use camera::Eye;
 use cutout::Alpha;
