@@ -35,7 +35,8 @@ pub struct Around {
     pub blockers: Vec<Blocker>,
     /// Surfaces of other planes within the reach that lie nearer to the light than the point itself.
     pub nearer: Vec<Nearer>,
-    /// The tangent of the angle between the light's ray and the visible surface's normal.
+    /// How fast the visible surface's depth along the light's axis grows across a map, as GL's polygon offset has it but
+    /// over both axes together: without unit.
     pub slope: f64,
     /// What a length of 1 on the plane at distance 1 from the light measures at the point, in world units; 1 for parallel
     /// light.
@@ -97,7 +98,7 @@ impl<'a> Surroundings<'a> {
         let seen = self.tracer.look(x, y).0?;
         let scale = self.tracer.lamp.depth_at(seen.position);
         let beam = self.beam(&seen, reach);
-        let mut around = Around { scale, slope: slope(seen.normal, beam.axis()), ..Around::default() };
+        let mut around = Around { scale, slope: self.slope(&seen, seen.normal), ..Around::default() };
         let axis = beam.axis();
         let radius = beam.radius(self.tracer.largest_error);
         let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
@@ -114,11 +115,16 @@ impl<'a> Surroundings<'a> {
                 let blocker = self.triangle(place);
                 let beside = met.iter().map(|place| self.triangle(place));
                 let same = beside.filter(|other| other.is(&blocker) || other.touches(&blocker));
-                let steepest = same.map(|other| slope(other.normal(), axis)).fold(0.0, f64::max);
+                let steepest = same.map(|other| self.slope(&seen, other.normal())).fold(0.0, f64::max);
                 Blocker { gap: *gap, slope: steepest }
             })
             .collect();
         Some(around)
+    }
+
+    /// Of a surface near the visible point, as [`Around::slope`].
+    fn slope(&self, seen: &Seen<'_>, normal: DVec3) -> f64 {
+        self.tracer.lamp.slope(seen.position, normal).min(STEEPEST)
     }
 
     fn beam(&self, seen: &Seen<'_>, reach: f64) -> Beam {
@@ -178,7 +184,7 @@ impl<'a> Surroundings<'a> {
                 let Some((gap, at)) = gap(beam, base, seen, triangle) else { continue };
                 let by = self.tracer.lamp.depth_between(at, seen.position);
                 if !is_same_plane && by > seen.error + error {
-                    around.nearer.push(Nearer { by, slope: slope(triangle.normal(), beam.axis()) });
+                    around.nearer.push(Nearer { by, slope: self.slope(seen, triangle.normal()) });
                 }
                 if gap <= seen.error + error {
                     continue;
@@ -202,9 +208,4 @@ fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Op
     let at = crossing(origin, way, &triangle.corners)?;
     let plane = seen.normal.dot(seen.position - origin) / seen.normal.dot(way);
     (at > 0.0 && plane.is_finite()).then_some(((plane - at) * way.length(), origin + at * way))
-}
-
-fn slope(normal: DVec3, way: DVec3) -> f64 {
-    let cos = normal.dot(way.normalize_or_zero()).abs().min(1.0);
-    ((1.0 - cos * cos).sqrt() / cos).min(STEEPEST)
 }

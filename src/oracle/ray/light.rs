@@ -104,18 +104,31 @@ impl Lamp {
         }
     }
 
-    /// How much farther along the light's axis `to` lies than `from` (a point light's: along its nearest coordinate axis at
-    /// `to`), in world units.
+    /// How much farther along the light's axis at `to` that point lies than `from`, in world units.
     pub fn depth_between(&self, from: DVec3, to: DVec3) -> f64 {
+        self.axis_at(to).dot(to - from)
+    }
+
+    /// The way that a map's depth grows at a point: the spotlight's axis, the coordinate axis of a cube's face, or the way
+    /// of parallel light. Of unit length.
+    fn axis_at(&self, point: DVec3) -> DVec3 {
+        let from_light = -self.towards(point);
         match &self.shape {
-            Shape::Spot { .. } => self.depth(to) - self.depth(from),
+            Shape::Spot { axes: [ahead, ..], .. } => *ahead,
             Shape::Cube { .. } => {
-                let from_light = -self.towards(to);
                 let axis = from_light.abs().max_position();
-                (to[axis] - from[axis]) * from_light[axis].signum()
+                DVec3::AXES[axis] * from_light[axis].signum()
             }
-            Shape::Square { .. } => -self.towards(to).dot(to - from),
+            Shape::Square { .. } => from_light,
         }
+    }
+
+    /// How fast the depth of a plane through `point` grows across a map: along the axis, by a length across it at the
+    /// point's own depth.
+    pub fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
+        let axis = self.axis_at(point);
+        let ray = -self.towards(point) / self.depth_at(point);
+        normal.cross(axis).length() / normal.dot(ray).abs()
     }
 
     /// The halves of a square around `point` across the light's axis, `reach` at distance 1 along it, or in world units
