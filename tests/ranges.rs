@@ -3,7 +3,10 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use glumbra::scene::{self, LightKind, Loaded, Object};
+use glumbra::context::{self, ContextRequest};
+use glumbra::frame::Renderer;
+use glumbra::report::run::draw_shade;
+use glumbra::scene::{self, LightKind, Loaded, Object, Scene};
 
 /// SplitMix64.
 struct Random(u64);
@@ -66,6 +69,56 @@ fn random_scene(random: &mut Random, scale: f64, kind: &str) -> String {
         .unwrap();
     }
     text
+}
+
+/// The share of pixels, in percent, on which two shades differ.
+fn difference(renderer: &mut Renderer, a: &Scene, b: &Scene) -> f64 {
+    let [a, b] = [a, b].map(|scene| draw_shade(scene, 0, renderer).unwrap());
+    let differs = |k: &usize| a.covered[*k] != b.covered[*k] || (a.shade[*k] < 0.5) != (b.shade[*k] < 0.5);
+    100.0 * (0..a.shade.len()).filter(differs).count() as f64 / a.shade.len() as f64
+}
+
+/// A scene of `text` moved as a whole.
+fn moved(scene: &Scene, by: DVec3) -> Scene {
+    let mut scene = scene.clone();
+    scene.camera.eye += by;
+    scene.camera.target += by;
+    for light in &mut scene.lights {
+        match &mut light.kind {
+            LightKind::Spot(spot) => {
+                spot.frustum.position += by;
+                spot.frustum.target += by;
+            }
+            LightKind::Point(point) => point.position += by,
+            LightKind::Directional { .. } => {}
+        }
+    }
+    scene.objects.iter_mut().for_each(|object| object.world_from_model.w_axis += by.extend(0.0));
+    scene
+}
+
+#[test]
+fn a_scene_far_from_the_origin_has_the_same_picture() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut random = Random(7);
+    for (round, by) in [1e4, 1e6, 1e9].into_iter().cycle().take(18).enumerate() {
+        let kind = ["spot", "point", "sun"][round % 3];
+        let mut text = random_scene(&mut random, 1.0, if kind == "point" { "point" } else { "spot" });
+        if kind == "sun" {
+            let from = text.find("kind").unwrap();
+            let to = text.find("[[object]]").unwrap();
+            text.replace_range(from..to, "kind = \"directional\"\ndirection = [-1.0, -2.0, -0.6]\n");
+        }
+        let technique = ["shadow-map", "shadow-volume"][round / 3 % 2];
+        let at = text.find("[[object]]").unwrap();
+        text.insert_str(at, &format!("[light.shadow]\ntechnique = \"{technique}\"\nsize = 256\n"));
+        let scene = load(&text, &[]).scene;
+        let far = moved(&scene, by * DVec3::new(1.0, -0.7, 0.3));
+        let off = difference(&mut renderer, &scene, &far);
+        // At 1e9 f64 rounds coordinates by 1e-7, a hundred-thousandth of a pixel; only edges of shadows may move.
+        assert!(off < 0.2, "{by:e} {technique}: {off} % differ\n{text}");
+    }
 }
 
 /// Where a ray first meets a triangle, in its own parameter.

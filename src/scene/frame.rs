@@ -110,3 +110,8 @@ fn near_before(seen: Span, far: f64, aim: f64) -> f64 {
 pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
     depth * (depth / near) / f64::from(1 << 24)
 }
+
+/// Beyond this depth all falls on the last value of a depth buffer of 24 bits, to which it is cleared: within half a step.
+pub(super) fn last_depth([near, far]: [f64; 2]) -> f64 {
+    1.0 / (1.0 / (f64::from(1 << 25) * near) + 1.0 / far)
+}
