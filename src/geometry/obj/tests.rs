@@ -202,7 +202,8 @@ fn files_far_from_their_origin_keep_their_shape() {
         assert!(off.abs() < 1e-6 + 10.0 * rounding, "{middle:?}: the volume is off by {off:e}");
         let center = mesh.origin + mesh.bounds.center();
         let expected = glam::DVec3::from(middle) + glam::DVec3::Y * (0.5 * radius);
-        assert!(center.distance(expected) < 0.02 * radius, "{center} is not {expected}");
+        // The middle of an odd polygon's box is not its own.
+        assert!(center.distance(expected) < 0.1 * radius, "{center} is not {expected}");
     }
 }
 
