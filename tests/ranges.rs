@@ -217,7 +217,7 @@ fn texgen_and_waves_go_by_the_files_own_coordinates() {
     let lines = corners.map(|[x, y, z]: [f64; 3]| format!("v {x} {y} {z}\n")).concat();
     std::fs::write(folder.path().join("a.obj"), format!("{lines}f 1 2 3\n")).unwrap();
     let text = "[[object]]\nmesh = \"a.obj\"\nscale = 2.0\ntranslate = [-1e6, 0.0, 0.0]\n\
-        material = { texgen = { s = [1.0, 0.5, 0.0, 0.25], t = [0.0, 0.0, -1.0, 0.0], scale = 0.3 } }\n\
+        material = { texgen = { s = [1.0, 0.5, 0.0, 0.25], t = [0.0, 0.0, -1.0, 0.0], scale = 0.25 } }\n\
         wave = { direction = [0, 1, 0], amplitude = 0.1, axis = [1, 0, 1], wavelength = 0.7, phase = 0.2 }\n";
     let path = folder.path().join("a.toml");
     std::fs::write(&path, text).unwrap();
@@ -235,7 +235,7 @@ fn texgen_and_waves_go_by_the_files_own_coordinates() {
         let held = held.unwrap();
         assert!(object.world_from_model.transform_point3(held).distance(2.0 * corner - DVec3::X * 1e6) < 1e-6);
         for (plane, of_file) in [(texgen.s, [1.0, 0.5, 0.0, 0.25]), (texgen.t, [0.0, 0.0, -1.0, 0.0])] {
-            let at = |[a, b, c, d]: [f64; 4], place: DVec3| 0.3 * (DVec3::new(a, b, c).dot(place) + d);
+            let at = |[a, b, c, d]: [f64; 4], place: DVec3| 0.25 * (DVec3::new(a, b, c).dot(place) + d);
             assert!(apart(at(plane.map(f64::from), held), at(of_file, corner)) < 1e-6, "{corner}");
         }
         let of_file = (corner.x + corner.z) / 2.0_f64.sqrt() / 0.7 + 0.2;
@@ -272,7 +272,7 @@ fn a_written_plane_that_cuts_is_said_and_one_that_does_not_is_not() {
         (&["object.1.scale=1e7"], "`floor` has vertices 1.414e7 away from the eye"),
         // The eye lies in the box's side.
         (
-            &["camera.eye=[0.5, 0.6, 0.0]", "camera.target=[0.5, 0.6, -1.0]"],
+            &["camera.eye=[0.5, 0.6, 0.0]", "camera.target=[0.5, 0.6, -1.0]", "object.1.scale=2"],
             "cuts off part of `box`, which begins at 0",
         ),
     ] {
