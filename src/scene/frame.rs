@@ -83,6 +83,9 @@ pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
     let reach = frustum.position.distance(frustum.target);
     let far = if seen.is_empty() { 2.0 * reach } else { 1.1 * seen.most };
     let near = near_before(seen, far, reach);
+    // Before the boxes too, where that costs little: who draws a map judges casters by their boxes.
+    let boxes = objects.iter().map(|object| pyramid.span_of_box(object).least).fold(f64::INFINITY, f64::min);
+    let near = near.min(0.99 * boxes).max(0.25 * near);
     // Of what lies in the light's own place no map can be drawn.
     [near, far.max(2.0 * near)]
 }

@@ -8,7 +8,8 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::{Camera, Frustum, Object};
 use crate::geometry::Mesh;
-use crate::math::{Aabb, frustum::clip_polygon, spaces};
+use crate::math::frustum::{clip_polygon, faces};
+use crate::math::{Aabb, spaces};
 
 /// A piece smaller than this, in pixels, is not missed.
 const LEAST_PIECE: f64 = 0.5;
@@ -85,8 +86,18 @@ impl Pyramid {
         span
     }
 
-    /// How many pixels of a picture of `size` the pieces of `object` fill whose depths `plane` keeps; no more than
-    /// needed to tell whether they can be missed.
+    /// The depths of the faces of the object's box that are in view.
+    pub fn span_of_box(&self, object: &Object) -> Span {
+        let bounds = object.wave.map_or(object.mesh.bounds, |wave| wave.bounds(object.mesh.bounds));
+        let view_from_model = self.view_from_world * object.world_from_model;
+        let corners = bounds.corners().map(|corner| view_from_model.transform_point3(corner));
+        let inside =
+            |face: [DVec3; 4]| self.planes().iter().fold(face.to_vec(), |left, plane| clip_polygon(&left, plane));
+        faces(&corners).into_iter().fold(Span::EMPTY, |span, face| span.including(&inside(face)))
+    }
+
+    /// Whether the pieces of `object` at the depths that `cut` means fill so much of a picture of `size` that they are
+    /// missed.
     pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2]) -> bool {
         let mut area = 0.0;
         self.visit(object, |polygon| {
