@@ -263,11 +263,14 @@ fn a_written_plane_that_cuts_is_said_and_one_that_does_not_is_not() {
         // What is wholly behind the camera, or clear.
         (&["camera.near=4", "object.1.translate=[0.0, 9.0, 0.0]"], ""),
         (&["camera.near=4", "object.1.material.opacity=0.1"], ""),
-        (&["camera.near=6e-6", "object.1.scale=2"], "tells apart no less than 0.2059 at `box`, 4.552 away"),
+        (
+            &["camera.near=6e-6", "camera.far=100", "object.1.scale=2"],
+            "tells apart no less than 0.2059 at `box`, 4.552 away",
+        ),
         (&["camera.near=1e-4"], "is less than 32-bit floats may be off by, 0.0004218, at the vertices of `floor`"),
         (
             &["camera.near=1e-8"],
-            "what is farther than 0.1678 is lost in a depth buffer of 24 bits, as is some of `floor`",
+            "what is farther than 0.08389 falls on the last two values of a depth buffer of 24 bits, as does some of `floor`",
         ),
         (&["object.1.scale=1e7"], "`floor` has vertices 1.414e7 away from the eye"),
         // The eye lies in the box's side.

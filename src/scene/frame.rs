@@ -114,8 +114,9 @@ pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
     depth * (depth / near) / f64::from(1 << 24)
 }
 
-/// Beyond this depth all lies within a step, 2⁻²⁴, of the last value of a depth buffer of 24 bits, to which it is cleared:
-/// half a step is what it rounds by, and f32 rounds a depth near 1 by as much before.
+/// Beyond this depth all lies within two steps, of 2⁻²⁴, of the last value of a depth buffer of 24 bits, to which it is
+/// cleared. Half a step is what it rounds by, and f32 rounds a depth near 1 by about one before: what lies there is lost,
+/// or at best on one depth with all that is farther.
 pub(super) fn last_depth([near, far]: [f64; 2]) -> f64 {
-    1.0 / (1.0 / (f64::from(1 << 24) * near) + 1.0 / far)
+    1.0 / (1.0 / (f64::from(1 << 23) * near) + 1.0 / far)
 }

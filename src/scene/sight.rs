@@ -12,7 +12,7 @@ use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 
 /// A piece smaller than this, in pixels, is not missed.
-const LEAST_PIECE: f64 = 0.5;
+pub(super) const LEAST_PIECE: f64 = 0.5;
 
 /// What is cut off is looked for behind other surfaces at so many of its triangles.
 const SAMPLES: usize = 16;
@@ -96,15 +96,14 @@ impl Pyramid {
         faces(&corners).into_iter().fold(Span::EMPTY, |span, face| span.including(&inside(face)))
     }
 
-    /// Whether the pieces of `object` at the depths that `cut` means fill so much of a picture of `size` that they are
-    /// missed.
-    pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2]) -> bool {
+    /// Whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
+    pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2], least: f64) -> bool {
         let mut area = 0.0;
         self.visit(object, |polygon| {
             area += self.pixels(&cut.piece(polygon), size);
-            area < LEAST_PIECE
+            area < least
         });
-        area >= LEAST_PIECE
+        area >= least
     }
 
     /// Whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::math::Aabb;
 use crate::scene::frame;
 use crate::scene::settings::{Plain, Settings, SettingsError};
-use crate::scene::sight::{Cut, Pyramid, Span};
+use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
 use crate::scene::{Camera, Image, Object};
 
 /// `[camera]` as written; what depends on the objects comes later.
@@ -116,7 +116,7 @@ impl View<'_> {
     fn cut_before(&self) -> Option<Said> {
         let near = self.camera.near;
         let cut = self.by_depth().into_iter().take_while(|(_, span)| span.least < near);
-        let mut cut = cut.filter(|(object, _)| self.pyramid.is_cut(object, Cut::Before(near), self.size));
+        let mut cut = cut.filter(|(object, _)| self.pyramid.is_cut(object, Cut::Before(near), self.size, LEAST_PIECE));
         let (object, span) = cut.next()?;
         let part = if span.most < near { "" } else { "part of " };
         let begins = Plain(brief(span.least));
@@ -140,14 +140,16 @@ impl View<'_> {
         let Camera { near, far, .. } = *self.camera;
         let last = frame::last_depth([near, far]);
         let seen = self.seen();
-        let lost = seen
-            .iter()
-            .find(|(object, span)| span.most > last && self.pyramid.is_cut(object, Cut::Between(last, far), self.size));
+        // There is always a strip of it before the far plane; less than half a row of pixels is none.
+        let row = 0.5 * f64::from(self.size[0].max(self.size[1]));
+        let lost = seen.iter().find(|(object, span)| {
+            span.most > last && self.pyramid.is_cut(object, Cut::Between(last, far), self.size, row)
+        });
         if let Some((object, _)) = lost {
             let what = "is so near that what is farther than";
             let last = Plain(brief(last));
             let what = format!(
-                "= {} {what} {last} is lost in a depth buffer of 24 bits, as is some of `{}`",
+                "= {} {what} {last} falls on the last two values of a depth buffer of 24 bits, as does some of `{}`",
                 Plain(brief(near)),
                 object.name
             );
