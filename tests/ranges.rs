@@ -3,7 +3,10 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use glumbra::scene::{self, LightKind, Loaded, Object};
+use glumbra::context::{self, ContextRequest};
+use glumbra::frame::Renderer;
+use glumbra::report::run::draw_shade;
+use glumbra::scene::{self, LightKind, Loaded, Object, Scene};
 
 /// SplitMix64.
 struct Random(u64);
@@ -66,6 +69,57 @@ fn random_scene(random: &mut Random, scale: f64, kind: &str) -> String {
         .unwrap();
     }
     text
+}
+
+/// The share of pixels, in percent, on which two shades differ.
+fn difference(renderer: &mut Renderer, a: &Scene, b: &Scene) -> f64 {
+    let [a, b] = [a, b].map(|scene| draw_shade(scene, 0, renderer).unwrap());
+    let differs = |k: &usize| a.covered[*k] != b.covered[*k] || (a.shade[*k] < 0.5) != (b.shade[*k] < 0.5);
+    100.0 * (0..a.shade.len()).filter(differs).count() as f64 / a.shade.len() as f64
+}
+
+/// A scene of `text` moved as a whole.
+fn moved(scene: &Scene, by: DVec3) -> Scene {
+    let mut scene = scene.clone();
+    scene.camera.eye += by;
+    scene.camera.target += by;
+    for light in &mut scene.lights {
+        match &mut light.kind {
+            LightKind::Spot(spot) => {
+                spot.frustum.position += by;
+                spot.frustum.target += by;
+            }
+            LightKind::Point(point) => point.position += by,
+            LightKind::Directional { .. } => {}
+        }
+    }
+    scene.objects.iter_mut().for_each(|object| object.world_from_model.w_axis += by.extend(0.0));
+    scene
+}
+
+#[test]
+fn a_scene_far_from_the_origin_has_the_same_picture() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut random = Random(7);
+    for (round, by) in [1e4, 1e6, 1e9].into_iter().cycle().take(18).enumerate() {
+        let kind = ["spot", "point", "sun"][round % 3];
+        let mut text = random_scene(&mut random, 1.0, if kind == "point" { "point" } else { "spot" });
+        if kind == "sun" {
+            let from = text.find("kind").unwrap();
+            let to = text.find("[[object]]").unwrap();
+            text.replace_range(from..to, "kind = \"directional\"\ndirection = [-1.0, -2.0, -0.6]\n");
+        }
+        let technique = ["shadow-map", "shadow-volume"][round / 3 % 2];
+        let at = text.find("[[object]]").unwrap();
+        text.insert_str(at, &format!("[light.shadow]\ntechnique = \"{technique}\"\nsize = 256\n"));
+        // The map of a sun over a larger floor is so coarse that which of its texels are drawn is left to rounding.
+        let scene = load(&text, &["object.0.scale=8"]).scene;
+        let far = moved(&scene, by * DVec3::new(1.0, -0.7, 0.3));
+        let off = difference(&mut renderer, &scene, &far);
+        // At 1e9 f64 rounds coordinates by 1e-7, a hundred-thousandth of a pixel; only edges of shadows may move.
+        assert!(off < 0.2, "{by:e} {technique}: {off} % differ\n{text}");
+    }
 }
 
 /// Where a ray first meets a triangle, in its own parameter.
@@ -156,6 +210,39 @@ fn automatic_ranges_hold_what_is_in_view_at_any_scale() {
     assert!(compared > 100, "{compared}");
 }
 
+#[test]
+fn texgen_and_waves_go_by_the_files_own_coordinates() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = [[5e5, 210.0, 5.4e6], [5e5 + 1.5, 210.25, 5.4e6], [5e5, 210.5, 5.4e6 - 2.25]];
+    let lines = corners.map(|[x, y, z]: [f64; 3]| format!("v {x} {y} {z}\n")).concat();
+    std::fs::write(folder.path().join("a.obj"), format!("{lines}f 1 2 3\n")).unwrap();
+    let text = "[[object]]\nmesh = \"a.obj\"\nscale = 2.0\ntranslate = [-1e6, 0.0, 0.0]\n\
+        material = { texgen = { s = [1.0, 0.5, 0.0, 0.25], t = [0.0, 0.0, -1.0, 0.0], scale = 0.25 } }\n\
+        wave = { direction = [0, 1, 0], amplitude = 0.1, axis = [1, 0, 1], wavelength = 0.7, phase = 0.2 }\n";
+    let path = folder.path().join("a.toml");
+    std::fs::write(&path, text).unwrap();
+    let scene = scene::load(&path, &[]).unwrap().scene;
+    let object = &scene.objects[0];
+    assert_ne!(object.mesh.origin, DVec3::ZERO);
+    let (texgen, wave) = (object.material.as_ref().unwrap().texgen.unwrap(), object.wave.unwrap());
+    // How far two numbers of turns are apart.
+    let apart = |a: f64, b: f64| ((a - b) - (a - b).round()).abs();
+    for corner in corners.map(DVec3::from_array) {
+        let held = object.mesh.positions.iter().map(|p| DVec3::from_array(p.map(f64::from)));
+        let held = held.min_by(|a, b| {
+            (*a + object.mesh.origin).distance(corner).total_cmp(&(*b + object.mesh.origin).distance(corner))
+        });
+        let held = held.unwrap();
+        assert!(object.world_from_model.transform_point3(held).distance(2.0 * corner - DVec3::X * 1e6) < 1e-6);
+        for (plane, of_file) in [(texgen.s, [1.0, 0.5, 0.0, 0.25]), (texgen.t, [0.0, 0.0, -1.0, 0.0])] {
+            let at = |[a, b, c, d]: [f64; 4], place: DVec3| 0.25 * (DVec3::new(a, b, c).dot(place) + d);
+            assert!(apart(at(plane.map(f64::from), held), at(of_file, corner)) < 1e-6, "{corner}");
+        }
+        let of_file = (corner.x + corner.z) / 2.0_f64.sqrt() / 0.7 + 0.2;
+        assert!(apart(wave.vector.dot(held) + wave.phase, of_file) < 1e-6, "{corner}");
+    }
+}
+
 const OVER_A_FLOOR: &str = "[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n[[light]]\n\
     position = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\n[[object]]\nmesh = \"box\"\nscale = 0.5\n\
     translate = [0.0, 0.5, 0.0]\n[[object]]\nmesh = \"quad\"\nname = \"floor\"\nscale = 5000.0\n";
@@ -176,10 +263,19 @@ fn a_written_plane_that_cuts_is_said_and_one_that_does_not_is_not() {
         // What is wholly behind the camera, or clear.
         (&["camera.near=4", "object.1.translate=[0.0, 9.0, 0.0]"], ""),
         (&["camera.near=4", "object.1.material.opacity=0.1"], ""),
-        (&["camera.near=1e-8"], "tells apart no less than 123.5 at `box`, 4.552 away"),
+        (
+            &["camera.near=6e-6", "camera.far=100", "object.1.scale=2"],
+            "tells apart no less than 0.2059 at `box`, 4.552 away",
+        ),
+        (&["camera.near=1e-4"], "is less than 32-bit floats may be off by, 0.0004218, at the vertices of `floor`"),
+        (
+            &["camera.near=1e-8"],
+            "what is farther than 0.08389 falls on the last two values of a depth buffer of 24 bits, as does some of `floor`",
+        ),
+        (&["object.1.scale=1e7"], "`floor` has vertices 1.414e7 away from the eye"),
         // The eye lies in the box's side.
         (
-            &["camera.eye=[0.5, 0.6, 0.0]", "camera.target=[0.5, 0.6, -1.0]"],
+            &["camera.eye=[0.5, 0.6, 0.0]", "camera.target=[0.5, 0.6, -1.0]", "object.1.scale=2"],
             "cuts off part of `box`, which begins at 0",
         ),
     ] {

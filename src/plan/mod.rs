@@ -129,7 +129,8 @@ pub enum Error {
 /// A technique's key with a wrong value, a view of a light or map that is not there, an image beyond the driver's
 /// limits.
 pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
-    let mut plan = compose::compose(scene, request)?;
+    let near = scene.brought_near();
+    let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request)?;
     prune::prune(&mut plan, request);
     check_limits(&plan, &request.limits)?;
     Ok(plan)

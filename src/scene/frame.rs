@@ -83,6 +83,9 @@ pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
     let reach = frustum.position.distance(frustum.target);
     let far = if seen.is_empty() { 2.0 * reach } else { 1.1 * seen.most };
     let near = near_before(seen, far, reach);
+    // Before the boxes too, where that costs little: who draws a map judges casters by their boxes.
+    let boxes = objects.iter().map(|object| pyramid.span_of_box(object).least).fold(f64::INFINITY, f64::min);
+    let near = near.min(0.99 * boxes).max(0.25 * near);
     // Of what lies in the light's own place no map can be drawn.
     [near, far.max(2.0 * near)]
 }
@@ -109,4 +112,11 @@ fn near_before(seen: Span, far: f64, aim: f64) -> f64 {
 /// window space, 2⁻²⁴, is so long there.
 pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
     depth * (depth / near) / f64::from(1 << 24)
+}
+
+/// Beyond this depth all lies within two steps, of 2⁻²⁴, of the last value of a depth buffer of 24 bits, to which it is
+/// cleared. Half a step is what it rounds by, and f32 rounds a depth near 1 by about one before: what lies there is lost,
+/// or at best on one depth with all that is farther.
+pub(super) fn last_depth([near, far]: [f64; 2]) -> f64 {
+    1.0 / (1.0 / (f64::from(1 << 23) * near) + 1.0 / far)
 }

@@ -125,7 +125,7 @@ pub struct Object {
     pub name: String,
     /// Shared: the same file is loaded once however often it is used.
     pub mesh: Arc<Mesh>,
-    /// Affine and invertible; may mirror.
+    /// Affine and invertible; may mirror. Of the mesh's positions: [`Mesh::origin`] is in it.
     pub world_from_model: DMat4,
     /// Moves the mesh's vertices where they are drawn; `None`: they stay.
     pub wave: Option<Wave>,

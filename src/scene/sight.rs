@@ -8,10 +8,11 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::{Camera, Frustum, Object};
 use crate::geometry::Mesh;
-use crate::math::{Aabb, frustum::clip_polygon, spaces};
+use crate::math::frustum::{clip_polygon, faces};
+use crate::math::{Aabb, spaces};
 
 /// A piece smaller than this, in pixels, is not missed.
-const LEAST_PIECE: f64 = 0.5;
+pub(super) const LEAST_PIECE: f64 = 0.5;
 
 /// What is cut off is looked for behind other surfaces at so many of its triangles.
 const SAMPLES: usize = 16;
@@ -29,21 +30,24 @@ pub(super) struct Pyramid {
 pub(super) struct Span {
     pub least: f64,
     pub most: f64,
+    /// How far the coordinates reach, from the viewer or from their object's origin, of triangles that are in view in
+    /// part.
+    pub reach: f64,
 }
 
 impl Span {
-    pub const EMPTY: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+    pub const EMPTY: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY, reach: 0.0 };
 
     pub fn is_empty(&self) -> bool {
         self.least > self.most
     }
 
     pub fn union(self, other: Self) -> Self {
-        Self { least: self.least.min(other.least), most: self.most.max(other.most) }
+        Self { least: self.least.min(other.least), most: self.most.max(other.most), reach: self.reach.max(other.reach) }
     }
 
     fn including(self, polygon: &[DVec3]) -> Self {
-        polygon.iter().fold(self, |span, point| span.union(Self { least: -point.z, most: -point.z }))
+        polygon.iter().fold(self, |span, point| span.union(Self { least: -point.z, most: -point.z, reach: 0.0 }))
     }
 }
 
@@ -71,29 +75,42 @@ impl Pyramid {
     /// The depths of all of `object` that is in view.
     pub fn span(&self, object: &Object) -> Span {
         let mut span = Span::EMPTY;
-        self.visit(object, |polygon| {
+        let origin = self.view_from_world.transform_point3(object.world_from_model.w_axis.truncate());
+        self.visit_triangles(object, |corners, polygon| {
             span = span.including(polygon);
+            let reach = corners.iter().map(|corner| corner.length_squared().max(corner.distance_squared(origin)));
+            span.reach = reach.fold(span.reach, f64::max);
             true
         });
+        span.reach = span.reach.sqrt();
         span
     }
 
-    /// How many pixels of a picture of `size` the pieces of `object` fill whose depths `plane` keeps; no more than
-    /// needed to tell whether they can be missed.
-    pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2]) -> bool {
+    /// The depths of the faces of the object's box that are in view.
+    pub fn span_of_box(&self, object: &Object) -> Span {
+        let bounds = object.wave.map_or(object.mesh.bounds, |wave| wave.bounds(object.mesh.bounds));
+        let view_from_model = self.view_from_world * object.world_from_model;
+        let corners = bounds.corners().map(|corner| view_from_model.transform_point3(corner));
+        let inside =
+            |face: [DVec3; 4]| self.planes().iter().fold(face.to_vec(), |left, plane| clip_polygon(&left, plane));
+        faces(&corners).into_iter().fold(Span::EMPTY, |span, face| span.including(&inside(face)))
+    }
+
+    /// Whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
+    pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2], least: f64) -> bool {
         let mut area = 0.0;
         self.visit(object, |polygon| {
-            area += self.pixels(&clip_polygon(polygon, &cut.plane()), size);
-            area < LEAST_PIECE
+            area += self.pixels(&cut.piece(polygon), size);
+            area < least
         });
-        area >= LEAST_PIECE
+        area >= least
     }
 
     /// Whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
     pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
         let mut pieces: Vec<(f64, DVec3)> = Vec::new();
         self.visit(object, |polygon| {
-            let piece = clip_polygon(polygon, &Cut::Beyond(far).plane());
+            let piece = Cut::Between(far, f64::INFINITY).piece(polygon);
             let area = self.pixels(&piece, size);
             if area >= LEAST_PIECE {
                 pieces.push((area, piece.iter().sum::<DVec3>() / piece.len() as f64));
@@ -130,6 +147,11 @@ impl Pyramid {
 
     /// Calls `look` with what of each triangle that is drawn lies in view, in view space, until it says `false`.
     fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
+        self.visit_triangles(object, |_, polygon| look(polygon));
+    }
+
+    /// The same with each triangle's corners.
+    fn visit_triangles(&self, object: &Object, mut look: impl FnMut(&[DVec3; 3], &[DVec3]) -> bool) {
         let mesh = drawn_mesh(object);
         let view_from_model = self.view_from_world * object.world_from_model;
         for part in &mesh.parts {
@@ -144,10 +166,10 @@ impl Pyramid {
                 });
                 let outside = corners.map(|corner| self.outside(corner));
                 let goes_on = if outside == [0; 3] {
-                    look(&corners)
+                    look(&corners, &corners)
                 } else if outside.iter().fold(u8::MAX, |all, bits| all & bits) == 0 {
                     let inside = self.planes().iter().fold(corners.to_vec(), |left, plane| clip_polygon(&left, plane));
-                    inside.is_empty() || look(&inside)
+                    inside.is_empty() || look(&corners, &inside)
                 } else {
                     true
                 };
@@ -179,19 +201,22 @@ impl Pyramid {
     }
 }
 
-/// Which depths a plane across the axis takes away.
+/// Which depths of what is in view are meant.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cut {
     Before(f64),
-    Beyond(f64),
+    Between(f64, f64),
 }
 
 impl Cut {
-    /// Positive on the side that is taken away.
-    fn plane(self) -> DVec4 {
+    fn piece(self, polygon: &[DVec3]) -> Vec<DVec3> {
+        let before = |depth: f64, polygon: &[DVec3]| clip_polygon(polygon, &DVec4::new(0.0, 0.0, 1.0, depth));
         match self {
-            Self::Before(depth) => DVec4::new(0.0, 0.0, 1.0, depth),
-            Self::Beyond(depth) => DVec4::new(0.0, 0.0, -1.0, -depth),
+            Self::Before(depth) => before(depth, polygon),
+            Self::Between(from, to) => {
+                let beyond = clip_polygon(polygon, &DVec4::new(0.0, 0.0, -1.0, -from));
+                if to.is_finite() { before(to, &beyond) } else { beyond }
+            }
         }
     }
 }

@@ -5,6 +5,9 @@ use glam::{DMat4, DVec3};
 use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
 use crate::math::{Aabb, spaces};
 
+/// A scene is moved where it is so many times as far from the world's origin as it is large.
+const FAR: f64 = 8.0;
+
 impl Image {
     /// Width over height.
     pub fn aspect(&self) -> f64 {
@@ -21,6 +24,32 @@ impl Scene {
     /// The box around all objects, in world space.
     pub fn world_bounds(&self) -> Aabb {
         self.objects.iter().fold(Aabb::EMPTY, |bounds, object| bounds.union(object.world_bounds()))
+    }
+
+    /// The same scene moved to where the eye is near the world's origin, so that products of matrices lose nothing of
+    /// f64; `None`: it is as near as it is large. Moved by a power of two not below the scene's size, coordinates keep
+    /// all of their digits.
+    pub fn brought_near(&self) -> Option<Self> {
+        let places = self.lights.iter().filter_map(Light::position).chain([self.camera.eye]);
+        let size = 2.0 * places.fold(self.world_bounds(), Aabb::including).radius();
+        let away = self.camera.eye.abs().max_element();
+        if !(size.is_finite() && size > 0.0 && away > FAR * size) {
+            return None;
+        }
+        let step = size.log2().ceil().exp2();
+        let origin = (self.camera.eye / step).round() * step;
+        let mut scene = self.clone();
+        let mut ends = vec![&mut scene.camera.eye, &mut scene.camera.target];
+        for light in &mut scene.lights {
+            match &mut light.kind {
+                LightKind::Spot(spot) => ends.extend([&mut spot.frustum.position, &mut spot.frustum.target]),
+                LightKind::Point(point) => ends.push(&mut point.position),
+                LightKind::Directional { .. } => {}
+            }
+        }
+        ends.into_iter().for_each(|end| *end -= origin);
+        scene.objects.iter_mut().for_each(|object| object.world_from_model.w_axis -= origin.extend(0.0));
+        Some(scene)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::math::Aabb;
 /// Other files are read as they are.
 const FAR: f64 = 8.0;
 
-/// A face whose longest edge is off by more than this part of its length has no longer its shape.
+/// A face an edge of which is off by more than this part of the longest one has no longer its shape.
 const MOST_OFF: f64 = 1.0 / 16.0;
 
 /// The vertices of a file.
@@ -74,7 +74,7 @@ impl Places {
         (place - origin).as_vec3().to_array()
     }
 
-    /// The worst face that f32 does not hold: its line, its longest edge and what that is off by; and how many such
+    /// The worst face that f32 does not hold: its line, its longest edge and what an edge is off by; and how many such
     /// faces there are.
     pub fn lost(&self, text: &str, origin: DVec3) -> Option<(usize, [f64; 2], usize)> {
         let reach = (self.bounds.min - origin).abs().max((self.bounds.max - origin).abs()).length();
@@ -107,11 +107,12 @@ impl Places {
         worst.map(|(line, edge)| (line, edge, lost))
     }
 
-    /// A face's longest edge, and what f32 makes it wrong by.
+    /// A face's longest edge, and the most that f32 makes any of its edges wrong by.
     fn longest(&self, corners: &[usize], origin: DVec3) -> Option<[f64; 2]> {
         let held = |place: DVec3| (place - origin).as_vec3().as_dvec3();
         let edges = self.edges(corners).map(|[a, b]| [(b - a).length(), (held(b) - held(a) - (b - a)).length()]);
-        edges.max_by(|a, b| a[0].total_cmp(&b[0])).filter(|[length, _]| *length > 0.0)
+        let worst = edges.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        worst.filter(|[length, _]| *length > 0.0)
     }
 }
 
@@ -120,7 +121,7 @@ pub(super) fn warning(scan: &Scan, text: &str) -> Option<(usize, String)> {
     let (line, [length, off], count) = scan.places.lost(text, scan.origin)?;
     let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };
     let message = format!(
-        "{faces} too fine for 32-bit floats so far from the file's middle: its longest edge, {length:.3e}, is off by {off:.1e}"
+        "{faces} too fine for 32-bit floats so far from the file's middle: it is {length:.3e} long, and an edge is off by {off:.1e}"
     );
     Some((line, message))
 }

@@ -161,3 +161,86 @@ fn topology_tells_open_turned_and_crowded_edges() {
     assert_eq!(count(&format!("{vertices}f 1 2 3\nf 2 1 4\nf 1 2 5\n")), [6, 0, 1]);
     assert_eq!(count(&format!("{vertices}f 1 2 3\nf 3 2 1\nf 1 1 4\n")), [0, 0, 0]);
 }
+
+/// A prism over a regular polygon of `sides` corners, of radius `radius` and as high, around `middle`; and its volume.
+fn prism(sides: usize, radius: f64, middle: [f64; 3]) -> (String, f64) {
+    let mut text = String::new();
+    for height in [0.0, radius] {
+        for k in 0..sides {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos();
+            let [x, y, z] = [middle[0] + radius * cos, middle[1] + height, middle[2] - radius * sin];
+            text += &format!("v {x} {y} {z}\n");
+        }
+    }
+    for k in 0..sides {
+        let next = (k + 1) % sides;
+        text += &format!("f {} {} {} {}\n", k + 1, next + 1, sides + next + 1, sides + k + 1);
+    }
+    let ring = |from: usize| (0..sides).map(|k| (from + k).to_string()).collect::<Vec<_>>();
+    let mut bottom = ring(1);
+    bottom.reverse();
+    text += &format!("f {}\nf {}\n", bottom.join(" "), ring(sides + 1).join(" "));
+    let area = 0.5 * sides as f64 * radius * radius * (std::f64::consts::TAU / sides as f64).sin();
+    (text, area * radius)
+}
+
+#[test]
+fn files_far_from_their_origin_keep_their_shape() {
+    for (sides, radius, middle) in [
+        (24, 0.5, [500_000.0, 210.0, 5_400_000.0]),
+        (7, 0.3, [1e4, -1e4, 1e4]),
+        (64, 12.0, [3.4e6, 5.7e6, 120.0]),
+        (5, 1e-3, [0.0, 37.0, 0.0]),
+        (9, 1e5, [-1e12, 1e12, 0.0]),
+    ] {
+        let (text, volume) = prism(sides, radius, middle);
+        let (mesh, warnings) = load(&text);
+        assert!(warnings.is_empty() && mesh.is_closed(), "{middle:?}: {warnings:?}");
+        let off = mesh.signed_volume() / volume - 1.0;
+        // f64 itself rounds what the file holds by 2^-53 of its distance.
+        let rounding = 1e-15 * f64::from(middle.map(|x: f64| x.abs() as f32).into_iter().fold(0.0, f32::max)) / radius;
+        assert!(off.abs() < 1e-6 + 10.0 * rounding, "{middle:?}: the volume is off by {off:e}");
+        let center = mesh.origin + mesh.bounds.center();
+        let expected = glam::DVec3::from(middle) + glam::DVec3::Y * (0.5 * radius);
+        // The middle of an odd polygon's box is not its own.
+        assert!(center.distance(expected) < 0.1 * radius, "{center} is not {expected}");
+    }
+}
+
+#[test]
+fn files_near_their_origin_are_read_as_they_are() {
+    for middle in [[0.0; 3], [0.7, -0.3, 0.1], [3.0, 0.0, 5.0]] {
+        let (text, _) = prism(24, 0.5, middle);
+        let (mesh, _) = load(&text);
+        assert_eq!(mesh.origin, glam::DVec3::ZERO);
+        for line in text.lines().filter(|line| line.starts_with("v ")) {
+            let place: Vec<f32> = line[2..].split(' ').map(|word| word.parse().unwrap()).collect();
+            assert!(mesh.positions.iter().any(|position| position[..] == place[..]), "{line}");
+        }
+    }
+}
+
+#[test]
+fn what_is_too_fine_for_floats_is_warned_of() {
+    // Two prisms far from each other have no origin near both.
+    for (radius, apart, lost) in [(0.5, 1e7, true), (0.5, 1e6, true), (0.5, 1e4, false), (0.5, 10.0, false)] {
+        let (first, _) = prism(24, radius, [0.0; 3]);
+        let (second, _) = prism(24, radius, [apart, 0.0, 0.0]);
+        let second: String = second
+            .lines()
+            .map(|line| match line.strip_prefix("f ") {
+                Some(corners) => {
+                    let corners = corners.split(' ').map(|k| (k.parse::<usize>().unwrap() + 48).to_string());
+                    format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
+                }
+                None => format!("{line}\n"),
+            })
+            .collect();
+        let (_, warnings) = load(&format!("{first}{second}"));
+        let said = warnings.iter().any(|warning| warning.message.contains("too fine for 32-bit floats"));
+        assert_eq!(said, lost, "{apart}: {warnings:?}");
+    }
+    // Vertices that an exporter has rounded twice are no detail.
+    let (_, warnings) = load("v 1 1 0\nv 1.00000000001 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+    assert!(warnings.is_empty(), "{warnings:?}");
+}

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::math::Aabb;
 use crate::scene::frame;
 use crate::scene::settings::{Plain, Settings, SettingsError};
-use crate::scene::sight::{Cut, Pyramid, Span};
+use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
 use crate::scene::{Camera, Image, Object};
 
 /// `[camera]` as written; what depends on the objects comes later.
@@ -60,6 +60,7 @@ impl Written {
         let view = View { camera: &camera, pyramid, objects, spans, size: image.size };
         let said = [view.cut_before(), view.cut_beyond(), view.coarse()].into_iter().flatten();
         warnings.extend(said.map(|(key, what)| reader.error(key, what).to_string()));
+        warnings.extend(view.vague().map(|what| SettingsError::new(reader.origin(), what).to_string()));
         Ok(camera)
     }
 
@@ -78,6 +79,17 @@ impl Written {
             (None, None) => frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius),
         }
     }
+}
+
+/// How many steps of depth a solid must be thick.
+const STEPS: f64 = 8.0;
+
+/// How many pixels a place may be off by before that is said.
+const MOST_OFF: f64 = 8.0;
+
+/// How far f32 may move a vertex of what is in view.
+fn off(span: Span) -> f64 {
+    0.5 * f64::from(f32::EPSILON) * span.reach
 }
 
 /// What a camera with its planes shows of the objects; `spans` has one for each.
@@ -104,7 +116,7 @@ impl View<'_> {
     fn cut_before(&self) -> Option<Said> {
         let near = self.camera.near;
         let cut = self.by_depth().into_iter().take_while(|(_, span)| span.least < near);
-        let mut cut = cut.filter(|(object, _)| self.pyramid.is_cut(object, Cut::Before(near), self.size));
+        let mut cut = cut.filter(|(object, _)| self.pyramid.is_cut(object, Cut::Before(near), self.size, LEAST_PIECE));
         let (object, span) = cut.next()?;
         let part = if span.most < near { "" } else { "part of " };
         let begins = Plain(brief(span.least));
@@ -123,18 +135,38 @@ impl View<'_> {
         Some(("far", what))
     }
 
-    /// A solid whose front and back fall on one depth: which of them is shown is left to chance.
+    /// What a depth buffer of 24 bits behind so near a plane cannot hold.
     fn coarse(&self) -> Option<Said> {
-        let near = self.camera.near;
-        let is_lost = |object: &Object, span: Span| {
-            let [thin, _, long] = extents(object);
-            let pixel = self.camera.pixel_at(span.least, self.size);
-            // Without back faces only what is all at one depth is lost.
-            let room = if object.closed { long } else { thin };
-            thin > 0.0 && long > pixel && frame::depth_step(near, span.least) > room
-        };
-        let seen = self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near);
-        let (object, span) = seen.filter(|(object, span)| is_lost(object, *span)).next()?;
+        let Camera { near, far, .. } = *self.camera;
+        let last = frame::last_depth([near, far]);
+        let seen = self.seen();
+        // There is always a strip of it before the far plane; less than half a row of pixels is none.
+        let row = 0.5 * f64::from(self.size[0].max(self.size[1]));
+        let lost = seen.iter().find(|(object, span)| {
+            span.most > last && self.pyramid.is_cut(object, Cut::Between(last, far), self.size, row)
+        });
+        if let Some((object, _)) = lost {
+            let what = "is so near that what is farther than";
+            let last = Plain(brief(last));
+            let what = format!(
+                "= {} {what} {last} falls on the last two values of a depth buffer of 24 bits, as does some of `{}`",
+                Plain(brief(near)),
+                object.name
+            );
+            return Some(("near", what));
+        }
+        // A vertex that is rounded by more than the clip planes' distance from the eye's plane puts them anywhere.
+        if let Some((object, span)) = seen.iter().find(|(_, span)| off(*span) > 2.0 * near) {
+            let what = format!(
+                "= {} is less than 32-bit floats may be off by, {}, at the vertices of `{}`, up to {} away",
+                Plain(brief(near)),
+                Plain(brief(off(*span))),
+                object.name,
+                Plain(brief(span.reach)),
+            );
+            return Some(("near", what));
+        }
+        let (object, span) = seen.iter().find(|(object, span)| self.is_flattened(object, *span))?;
         let what = format!(
             "= {} is so near that a depth buffer of 24 bits tells apart no less than {} at `{}`, {} away",
             Plain(brief(near)),
@@ -143,6 +175,36 @@ impl View<'_> {
             Plain(brief(span.least)),
         );
         Some(("near", what))
+    }
+
+    /// A solid whose front and back are a few steps of depth apart: which of them is shown, and on which side of them a
+    /// shadow's surface lies, is left to chance.
+    fn is_flattened(&self, object: &Object, span: Span) -> bool {
+        let [thin, _, long] = extents(object);
+        let pixel = self.camera.pixel_at(span.least, self.size);
+        // Without back faces only what is all at one depth is lost.
+        let room = if object.closed { long } else { thin };
+        thin > 0.0 && long > pixel && frame::depth_step(self.camera.near, span.least) > room / STEPS
+    }
+
+    /// What is in view behind the near plane, the nearest first.
+    fn seen(&self) -> Vec<(&Object, Span)> {
+        let near = self.camera.near;
+        self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near).collect()
+    }
+
+    /// Triangles so large, or so far from their object's origin, that rounded vertices move what is seen of them.
+    fn vague(&self) -> Option<String> {
+        let pixel = |span: Span| self.camera.pixel_at(span.least.max(self.camera.near), self.size);
+        let (object, span) = self.seen().into_iter().find(|(_, span)| off(*span) > MOST_OFF * pixel(*span))?;
+        Some(format!(
+            "`{}` has vertices {} away from the eye or its own origin, which 32-bit floats move by up to {}: {:.0} pixels \
+             where it begins",
+            object.name,
+            Plain(brief(span.reach)),
+            Plain(brief(off(span))),
+            off(span) / pixel(span),
+        ))
     }
 }
 
