@@ -169,7 +169,7 @@ fn draw(
         let fewer: Vec<&Item> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
         let layer = Layer::plain("depth", "map", bias::offset(settings).polygon, casters);
-        let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
+        let batches = depth::batches(face_view, &layer, settings, list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
             color: None,
