@@ -34,6 +34,10 @@ const PLANES: [DVec4; 5] = [
     DVec4::new(0.0, 0.0, -1.0, 1.0),
 ];
 
+/// How many times as far as its nearest point the farthest one of a piece may lie. GL clips what crosses a side of the
+/// picture after all, and with an error that is 2^-24 of the piece's farthest end.
+const PIECE: f64 = 4.0;
+
 /// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
 const ORDINARY: f64 = 16.0;
 
@@ -146,7 +150,9 @@ impl Cutter {
             match self.cut_triangle(&triangle) {
                 Some(polygon) => {
                     any = true;
-                    corners.extend((2..polygon.len()).map(|k| [polygon[0], polygon[k - 1], polygon[k]]));
+                    for piece in self.pieces(polygon) {
+                        corners.extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
+                    }
                 }
                 None => corners.push(triangle),
             }
@@ -160,6 +166,20 @@ impl Cutter {
         Some((Arc::new(made(mesh, &corners, origin)), origin))
     }
 
+    /// A polygon by its distance: cut where w is a power of [`PIECE`] times the nearest one, at the same places in every
+    /// triangle, so that neighbours share their vertices.
+    fn pieces(&self, polygon: Vec<Corner>) -> Vec<Vec<Corner>> {
+        let mut pieces = Vec::new();
+        let (mut rest, mut end) = (polygon, PIECE * self.nearest);
+        while rest.iter().any(|corner| corner.clip.w > end) && end.is_finite() {
+            pieces.push(clip(&rest, |corner| end - corner.clip.w));
+            rest = clip(&rest, |corner| corner.clip.w - end);
+            end *= PIECE;
+        }
+        pieces.push(rest);
+        pieces
+    }
+
     /// What is shown of a triangle, where GL would lose too much by clipping it.
     fn cut_triangle(&self, triangle: &[Corner; 3]) -> Option<Vec<Corner>> {
         let reach =
@@ -168,7 +188,8 @@ impl Cutter {
         if whole <= self.most(self.nearest) || triangle.iter().all(Corner::is_inside) {
             return None;
         }
-        let polygon = PLANES.iter().fold(triangle.to_vec(), |polygon, plane| clip(&polygon, plane));
+        let within = |polygon: Vec<Corner>, plane: &DVec4| clip(&polygon, |corner| plane.dot(corner.clip));
+        let polygon = PLANES.iter().fold(triangle.to_vec(), within);
         let w = polygon.iter().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min).max(self.nearest);
         (whole > self.most(w)).then_some(polygon)
     }
@@ -227,12 +248,12 @@ impl Corner {
     }
 }
 
-/// What of a convex polygon lies on the inner side of a plane of clip space [Sutherland and Hodgman].
-fn clip(polygon: &[Corner], plane: &DVec4) -> Vec<Corner> {
+/// What of a convex polygon has no distance below zero [Sutherland and Hodgman].
+fn clip(polygon: &[Corner], distance: impl Fn(&Corner) -> f64) -> Vec<Corner> {
     let mut clipped = Vec::with_capacity(polygon.len() + 1);
     for (index, corner) in polygon.iter().enumerate() {
         let next = &polygon[(index + 1) % polygon.len()];
-        let (here, there) = (plane.dot(corner.clip), plane.dot(next.clip));
+        let (here, there) = (distance(corner), distance(next));
         if here >= 0.0 {
             clipped.push(*corner);
         }
