@@ -9,6 +9,7 @@ use glam::{DMat4, DVec3, Vec2};
 use super::bias;
 use super::casters::{in_the_map, warn_of_near};
 use super::depth::{self, Layer};
+use super::doubt;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
 use super::term::{sampler, texture_from_light_clip};
@@ -62,6 +63,7 @@ pub fn describe(
         return super::without_casters(view, settings, notes);
     }
     let map = draw(view, &faces, settings, list, notes);
+    doubt::warn(&seen_from(view, point, CubeFace::PositiveX), settings, &bias::offset(settings), notes);
     term(view, point, map, settings)
 }
 
@@ -146,6 +148,11 @@ fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
 
 fn seen_from<'a>(view: &LightView<'a>, point: &Point, face: CubeFace) -> FrustumView<'a> {
     FrustumView { light_view: *view, projector: Projector::of_frustum(&frustum_of(point, face)) }
+}
+
+/// Of all faces.
+pub fn projectors(point: &Point) -> Vec<Projector> {
+    CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
 }
 
 /// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
