@@ -20,9 +20,9 @@ const SAMPLES: [u32; 2] = [48, 36];
 /// No more tests of a ray with a box than this, a few milliseconds: of many items fewer samples are taken.
 const MOST_TESTS: usize = 300_000;
 
-/// Shares of the samples in the light from which on more than 1.5 % of the pixels are wrong. Of 787 random scenes under
-/// every kind of light, with near planes down to 10^-5 in 16 bits and cones up to 179.9 degrees, 3 are warned of and have
-/// fewer wrong pixels, at least 0.5 %.
+/// Shares of the samples in the light from which on more than 1.5 % of the pixels are wrong. Of 783 random scenes that they
+/// were not chosen by, under every kind of light, with near planes down to 10^-5 in 16 bits and cones up to 179 degrees,
+/// 6 are warned of and have fewer wrong pixels; 65 of the 78 that have more, for want of codes or texels, are warned of.
 const MOST_LOST: f64 = 0.016;
 const MOST_BURIED: f64 = 0.02;
 const MOST_UNCERTAIN: f64 = 0.1;
@@ -216,7 +216,7 @@ impl Sampler<'_> {
                 }
             }
             // The offset follows slopes: that of a plane across the light's ray, and 45 degrees more.
-            let taken = here.texel * (offset.texels + f64::from(offset.polygon.factor) * (1.0 + here.slant));
+            let taken = here.texel * (offset.texels + f64::from(offset.polygon.factor).max(1.5) * (1.0 + here.slant));
             if (caster - point).length() / (1.0 + here.slant * here.slant).sqrt() < taken {
                 found.buried += 1;
                 found.texel_pixels = found.texel_pixels.max(here.texel / pixel);
