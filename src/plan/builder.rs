@@ -3,6 +3,8 @@
 //! Lights whose shade a shader finds are lit in one pass. Where a light's shadow is counted in the stencil buffer
 //! (`counted.rs`), that pass gives depth and what needs no count, and each such light is added after its count (C9).
 
+use std::borrow::Cow;
+
 use super::compose::PlannedLight;
 use super::lens::Lens;
 use super::{Error, Request, ViewRequest};
@@ -11,6 +13,7 @@ use crate::pass::{
     Storage, Target, Uniform, Work, glsl,
 };
 use crate::scene::{LightKind, Scene};
+use crate::techniques::cut::Cutter;
 use crate::techniques::guard::Guard;
 use crate::techniques::surface::{self, Ending, Viewer};
 use crate::techniques::views::{self, View};
@@ -41,7 +44,7 @@ impl Builder<'_> {
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = Lens::for_counts(self.scene, counts.clone());
         check_cuts(&terms)?;
-        surface::explain_guards(self.scene, self.items, &lens.camera, &terms, self.notes);
+        surface::explain_guards(self.scene, &self.cut_items(&lens), &lens.camera, &terms, self.notes);
         let target = self.picture_target(counts.clone().next().is_some());
         if counts.clone().next().is_some() {
             self.counted_picture(target, &lens, &terms)?;
@@ -135,7 +138,8 @@ impl Builder<'_> {
         terms: &[LightTerm],
         ending: &Ending,
     ) -> Result<(), Error> {
-        let batches = surface::batches(scene, self.items, &onto.lens.camera, terms, ending, self.list);
+        let items = self.cut_items(onto.lens);
+        let batches = surface::batches(scene, &items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
@@ -221,6 +225,14 @@ impl Builder<'_> {
         let target = self.color_and_depth(label, [side; 2], Format::Rgba32F, false);
         self.seen_by_light(label, target, side, index)?;
         Ok(target.color.unwrap_or(ImageId(0)))
+    }
+}
+
+impl<'a> Builder<'a> {
+    /// The items as every pass before this lens draws them.
+    pub fn cut_items(&self, lens: &Lens) -> Cow<'a, [Item]> {
+        let cutter = Cutter::for_eye(self.scene, &lens.camera.clip_from_world(), lens.camera.near());
+        cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items))
     }
 }
 

@@ -64,8 +64,9 @@ impl Builder<'_> {
     fn depth_first(&mut self, target: Target, lens: &Lens) {
         let clip_from_world = lens.camera.clip_from_world();
         // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.
+        let items = self.cut_items(lens);
         let (front, both): (Vec<&Item>, Vec<&Item>) =
-            self.items.iter().partition(|item| shows_no_back_face(item, &(clip_from_world * item.world_from_model)));
+            items.iter().partition(|item| shows_no_back_face(item, &(clip_from_world * item.world_from_model)));
         let mut batches = depth_batches(&front, &clip_from_world, self.list);
         batches.iter_mut().for_each(|batch| batch.cull = Some(Face::Back));
         batches.extend(depth_batches(&both, &clip_from_world, self.list));

@@ -9,6 +9,7 @@
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
 pub mod claims;
+pub mod cut;
 pub mod guard;
 pub mod guides;
 pub mod items;

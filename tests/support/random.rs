@@ -23,6 +23,12 @@ impl Random {
         low + (high - low) * self.share()
     }
 
+    /// In 0..count.
+    #[allow(dead_code, reason = "not every test asks for it")]
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.share() * count as f64) as usize
+    }
+
     /// Each coordinate in [-1, 1).
     pub fn vector(&mut self) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.within(-1.0, 1.0)))

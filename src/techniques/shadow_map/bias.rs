@@ -34,7 +34,11 @@ pub fn filter_reach(settings: &Settings) -> f64 {
 ///   one. That is what `texels` is for. A wider reach has more of the slope to spare, and needs less of it;
 /// - rounding: by units, of which one is at least the format's least step.
 ///
-/// Beyond these nothing is left but silhouettes, where no offset helps.
+/// Beyond these nothing is left but silhouettes, and walls that the light grazes: a surface within some five degrees of its
+/// edge rises by more, from one texel to the next, than any offset of the flatter facet beside it; in a map it is a few
+/// texels wide. Of a city of boxes under a sun 0.09 % of the pixels are dark for it, two thirds of them where the cosine
+/// of the light's angle is below 0.04, and six times as many `texels` leave as many. The receiver's own slope, which the
+/// texture unit does not know, mends it: the other biases leave none.
 pub fn offset(settings: &Settings) -> Offset {
     settings.offset.unwrap_or_else(|| default_offset(settings))
 }

@@ -9,6 +9,7 @@ use glam::{DMat4, DVec3, Vec2};
 use super::bias;
 use super::casters::{in_the_map, may_cast, warn_of_near};
 use super::depth::{self, Layer};
+use super::doubt;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
 use super::term::{sampler, texture_from_light_clip};
@@ -62,6 +63,7 @@ pub fn describe(
         return super::without_casters(view, settings, notes);
     }
     let map = draw(view, &faces, settings, list, notes);
+    doubt::warn(&seen_from(view, point, CubeFace::PositiveX), settings, &bias::offset(settings), notes);
     term(view, point, map, settings)
 }
 
@@ -145,6 +147,11 @@ fn seen_from<'a>(view: &LightView<'a>, point: &Point, face: CubeFace) -> Frustum
     FrustumView { light_view: *view, projector: Projector::of_frustum(&frustum_of(point, face)) }
 }
 
+/// Of all faces.
+pub fn projectors(point: &Point) -> Vec<Projector> {
+    CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
+}
+
 /// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
 fn draw(
     view: &LightView<'_>,
@@ -169,7 +176,7 @@ fn draw(
         let layer = Layer::plain("depth", "map", offset, casters);
         let clamped = depth::is_clamped(face_view, &layer, &format!("face {}", face.name()), notes);
         let (state, _) = depth::state(settings, offset, clamped);
-        let batches = depth::batches(&layer, &depth::map_clip_from_world(face_view, settings), list);
+        let batches = depth::batches(face_view, &layer, settings, list);
         let label = format!("light {index}: depth, face {}", face.name());
         let target = Target {
             color: None,

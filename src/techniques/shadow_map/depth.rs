@@ -10,6 +10,7 @@ use crate::pass::{
     Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
     PolygonOffset, Storage, Target, Uniform, Work,
 };
+use crate::techniques::cut::Cutter;
 use crate::techniques::items::depth_batches;
 use crate::techniques::projector::Rays;
 use crate::techniques::{Chosen, FrustumView, Item, LightView, Notes};
@@ -87,11 +88,10 @@ pub fn draw(
         Transfer::Fbo => map,
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
-    let clip_from_world = map_clip_from_world(view, settings);
-    let mut batches = batches(layer, &clip_from_world, list);
+    let mut batches = batches(view, layer, settings, list);
     let received =
         Layer { casters: layer.receivers, in_parts: layer.receivers_in_parts, ending: layer.ending.clone(), ..*layer };
-    let received = self::batches(&received, &clip_from_world, list);
+    let received = self::batches(view, &received, settings, list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let clamped = is_clamped(view, layer, "depth", notes);
@@ -185,10 +185,15 @@ pub fn state(
 }
 
 /// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
-pub fn batches(layer: &Layer<'_>, clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
-    let mut batches = depth_batches(layer.casters, clip_from_world, list);
+pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
+    let clip_from_world = map_clip_from_world(view, settings);
+    let texel = bias::texel_at_one(&view.projector, settings);
+    let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size);
+    let cut: Vec<_> = layer.casters.iter().map(|item| cutter.cut(item)).collect();
+    let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+    let mut batches = depth_batches(&cut, &clip_from_world, list);
     for InParts { item, scissors } in layer.in_parts {
-        let whole = depth_batches(&[item], clip_from_world, list);
+        let whole = depth_batches(&[cutter.cut(item).as_ref()], &clip_from_world, list);
         for scissor in scissors {
             batches.extend(whole.iter().map(|batch| Batch { scissor: Some(*scissor), ..batch.clone() }));
         }

@@ -6,6 +6,7 @@ pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
 pub(super) mod depth;
+mod doubt;
 pub(super) mod fit;
 mod parallel;
 pub(super) mod settings;
@@ -120,6 +121,7 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, &settings, list, notes);
+    doubt::warn(view, &settings, &offset, notes);
     let mut term = looked_up(view, map, &settings, offset.texels, notes);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
     term

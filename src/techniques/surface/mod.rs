@@ -30,6 +30,11 @@ impl Viewer {
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_eye * self.eye_from_world
     }
+
+    /// The distance of the near plane.
+    pub fn near(&self) -> f64 {
+        self.clip_from_eye.w_axis.z / (self.clip_from_eye.z_axis.z - 1.0)
+    }
 }
 
 /// The batches that draw `items` as `viewer` sees them, lit by `terms`; `ending` decides what a fragment shows.

@@ -1,0 +1,282 @@
+//! What reaches far beyond a picture or a map is cut to it on the CPU, in f64, before it is drawn.
+//!
+//! GL clips in f32: where it cuts an edge, the new vertex and all that is interpolated to it are off by about 2^-24 of the
+//! edge's ends. Of a floor whose corners lie 10⁵ units away this is 0.006 units where light and eye stand 4 units above it:
+//! more than the offset of its own texels, so that it goes dark in patches, or all over. What is cut before needs no
+//! clipping by GL, and is off by 2^-24 of its own distance. Every pass for the same eye, and every pass of the same map,
+//! draws the same cut mesh, so that depths agree to the bit.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+
+use glam::{DMat4, DVec3, DVec4, Vec2, Vec3};
+
+use super::projector::{Projector, Rays};
+use super::{Item, needs_vertices};
+use crate::geometry::{Mesh, Part};
+use crate::math::Aabb;
+use crate::pass::MeshRef;
+use crate::scene::Scene;
+
+/// Roundings of 2^-24 of the greatest clip coordinate in a vertex that GL makes where it clips: one in each end's
+/// transform, one in the distance from the plane, one in the product.
+const CLIP_ROUNDINGS: f64 = 4.0;
+
+/// Planes of clip space; what is drawn has a product >= 0 with each. A quarter beyond the sides of what is shown, so that
+/// GL has nothing to clip there, and up to the far plane. The near plane cuts nothing: a map may have to show at depth 0
+/// what lies before it.
+const PLANES: [DVec4; 5] = [
+    DVec4::new(1.0, 0.0, 0.0, 1.25),
+    DVec4::new(-1.0, 0.0, 0.0, 1.25),
+    DVec4::new(0.0, 1.0, 0.0, 1.25),
+    DVec4::new(0.0, -1.0, 0.0, 1.25),
+    DVec4::new(0.0, 0.0, -1.0, 1.0),
+];
+
+/// How many times as far as its nearest point the farthest one of a piece may lie. GL clips what crosses a side of the
+/// picture after all, and with an error that is 2^-24 of the piece's farthest end.
+const PIECE: f64 = 4.0;
+
+/// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
+const ORDINARY: f64 = 16.0;
+
+/// The same for a camera: 2^-24 of these is a ten-thousandth of what is seen, a tenth of a texel of a map that shows it.
+const ORDINARY_FOR_CAMERA: f64 = 400.0;
+
+/// Meshes of more triangles have small ones.
+const MOST_TRIANGLES: u32 = 1 << 16;
+
+/// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
+pub struct Cutter {
+    clip_from_world: DMat4,
+    /// Of x and y, where w is 1.
+    across: f64,
+    /// Of z.
+    along: f64,
+    /// The least w.
+    nearest: f64,
+}
+
+impl Cutter {
+    /// For a map of `size` texels a side, each `texel` wide at a distance of 1 along its axis, or anywhere in parallel
+    /// light.
+    pub fn for_map(projector: &Projector, clip_from_world: &DMat4, texel: f64, size: u32) -> Self {
+        // An eighth of what a slope of 45 degrees falls away by over one texel; offsets have a multiple of that.
+        let (along, nearest) = match projector.rays {
+            // z = A w - B, and B is about twice the distance of the near plane: z / w grows by B / w² along the ray, and
+            // a texel is `texel` w wide.
+            Rays::From { near, .. } => (0.25 * near * texel, near),
+            Rays::Along(_) => (0.125 * texel * projector.clip_from_light.z_axis.z.abs(), 1.0),
+        };
+        // A twentieth of a texel, of which a width of 2 has as many as the map's size.
+        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest }
+    }
+
+    /// For an eye; `None` where vertices must stay as they are: volumes' caps meet the surfaces that they are made from,
+    /// and light per vertex is of the file's vertices.
+    pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
+        let may = !scene.shading.per_vertex && !needs_vertices(scene);
+        let across = ORDINARY_FOR_CAMERA * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
+        may.then_some(Self { clip_from_world: *clip_from_world, across, along: f64::INFINITY, nearest: near })
+    }
+
+    /// All of `items`, of which those that reach too far are cut.
+    pub fn cut_all<'a>(&self, items: &'a [Item]) -> Cow<'a, [Item]> {
+        let cut: Vec<Cow<'a, Item>> = items.iter().map(|item| self.cut(item)).collect();
+        match cut.iter().any(|item| matches!(item, Cow::Owned(_))) {
+            true => Cow::Owned(cut.into_iter().map(Cow::into_owned).collect()),
+            false => Cow::Borrowed(items),
+        }
+    }
+
+    /// The greatest clip coordinate of a triangle that GL may clip where w is at least this.
+    fn most(&self, w: f64) -> f64 {
+        let most = (self.across * w).min(self.along) / (CLIP_ROUNDINGS * 2.0_f64.powi(-24));
+        most.max(ORDINARY * w)
+    }
+
+    /// `item`, or what is shown of it where it reaches too far. Waves are left: the vertex stage moves them.
+    pub fn cut<'a>(&self, item: &'a Item) -> Cow<'a, Item> {
+        let clip_from_model = self.clip_from_world * item.world_from_model;
+        let most = self.most(self.nearest);
+        let reaches = |corner: DVec3| (clip_from_model * corner.extend(1.0)).abs().max_element() > most;
+        let triangles = (item.indices.end - item.indices.start) / 3;
+        if item.wave.is_some() || triangles > MOST_TRIANGLES || !item.bounds.corners().into_iter().any(reaches) {
+            return Cow::Borrowed(item);
+        }
+        match self.cached(item, &clip_from_model) {
+            Some((mesh, origin)) => Cow::Owned(Item {
+                indices: 0..mesh.indices.len() as u32,
+                bounds: mesh.bounds,
+                world_from_model: item.world_from_model * DMat4::from_translation(origin),
+                mesh: MeshRef(mesh),
+                ..item.clone()
+            }),
+            None => Cow::Borrowed(item),
+        }
+    }
+
+    /// Kept as long as the mesh lives: a plan is made for every frame, and a pass that draws the same is not drawn again.
+    fn cached(&self, item: &Item, clip_from_model: &DMat4) -> Option<(Arc<Mesh>, DVec3)> {
+        let key = Key {
+            mesh: Arc::as_ptr(&item.mesh.0) as usize,
+            indices: (item.indices.start, item.indices.end),
+            clip_from_model: clip_from_model.to_cols_array().map(f64::to_bits),
+            forgiven: [self.across, self.along].map(f64::to_bits),
+        };
+        let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
+        let cache = cache.get_or_insert_default();
+        cache.retain(|_, entry| entry.source.strong_count() > 0);
+        if let Some(entry) = cache.get(&key) {
+            return entry.cut.clone();
+        }
+        if cache.len() >= MOST_KEPT {
+            cache.clear();
+        }
+        let cut = self.cut_mesh(item, clip_from_model);
+        cache.insert(key, Entry { source: Arc::downgrade(&item.mesh.0), cut: cut.clone() });
+        cut
+    }
+
+    /// The cut mesh about an origin of its own in the item's space; `None` where nothing needs to be cut, or is left.
+    fn cut_mesh(&self, item: &Item, clip_from_model: &DMat4) -> Option<(Arc<Mesh>, DVec3)> {
+        let mesh = &item.mesh;
+        let range = item.indices.start as usize..item.indices.end as usize;
+        let mut corners: Vec<[Corner; 3]> = Vec::new();
+        let mut any = false;
+        for triangle in mesh.indices[range].chunks_exact(3) {
+            let triangle = [0, 1, 2].map(|k| Corner::of(mesh, triangle[k] as usize, clip_from_model));
+            match self.cut_triangle(&triangle) {
+                Some(polygon) => {
+                    any = true;
+                    for piece in self.pieces(polygon) {
+                        corners.extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
+                    }
+                }
+                None => corners.push(triangle),
+            }
+        }
+        if !any || corners.is_empty() {
+            return None;
+        }
+        let bounds = Aabb::from_points(corners.iter().flatten().map(|corner| corner.position));
+        // Object-linear coordinates are made from the model's own.
+        let origin = if item.material.texgen.is_some() { DVec3::ZERO } else { bounds.center() };
+        Some((Arc::new(made(mesh, &corners, origin)), origin))
+    }
+
+    /// A polygon by its distance: cut where w is a power of [`PIECE`] times the nearest one, at the same places in every
+    /// triangle, so that neighbours share their vertices.
+    fn pieces(&self, polygon: Vec<Corner>) -> Vec<Vec<Corner>> {
+        let mut pieces = Vec::new();
+        let (mut rest, mut end) = (polygon, PIECE * self.nearest);
+        while rest.iter().any(|corner| corner.clip.w > end) && end.is_finite() {
+            pieces.push(clip(&rest, |corner| end - corner.clip.w));
+            rest = clip(&rest, |corner| corner.clip.w - end);
+            end *= PIECE;
+        }
+        pieces.push(rest);
+        pieces
+    }
+
+    /// What is shown of a triangle, where GL would lose too much by clipping it.
+    fn cut_triangle(&self, triangle: &[Corner; 3]) -> Option<Vec<Corner>> {
+        let reach =
+            |corners: &[Corner]| corners.iter().map(|corner| corner.clip.abs().max_element()).fold(0.0, f64::max);
+        let whole = reach(triangle);
+        if whole <= self.most(self.nearest) || triangle.iter().all(Corner::is_inside) {
+            return None;
+        }
+        let within = |polygon: Vec<Corner>, plane: &DVec4| clip(&polygon, |corner| plane.dot(corner.clip));
+        let polygon = PLANES.iter().fold(triangle.to_vec(), within);
+        let w = polygon.iter().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min).max(self.nearest);
+        (whole > self.most(w)).then_some(polygon)
+    }
+}
+
+/// How many cut casters are kept.
+const MOST_KEPT: usize = 256;
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    mesh: usize,
+    indices: (u32, u32),
+    clip_from_model: [u64; 16],
+    forgiven: [u64; 2],
+}
+
+struct Entry {
+    source: Weak<Mesh>,
+    cut: Option<(Arc<Mesh>, DVec3)>,
+}
+
+static CACHE: Mutex<Option<HashMap<Key, Entry>>> = Mutex::new(None);
+
+/// A vertex, in f64, with all that passes read of one.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    position: DVec3,
+    clip: DVec4,
+    normal: Vec3,
+    texcoord: Vec2,
+}
+
+impl Corner {
+    fn of(mesh: &Mesh, index: usize, clip_from_model: &DMat4) -> Self {
+        let position = DVec3::from_array(mesh.positions[index].map(f64::from));
+        Self {
+            position,
+            clip: *clip_from_model * position.extend(1.0),
+            normal: mesh.normals.get(index).copied().map_or(Vec3::Z, Vec3::from_array),
+            texcoord: mesh.texcoords.as_ref().map_or(Vec2::ZERO, |all| Vec2::from_array(all[index])),
+        }
+    }
+
+    /// Whether GL leaves it as it is, but for the near plane.
+    fn is_inside(&self) -> bool {
+        PLANES.iter().all(|plane| plane.dot(self.clip) >= 0.0)
+    }
+
+    fn lerp(&self, other: &Self, share: f64) -> Self {
+        Self {
+            position: self.position.lerp(other.position, share),
+            clip: self.clip.lerp(other.clip, share),
+            normal: self.normal.lerp(other.normal, share as f32),
+            texcoord: self.texcoord.lerp(other.texcoord, share as f32),
+        }
+    }
+}
+
+/// What of a convex polygon has no distance below zero [Sutherland and Hodgman].
+fn clip(polygon: &[Corner], distance: impl Fn(&Corner) -> f64) -> Vec<Corner> {
+    let mut clipped = Vec::with_capacity(polygon.len() + 1);
+    for (index, corner) in polygon.iter().enumerate() {
+        let next = &polygon[(index + 1) % polygon.len()];
+        let (here, there) = (distance(corner), distance(next));
+        if here >= 0.0 {
+            clipped.push(*corner);
+        }
+        if (here >= 0.0) != (there >= 0.0) {
+            clipped.push(corner.lerp(next, here / (here - there)));
+        }
+    }
+    clipped
+}
+
+fn made(source: &Mesh, corners: &[[Corner; 3]], origin: DVec3) -> Mesh {
+    let all = || corners.iter().flatten();
+    let mut mesh = Mesh {
+        name: source.name.clone(),
+        positions: all().map(|corner| (corner.position - origin).as_vec3().to_array()).collect(),
+        normals: all().map(|corner| corner.normal.to_array()).collect(),
+        texcoords: source.texcoords.is_some().then(|| all().map(|corner| corner.texcoord.to_array()).collect()),
+        indices: (0..3 * corners.len() as u32).collect(),
+        ..Mesh::default()
+    };
+    let points = mesh.positions.iter().map(|position| DVec3::from_array(position.map(f64::from)));
+    mesh.bounds = Aabb::from_points(points);
+    let (name, indices, bounds) = (source.name.clone(), 0..mesh.indices.len() as u32, mesh.bounds);
+    mesh.parts = vec![Part { name, indices, material: None, bounds }];
+    mesh
+}
