@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use crate::techniques::projector::Rays;
+use crate::techniques::shadow_map::casters::middle_of_crossing;
 use crate::techniques::{FrustumView, Item, Notes};
 
 /// A share below this is left to the gaps of meshes that are closed to the eye: that much of one object's shadow.
@@ -120,13 +121,4 @@ fn shadows(view: &FrustumView<'_>, item: &Item) -> bool {
         let is_before = |at: f64| nearest < at && at < -SLACK;
         through.iter().any(is_behind) || middle_of_crossing(item, middle, way(rays, middle)).is_some_and(is_before)
     })
-}
-
-/// Where the line `point + t * way` is in the middle of the item's box.
-fn middle_of_crossing(item: &Item, point: DVec3, way: DVec3) -> Option<f64> {
-    let model_from_world = item.world_from_model.inverse();
-    let (point, way) = (model_from_world.transform_point3(point), model_from_world.transform_vector3(way));
-    let (a, b) = ((item.bounds.min - point) / way, (item.bounds.max - point) / way);
-    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
-    (enter <= leave).then_some(0.5 * (enter + leave))
 }
