@@ -100,15 +100,21 @@ fn an_object_that_casts_no_shadow_leaves_the_floor_lit() {
 }
 
 #[test]
-fn a_blocker_before_the_lights_near_plane_does_not_cast() {
-    let mut spot = light(DVec3::new(0.0, 5.0, 0.0), DVec3::ZERO);
-    frustum_of(&mut spot).near = 3.5;
-    let mut point = point_light(DVec3::new(0.0, 5.0, 0.0));
-    let LightKind::Point(Point { near, .. }) = &mut point.kind else { panic!("no point light") };
-    *near = 3.5;
-    for lamp in [spot, point] {
-        let truth = trace_scene(&scene(vec![floor(), object("square", mesh(&square(0.75, 2.0)))], lamp));
-        assert_eq!(truth.count(|answer| answer == Answer::Shadowed), 0);
+fn a_blocker_before_the_lights_near_plane_casts_as_any_other() {
+    let place = DVec3::new(0.0, 5.0, 0.0);
+    for mut lamp in [light(place, DVec3::ZERO), point_light(place)] {
+        // The square is 3 before the light, the floor 5.
+        let mut shadowed = |distance: f64| {
+            match &mut lamp.kind {
+                LightKind::Spot(spot) => spot.frustum.near = distance,
+                LightKind::Point(Point { near, .. }) => *near = distance,
+                LightKind::Directional { .. } => panic!("no near plane"),
+            }
+            let truth = trace_scene(&scene(vec![floor(), object("square", mesh(&square(0.75, 2.0)))], lamp.clone()));
+            truth.count(|answer| answer == Answer::Shadowed)
+        };
+        let (before, beyond) = (shadowed(3.5), shadowed(0.1));
+        assert!(before > 100 && before == beyond, "{before}, {beyond}");
     }
 }
 

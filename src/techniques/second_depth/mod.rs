@@ -4,7 +4,9 @@
 //! What is lit is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
 //! offset. What looks away from the light is compared with itself, and errs; by its shading it is dark in any case. A
 //! caster that is open has no far side and would lose its shadow: it is refused by name, or with `closed = "assume"`
-//! drawn as it is.
+//! drawn as it is, and named in a warning where that shadow is missed ([`open`]).
+
+mod open;
 
 use std::sync::Arc;
 
@@ -88,9 +90,11 @@ impl Technique for SecondDepth {
         };
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
+        let mut is_closed = closed_test();
         if !is_assumed {
-            refuse_open(&casters, keys)?;
+            refuse_open(&casters, &mut is_closed, keys)?;
         }
+        open::warn(view, &casters, &mut is_closed, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         }
@@ -108,20 +112,32 @@ fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
 }
 
-/// Refuses casters without a far side, each by its name.
-fn refuse_open(casters: &[&Item], keys: &Reader<'_>) -> Result<(), SettingsError> {
-    let mut open: Vec<&str> = Vec::new();
-    let mut seen: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
-    for item in casters {
+/// Answers whether an item has a far side all over: each mesh is looked at once.
+fn closed_test() -> impl FnMut(&Item) -> bool {
+    let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
+    move |item| {
+        if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) {
+            return false;
+        }
         let mesh = Arc::as_ptr(&item.mesh.0);
-        let is_closed = match seen.iter().find(|(known, _)| *known == mesh) {
-            _ if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) => false,
-            _ if item.closed => true,
-            Some((_, is_closed)) => *is_closed,
-            None => item.mesh.is_closed() && item.mesh.signed_volume() > 0.0,
-        };
-        seen.push((mesh, is_closed));
-        if !is_closed && !open.contains(&item.label.as_str()) {
+        if let Some((_, is_closed)) = known.iter().find(|(other, _)| *other == mesh) {
+            return item.closed || *is_closed;
+        }
+        let is_closed = item.closed || (item.mesh.is_closed() && item.mesh.signed_volume() > 0.0);
+        known.push((mesh, is_closed));
+        is_closed
+    }
+}
+
+/// Refuses casters without a far side, each by its name.
+fn refuse_open(
+    casters: &[&Item],
+    is_closed: &mut dyn FnMut(&Item) -> bool,
+    keys: &Reader<'_>,
+) -> Result<(), SettingsError> {
+    let mut open: Vec<&str> = Vec::new();
+    for item in casters {
+        if !is_closed(item) && !open.contains(&item.label.as_str()) {
             open.push(&item.label);
         }
     }

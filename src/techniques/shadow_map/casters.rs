@@ -1,6 +1,6 @@
 //! Which of the scene's items are drawn into a light's map.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
@@ -72,36 +72,58 @@ pub fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
 /// before it. Says so where something seen may lie there, behind something else.
 pub fn warn_of_near(view: &FrustumView<'_>, casters: &[&Item], notes: &mut Notes) {
     let Rays::From { near, position } = view.projector.rays else { return };
+    let before: Vec<&Item> = casters.iter().copied().filter(|item| is_before_near(view, item)).collect();
+    if before.is_empty() {
+        return;
+    }
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let is_seen =
-        |item: &Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
-    let before: Vec<&Item> = casters.iter().copied().filter(|item| is_before_near(view, item)).collect();
-    let shaded = |item: &Item| {
-        before.iter().copied().find(|caster| !std::ptr::eq(*caster, item) && may_shade(caster, item, position))
+    let is_inside = |clip: DVec4| clip.truncate().abs().max_element() <= clip.w;
+    // Points of the item that are seen, lie in the light and before its near plane.
+    let places = |item: &Item| -> Vec<DVec3> {
+        let light_clip = view.clip_from_world();
+        grid(item)
+            .map(|point| item.world_from_model.transform_point3(point))
+            .filter(|point| {
+                let clip = light_clip * point.extend(1.0);
+                clip.truncate().truncate().abs().max_element() <= clip.w
+                    && clip.z < -clip.w
+                    && is_inside(camera_clip * point.extend(1.0))
+            })
+            .collect()
     };
-    let seen = view.items.iter().filter(|item| !before.is_empty() && is_seen(item) && is_before_near(view, item));
+    let shaded = |item: &Item| {
+        let places = places(item);
+        let shades = |caster: &&Item| {
+            let crossed = |point: &DVec3| middle_of_crossing(caster, *point, *point - position);
+            !std::ptr::eq::<Item>(*caster, item) && places.iter().filter_map(crossed).any(|at| -1.0 < at && at < -1e-6)
+        };
+        before.iter().copied().find(shades)
+    };
+    let seen = view.items.iter().filter(|item| is_before_near(view, item));
     let Some((item, caster)) = seen.filter_map(|item| Some((item, shaded(item)?))).next() else { return };
-    let of = format!("the near plane of light {} at {near}: ", view.index);
+    let of = format!("light {}'s near plane at {near}: ", view.index);
     // One is enough of each light, whose cube has six such planes.
     if !notes.warnings.iter().any(|warning| warning.starts_with(&of)) {
-        let both = format!("{} and {}", caster.label, item.label);
-        notes.warnings.push(format!("{of}{both} may both come nearer to the light, and no shadow falls there"));
+        let shadow = format!("{} lies before it in the shadow of {}", item.label, caster.label);
+        notes.warnings.push(format!("{of}{shadow}, and is lit there: a map has no depths before its near plane"));
     }
 }
 
-/// Whether a ray from the light may meet `item` behind `caster`: by the balls around their boxes.
-fn may_shade(caster: &Item, item: &Item, position: DVec3) -> bool {
-    let ball = |item: &Item| {
-        let bounds = item.bounds.transformed(&item.world_from_model);
-        (0.5 * (bounds.min + bounds.max) - position, bounds.radius())
-    };
-    let ((first, first_radius), (second, second_radius)) = (ball(caster), ball(item));
-    let (near, far) = (first.length(), second.length());
-    if near <= first_radius || far <= second_radius {
-        return true;
-    }
-    let apart = first.angle_between(second);
-    near - first_radius < far + second_radius
-        && apart <= (first_radius / near).min(1.0).asin() + (second_radius / far).min(1.0).asin()
+/// A hundred points and more all over the item's box, in its model space.
+fn grid(item: &Item) -> impl Iterator<Item = DVec3> {
+    const STEPS: usize = 5;
+    let (min, size) = (item.bounds.min, item.bounds.max - item.bounds.min);
+    let share = |step: usize| step as f64 / (STEPS - 1) as f64;
+    (0..STEPS.pow(3))
+        .map(move |i| min + size * DVec3::new(share(i % STEPS), share(i / STEPS % STEPS), share(i / STEPS / STEPS)))
+}
+
+/// Where the line `point + t * way` is in the middle of the item's box; world space.
+pub fn middle_of_crossing(item: &Item, point: DVec3, way: DVec3) -> Option<f64> {
+    let model_from_world = item.world_from_model.inverse();
+    let (point, way) = (model_from_world.transform_point3(point), model_from_world.transform_vector3(way));
+    let (a, b) = ((item.bounds.min - point) / way, (item.bounds.max - point) / way);
+    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
+    (enter <= leave).then_some(0.5 * (enter + leave))
 }
