@@ -7,8 +7,8 @@
 //! [`CappedVolume`] are triangles to draw.
 //!
 //! # Which triangles count
-//! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards and does not
-//! enclose the light is counted by its light-facing triangles ([`Counting::Facing`]): every way in crosses one of them.
+//! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards, does not
+//! enclose the light and is not touched by it is counted by its light-facing triangles ([`Counting::Facing`]): every way in crosses one of them.
 //! Any other shell (open, non-manifold, inconsistently wound, inside out, around the light) is counted by all of its
 //! triangles, averted ones turned over ([`Counting::All`]), so that an open mesh casts from both its sides. A triangle
 //! in whose plane the light stands never counts.
@@ -24,6 +24,7 @@
 
 mod caster;
 mod extrude;
+mod light_near;
 mod loops;
 mod near_cap;
 mod near_plane;
@@ -35,6 +36,7 @@ mod source;
 
 pub use caster::Caster;
 pub use extrude::{Caps, Extent, Volume, light_touches};
+pub use light_near::LightNear;
 pub use near_cap::{CappedVolume, Landing};
 pub use outline::{Outline, OutlineEdge};
 pub use seen::{Casting, Viewer, scissor};

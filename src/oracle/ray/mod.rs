@@ -92,7 +92,7 @@ pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Er
     let tracer = Tracer::new(scene, light, options)?;
     let [width, height] = scene.image.size;
     let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
-    let counting = options.depth_buffer_bits.map(|_| volumes::Counting::new(scene, &tracer));
+    let counting = options.depth_buffer_bits.map(|_| volumes::Counting::new(scene, light, &tracer));
     let answer = |(x, y)| {
         let pixel = tracer.answer(x, y);
         let reason = counting.as_ref().and_then(|counting| counting.doubt(x, y, pixel.answer));

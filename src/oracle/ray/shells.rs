@@ -4,11 +4,14 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::Triangle;
 
 use super::beam::crossing_once;
 use super::solid::Solid;
 use super::world::Placed;
-use crate::scene::Object;
+use crate::scene::{Light, LightKind, Object};
 
 /// How a triangle counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,22 +27,48 @@ pub(super) enum Rule {
 /// Below this share of its terms' magnitudes a signed volume is none.
 const LEAST_VOLUME: f64 = 9.313_225_746_154_785e-10;
 
-/// The rule for each triangle of an object. `light` in world space; `None`: infinitely far away.
-pub(super) fn rules(object: &Object, solid: &Solid<'_>, placed: &Placed, light: Option<DVec3>) -> Vec<Rule> {
+/// The rule for each triangle of an object. `light` in world space; `None`: infinitely far away. `near`: of the light.
+pub(super) fn rules(
+    object: &Object,
+    solid: &Solid<'_>,
+    placed: &Placed,
+    light: Option<DVec3>,
+    near: &dyn Fn(&[DVec3; 3]) -> Near,
+) -> Vec<Rule> {
     let mut rules = vec![Rule::Never; solid.welded.len()];
     if !object.casts_shadow {
         return rules;
     }
     let light = light.map(|light| placed.to_model_point(light));
     for shell in shells(object, solid) {
+        let nears: Vec<Near> = shell
+            .triangles
+            .iter()
+            .map(|triangle| near(&solid.corners(*triangle).map(|corner| placed.to_world(solid.position(corner)))))
+            .collect();
         let faces_suffice = shell.is_closed
+            && nears.iter().all(|near| *near == Near::Beyond)
             && looks_outwards(solid, &shell.triangles)
             && light.is_none_or(|light| winding(solid, &shell.triangles, light) == 0);
-        for triangle in shell.triangles {
-            rules[triangle as usize] = if faces_suffice { Rule::Facing } else { Rule::All };
+        for (triangle, near) in shell.triangles.into_iter().zip(nears) {
+            rules[triangle as usize] = match near {
+                Near::Nearer => Rule::Never,
+                _ if faces_suffice => Rule::Facing,
+                _ => Rule::All,
+            };
         }
     }
     rules
+}
+
+/// How a triangle lies to the light's near plane, as a count of whole triangles takes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Near {
+    Beyond,
+    /// It begins nearer, but its greater part is beyond.
+    Begins,
+    /// It is taken for nothing.
+    Nearer,
 }
 
 struct Shell {
@@ -127,4 +156,31 @@ fn winding(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> i32 {
         }
     };
     triangles.iter().map(sign).sum()
+}
+
+/// Of a triangle in world space that is not twice as far away as the near plane: nearer where all of it is, or its nearest point is less than half the light's near
+/// distance away.
+pub(super) fn near(light: &Light, corners: &[DVec3; 3]) -> Near {
+    let (at, axis, near) = match &light.kind {
+        LightKind::Spot(spot) => {
+            let frustum = &spot.frustum;
+            (frustum.position, Some((frustum.target - frustum.position).normalize()), frustum.near)
+        }
+        LightKind::Point(point) => (point.position, None, point.near),
+        LightKind::Directional { .. } => return Near::Beyond,
+    };
+    let local = corners.map(|corner| corner - at);
+    let depth = |corner: &DVec3| axis.map_or(corner.abs().max_element(), |axis| axis.dot(*corner));
+    let [a, b, c] = local.map(|corner| Vector::from_array(corner.to_array()));
+    let distance = Triangle::new(a, b, c).distance_to_local_point(Vector::ZERO, false);
+    if distance > 2.0 * near {
+        return Near::Beyond;
+    }
+    if local.iter().all(|corner| depth(corner) < near) || distance <= 0.5 * near {
+        Near::Nearer
+    } else if distance < near {
+        Near::Begins
+    } else {
+        Near::Beyond
+    }
 }

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use super::beam::{Beam, Side, crossing_once};
 use super::primary::Seen;
-use super::shells::{Rule, rules};
+use super::shells::{Rule, near, rules};
 use super::truth::{Answer, Hit, Reason};
 use super::world::{Segment, Triangle};
 use super::{Error, Options, Tracer, doubt};
@@ -74,7 +74,7 @@ impl VolumeCounts {
 /// as much nearer or farther as 24 bits may misplace both.
 pub fn volume_count(scene: &Scene, light: usize, options: &Options) -> Result<VolumeCounts, Error> {
     let tracer = Tracer::new(scene, light, options)?;
-    let counting = Counting::new(scene, &tracer);
+    let counting = Counting::new(scene, light, &tracer);
     let [width, height] = scene.image.size;
     let places = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| counting.pixel(x, y)).collect();
@@ -102,7 +102,7 @@ pub fn volume_count_at(
     options: &Options,
 ) -> Result<Vec<Option<u32>>, Error> {
     let tracer = Tracer::new(scene, light, options)?;
-    let counting = Counting::new(scene, &tracer);
+    let counting = Counting::new(scene, light, &tracer);
     let count = |point: &DVec3| {
         let tally = counting.along(&counting.beam(*point, [DVec3::ZERO; 2], error), None);
         tally.reason.is_none().then_some(tally.center)
@@ -131,10 +131,11 @@ pub(super) struct Counting<'t, 'a> {
 }
 
 impl<'t, 'a> Counting<'t, 'a> {
-    pub fn new(scene: &Scene, tracer: &'t Tracer<'a>) -> Self {
-        let light = tracer.lamp.place();
+    pub fn new(scene: &Scene, light: usize, tracer: &'t Tracer<'a>) -> Self {
+        let place = tracer.lamp.place();
+        let near = |corners: &[DVec3; 3]| near(&scene.lights[light], corners);
         let of_object = |(object, placed): (usize, _)| {
-            rules(&scene.objects[object], tracer.world.solid(object as u32), placed, light)
+            rules(&scene.objects[object], tracer.world.solid(object as u32), placed, place, &near)
         };
         Self { tracer, rules: tracer.world.placed.iter().enumerate().map(of_object).collect() }
     }

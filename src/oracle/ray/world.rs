@@ -263,7 +263,7 @@ impl Triangle<'_> {
 }
 
 impl Placed {
-    fn to_world(&self, point: DVec3) -> DVec3 {
+    pub fn to_world(&self, point: DVec3) -> DVec3 {
         self.world_from_model.transform_point3(point)
     }
 

@@ -3,13 +3,16 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use glam::{DMat4, DVec3};
+
 use super::casters::Casting;
 use super::choice::Way;
 use super::ends;
 use super::settings::Settings;
 use crate::geometry::Mesh;
-use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
+use crate::geometry::volume::{self, CappedVolume, Caps, Extent, LightNear, Outline, Source, Viewer, Volume};
 use crate::pass::{MeshRef, Primitive};
+use crate::scene::{LightKind, Spot};
 use crate::techniques::light::{VolumeDraw, VolumeSpace};
 use crate::techniques::{LightView, Notes};
 
@@ -41,8 +44,12 @@ pub fn shapes(
     let viewer = Viewer::new(&(camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()));
     let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
     let mut shapes = Vec::new();
+    let near = light_near(view);
     for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut) {
-        outline.find(&caster.caster, source.transformed(&caster.world_from_model.inverse()));
+        let near = near.as_ref().filter(|near| may_be_nearer(near, caster));
+        let light = source.transformed(&caster.world_from_model.inverse());
+        outline.find_beyond(&caster.caster, light, near.map(|near| (near, &caster.world_from_model)));
+        warn_of_near(near, caster, &outline, notes);
         if outline.edges().is_empty() && outline.weights().iter().all(|weight| *weight == 0) {
             continue;
         }
@@ -56,16 +63,19 @@ pub fn shapes(
         }
         shapes.push(if way == Way::ZPassCapped {
             let view_from_model = camera.view_from_world() * caster.world_from_model;
-            capped.cut(&caster.caster, &outline, &view_from_model, camera.near);
+            let beyond = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all);
+            let end = beyond.map(|plane| in_view(&camera.view_from_world(), plane));
+            capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
         } else {
             let seen = volume::Casting::new(&caster.bounds, &caster.world_from_model, source);
-            let caps = caps(way, &seen, &viewer, view.keep_all);
+            let touches = || volume::light_touches(&caster.caster, &outline);
             let extent = match way {
                 Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
-                Way::ZPass | Way::ZPassTwoSided | Way::Parity => end(view, caster, source),
-                _ => Extent::Infinite,
+                Way::ZFail | Way::ZFailClamped if touches() => Extent::Infinite,
+                _ => end(view, caster, source),
             };
+            let caps = caps(way, &seen, &viewer, view.keep_all, extent);
             volume.extrude(&caster.caster, &outline, extent, caps);
             name.volume(way, &volume, silhouette)
         });
@@ -73,12 +83,41 @@ pub fn shapes(
     shapes
 }
 
+fn light_near(view: &LightView<'_>) -> Option<LightNear> {
+    match &view.light().kind {
+        LightKind::Spot(Spot { frustum, .. }) => {
+            let axis = (frustum.target - frustum.position).normalize();
+            Some(LightNear { position: frustum.position, axis: Some(axis), near: frustum.near })
+        }
+        LightKind::Point(point) => Some(LightNear { position: point.position, axis: None, near: point.near }),
+        LightKind::Directional { .. } => None,
+    }
+}
+
+/// Whether a caster's box comes as near to the light as its near plane.
+fn may_be_nearer(near: &LightNear, caster: &Casting) -> bool {
+    let bounds = caster.bounds.transformed(&caster.world_from_model);
+    near.position.distance(near.position.clamp(bounds.min, bounds.max)) <= near.reach()
+}
+
+fn warn_of_near(near: Option<&LightNear>, caster: &Casting, outline: &Outline, notes: &mut Notes) {
+    if let Some(near) = near.filter(|_| outline.partly_near() > 0) {
+        notes.warnings.push(format!(
+            "{}: {} of its triangles cross the light's near plane at {}; shadow volumes are of whole triangles",
+            caster.label,
+            outline.partly_near(),
+            near.near
+        ));
+    }
+}
+
 /// The caps that can be seen by a way of counting that needs them.
-fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool) -> Caps {
+fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Extent) -> Caps {
     match way {
         Way::ZFailTruncated => Caps::BOTH,
         Way::ZFail | Way::ZFailClamped => {
-            Caps { light: all || seen.light_cap_may_be_seen(viewer), far: all || seen.far_cap_may_be_seen(viewer) }
+            let far = all || extent != Extent::Infinite || seen.far_cap_may_be_seen(viewer);
+            Caps { light: all || seen.light_cap_may_be_seen(viewer), far }
         }
         _ => Caps::NONE,
     }
@@ -92,6 +131,12 @@ fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
     let normal = model_from_world.transform_vector3(end.normal);
     let distance = end.distance - end.normal.dot(caster.world_from_model.w_axis.truncate());
     Extent::ToPlane { normal, distance }
+}
+
+/// The same plane in view space: normal and distance.
+fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
+    let normal = view_from_world.transform_vector3(plane.normal);
+    (normal, plane.distance + normal.dot(view_from_world.w_axis.truncate()))
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.
