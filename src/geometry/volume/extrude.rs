@@ -8,6 +8,10 @@ use glam::DVec3;
 use super::{Caster, Outline, Source};
 
 /// How far a volume goes.
+///
+/// A rasterizer in f32 finds a depth from a triangle's slopes, whose rounding grows with the square of the triangle's
+/// length over its width: the sides of a dense mesh, narrower than a pixel, are a thousand times their depth buffer's
+/// error off where they run to infinity, and not where they end soon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
     /// To infinity: far vertices are (position - light, 0), scaled by a power of two. For a directional light they are

@@ -7,8 +7,9 @@
 //! [`CappedVolume`] are triangles to draw.
 //!
 //! # Which triangles count
-//! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards and does not
-//! enclose the light is counted by its light-facing triangles ([`Counting::Facing`]): every way in crosses one of them.
+//! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards, does not enclose
+//! the light and is not touched by it is counted by its light-facing triangles ([`Counting::Facing`]): every way in
+//! crosses one of them.
 //! Any other shell (open, non-manifold, inconsistently wound, inside out, around the light) is counted by all of its
 //! triangles, averted ones turned over ([`Counting::All`]), so that an open mesh casts from both its sides. A triangle
 //! in whose plane the light stands never counts.

@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use glam::{DMat4, DVec3};
 
-use super::extrude::at_infinity;
 use super::near_plane::{NearPlane, Place, Stand};
 use super::{Caster, Outline};
 
@@ -66,12 +65,25 @@ impl CappedVolume {
 
     /// Fills the buffers with the volume of `outline`, which was found for `caster`, cut at z = -`near` of view space.
     pub fn cut(&mut self, caster: &Caster, outline: &Outline, view_from_model: &DMat4, near: f64) {
+        self.cut_before(caster, outline, view_from_model, near, None);
+    }
+
+    /// The same, with sides that end at the plane `normal · x = distance` of view space instead of at infinity: every
+    /// ray crosses it, and all that is seen is before it. Short sides have exacter depths (see [`super::Extent`]).
+    pub fn cut_before(
+        &mut self,
+        caster: &Caster,
+        outline: &Outline,
+        view_from_model: &DMat4,
+        near: f64,
+        end: Option<(DVec3, f64)>,
+    ) {
         self.vertices.clear();
         self.indices.clear();
         self.places.clear();
         (self.sides, self.near_cap, self.landing) = (0..0, 0..0, Landing::None);
         let Some(source) = outline.source() else { return };
-        let plane = NearPlane::new(source.transformed(view_from_model), near);
+        let plane = NearPlane::new(source.transformed(view_from_model), near, end);
         let position = |[x, y, z]: &[f32; 3]| DVec3::new(f64::from(*x), f64::from(*y), f64::from(*z));
         let places = caster.positions.iter().map(|p| plane.place(view_from_model.transform_point3(position(p))));
         self.places.extend(places);
@@ -182,12 +194,13 @@ impl CappedVolume {
         }
     }
 
-    /// Its ray's end at infinity.
+    /// Its ray's end: at infinity, or beyond all that is seen.
     fn push_infinite(&mut self, plane: &NearPlane, place: u32) {
-        let Place { infinite, at, .. } = self.places[place as usize];
+        let Place { infinite, .. } = self.places[place as usize];
         match infinite {
             Place::NONE => {
-                self.places[place as usize].infinite = self.push(at_infinity(plane.away(at)));
+                let vertex = plane.far_end(&self.places[place as usize]);
+                self.places[place as usize].infinite = self.push(vertex);
             }
             index => self.polygon.push(index),
         }

@@ -59,13 +59,15 @@ pub(super) struct NearPlane {
     /// l.
     light_height: f64,
     w: f64,
+    /// Where sides may end instead of at infinity: the plane `normal · x = distance`, beyond all that is seen.
+    end: Option<(DVec3, f64)>,
 }
 
 impl NearPlane {
-    /// `source` in view space.
-    pub fn new(source: Source, near: f64) -> Self {
+    /// `source` and `end` in view space.
+    pub fn new(source: Source, near: f64, end: Option<(DVec3, f64)>) -> Self {
         let light = source.homogeneous();
-        Self { source, near, light_height: -light.z - near * light.w, w: light.w }
+        Self { source, near, light_height: -light.z - near * light.w, w: light.w, end }
     }
 
     /// Whether the light stands ahead of the plane, or in it.
@@ -75,6 +77,15 @@ impl NearPlane {
 
     pub fn away(&self, point: DVec3) -> DVec3 {
         self.source.away(point)
+    }
+
+    /// The end of a place's ray: at infinity, or beyond all that is seen and the near plane.
+    pub fn far_end(&self, place: &Place) -> [f32; 4] {
+        let away = self.away(place.at);
+        let Some((normal, distance)) = self.end else { return at_infinity(away) };
+        let to_end = (distance - normal.dot(place.at)) / normal.dot(away);
+        let landing = if place.height < 0.0 && away.z < 0.0 { place.height / away.z } else { 0.0 };
+        (place.at + to_end.max(landing).max(0.0) * away).as_vec3().extend(1.0).to_array()
     }
 
     pub fn place(&self, at: DVec3) -> Place {

@@ -52,20 +52,37 @@ pub enum Counting {
 }
 
 impl Caster {
-    /// How a shell counts under a light: [`Counting::Facing`] only where it is [`Kind::Closed`] and does not enclose the
-    /// light. Then each crossing of the surface outwards has one inwards before it, so that facing triangles alone miss
-    /// no shadow; elsewhere they may.
+    /// How a shell counts under a light: [`Counting::Facing`] only where it is [`Kind::Closed`] and does not hold the light,
+    /// inside or on its surface. Then each crossing of the surface outwards has one inwards before it, so that facing
+    /// triangles alone miss no shadow; elsewhere they may.
     pub fn counting(&self, shell: &Shell, source: Source) -> Counting {
         match (shell.kind, source) {
             (Kind::Closed, Source::Direction(_)) => Counting::Facing,
-            (Kind::Closed, Source::Point(light)) if !self.encloses(shell, light) => Counting::Facing,
+            (Kind::Closed, Source::Point(light)) if !self.holds(shell, light) => Counting::Facing,
             _ => Counting::All,
         }
     }
 
-    fn encloses(&self, shell: &Shell, light: DVec3) -> bool {
+    fn holds(&self, shell: &Shell, light: DVec3) -> bool {
         let Aabb { min, max } = shell.bounds;
-        light.cmpge(min).all() && light.cmple(max).all() && self.winding(shell, light) != 0
+        let in_box = light.cmpge(min).all() && light.cmple(max).all();
+        in_box && (self.winding(shell, light) != 0 || shell.triangles.clone().any(|index| self.has_on_it(index, light)))
+    }
+
+    /// Whether a point lies on a triangle, its edges included. Exact.
+    fn has_on_it(&self, triangle: u32, point: DVec3) -> bool {
+        let corners = self.corners(triangle as usize);
+        let (min, max) = (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
+        let in_box = point.cmpge(min).all() && point.cmple(max).all();
+        if !in_box || self.planes.exact_side(self, triangle as usize, Source::Point(point)) != 0 {
+            return false;
+        }
+        // In a plane, and within the edges in all three projections: one of them keeps the triangle's area.
+        [[0, 1], [1, 2], [2, 0]].into_iter().all(|[x, y]| {
+            let flat = |corner: DVec3| Coord { x: corner[x], y: corner[y] };
+            let sides = [0, 1, 2].map(|k| orient2d(flat(corners[k]), flat(corners[(k + 1) % 3]), flat(point)));
+            sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+        })
     }
 
     /// How often the shell winds around a point that is not on it, by the triangles that a ray in +x crosses. Exact: an

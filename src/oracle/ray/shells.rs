@@ -5,6 +5,10 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::Triangle;
+
 use super::beam::crossing_once;
 use super::solid::Solid;
 use super::world::Placed;
@@ -34,7 +38,9 @@ pub(super) fn rules(object: &Object, solid: &Solid<'_>, placed: &Placed, light: 
     for shell in shells(object, solid) {
         let faces_suffice = shell.is_closed
             && looks_outwards(solid, &shell.triangles)
-            && light.is_none_or(|light| winding(solid, &shell.triangles, light) == 0);
+            && light.is_none_or(|light| {
+                !touches(solid, &shell.triangles, light) && winding(solid, &shell.triangles, light) == 0
+            });
         for triangle in shell.triangles {
             rules[triangle as usize] = if faces_suffice { Rule::Facing } else { Rule::All };
         }
@@ -127,4 +133,15 @@ fn winding(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> i32 {
         }
     };
     triangles.iter().map(sign).sum()
+}
+
+/// Whether a point lies on a triangle, within the rounding of f64.
+fn touches(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> bool {
+    let is_near = |triangle: &u32| {
+        let local = solid.corners(*triangle).map(|corner| solid.position(corner) - point);
+        let size = local.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+        let [a, b, c] = local.map(|corner| Vector::from_array(corner.to_array()));
+        Triangle::new(a, b, c).distance_to_local_point(Vector::ZERO, false) <= 16.0 * f64::EPSILON * size
+    };
+    triangles.iter().any(is_near)
 }

@@ -11,6 +11,7 @@ mod shapes;
 use self::casters::{Casting, casting};
 use self::choice::Way;
 use self::settings::Settings;
+use self::shapes::Shape;
 use super::light::Counting;
 use super::{Axis, LightTerm, LightView, Notes, Technique, seen};
 use crate::geometry::volume::{Kind, Source};
@@ -61,27 +62,20 @@ impl Technique for ShadowVolume {
         let casting = casting(view.items);
         warn(view, &casting, notes);
         let ways = choice::ways(view, &casting, &settings, notes);
-        if ways.iter().all(|way| *way == Way::LeftOut) {
+        let shapes = shapes::shapes(view, &casting, &ways, source(view), &settings, notes);
+        if shapes.is_empty() {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
-        term.counting = Some(counting(view, &casting, &ways, &settings, notes));
+        term.counting = Some(counting(view, &shapes, &settings));
         Ok(term)
     }
 }
 
-fn counting(
-    view: &LightView<'_>,
-    casting: &[Casting],
-    ways: &[Way],
-    settings: &Settings,
-    notes: &mut Notes,
-) -> Counting {
-    let source = source(view);
-    let shapes = shapes::shapes(view, casting, ways, source, settings, notes);
+fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Counting {
     let has = |wanted: Way| shapes.iter().any(|shape| shape.way == wanted);
     Counting {
-        passes: counts::passes(view, &shapes, settings),
+        passes: counts::passes(view, shapes, settings),
         redraw: settings.redraw,
         of_all: false,
         infinite: has(Way::ZFail),

@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use glam::{DMat4, DVec3};
+
 use super::casters::Casting;
 use super::choice::Way;
 use super::ends;
@@ -56,16 +58,19 @@ pub fn shapes(
         }
         shapes.push(if way == Way::ZPassCapped {
             let view_from_model = camera.view_from_world() * caster.world_from_model;
-            capped.cut(&caster.caster, &outline, &view_from_model, camera.near);
+            let beyond = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all);
+            let end = beyond.map(|plane| in_view(&camera.view_from_world(), plane));
+            capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
         } else {
             let seen = volume::Casting::new(&caster.bounds, &caster.world_from_model, source);
-            let caps = caps(way, &seen, &viewer, view.keep_all);
+            let touches = || volume::light_touches(&caster.caster, &outline);
             let extent = match way {
                 Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
-                Way::ZPass | Way::ZPassTwoSided | Way::Parity => end(view, caster, source),
-                _ => Extent::Infinite,
+                Way::ZFail | Way::ZFailClamped if touches() => Extent::Infinite,
+                _ => end(view, caster, source),
             };
+            let caps = caps(way, &seen, &viewer, view.keep_all, extent);
             volume.extrude(&caster.caster, &outline, extent, caps);
             name.volume(way, &volume, silhouette)
         });
@@ -74,11 +79,12 @@ pub fn shapes(
 }
 
 /// The caps that can be seen by a way of counting that needs them.
-fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool) -> Caps {
+fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Extent) -> Caps {
     match way {
         Way::ZFailTruncated => Caps::BOTH,
         Way::ZFail | Way::ZFailClamped => {
-            Caps { light: all || seen.light_cap_may_be_seen(viewer), far: all || seen.far_cap_may_be_seen(viewer) }
+            let far = all || extent != Extent::Infinite || seen.far_cap_may_be_seen(viewer);
+            Caps { light: all || seen.light_cap_may_be_seen(viewer), far }
         }
         _ => Caps::NONE,
     }
@@ -92,6 +98,12 @@ fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
     let normal = model_from_world.transform_vector3(end.normal);
     let distance = end.distance - end.normal.dot(caster.world_from_model.w_axis.truncate());
     Extent::ToPlane { normal, distance }
+}
+
+/// The same plane in view space: normal and distance.
+fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
+    let normal = view_from_world.transform_vector3(plane.normal);
+    (normal, plane.distance + normal.dot(view_from_world.w_axis.truncate()))
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.
