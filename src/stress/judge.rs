@@ -20,13 +20,13 @@ use std::collections::HashMap;
 use super::results::{Row, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
-use crate::frame::Renderer;
+use crate::frame::{self, Renderer};
 use crate::oracle::ray::{self, Answer, Around, Blocker, Nearer, Surroundings, Truth};
 use crate::pass::DepthFormat;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::report::metrics::ShadeImage;
 use crate::report::run::with_shadow;
-use crate::scene::{self, Scene};
+use crate::scene::{self, LightKind, Scene};
 use crate::techniques::map::Bias;
 use crate::techniques::views::View;
 use crate::techniques::{MapInfo, MapShape};
@@ -48,7 +48,6 @@ pub struct Judge<'a> {
     /// For shadow volumes: with the depth buffer's doubt.
     pub volume_truth: Truth,
     /// By pixel and reach.
-    pub map: Option<MapInfo>,
     known: HashMap<(usize, u64), Option<Around>>,
 }
 
@@ -72,7 +71,7 @@ impl<'a> Judge<'a> {
         let truth = surroundings.truth()?;
         let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
         let volume_truth = ray::trace(scene, light, &doubtful)?;
-        Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new(), map: None })
+        Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
     }
 
     /// The truth that rows of these settings are held against.
@@ -82,8 +81,14 @@ impl<'a> Judge<'a> {
 
     /// Draws the light under `settings` and says how far from the truth it is.
     pub fn row(&mut self, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
+        self.row_of(self.scene, settings, renderer)
+    }
+
+    /// The same with the picture of another scene, of the same size: whoever breaks a scene can see that it is noticed.
+    pub fn row_of(&mut self, drawn: &Scene, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
         let row = Row::new(self.light, settings);
-        let (plan, shade) = match self.draw(settings, renderer) {
+        let drawn = if settings.pictured { &in_one_light(drawn, self.light) } else { drawn };
+        let (plan, shade) = match self.draw(drawn, settings, renderer) {
             Ok(drawn) => drawn,
             Err(Failure::Refused(why)) => {
                 return Judged { row: Row { verdict: Verdict::Refused, why, ..row }, shade: None, beyond: Vec::new() };
@@ -115,42 +120,70 @@ impl<'a> Judge<'a> {
         Judged { row, shade: Some(shade), beyond: counts.beyond }
     }
 
-    fn draw(&self, settings: &RowSettings, renderer: &mut Renderer) -> Result<(Plan, ShadeImage), Failure> {
+    /// The plan, and the shade: as the lit pass finds it, or for pictured rows as the picture shows it against the same
+    /// without shadow.
+    fn draw(
+        &self,
+        scene: &Scene,
+        settings: &RowSettings,
+        renderer: &mut Renderer,
+    ) -> Result<(Plan, ShadeImage), Failure> {
         let refused = |error: &dyn std::fmt::Display| Failure::Refused(error.to_string());
         let shadow = scene::shadow_settings(&settings.to_inline()).map_err(|error| refused(&error))?;
-        let scene = with_shadow(self.scene, self.light, &shadow);
-        let request =
-            Request { views: vec![ViewRequest { view: View::Shade, light: self.light }], ..Request::default() };
-        let plan = renderer.plan(&scene, &request).map_err(|error| match error {
-            crate::frame::Error::Plan(error) => refused(&error),
+        let scene = with_shadow(scene, self.light, &shadow);
+        let (plan, picture, shade) = self.frame(&scene, renderer)?;
+        let [width, height] = scene.image.size;
+        let channel = |texels: &[f32], channel: usize| -> Vec<f32> {
+            texels.chunks_exact(4).map(|texel| texel[channel]).collect()
+        };
+        let covered = channel(&shade, 3).into_iter().map(|alpha| alpha > 0.0).collect();
+        let mut shade = channel(&shade, 0);
+        if settings.pictured {
+            let none = scene::shadow_settings("technique = \"none\"").map_err(|error| refused(&error))?;
+            let (_, unshadowed, _) = self.frame(&with_shadow(&scene, self.light, &none), renderer)?;
+            shade = channel(&picture, 0).into_iter().zip(channel(&unshadowed, 0)).map(seen_shade).collect();
+        }
+        shade.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
+        Ok((plan, ShadeImage { width, height, shade, covered }))
+    }
+
+    /// The plan, the picture's texels and the shade's.
+    fn frame(&self, scene: &Scene, renderer: &mut Renderer) -> Result<(Plan, Vec<f32>, Vec<f32>), Failure> {
+        let views = vec![ViewRequest { view: View::Shade, light: self.light }];
+        let request = Request { views, float_picture: true, ..Request::default() };
+        let plan = renderer.plan(scene, &request).map_err(|error| match error {
+            frame::Error::Plan(error) => Failure::Refused(error.to_string()),
             other => Failure::Broken(other.to_string()),
         })?;
-        let broken = |error: crate::frame::Error| Failure::Broken(error.to_string());
+        let broken = |error: frame::Error| Failure::Broken(error.to_string());
         renderer.draw(&plan).map_err(broken)?;
-        let texels = match renderer.read(&plan).map_err(broken)?.views.pop() {
-            Some(Pixels::RgbaF32 { data, .. }) => data,
-            _ => return Err(Failure::Broken(String::from("the shade was not read back"))),
-        };
-        let [width, height] = scene.image.size;
-        let shade = ShadeImage {
-            width,
-            height,
-            shade: texels.chunks_exact(4).map(|texel| texel[0].clamp(0.0, 1.0)).collect(),
-            covered: texels.chunks_exact(4).map(|texel| texel[3] > 0.0).collect(),
-        };
-        Ok((plan, shade))
+        let mut read = renderer.read(&plan).map_err(broken)?;
+        match (read.picture, read.views.pop()) {
+            (Pixels::RgbaF32 { data: picture, .. }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
+                Ok((plan, picture, shade))
+            }
+            _ => Err(Failure::Broken(String::from("the pictures were not read back as floats"))),
+        }
     }
 
     fn compare(&mut self, settings: &RowSettings, plan: &Plan, shade: &ShadeImage) -> Counts {
         let is_volume = is_volume(settings);
         let map = plan.maps.iter().find(|map| map.light == self.light).copied();
-        self.map = map;
         let mut counts = Counts::default();
         for index in 0..self.truth.pixels.len() {
             let pixel = self.truth_of(settings).pixels[index];
             let should_be_lit = match (pixel.answer, shade.covered[index]) {
                 (Answer::Lit, true) => true,
                 (Answer::Shadowed, true) => false,
+                // A picture may show no light there at all; a shade has no meaning.
+                (Answer::OutsideCone, true) if settings.pictured => {
+                    counts.compared += 1;
+                    if shade.shade[index] > 0.0 {
+                        counts.wrong += 1;
+                        counts.beyond.push(index);
+                    }
+                    continue;
+                }
                 (Answer::Lit | Answer::Shadowed, false) | (Answer::Background, true) => {
                     counts.beyond.push(index);
                     counts.compared += 1;
@@ -160,7 +193,7 @@ impl<'a> Judge<'a> {
                 _ => continue,
             };
             let faces = pixel.hit.is_some_and(|hit| hit.faces_light());
-            if !(faces || is_volume) {
+            if !(faces || is_volume) || shade.shade[index].is_nan() {
                 continue;
             }
             counts.compared += 1;
@@ -176,11 +209,10 @@ impl<'a> Judge<'a> {
         counts
     }
 
-    /// DEBUG
-    pub fn around(&self, index: usize, texels: f64) -> (Option<MapInfo>, Option<Around>) {
+    /// What lies within so many texels of what a pixel shows, for a map of this resolution; `None`: it shows nothing.
+    pub fn around(&self, pixel: usize, map: &MapInfo, texels: f64) -> Option<Around> {
         let width = self.truth.width as usize;
-        let Some(map) = self.map else { return (None, None) };
-        (None, self.surroundings.around((index % width) as u32, (index / width) as u32, texels * map.texel))
+        self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
     }
 
     /// Whether the map's own texels explain a wrong pixel.
@@ -208,6 +240,35 @@ impl<'a> Judge<'a> {
 /// Counted in the stencil buffer, without texels to be wrong by.
 fn is_volume(settings: &RowSettings) -> bool {
     settings.technique == "shadow-volume"
+}
+
+/// The scene in the light of one lamp alone: white, without ambient light, highlights, image or attenuation, on white
+/// surfaces that keep their holes.
+fn in_one_light(scene: &Scene, light: usize) -> Scene {
+    let mut scene = scene.clone();
+    scene.shading.ambient = [0.0; 3];
+    scene.image.background = [0.0; 3];
+    for (index, lamp) in scene.lights.iter_mut().enumerate() {
+        lamp.ambient = [0.0; 3];
+        lamp.specular = [0.0; 3];
+        lamp.diffuse = [if index == light { 1.0 } else { 0.0 }; 3];
+        match &mut lamp.kind {
+            LightKind::Spot(spot) => (spot.attenuation, spot.image) = ([1.0, 0.0, 0.0], None),
+            LightKind::Point(point) => point.attenuation = [1.0, 0.0, 0.0],
+            LightKind::Directional { .. } => {}
+        }
+    }
+    scene
+}
+
+/// The part of the light that a pixel shows of what it would show without shadow. NaN where there is no light to be
+/// wrong about; 1 for light where there should be none.
+fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
+    match (shown > 0.0, unshadowed > 0.0) {
+        (_, true) => shown / unshadowed,
+        (true, false) => 1.0,
+        (false, false) => f32::NAN,
+    }
 }
 
 /// Whether a surface beside a point shades it for all of its own polygon offset, of which GL's slope is the steeper of the

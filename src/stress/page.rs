@@ -89,7 +89,7 @@ fn case(result: &CaseResult) -> String {
              <td>{}</td></tr>\n",
             row.light,
             escape(&row.settings.technique),
-            escape(row.keys()),
+            escape(&row.keys()),
             row.verdict.name(),
             row.wrong_percent(),
             row.compared,

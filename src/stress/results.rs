@@ -58,8 +58,10 @@ impl Row {
     }
 
     /// What is not the technique's default, for tables.
-    pub fn keys(&self) -> &str {
-        if self.settings.keys.is_empty() { "defaults" } else { &self.settings.keys }
+    pub fn keys(&self) -> String {
+        let keys = if self.settings.keys.is_empty() { "defaults" } else { &self.settings.keys };
+        let pictured = if self.settings.pictured { ", in the picture" } else { "" };
+        format!("{keys}{pictured}")
     }
 
     /// Whether the picture must not be used, or was not drawn.

@@ -3,7 +3,8 @@
 use crate::scene::{LightKind, Scene};
 use crate::techniques::{TABLE, Technique};
 
-/// Second-depth maps refuse open casters on principle: a scene that has one is drawn with them as they are.
+/// Second-depth maps serve closed casters, and refuse others by name. A scene with an open caster is drawn with it as it is:
+/// what the user then asks for is not a default.
 const ASSUMED: &str = "closed = \"assume\"";
 
 /// One way to draw a light's shadow.
@@ -12,6 +13,10 @@ pub struct RowSettings {
     pub technique: String,
     /// Keys of `[light.shadow]` in TOML, ready for an inline table; empty: the technique's defaults.
     pub keys: String,
+    /// Whether the picture itself is judged, in the light of this lamp alone, and not its shade: the lit pass with its
+    /// guard, its cone, and what it leaves out.
+    #[serde(default)]
+    pub pictured: bool,
 }
 
 impl RowSettings {
@@ -23,7 +28,7 @@ impl RowSettings {
 
     /// Whether these are the settings that a scene without further keys gets.
     pub fn is_default(&self) -> bool {
-        self.keys.is_empty() || self.keys == ASSUMED
+        self.keys.is_empty() && !self.pictured
     }
 }
 
@@ -31,7 +36,11 @@ impl RowSettings {
 pub fn row_of(inside: &str) -> RowSettings {
     let rest = inside.strip_prefix("technique = \"").unwrap_or(inside);
     let (technique, keys) = rest.split_once('"').unwrap_or((rest, ""));
-    RowSettings { technique: technique.to_owned(), keys: keys.trim_start_matches([',', ' ']).to_owned() }
+    RowSettings {
+        technique: technique.to_owned(),
+        keys: keys.trim_start_matches([',', ' ']).to_owned(),
+        pictured: false,
+    }
 }
 
 /// What every map has.
@@ -115,9 +124,12 @@ fn rows_of(technique: &dyn Technique, scene: &Scene, kind: &LightKind, defaults:
     };
     let row = |keys: &str| {
         let comma = if prefix.is_empty() || keys.is_empty() { "" } else { ", " };
-        RowSettings { technique: name.to_owned(), keys: format!("{prefix}{comma}{keys}") }
+        let keys = format!("{prefix}{comma}{keys}");
+        // Guards act where light is added, not where shade is found.
+        let pictured = keys.starts_with("guard");
+        RowSettings { technique: name.to_owned(), keys, pictured }
     };
-    let mut rows = vec![row("")];
+    let mut rows = vec![row(""), RowSettings { pictured: true, ..row("") }];
     if !defaults {
         rows.extend(own.into_iter().map(row));
     }
