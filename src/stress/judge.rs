@@ -21,12 +21,12 @@ use super::results::{Row, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::{self, Answer, Around, Blocker, Nearer, Surroundings, Truth};
+use crate::oracle::ray::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
 use crate::pass::DepthFormat;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::report::metrics::ShadeImage;
 use crate::report::run::with_shadow;
-use crate::scene::{self, LightKind, Scene};
+use crate::scene::{self, LightKind, LightShape, Scene};
 use crate::techniques::map::Bias;
 use crate::techniques::views::View;
 use crate::techniques::{MapInfo, MapShape};
@@ -177,6 +177,9 @@ impl<'a> Judge<'a> {
                 (Answer::Shadowed, true) => false,
                 // A picture may show no light there at all; a shade has no meaning.
                 (Answer::OutsideCone, true) if settings.pictured => {
+                    if !pixel.hit.is_some_and(|hit| self.is_beside(&hit)) {
+                        continue;
+                    }
                     counts.compared += 1;
                     if shade.shade[index] > 0.0 {
                         counts.wrong += 1;
@@ -213,6 +216,18 @@ impl<'a> Judge<'a> {
     pub fn around(&self, pixel: usize, map: &MapInfo, texels: f64) -> Option<Around> {
         let width = self.truth.width as usize;
         self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
+    }
+
+    /// Whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane of its
+    /// map a picture has light that truth does not speak of.
+    fn is_beside(&self, hit: &Hit) -> bool {
+        match &self.scene.lights[self.light].kind {
+            LightKind::Spot(spot) => match spot.shape {
+                LightShape::Cone => hit.in_map.length() > 1.0,
+                LightShape::Frustum => hit.in_map.abs().max_element() > 1.0,
+            },
+            LightKind::Point(_) | LightKind::Directional { .. } => false,
+        }
     }
 
     /// Whether the map's own texels explain a wrong pixel.
