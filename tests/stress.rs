@@ -1,0 +1,149 @@
+//! Scenes against truth: the named extreme cases and random ones have no picture that is silently wrong, and a renderer
+//! that is broken on purpose has.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use glam::DVec3;
+use glumbra::context::{self, ContextRequest};
+use glumbra::frame::Renderer;
+use glumbra::scene::{LightKind, Scene};
+use glumbra::stress::{self, Case, CaseResult, Judge, Options, Row, RowSettings, Verdict, named, random, tally};
+
+/// A seed that no development went by.
+const SEED: u64 = 20_261_127;
+
+fn options() -> Options {
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    Options { jobs, technique: None, pictures: false, context: ContextRequest::default() }
+}
+
+fn run(cases: &[Case]) -> Vec<CaseResult> {
+    let mut results = Vec::new();
+    stress::run(cases, &options(), &Arc::new(AtomicBool::new(false)), |_, result| results.push(result)).unwrap();
+    assert_eq!(results.len(), cases.len());
+    println!("{}", stress::to_text(&results, 160));
+    results
+}
+
+/// Lists what fails, with what it takes to see it.
+fn failures(results: &[CaseResult]) -> Vec<String> {
+    let of = |result: &CaseResult| {
+        let rows = result.rows.iter().filter(|row| row.verdict == Verdict::SilentlyWrong);
+        let lines = rows.map(|row| {
+            let (inside, wrong) = (row.settings.to_inline(), row.wrong_percent());
+            format!("{}, light {}: {inside}: {wrong:.3} %, {} beyond the bound {}", result.name, row.light, row.beyond, row.why)
+        });
+        let misjudged = result.is_misjudged().then(|| format!("{}: refused: {:?}", result.name, result.refused));
+        lines.chain(misjudged).collect::<Vec<_>>()
+    };
+    results.iter().flat_map(of).collect()
+}
+
+#[test]
+fn no_named_case_is_silently_wrong() {
+    let cases = named::cases().unwrap();
+    assert!(cases.len() >= 60);
+    let failures = failures(&run(&cases));
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// 200 small pictures; and warnings are for pictures that are wrong.
+#[test]
+fn no_random_scene_is_silently_wrong() {
+    let small = |index| {
+        let mut case = random::case(SEED, index);
+        case.toml = case.toml.replace("size = [160, 120]", "size = [80, 60]");
+        case
+    };
+    let results = run(&(0..200).map(small).collect::<Vec<_>>());
+    let failures = failures(&results);
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
+    let [_, alarms, ..] = tally(rows.iter().copied());
+    assert!(50 * alarms <= rows.len(), "{alarms} false alarms in {} rows: more than 2 %", rows.len());
+    let defaults: Vec<&&Row> = rows.iter().filter(|row| row.settings.is_default()).collect();
+    let unusable = defaults.iter().filter(|row| row.is_unusable()).count();
+    assert!(20 * unusable <= defaults.len(), "{unusable} of {} default rows warned or refused", defaults.len());
+}
+
+/// The same random scene by itself and from a context that has drawn others: nothing is left over from the scene before.
+#[test]
+fn a_scene_is_judged_alike_whatever_was_drawn_before() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let case = random::case(SEED, 3);
+    let once = stress::draw_case(&case, &options(), &mut renderer).rows;
+    for index in 0..5 {
+        stress::draw_case(&random::case(SEED, index), &options(), &mut renderer);
+    }
+    assert_eq!(stress::draw_case(&case, &options(), &mut renderer).rows, once);
+}
+
+/// Draws `broken`'s picture and holds it against the truth of the named case.
+fn judged(name: &str, inside: [&str; 2], broken: impl Fn(&mut Scene)) -> Verdict {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let case = named::cases().unwrap().into_iter().find(|case| case.name == name).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let scene = case.load(folder.path()).unwrap().scene;
+    let mut drawn = scene.clone();
+    broken(&mut drawn);
+    let [technique, keys] = inside.map(str::to_owned);
+    let settings = RowSettings { technique, keys, pictured: false };
+    Judge::new(&scene, 0).unwrap().row_of(&drawn, &settings, &mut renderer).row.verdict
+}
+
+/// A case that is right as it is.
+const PLAIN: &str = "coplanar-faces";
+
+#[test]
+fn a_scene_that_is_drawn_as_it_is_is_right() {
+    for technique in ["shadow-map", "midpoint", "shadow-volume"] {
+        assert_eq!(judged(PLAIN, [technique, ""], |_| {}), Verdict::Right, "{technique}");
+    }
+}
+
+#[test]
+fn what_is_broken_on_purpose_is_seen() {
+    let bias = ["shadow-map", "offset = { factor = -2.0, units = -4.0 }"];
+    assert_eq!(judged(PLAIN, bias, |_| {}), Verdict::SilentlyWrong, "a bias of the wrong sign");
+    let none = ["shadow-map", "offset = { factor = 0.0, units = 0.0 }"];
+    assert_eq!(judged(PLAIN, none, |_| {}), Verdict::SilentlyWrong, "no bias");
+    let far = ["shadow-map", "r = { scale = 0.5, bias = 0.4 }"];
+    assert_eq!(judged(PLAIN, far, |_| {}), Verdict::SilentlyWrong, "a bias that leaks");
+    for technique in ["shadow-map", "midpoint", "shadow-volume"] {
+        let seen = |broken: &dyn Fn(&mut Scene)| judged(PLAIN, [technique, ""], broken);
+        let fov = seen(&|scene| scene.camera.fov_y_radians += 1_f64.to_radians());
+        assert_eq!(fov, Verdict::SilentlyWrong, "{technique}: a field of view that is 1 degree wider");
+        let axis = seen(&|scene| turn(scene, |way| DVec3::new(way.z, way.y, way.x)));
+        assert_eq!(axis, Verdict::SilentlyWrong, "{technique}: axes of the light swapped");
+        let turned = seen(&|scene| turn(scene, |way| (way + 0.02 * DVec3::X).normalize()));
+        assert_eq!(turned, Verdict::SilentlyWrong, "{technique}: a sun that stands a degree aside");
+        let lost = seen(&|scene| scene.objects[1].casts_shadow = false);
+        assert_eq!(lost, Verdict::SilentlyWrong, "{technique}: a caster left out");
+        let gone = seen(&|scene| scene.objects.truncate(1));
+        assert_eq!(gone, Verdict::SilentlyWrong, "{technique}: an object left out");
+    }
+}
+
+fn turn(scene: &mut Scene, way: impl Fn(DVec3) -> DVec3) {
+    if let LightKind::Directional { direction } = &mut scene.lights[0].kind {
+        *direction = way(*direction);
+    }
+}
+
+/// A failing scene is made small and still fails.
+#[test]
+fn what_fails_is_reduced_to_a_scene_that_still_fails() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let case = random::case(SEED, 1);
+    let inside = "technique = \"shadow-map\", offset = { factor = 0.0, units = 0.0 }";
+    let reduced = stress::reduce(&case, inside, &options(), &mut renderer).expect("no bias leaves acne");
+    assert!(reduced.toml.len() < case.toml.len() + inside.len(), "{}", reduced.toml);
+    assert_eq!(reduced.toml.matches("[[object]]").count(), 1, "{}", reduced.toml);
+    assert!(reduced.toml.contains("shadow = {"), "{}", reduced.toml);
+    let again = stress::draw_case(&reduced, &options(), &mut renderer);
+    assert!(again.fails(), "{}", reduced.toml);
+}
