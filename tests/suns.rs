@@ -151,8 +151,10 @@ fn floors_as_large_as_may_be() {
     for (seed, half) in [30.0, 1e3, 1e5, 2.4e5, 1e6, 1e7].into_iter().enumerate() {
         for light in [spot, point, sun] {
             let angle = Random::new(seed as u64).within(0.0, 90.0);
+            // Without a far plane all of the floor is seen. Texels of a sun's map are then too coarse for the picture.
+            let far = if seed % 2 == 1 && light != sun { "" } else { "far = 500.0\n" };
             let scene = load(&format!(
-                "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\nfar = 500.0\n\
+                "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n{far}\
                  [[light]]\n{light}\
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\nrotate = {{ axis = [0, 1, 0], angle = {angle:?} }}\n\
                  [[object]]\nmesh = \"box\"\nscale = 0.5\ntranslate = [0.0, 0.5, 0.0]\n",

@@ -3,8 +3,9 @@
 //! GL clips in f32: where it cuts an edge, the new vertex and all that is interpolated to it are off by about 2^-24 of the
 //! edge's ends. Of a floor whose corners lie 10⁵ units away this is 0.006 units where light and eye stand 4 units above it:
 //! more than the offset of its own texels, so that it goes dark in patches, or all over. What is cut before needs no
-//! clipping by GL, and is off by 2^-24 of its own distance. Every pass for the same eye, and every pass of the same map,
-//! draws the same cut mesh, so that depths agree to the bit.
+//! clipping by GL, and is off by 2^-24 of its own distance: what lies much farther than the rest becomes a mesh of its own
+//! about an origin of its own, since positions are off by 2^-24 of their distance from their origin. Every pass for the
+//! same eye, and every pass of the same map, draws the same cut meshes, so that depths agree to the bit.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -37,6 +38,11 @@ const PLANES: [DVec4; 5] = [
 /// How many times as far as its nearest point the farthest one of a piece may lie. GL clips what crosses a side of the
 /// picture after all, and with an error that is 2^-24 of the piece's farthest end.
 const PIECE: f64 = 4.0;
+
+/// So many pieces behind one another share an origin in a map, and in a picture: up to [`PIECE`] to this power times as
+/// far as the nearest one, about as far as [`ORDINARY`] and [`ORDINARY_FOR_CAMERA`] have it.
+const SHARE_ORIGIN: usize = 2;
+const SHARE_ORIGIN_FOR_CAMERA: usize = 4;
 
 /// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
 const ORDINARY: f64 = 16.0;
@@ -83,7 +89,7 @@ impl Cutter {
 
     /// All of `items`, of which those that reach too far are cut.
     pub fn cut_all<'a>(&self, items: &'a [Item]) -> Cow<'a, [Item]> {
-        let cut: Vec<Cow<'a, Item>> = items.iter().map(|item| self.cut(item)).collect();
+        let cut: Vec<Cow<'a, Item>> = items.iter().flat_map(|item| self.cut(item)).collect();
         match cut.iter().any(|item| matches!(item, Cow::Owned(_))) {
             true => Cow::Owned(cut.into_iter().map(Cow::into_owned).collect()),
             false => Cow::Borrowed(items),
@@ -96,29 +102,34 @@ impl Cutter {
         most.max(ORDINARY * w)
     }
 
-    /// `item`, or what is shown of it where it reaches too far. Waves are left: the vertex stage moves them.
-    pub fn cut<'a>(&self, item: &'a Item) -> Cow<'a, Item> {
+    /// `item`, or what is shown of it where it reaches too far, nearest part first. Waves are left: the vertex stage moves
+    /// them.
+    pub fn cut<'a>(&self, item: &'a Item) -> Vec<Cow<'a, Item>> {
         let clip_from_model = self.clip_from_world * item.world_from_model;
         let most = self.most(self.nearest);
         let reaches = |corner: DVec3| (clip_from_model * corner.extend(1.0)).abs().max_element() > most;
         let triangles = (item.indices.end - item.indices.start) / 3;
         if item.wave.is_some() || triangles > MOST_TRIANGLES || !item.bounds.corners().into_iter().any(reaches) {
-            return Cow::Borrowed(item);
+            return vec![Cow::Borrowed(item)];
         }
-        match self.cached(item, &clip_from_model) {
-            Some((mesh, origin)) => Cow::Owned(Item {
+        let cut = self.cached(item, &clip_from_model);
+        if cut.is_empty() {
+            return vec![Cow::Borrowed(item)];
+        }
+        let part = |(mesh, origin): (Arc<Mesh>, DVec3)| {
+            Cow::Owned(Item {
                 indices: 0..mesh.indices.len() as u32,
                 bounds: mesh.bounds,
                 world_from_model: item.world_from_model * DMat4::from_translation(origin),
                 mesh: MeshRef(mesh),
                 ..item.clone()
-            }),
-            None => Cow::Borrowed(item),
-        }
+            })
+        };
+        cut.into_iter().map(part).collect()
     }
 
     /// Kept as long as the mesh lives: a plan is made for every frame, and a pass that draws the same is not drawn again.
-    fn cached(&self, item: &Item, clip_from_model: &DMat4) -> Option<(Arc<Mesh>, DVec3)> {
+    fn cached(&self, item: &Item, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let key = Key {
             mesh: Arc::as_ptr(&item.mesh.0) as usize,
             indices: (item.indices.start, item.indices.end),
@@ -139,45 +150,38 @@ impl Cutter {
         cut
     }
 
-    /// The cut mesh about an origin of its own in the item's space; `None` where nothing needs to be cut, or is left.
-    fn cut_mesh(&self, item: &Item, clip_from_model: &DMat4) -> Option<(Arc<Mesh>, DVec3)> {
+    /// The cut meshes, each about an origin of its own in the item's space; none where nothing needs to be cut, or is left.
+    fn cut_mesh(&self, item: &Item, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let mesh = &item.mesh;
         let range = item.indices.start as usize..item.indices.end as usize;
-        let mut corners: Vec<[Corner; 3]> = Vec::new();
-        let mut any = false;
+        let (mut whole, mut polygons) = (Vec::new(), Vec::new());
         for triangle in mesh.indices[range].chunks_exact(3) {
             let triangle = [0, 1, 2].map(|k| Corner::of(mesh, triangle[k] as usize, clip_from_model));
             match self.cut_triangle(&triangle) {
-                Some(polygon) => {
-                    any = true;
-                    for piece in self.pieces(polygon) {
-                        corners.extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
-                    }
-                }
-                None => corners.push(triangle),
+                Some(polygon) => polygons.push(polygon),
+                None => whole.push(triangle),
             }
         }
-        if !any || corners.is_empty() {
-            return None;
+        if polygons.is_empty() {
+            return Vec::new();
         }
-        let bounds = Aabb::from_points(corners.iter().flatten().map(|corner| corner.position));
-        // Object-linear coordinates are made from the model's own.
-        let origin = if item.material.texgen.is_some() { DVec3::ZERO } else { bounds.center() };
-        Some((Arc::new(made(mesh, &corners, origin)), origin))
-    }
-
-    /// A polygon by its distance: cut where w is a power of [`PIECE`] times the nearest one, at the same places in every
-    /// triangle, so that neighbours share their vertices.
-    fn pieces(&self, polygon: Vec<Corner>) -> Vec<Vec<Corner>> {
-        let mut pieces = Vec::new();
-        let (mut rest, mut end) = (polygon, PIECE * self.nearest);
-        while rest.iter().any(|corner| corner.clip.w > end) && end.is_finite() {
-            pieces.push(clip(&rest, |corner| end - corner.clip.w));
-            rest = clip(&rest, |corner| corner.clip.w - end);
-            end *= PIECE;
+        let nearest = polygons.iter().flatten().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min);
+        let share = if self.along.is_finite() { SHARE_ORIGIN } else { SHARE_ORIGIN_FOR_CAMERA };
+        let mut groups: Vec<Vec<[Corner; 3]>> = vec![whole];
+        for polygon in polygons {
+            for (index, piece) in pieces(polygon, nearest.max(self.nearest)).into_iter().enumerate() {
+                let group = 1 + index / share;
+                groups.resize(groups.len().max(group + 1), Vec::new());
+                groups[group].extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
+            }
         }
-        pieces.push(rest);
-        pieces
+        let part = |corners: Vec<[Corner; 3]>| {
+            let bounds = Aabb::from_points(corners.iter().flatten().map(|corner| corner.position));
+            // Object-linear coordinates are made from the model's own.
+            let origin = if item.material.texgen.is_some() { DVec3::ZERO } else { bounds.center() };
+            (Arc::new(made(mesh, &corners, origin)), origin)
+        };
+        groups.into_iter().filter(|corners| !corners.is_empty()).map(part).collect()
     }
 
     /// What is shown of a triangle, where GL would lose too much by clipping it.
@@ -195,6 +199,20 @@ impl Cutter {
     }
 }
 
+/// A polygon by its distance: cut where w is a power of [`PIECE`] times that of the nearest point of all, at the same
+/// places in every triangle, so that neighbours share their vertices.
+fn pieces(polygon: Vec<Corner>, nearest: f64) -> Vec<Vec<Corner>> {
+    let mut pieces = Vec::new();
+    let (mut rest, mut end) = (polygon, PIECE * nearest);
+    while rest.iter().any(|corner| corner.clip.w > end) && end.is_finite() {
+        pieces.push(clip(&rest, |corner| end - corner.clip.w));
+        rest = clip(&rest, |corner| corner.clip.w - end);
+        end *= PIECE;
+    }
+    pieces.push(rest);
+    pieces
+}
+
 /// How many cut casters are kept.
 const MOST_KEPT: usize = 256;
 
@@ -208,7 +226,7 @@ struct Key {
 
 struct Entry {
     source: Weak<Mesh>,
-    cut: Option<(Arc<Mesh>, DVec3)>,
+    cut: Vec<(Arc<Mesh>, DVec3)>,
 }
 
 static CACHE: Mutex<Option<HashMap<Key, Entry>>> = Mutex::new(None);

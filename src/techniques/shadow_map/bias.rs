@@ -44,7 +44,12 @@ pub fn offset(settings: &Settings) -> Offset {
 }
 
 fn default_offset(settings: &Settings) -> Offset {
-    let units = if settings.format == DepthFormat::Depth16 { 1.0 } else { 4.0 };
+    // A unit of floats between 1/2 and 1 is half of what it is of 24 bits, and the reference is off by as much.
+    let units = match settings.format {
+        DepthFormat::Depth16 => 1.0,
+        DepthFormat::Depth24 | DepthFormat::Depth32 => 4.0,
+        DepthFormat::Depth32F => 8.0,
+    };
     let reach = reach_texels(settings);
     let (factor, texels) = match settings.bias {
         Bias::Offset => (2.0 * reach, 0.25 / (reach * reach)),

@@ -189,11 +189,13 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
     let clip_from_world = map_clip_from_world(view, settings);
     let texel = bias::texel_at_one(&view.projector, settings);
     let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size);
-    let cut: Vec<_> = layer.casters.iter().map(|item| cutter.cut(item)).collect();
+    let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
     let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);
     for InParts { item, scissors } in layer.in_parts {
-        let whole = depth_batches(&[cutter.cut(item).as_ref()], &clip_from_world, list);
+        let cut = cutter.cut(item);
+        let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+        let whole = depth_batches(&cut, &clip_from_world, list);
         for scissor in scissors {
             batches.extend(whole.iter().map(|batch| Batch { scissor: Some(*scissor), ..batch.clone() }));
         }

@@ -7,7 +7,7 @@
 use glam::{DMat4, DVec3};
 
 use super::bias;
-use super::settings::{Offset, Settings};
+use super::settings::{Bias, Mipmaps, Offset, Settings};
 use crate::math::Aabb;
 use crate::pass::DepthFormat;
 use crate::scene::LightKind;
@@ -26,18 +26,40 @@ const MOST_TESTS: usize = 300_000;
 const MOST_LOST: f64 = 0.016;
 const MOST_BURIED: f64 = 0.02;
 const MOST_UNCERTAIN: f64 = 0.1;
+/// Of the lost and the buried ones and a tenth of the uncertain ones. Measured with `glumbra stress`, of the named cases and
+/// 60 random ones of seed 11: where it warns and nothing else would, 5 rows of 4100 have fewer wrong pixels. Shadows that a
+/// mesh casts on itself are not sampled: of these nothing is said.
+const MOST_IN_ALL: f64 = 0.015;
 /// Of the buried ones, where many are uncertain.
 const SOME_BURIED: f64 = 0.003;
 
 /// Fewer samples than this prove nothing.
 const LEAST: u32 = 4;
 
+/// A pixel higher or wider than this, in degrees, has neighbours in other directions altogether.
+const WIDEST_PIXEL: f64 = 30.0;
+
+/// Says so of a normal offset in a picture of a few pixels: the normal is made from derivatives, from the pixels beside,
+/// which for pixels as wide as that may look past the surface's horizon.
+fn warn_of_pixels(view: &FrustumView<'_>, settings: &Settings, notes: &mut Notes) {
+    let degrees = view.scene.camera.fov_y_radians.to_degrees() / f64::from(view.scene.image.size[1]);
+    if settings.bias == Bias::NormalOffset && degrees > WIDEST_PIXEL {
+        notes.warnings.push(format!(
+            "light {}: a pixel is {degrees:.0} degrees high, and `bias = \"normal-offset\"` finds no normal from the pixel \
+             beside it: take another bias",
+            view.index
+        ));
+    }
+}
+
 /// Says so where too much of what the light reaches and the camera sees is beyond what the map can tell.
 pub fn warn(view: &FrustumView<'_>, settings: &Settings, offset: &Offset, notes: &mut Notes) {
+    warn_of_pixels(view, settings, notes);
     let Some(found) = sample(view, settings, offset) else { return };
     let share = |count: u32| if count < LEAST { 0.0 } else { f64::from(count) / f64::from(found.reached) };
     let (lost, buried, uncertain) = (share(found.lost), share(found.buried), share(found.uncertain));
-    if lost > MOST_LOST {
+    let in_all = lost + buried + 0.1 * uncertain > MOST_IN_ALL;
+    if lost > MOST_LOST || (in_all && lost > buried) {
         notes.warnings.push(format!(
             "light {}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about {:.0} % of what \
              it reaches is lit by mistake, as near behind its caster as that: move `near` away, or take a format of more bits",
@@ -48,7 +70,10 @@ pub fn warn(view: &FrustumView<'_>, settings: &Settings, offset: &Offset, notes:
             100.0 * lost
         ));
     }
-    if buried > MOST_BURIED || (uncertain > MOST_UNCERTAIN && buried > SOME_BURIED) {
+    if buried > MOST_BURIED
+        || (in_all && buried >= lost && buried > SOME_BURIED)
+        || (uncertain > MOST_UNCERTAIN && buried > SOME_BURIED)
+    {
         notes.warnings.push(format!(
             "light {}: a texel of its map covers up to {:.0} pixels of the picture, and its shadows are that coarse: raise \
              `size`, narrow the cone, or move the light nearer",
@@ -110,6 +135,21 @@ impl Boxed<'_> {
     }
 }
 
+impl Boxed<'_> {
+    /// Of the face that `point` is nearest to, by shares of the box; of either sign.
+    fn normal_at(&self, point: DVec3) -> DVec3 {
+        let at = self.model_from_world.transform_point3(point);
+        let Aabb { min, max } = self.item.bounds;
+        let distance = |axis: &usize| {
+            let size = max[*axis] - min[*axis];
+            if size > 0.0 { (at[*axis] - min[*axis]).abs().min((max[*axis] - at[*axis]).abs()) / size } else { -1.0 }
+        };
+        let axis = (0..3).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(1);
+        // A plane's normal goes with the inverse transpose.
+        self.model_from_world.transpose().transform_vector3(DVec3::AXES[axis]).normalize_or_zero()
+    }
+}
+
 fn sample(view: &FrustumView<'_>, settings: &Settings, offset: &Offset) -> Option<Found> {
     let boxes: Vec<Boxed<'_>> = view
         .items
@@ -131,21 +171,22 @@ fn sample(view: &FrustumView<'_>, settings: &Settings, offset: &Offset) -> Optio
         let at = [index % SAMPLES[0], index / SAMPLES[0]];
         let [x, y] = [0, 1].map(|k| 2.0 * (f64::from(at[k]) + 0.5) / f64::from(SAMPLES[k]) - 1.0);
         let [near, far] = [-1.0, 1.0].map(|z| world_from_clip.project_point3(DVec3::new(x, y, z)));
-        let Some((item, point)) = seen(&boxes, near, far - near) else { continue };
+        let Some((boxed, point)) = seen(&boxes, near, far - near) else { continue };
         let width = pixel * (point - camera.eye).dot(forward);
-        sampler.examine(item, point, width, &mut found);
+        let slant = boxed.normal_at(point).dot((far - near).normalize_or_zero()).abs().max(0.05);
+        sampler.examine(boxed.item, point, [width, width / slant], &mut found);
     }
     (found.reached > 0).then_some(found)
 }
 
 /// The nearest box and where the ray meets it; from within, where it leaves.
-fn seen<'a>(boxes: &[Boxed<'a>], from: DVec3, way: DVec3) -> Option<(&'a Item, DVec3)> {
+fn seen<'b, 'a>(boxes: &'b [Boxed<'a>], from: DVec3, way: DVec3) -> Option<(&'b Boxed<'a>, DVec3)> {
     let meets = boxes.iter().filter_map(|boxed| {
         let (enter, leave) = boxed.meets(from, way)?;
         let t = if enter >= 0.0 { enter } else { leave };
-        (0.0..=1.0).contains(&t).then_some((boxed.item, t))
+        (0.0..=1.0).contains(&t).then_some((boxed, t))
     });
-    meets.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(item, t)| (item, from + t * way))
+    meets.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(boxed, t)| (boxed, from + t * way))
 }
 
 /// How one map sees a point: depth in [0, 1], the width of a texel there, and the map's axes across.
@@ -197,36 +238,43 @@ struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    /// A point of `item` where a pixel is `pixel` wide.
-    fn examine(&self, item: &Item, point: DVec3, pixel: f64, found: &mut Found) {
+    /// A point of `item` where a pixel is `pixel` wide, and `longer` along the surface.
+    fn examine(&self, item: &Item, point: DVec3, [pixel, longer]: [f64; 2], found: &mut Found) {
         let Self { settings, offset, boxes, projectors } = *self;
         let seen = |projector| Some((projector, place(projector, settings, point)?));
         let Some((projector, here)) = projectors.iter().find_map(seen) else { return };
         found.reached += 1;
         let front = |from: DVec3| front(boxes, item, from, projector.rays);
+        // Of the levels of a map the two are met whose texels are about as wide as a pixel, as long as the surface shows it.
+        let texel = match settings.mipmaps {
+            Mipmaps::None => here.texel,
+            Mipmaps::EightTaps => 2.0 * here.texel,
+            Mipmaps::All => here.texel.max(2.0 * longer),
+        };
         let caster = front(point);
         if let Some(caster) = caster {
             let step = code(settings.format);
             let before = place(projector, settings, caster).map_or(0.0, |place| place.depth);
-            // Rounded when it is stored, and moved by the offset's units.
-            if here.depth - before < (1.0 + f64::from(offset.polygon.units)) * step {
+            // Rounded when it is stored and when it is compared, and moved by the offset's units.
+            if here.depth - before < (2.0 + f64::from(offset.polygon.units)) * step {
                 found.lost += 1;
                 if step * here.length > found.code {
                     (found.code, found.distance) = (step * here.length, here.distance);
                 }
             }
             // The offset follows slopes: that of a plane across the light's ray, and 45 degrees more.
-            let taken = here.texel * (offset.texels + f64::from(offset.polygon.factor).max(1.5) * (1.0 + here.slant));
+            let sloped = texel * f64::from(offset.polygon.factor).max(1.5) * (1.0 + here.slant);
+            let taken = here.texel * offset.texels + sloped;
             if (caster - point).length() / (1.0 + here.slant * here.slant).sqrt() < taken {
                 found.buried += 1;
-                found.texel_pixels = found.texel_pixels.max(here.texel / pixel);
+                found.texel_pixels = found.texel_pixels.max(texel / pixel);
             }
         }
-        let half = 0.5 * here.texel;
+        let half = 0.5 * texel;
         let moves = here.across.into_iter().flat_map(|axis| [half * axis, -half * axis]);
         if moves.into_iter().any(|way| front(point + way).is_some() != caster.is_some()) {
             found.uncertain += 1;
-            found.texel_pixels = found.texel_pixels.max(here.texel / pixel);
+            found.texel_pixels = found.texel_pixels.max(texel / pixel);
         }
     }
 }
@@ -250,10 +298,11 @@ fn projectors(view: &FrustumView<'_>) -> Vec<Projector> {
     }
 }
 
-/// The least step of depth: the format's, and no less than what the comparison's f32 tells apart.
+/// The least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
+/// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
 fn code(format: DepthFormat) -> f64 {
     match format {
         DepthFormat::Depth16 => 1.0 / 65535.0,
-        _ => 2.0_f64.powi(-24),
+        _ => 2.0_f64.powi(-23),
     }
 }
