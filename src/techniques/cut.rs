@@ -62,12 +62,14 @@ pub struct Cutter {
     along: f64,
     /// The least w.
     nearest: f64,
+    /// Of [`PLANES`], those that cut.
+    planes: &'static [DVec4],
 }
 
 impl Cutter {
     /// For a map of `size` texels a side, each `texel` wide at a distance of 1 along its axis, or anywhere in parallel
-    /// light.
-    pub fn for_map(projector: &Projector, clip_from_world: &DMat4, texel: f64, size: u32) -> Self {
+    /// light. What is drawn `clamped` shows what lies beyond the far plane, too.
+    pub fn for_map(projector: &Projector, clip_from_world: &DMat4, texel: f64, size: u32, clamped: bool) -> Self {
         // An eighth of what a slope of 45 degrees falls away by over one texel; offsets have a multiple of that.
         let (along, nearest) = match projector.rays {
             // z = A w - B, and B is about twice the distance of the near plane: z / w grows by B / w² along the ray, and
@@ -76,7 +78,8 @@ impl Cutter {
             Rays::Along(_) => (0.125 * texel * projector.clip_from_light.z_axis.z.abs(), 1.0),
         };
         // A twentieth of a texel, of which a width of 2 has as many as the map's size.
-        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest }
+        let planes = if clamped { &PLANES[..4] } else { &PLANES[..] };
+        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest, planes }
     }
 
     /// For an eye; `None` where vertices must stay as they are: volumes' caps meet the surfaces that they are made from,
@@ -84,7 +87,7 @@ impl Cutter {
     pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
         let may = !scene.shading.per_vertex && !needs_vertices(scene);
         let across = ORDINARY_FOR_CAMERA * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
-        may.then_some(Self { clip_from_world: *clip_from_world, across, along: f64::INFINITY, nearest: near })
+        may.then_some(Self { clip_from_world: *clip_from_world, across, along: f64::INFINITY, nearest: near, planes: &PLANES })
     }
 
     /// All of `items`, of which those that reach too far are cut.
@@ -135,6 +138,7 @@ impl Cutter {
             indices: (item.indices.start, item.indices.end),
             clip_from_model: clip_from_model.to_cols_array().map(f64::to_bits),
             forgiven: [self.across, self.along].map(f64::to_bits),
+            planes: self.planes.len(),
         };
         let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
         let cache = cache.get_or_insert_default();
@@ -189,11 +193,11 @@ impl Cutter {
         let reach =
             |corners: &[Corner]| corners.iter().map(|corner| corner.clip.abs().max_element()).fold(0.0, f64::max);
         let whole = reach(triangle);
-        if whole <= self.most(self.nearest) || triangle.iter().all(Corner::is_inside) {
+        if whole <= self.most(self.nearest) || triangle.iter().all(|corner| corner.is_inside(self.planes)) {
             return None;
         }
         let within = |polygon: Vec<Corner>, plane: &DVec4| clip(&polygon, |corner| plane.dot(corner.clip));
-        let polygon = PLANES.iter().fold(triangle.to_vec(), within);
+        let polygon = self.planes.iter().fold(triangle.to_vec(), within);
         let w = polygon.iter().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min).max(self.nearest);
         (whole > self.most(w)).then_some(polygon)
     }
@@ -222,6 +226,7 @@ struct Key {
     indices: (u32, u32),
     clip_from_model: [u64; 16],
     forgiven: [u64; 2],
+    planes: usize,
 }
 
 struct Entry {
@@ -252,8 +257,8 @@ impl Corner {
     }
 
     /// Whether GL leaves it as it is, but for the near plane.
-    fn is_inside(&self) -> bool {
-        PLANES.iter().all(|plane| plane.dot(self.clip) >= 0.0)
+    fn is_inside(&self, planes: &[DVec4]) -> bool {
+        planes.iter().all(|plane| plane.dot(self.clip) >= 0.0)
     }
 
     fn lerp(&self, other: &Self, share: f64) -> Self {

@@ -27,7 +27,8 @@ use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
-use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
+use super::shadow_map::doubt;
+use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
@@ -156,6 +157,9 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
+        // Half of a gap is left of it, less the two codes by which layers are told apart.
+        let polygon = PolygonOffset { factor: 0.0, units: 1.0 };
+        doubt::warn(view, &settings.map, &Offset { polygon, texels: 0.0 }, notes);
         Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
     }
 }
@@ -246,6 +250,6 @@ fn margin(format: DepthFormat) -> f32 {
     match format {
         DepthFormat::Depth16 => 2.0 / 65535.0,
         DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0 / 16_777_215.0,
-        DepthFormat::Depth32F => 0.0,
+        DepthFormat::Depth32F => 4.0 / 16_777_216.0,
     }
 }

@@ -7,6 +7,7 @@
 //! drawn as it is, and named in a warning where that shadow is missed ([`open`]).
 
 mod open;
+mod samples;
 
 use std::sync::Arc;
 
@@ -90,14 +91,13 @@ impl Technique for SecondDepth {
         };
         let mut casters = casters(view, &settings, notes);
         settings.crop = fit::crop(view, &mut casters, &settings, notes);
-        let mut is_closed = closed_test();
         if !is_assumed {
-            refuse_open(&casters, &mut is_closed, keys)?;
+            refuse_open(&casters, &mut closed_test(), keys)?;
         }
-        open::warn(view, &casters, &mut is_closed, notes);
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         }
+        open::warn(view, &casters, &settings, notes);
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = Layer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, &settings, list, notes);

@@ -1,124 +1,154 @@
-//! What a map of far sides cannot show: casters that have none. Says so by name and with the share that is lost, where
-//! something lies behind to be shadowed.
+//! What a map of far sides shows wrong, found by sampling: of points that the camera sees and the light may reach, what
+//! lies on their way to the light is sorted into near and far sides. Says by name and share what goes wrong.
+//!
+//! - A point in shadow is lit where no far side lies before it: of what is open, wound both ways, or what the light stands
+//!   in.
+//! - A point in the light is dark where a far side lies at its own depth: its own, seen from behind, or that of a face
+//!   given in both windings.
 
 use glam::DVec3;
 
+use super::samples::{Met, Placed, Seen, on_the_way, placed, seen, to_light};
 use crate::techniques::projector::Rays;
-use crate::techniques::shadow_map::casters::middle_of_crossing;
+use crate::techniques::shadow_map::bias;
+use crate::techniques::shadow_map::settings::Settings;
 use crate::techniques::{FrustumView, Item, Notes};
 
-/// A share below this is left to the gaps of meshes that are closed to the eye: that much of one object's shadow.
-const LEAST_SHARE: f64 = 0.05;
+/// No more points than this are looked at, at the middles of pixels.
+const MOST_SAMPLES: u32 = 20_000;
 
-/// What rounding may move, as a share of the way from the light.
-const SLACK: f64 = 1e-6;
+/// Lengths below this share of a point's coordinates and of its distance from the light are none.
+const SLACK: f64 = 1e-7;
 
-/// So many rays are asked of one caster, whatever the number of its triangles.
-const MOST_RAYS: usize = 32;
+/// Points that go wrong because of one item.
+#[derive(Clone, Copy, Default)]
+struct Wrong {
+    lit: u32,
+    dark: u32,
+}
 
-/// Warns of each of `casters` whose shadow is lost, of which `is_closed` says whether it has far sides all over; and of
-/// closed ones that the light stands in, whose inner sides are far sides that are lit.
-pub fn warn(view: &FrustumView<'_>, casters: &[&Item], is_closed: &mut dyn FnMut(&Item) -> bool, notes: &mut Notes) {
-    let mut said: Vec<&str> = Vec::new();
-    for item in casters {
-        if said.contains(&item.label.as_str()) {
+/// Warns of each of `casters` because of which seen points go wrong.
+pub fn warn(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) {
+    let items = placed(view, casters);
+    let mut wrong = vec![Wrong::default(); items.len()];
+    let mut reached = 0;
+    let sampler = Sampler { view, items: &items, texel: bias::texel_at_one(&view.projector, settings), settings };
+    for point in points(view, &items) {
+        if !sampler.is_in_reach(&point) {
             continue;
         }
-        let problem = match is_closed(item) {
-            true => {
-                inside(view, item).then(|| String::from("the light stands in it, and its inner side shades itself"))
-            }
-            false if item.needs_alpha_test() && item.mesh.is_closed() => {
-                Some(String::from("behind holes of its far side, what its near side shadows is lit"))
-            }
-            false => {
-                Some(lost_share(view, item)).filter(|share| *share > LEAST_SHARE && shadows(view, item)).map(|share| {
-                    format!("{:.0} % of what the light sees of it has no far side, and casts no shadow", 100.0 * share)
-                })
-            }
+        reached += 1;
+        match sampler.judge(&point) {
+            Some(Verdict::Lit(item)) => wrong[item].lit += 1,
+            Some(Verdict::Dark(item)) => wrong[item].dark += 1,
+            None => {}
+        }
+    }
+    let share = |count: u32| 100.0 * f64::from(count) / f64::from(reached.max(1));
+    for (placed, wrong) in items.iter().zip(wrong) {
+        let says = |count, what| {
+            format!(
+                "{} in the map of far sides of light {}: {what} {:.2} % of what the light reaches",
+                placed.item.label,
+                view.index,
+                share(count)
+            )
         };
-        if let Some(problem) = problem {
-            said.push(&item.label);
-            notes.warnings.push(format!("{} in the map of far sides of light {}: {problem}", item.label, view.index));
+        if wrong.lit > 0 {
+            notes.warnings.push(format!("{} that it shadows: it has no far side there", says(wrong.lit, "lit by mistake are")));
+        }
+        if wrong.dark > 0 {
+            notes.warnings.push(format!("{}: a far side lies at the very depth of what is lit", says(wrong.dark, "dark by mistake are")));
         }
     }
 }
 
-/// From the light to a point, of any length.
-fn way(rays: &Rays, point: DVec3) -> DVec3 {
-    match rays {
-        Rays::From { position, .. } => point - *position,
-        Rays::Along(direction) => *direction,
-    }
+/// What goes wrong, and because of which item.
+enum Verdict {
+    Lit(usize),
+    Dark(usize),
 }
 
-/// Solid angles of the item's near sides less those of its far sides, over those of the near sides (for parallel light,
-/// areas across it). Along each ray through a closed surface both are met equally often.
-fn lost_share(view: &FrustumView<'_>, item: &Item) -> f64 {
-    let (near, far) = sides(view, item);
-    if near > far { (near - far) / near } else { 0.0 }
-}
-
-/// What the light sees of both sides of the item's triangles.
-fn sides(view: &FrustumView<'_>, item: &Item) -> (f64, f64) {
-    let rays = &view.projector.rays;
-    let turned = if item.world_from_model.determinant() < 0.0 { -1.0 } else { 1.0 };
-    let (mut near, mut far) = (0.0, 0.0);
-    for [a, b, c] in triangles(item) {
-        // Positive where the front looks away from the light.
-        let seen = turned
-            * match rays {
-                Rays::From { .. } => solid_angle([a, b, c].map(|corner| way(rays, corner))),
-                Rays::Along(direction) => 0.5 * (b - a).cross(c - a).dot(*direction),
-            };
-        if seen > 0.0 { far += seen } else { near -= seen }
-    }
-    (near, far)
-}
-
-/// The corners of its triangles, in world space.
-fn triangles(item: &Item) -> impl ExactSizeIterator<Item = [DVec3; 3]> {
-    let indices = item.mesh.indices.get(item.indices.start as usize..item.indices.end as usize).unwrap_or_default();
-    let place = |index: u32| {
-        let position = item.mesh.positions.get(index as usize).copied().unwrap_or_default();
-        item.world_from_model.transform_point3(DVec3::from_array(position.map(f64::from)))
-    };
-    indices.chunks_exact(3).map(move |triangle| [0, 1, 2].map(|corner| place(triangle[corner])))
-}
-
-/// Of a triangle as seen from the origin, in steradians; positive where it winds clockwise [Van Oosterom and Strackee].
-fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
-    let (x, y, z) = (a.length(), b.length(), c.length());
-    let volume = a.dot(b.cross(c));
-    2.0 * volume.atan2(x * y * z + a.dot(b) * z + a.dot(c) * y + b.dot(c) * x)
-}
-
-/// Whether the light stands inside a closed item: all that it sees of it are far sides.
-fn inside(view: &FrustumView<'_>, item: &Item) -> bool {
-    let Rays::From { position, .. } = view.projector.rays else { return false };
-    let bounds = item.bounds.transformed(&item.world_from_model);
-    let holds = |point: DVec3| point.cmpge(bounds.min).all() && point.cmple(bounds.max).all();
-    // What the camera sees from outside are the near sides.
-    if !(holds(position) && holds(view.scene.camera.eye)) {
-        return false;
-    }
-    let (near, far) = sides(view, item);
-    far - near > 2.0 * std::f64::consts::PI
-}
-
-/// Whether something else lies behind the item, in its shadow: along rays through some of its triangles, and to the middle
-/// of each other item.
-fn shadows(view: &FrustumView<'_>, item: &Item) -> bool {
-    let rays = &view.projector.rays;
-    let nearest = if matches!(rays, Rays::From { .. }) { -1.0 } else { f64::NEG_INFINITY };
-    let corners = triangles(item);
-    let step = corners.len() / MOST_RAYS + 1;
-    let through: Vec<DVec3> = corners.step_by(step).map(|[a, b, c]| (a + b + c) / 3.0).collect();
-    view.items.iter().filter(|other| !std::ptr::eq(*other, item)).any(|other| {
-        let middle = other.world_from_model.transform_point3(0.5 * (other.bounds.min + other.bounds.max));
-        let is_behind =
-            |point: &DVec3| middle_of_crossing(other, *point, way(rays, *point)).is_some_and(|at| at > SLACK);
-        let is_before = |at: f64| nearest < at && at < -SLACK;
-        through.iter().any(is_behind) || middle_of_crossing(item, middle, way(rays, middle)).is_some_and(is_before)
+/// What the camera sees in the middles of pixels.
+fn points<'a>(view: &'a FrustumView<'_>, items: &'a [Placed<'_>]) -> impl Iterator<Item = Seen> + 'a {
+    let camera = &view.scene.camera;
+    let [width, height] = view.scene.image.size;
+    let world_from_clip = (camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()).inverse();
+    let step = (1..).find(|step| width.div_ceil(*step) * height.div_ceil(*step) <= MOST_SAMPLES).unwrap_or(1);
+    let middles = move |size: u32| (step / 2..size).step_by(step as usize);
+    middles(height).flat_map(move |y| middles(width).map(move |x| [x, y])).filter_map(move |[x, y]| {
+        let [x, y] = [(x, width), (y, height)].map(|(at, size)| (2.0 * f64::from(at) + 1.0) / f64::from(size) - 1.0);
+        let [near, far] = [-1.0, 1.0].map(|z| world_from_clip.project_point3(DVec3::new(x, y, z)));
+        seen(items, camera.eye, near, far - near)
     })
+}
+
+struct Sampler<'a> {
+    view: &'a FrustumView<'a>,
+    items: &'a [Placed<'a>],
+    /// The width of a texel at a distance of 1, or anywhere in parallel light.
+    texel: f64,
+    settings: &'a Settings,
+}
+
+impl Sampler<'_> {
+    /// Whether the point faces the light and lies in its frustum.
+    fn is_in_reach(&self, seen: &Seen) -> bool {
+        let clip = self.view.clip_from_world() * seen.point.extend(1.0);
+        let to_light = to_light(seen.point, &self.view.projector.rays);
+        clip.w > 0.0 && clip.truncate().abs().max_element() <= clip.w && seen.normal.dot(to_light) > 0.0
+    }
+
+    fn texel_at(&self, point: DVec3) -> f64 {
+        self.texel * (self.view.clip_from_world() * point.extend(1.0)).w
+    }
+
+    /// What goes wrong, if it does so all around the point as far as a lookup reaches.
+    fn judge(&self, point: &Seen) -> Option<Verdict> {
+        let rays = &self.view.projector.rays;
+        let length = match rays {
+            Rays::From { position, .. } => position.distance(point.point),
+            Rays::Along(_) => 1.0,
+        };
+        let slack = SLACK * (point.point.abs().max_element() + length) / length;
+        let met = on_the_way(self.items, point, -slack, rays);
+        let verdict = self.verdict(point, &met, length, slack)?;
+        let reach = self.texel_at(point.point) * (bias::reach_texels(self.settings) + 1.0);
+        let across = self.view.projector.light_from_world.transpose();
+        let [x, y] = [across.x_axis, across.y_axis].map(|axis| axis.truncate());
+        let signature = signature(&met, slack);
+        let is_alike = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+            .into_iter()
+            .all(|(right, up)| {
+                // In the seen triangle's plane, so that what lies at its depth stays there.
+                let moved = point.point + reach * (right * x + up * y);
+                let way = to_light(moved, rays);
+                let moved = moved + way * (point.normal.dot(point.point - moved) / point.normal.dot(way));
+                let there = on_the_way(self.items, &Seen { point: moved, ..*point }, -slack, rays);
+                self::signature(&there, slack) == signature
+            });
+        is_alike.then_some(verdict)
+    }
+
+    fn verdict(&self, point: &Seen, met: &[Met], length: f64, slack: f64) -> Option<Verdict> {
+        let is_here = |met: &Met| met.is_own || met.t.abs() <= slack;
+        let in_map = |met: &Met| self.items[met.item].in_map;
+        let before = met.iter().filter(|met| !is_here(met));
+        let Some(first) = before.max_by(|a, b| a.t.total_cmp(&b.t)) else {
+            return met
+                .iter()
+                .find(|met| is_here(met) && met.is_far_side && in_map(met) && met.item == point.item)
+                .map(|met| Verdict::Dark(met.item));
+        };
+        let _ = length;
+        let is_kept = met.iter().any(|met| met.is_far_side && in_map(met));
+        (!is_kept).then_some(Verdict::Lit(first.item))
+    }
+}
+
+/// Which sides of which items are met, whatever their order.
+fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
+    let mut all: Vec<_> = met.iter().map(|met| (met.item, met.is_far_side, met.t.abs() <= slack)).collect();
+    all.sort_unstable();
+    all
 }

@@ -144,10 +144,7 @@ pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Stor
 /// Whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
 /// that plane's depth instead of being clipped; says so of `what`. Near and far are the map's, not the light's.
 pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
-    let in_parts = layer.in_parts.iter().map(|part| part.item);
-    let Some(item) = layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item)) else {
-        return layer.clamped;
-    };
+    let Some(item) = clamps_near(view, layer) else { return layer.clamped };
     let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };
     let why = format!("{} may come nearer than the near plane at {near}: it casts from there", item.label);
     let chosen = Chosen { of: format!("{what} of light {}'s map", view.index), choice: "GL_DEPTH_CLAMP".into(), why };
@@ -155,6 +152,12 @@ pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: 
         notes.chosen.push(chosen);
     }
     true
+}
+
+/// The first caster of the layer that may lie before the near plane.
+fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Item> {
+    let in_parts = layer.in_parts.iter().map(|part| part.item);
+    layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item))
 }
 
 /// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
@@ -188,7 +191,8 @@ pub fn state(
 pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
     let clip_from_world = map_clip_from_world(view, settings);
     let texel = bias::texel_at_one(&view.projector, settings);
-    let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size);
+    let clamped = layer.clamped || clamps_near(view, layer).is_some();
+    let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped);
     let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
     let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);

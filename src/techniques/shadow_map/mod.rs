@@ -6,7 +6,7 @@ pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
 pub(super) mod depth;
-mod doubt;
+pub(super) mod doubt;
 pub(super) mod fit;
 mod parallel;
 pub(super) mod settings;

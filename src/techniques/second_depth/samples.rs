@@ -1,0 +1,160 @@
+//! Points that the camera sees, and what lies on their way to the light: found by rays through the items' triangles.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec2, DVec3};
+
+use crate::geometry::Texture;
+use crate::geometry::sampled::{Ray, Sampled};
+use crate::techniques::projector::Rays;
+use crate::techniques::{FrustumView, Item};
+
+/// An item made ready for rays.
+pub struct Placed<'a> {
+    pub item: &'a Item,
+    /// Whether it is drawn into the map.
+    pub in_map: bool,
+    model_from_world: DMat4,
+    mesh: Sampled,
+}
+
+/// A point that the camera sees.
+pub struct Seen {
+    /// Into the items.
+    pub item: usize,
+    pub point: DVec3,
+    /// Of unit length, towards the eye.
+    pub normal: DVec3,
+    /// Of its item.
+    pub triangle: u32,
+}
+
+/// What a ray to the light meets.
+pub struct Met {
+    /// Into the items.
+    pub item: usize,
+    /// From the seen point towards the light, negative behind it; 1 at the light, of parallel light in world units.
+    pub t: f64,
+    /// Its front looks away from the light.
+    pub is_far_side: bool,
+    /// It is the seen triangle itself.
+    pub is_own: bool,
+    /// The cosine of the angle between its plane's normal and the ray, positive.
+    #[allow(dead_code)]
+    pub cosine: f64,
+}
+
+pub fn placed<'a>(view: &FrustumView<'a>, casters: &[&Item]) -> Vec<Placed<'a>> {
+    let of = |item: &'a Item| {
+        let mesh = match &item.wave {
+            Some(wave) => wave.moved(&item.mesh.0),
+            None => item.mesh.0.clone(),
+        };
+        Placed {
+            item,
+            in_map: casters.iter().any(|caster| std::ptr::eq(*caster, item)),
+            model_from_world: item.world_from_model.inverse(),
+            mesh: Sampled::new(&mesh, item.indices.clone()),
+        }
+    };
+    view.items.iter().map(of).filter(|placed| placed.model_from_world.is_finite()).collect()
+}
+
+impl Placed<'_> {
+    fn to_model(&self, ray: &Ray) -> Ray {
+        let origin = self.model_from_world.transform_point3(ray.origin);
+        Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray }
+    }
+
+    /// In world space, to either side; of no length where the triangle has no area.
+    fn normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.mesh.corners(triangle).map(|corner| self.item.world_from_model.transform_point3(corner));
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// Whether the alpha test passes at a point of a triangle, in model space.
+    fn is_solid(&self, triangle: u32, point: DVec3) -> bool {
+        if !(self.item.needs_alpha_test() && self.item.has_texcoords()) {
+            return true;
+        }
+        let material = &self.item.material;
+        let at = match &material.texgen {
+            Some(texgen) => {
+                let [s, t] = [texgen.s, texgen.t].map(|plane| {
+                    let [x, y, z, w] = plane.map(f64::from);
+                    f64::from(texgen.scale) * (DVec3::new(x, y, z).dot(point) + w)
+                });
+                DVec2::new(s, t)
+            }
+            None => match self.mesh.texcoord(triangle, point) {
+                Some(at) => at,
+                None => return true,
+            },
+        };
+        let decal = material.decal.as_ref().filter(|decal| decal.has_alpha).map_or(1.0, |decal| texel(decal, at, 3));
+        let channel = |map: &Texture| if map.has_alpha { 3 } else { 0 };
+        let alpha = material.alpha.as_ref().map_or(1.0, |map| texel(map, at, channel(map)));
+        f64::from(material.opacity) * decal * alpha >= 0.5
+    }
+}
+
+/// One channel of a texture that repeats, by the mean of the four texels around, in [0, 1].
+fn texel(texture: &Arc<Texture>, at: DVec2, channel: usize) -> f64 {
+    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
+    let place = at * size - 0.5;
+    let (low, share) = (place.floor(), place - place.floor());
+    let value = |x: f64, y: f64| {
+        let [x, y] = [x.rem_euclid(size.x), y.rem_euclid(size.y)].map(|place| place as usize);
+        let index = 4 * (y * texture.width as usize + x) + channel;
+        texture.rgba.get(index).map_or(1.0, |byte| f64::from(*byte) / 255.0)
+    };
+    let row = |y: f64| value(low.x, y) * (1.0 - share.x) + value(low.x + 1.0, y) * share.x;
+    row(low.y) * (1.0 - share.y) + row(low.y + 1.0) * share.y
+}
+
+/// The nearest point on the way from the near plane to the far plane, `origin` to `origin + way`.
+pub fn seen(items: &[Placed<'_>], eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
+    let ray = Ray { origin, way, start: 0.0, end: 1.0 };
+    let mut nearest: Option<(f64, usize, u32)> = None;
+    for (index, placed) in items.iter().enumerate() {
+        let end = nearest.map_or(1.0, |(t, ..)| t);
+        let ray = Ray { end, ..placed.to_model(&ray) };
+        placed.mesh.crossings(&ray, |met| {
+            if nearest.is_none_or(|(t, ..)| met.t < t) && placed.is_solid(met.triangle, ray.origin + met.t * ray.way) {
+                nearest = Some((met.t, index, met.triangle));
+            }
+        });
+    }
+    let (t, item, triangle) = nearest?;
+    let (point, normal) = (origin + t * way, items[item].normal(triangle));
+    let normal = if normal.dot(eye - point) < 0.0 { -normal } else { normal };
+    (normal != DVec3::ZERO).then_some(Seen { item, point, normal, triangle })
+}
+
+/// From a point to the light: of length, or of parallel light of unit length.
+pub fn to_light(point: DVec3, rays: &Rays) -> DVec3 {
+    match rays {
+        Rays::From { position, .. } => *position - point,
+        Rays::Along(direction) => -*direction,
+    }
+}
+
+/// All casters on the line through the point and the light, from `behind` of it (a parameter below 0) on.
+pub fn on_the_way(items: &[Placed<'_>], seen: &Seen, behind: f64, rays: &Rays) -> Vec<Met> {
+    let end = if matches!(rays, Rays::From { .. }) { 1.0 } else { f64::MAX };
+    let way = to_light(seen.point, rays);
+    let ray = Ray { origin: seen.point, way, start: behind, end };
+    let mut all = Vec::new();
+    for (item, placed) in items.iter().enumerate().filter(|(_, placed)| placed.item.casts_shadow) {
+        let ray = placed.to_model(&ray);
+        placed.mesh.crossings(&ray, |met| {
+            if placed.is_solid(met.triangle, ray.origin + met.t * ray.way) {
+                let cosine = placed.normal(met.triangle).dot(way.normalize()).abs();
+                let is_own = (item, met.triangle) == (seen.item, seen.triangle);
+                // The ray runs to the light: what it meets from the front looks away from it.
+                all.push(Met { item, t: met.t, is_far_side: !met.from_behind, is_own, cosine });
+            }
+        });
+    }
+    all
+}
