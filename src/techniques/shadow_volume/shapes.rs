@@ -107,10 +107,15 @@ fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.
-fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
-    let world = settings.distance.unwrap_or_else(|| 2.0 * view.scene.world_bounds().radius());
+pub fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
+    let world = settings.distance.unwrap_or_else(|| default_distance(view));
     let scale = caster.world_from_model.determinant().abs().cbrt();
     world / scale
+}
+
+/// How far truncated volumes reach where nothing else is asked for, in world units.
+pub fn default_distance(view: &LightView<'_>) -> f64 {
+    2.0 * view.scene.world_bounds().radius()
 }
 
 /// What a draw is called, and where it stands.
