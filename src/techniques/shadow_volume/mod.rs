@@ -81,7 +81,8 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         passes: counts::passes(view, shapes, settings),
         redraw: settings.redraw,
         of_all: false,
-        infinite: has(Way::ZFail),
+        // The end of a truncated volume may lie beyond the camera's far plane too.
+        infinite: has(Way::ZFail) || has(Way::ZFailTruncated),
         clamped: has(Way::ZFailClamped),
         ledge: has(Way::ZPassCapped),
         scissor: if view.keep_all { None } else { seen::scissor(view) },
