@@ -47,6 +47,9 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
     let samples = (0..across * down).into_par_iter().filter_map(|index| {
         let place = (DVec2::new(f64::from(index % across), f64::from(index / across)) + 0.5) * step;
         let point = world.at(place)?;
+        if settings.wrap && may_wrap(&point) {
+            return Some((Fault::TooMany, point));
+        }
         let fault = fault(&point, settings)?;
         let aside = [DVec2::splat(ASIDE), DVec2::splat(-ASIDE)];
         let is_sure = aside.iter().all(|by| {
@@ -67,10 +70,7 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
 }
 
 fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
-    let is_partial = matches!(
-        method,
-        Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZFailTruncated
-    );
+    let is_partial = matches!(method, Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZFailTruncated);
     is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
 }
 
@@ -80,8 +80,17 @@ fn most_layers(drawn: &[&Casting]) -> usize {
     shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
 }
 
-/// What makes a pixel wrong; `None`: it is right.
+/// Whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
+fn may_wrap(point: &Point) -> bool {
+    let most = point.within + point.doubtful;
+    most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS
+}
+
+/// What makes a pixel wrong; `None`: it is right, or the depth buffer's rounding decides.
 fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
+    if point.doubtful > 0 {
+        return None;
+    }
     let within = match settings.method {
         Method::ZFailTruncated => point.within_ended,
         _ => point.within,
@@ -105,13 +114,7 @@ fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
     })
 }
 
-fn describe(
-    fault: Fault,
-    points: &[Point],
-    drawn: &[&Casting],
-    settings: &Settings,
-    view: &LightView<'_>,
-) -> String {
+fn describe(fault: Fault, points: &[Point], drawn: &[&Casting], settings: &Settings, view: &LightView<'_>) -> String {
     let most = |of: fn(&Point) -> u32| points.iter().map(of).max().unwrap_or(0);
     match fault {
         Fault::Hole => {
@@ -134,7 +137,9 @@ fn describe(
         Fault::Ended => {
             let behind = points.iter().map(|point| point.behind).fold(0.0, f64::max);
             let distance = settings.distance.unwrap_or_else(|| super::shapes::default_distance(view));
-            format!("volumes that end after {distance:.3} units end before what they shadow, up to {behind:.3} behind its caster")
+            format!(
+                "volumes that end after {distance:.3} units end before what they shadow, up to {behind:.3} behind its caster"
+            )
         }
         Fault::TooMany => {
             format!(

@@ -21,6 +21,8 @@ pub struct Point {
     pub within: u32,
     /// The same for volumes that end at the given distance.
     pub within_ended: u32,
+    /// Volumes at whose surface it lies, within the depth buffer's rounding: they may hold it or not.
+    pub doubtful: u32,
     /// How many hold the point of the near rectangle on the same ray.
     pub before: u32,
     pub is_shadowed: bool,
@@ -100,13 +102,11 @@ impl<'a> World<'a> {
     }
 
     /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what the light
-    /// cannot reach, or where the depth buffer's rounding decides.
+    /// cannot reach.
     pub fn at(&self, place: DVec2) -> Option<Point> {
         let camera = &self.view.scene.camera;
         let [width, height] = self.view.scene.image.size.map(f64::from);
-        let way = self.eye.ahead
-            + (place.x - 0.5 * width) * self.eye.right
-            + (0.5 * height - place.y) * self.eye.up;
+        let way = self.eye.ahead + (place.x - 0.5 * width) * self.eye.right + (0.5 * height - place.y) * self.eye.up;
         let ray = Ray { origin: camera.eye, way, start: camera.near, end: camera.far };
         let mut seen: Option<(f64, u32)> = None;
         self.surfaces.crossings(&ray, |triangle, t| {
@@ -124,10 +124,10 @@ impl<'a> World<'a> {
         let near = self.toward(camera.eye + camera.near * way);
         let mut before = 0;
         self.counted.crossings(&near, |_, _| before += 1);
-        self.held(point, way, own, doubt, before)
+        Some(self.held(point, way, own, doubt, before))
     }
 
-    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64, before: u32) -> Option<Point> {
+    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64, before: u32) -> Point {
         let ray = self.toward(point);
         let length = ray.way.length();
         let longer = Ray { end: 1.0 + (4.0 * doubt / length).clamp(IN_PLANE, 1.0), ..ray };
@@ -145,7 +145,7 @@ impl<'a> World<'a> {
                 Some(t < 1.0)
             }
         };
-        let (mut within, mut within_ended, mut is_sure, mut first) = (0, 0, true, f64::INFINITY);
+        let (mut within, mut within_ended, mut doubtful, mut first) = (0, 0, 0, f64::INFINITY);
         self.counted.crossings(&longer, |triangle, t| match is_before(self.counted.corners(triangle), t) {
             Some(true) => {
                 within += 1;
@@ -153,7 +153,7 @@ impl<'a> World<'a> {
                 first = first.min(t);
             }
             Some(false) => {}
-            None => is_sure = false,
+            None => doubtful += 1,
         });
         let mut is_shadowed = within > 0;
         if self.has_holes && is_shadowed {
@@ -168,7 +168,7 @@ impl<'a> World<'a> {
             });
         }
         let behind = (1.0 - first).max(0.0) * length;
-        is_sure.then_some(Point { within, within_ended, before, is_shadowed, behind })
+        Point { within, within_ended, doubtful, before, is_shadowed, behind }
     }
 
     /// From the light to a point, which has t = 1.
