@@ -35,6 +35,7 @@ enum Fault {
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
+    warn_of_reach(view, notes);
     if !may_be_wrong(&drawn, settings.method) {
         return;
     }
@@ -66,6 +67,31 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
             let share = format!("{} of {} sampled pixels are wrong", points.len(), across * down);
             notes.warnings.push(format!("light {}: {what}; {share}", view.index));
         }
+    }
+}
+
+/// A share of a pixel that rounding may move an edge by without turning pixels over.
+const MOST_MOVED: f64 = 0.2;
+
+/// Warns of triangles so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
+/// their casters' own vertices, which hence cannot be cut before.
+fn warn_of_reach(view: &LightView<'_>, notes: &mut Notes) {
+    let camera = &view.scene.camera;
+    let corners = view.items.iter().flat_map(|item| {
+        item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner).distance(camera.eye))
+    });
+    let farthest = corners.fold(0.0, f64::max);
+    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
+    let moved = farthest * 2.0_f64.powi(-23);
+    let height = 2.0 * (0.5 * camera.fov_y_radians).tan() * camera.target.distance(camera.eye);
+    let pixel = height / f64::from(view.scene.image.size[1]);
+    if moved > MOST_MOVED * pixel {
+        notes.warnings.push(format!(
+            "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.1} pixels: edges of shadow volumes are \
+             as far off",
+            view.index,
+            moved / pixel
+        ));
     }
 }
 
