@@ -32,7 +32,10 @@ fn failures(results: &[CaseResult]) -> Vec<String> {
         let rows = result.rows.iter().filter(|row| row.verdict == Verdict::SilentlyWrong);
         let lines = rows.map(|row| {
             let (inside, wrong) = (row.settings.to_inline(), row.wrong_percent());
-            format!("{}, light {}: {inside}: {wrong:.3} %, {} beyond the bound {}", result.name, row.light, row.beyond, row.why)
+            format!(
+                "{}, light {}: {inside}: {wrong:.3} %, {} beyond the bound {}",
+                result.name, row.light, row.beyond, row.why
+            )
         });
         let misjudged = result.is_misjudged().then(|| format!("{}: refused: {:?}", result.name, result.refused));
         lines.chain(misjudged).collect::<Vec<_>>()

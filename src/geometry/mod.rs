@@ -8,6 +8,7 @@ mod mtl;
 mod normals;
 mod obj;
 mod primitives;
+pub mod rays;
 pub mod sampled;
 mod simplify;
 mod text;

@@ -22,6 +22,8 @@ use crate::techniques::{Item, LightTerm, Notes, guides};
 pub struct Builder<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Item],
+    /// Objects whose meshes volumes' caps meet, into the scene's: they are drawn as they are.
+    pub kept: Vec<usize>,
     pub list: &'a mut PassList,
     pub notes: &'a mut Notes,
     pub request: &'a Request,
@@ -232,7 +234,7 @@ impl<'a> Builder<'a> {
     /// The items as every pass before this lens draws them.
     pub fn cut_items(&self, lens: &Lens) -> Cow<'a, [Item]> {
         let cutter = Cutter::for_eye(self.scene, &lens.camera.clip_from_world(), lens.camera.near());
-        cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items))
+        cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items, &self.kept))
     }
 }
 

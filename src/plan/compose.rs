@@ -25,7 +25,9 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     }
     let camera = Lens::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
-    let mut builder = Builder { scene, items: &items, list: &mut list, notes: &mut notes, request };
+    let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
+    let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
+    let mut builder = Builder { scene, items: &items, kept, list: &mut list, notes: &mut notes, request };
     let target = match request.subject {
         Subject::Camera => builder.camera_picture(&terms)?,
         Subject::Light(index) => builder.light_picture(index)?,

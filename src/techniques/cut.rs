@@ -13,8 +13,8 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use glam::{DMat4, DVec3, DVec4, Vec2, Vec3};
 
+use super::Item;
 use super::projector::{Projector, Rays};
-use super::{Item, needs_vertices};
 use crate::geometry::{Mesh, Part};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
@@ -82,17 +82,24 @@ impl Cutter {
         Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest, planes }
     }
 
-    /// For an eye; `None` where vertices must stay as they are: volumes' caps meet the surfaces that they are made from,
-    /// and light per vertex is of the file's vertices.
+    /// For an eye; `None` where vertices must stay as they are: light per vertex is of the file's vertices. Nor may be cut
+    /// what volumes' caps meet.
     pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
-        let may = !scene.shading.per_vertex && !needs_vertices(scene);
         let across = ORDINARY_FOR_CAMERA * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
-        may.then_some(Self { clip_from_world: *clip_from_world, across, along: f64::INFINITY, nearest: near, planes: &PLANES })
+        (!scene.shading.per_vertex).then_some(Self {
+            clip_from_world: *clip_from_world,
+            across,
+            along: f64::INFINITY,
+            nearest: near,
+            planes: &PLANES,
+        })
     }
 
-    /// All of `items`, of which those that reach too far are cut.
-    pub fn cut_all<'a>(&self, items: &'a [Item]) -> Cow<'a, [Item]> {
-        let cut: Vec<Cow<'a, Item>> = items.iter().flat_map(|item| self.cut(item)).collect();
+    /// All of `items`, of which those that reach too far are cut, but for those of the objects `kept`.
+    pub fn cut_all<'a>(&self, items: &'a [Item], kept: &[usize]) -> Cow<'a, [Item]> {
+        let may_cut = |item: &Item| !kept.contains(&item.object);
+        let cut_one = |item| if may_cut(item) { self.cut(item) } else { vec![Cow::Borrowed(item)] };
+        let cut: Vec<Cow<'a, Item>> = items.iter().flat_map(cut_one).collect();
         match cut.iter().any(|item| matches!(item, Cow::Owned(_))) {
             true => Cow::Owned(cut.into_iter().map(Cow::into_owned).collect()),
             false => Cow::Borrowed(items),

@@ -144,6 +144,8 @@ pub struct Counting {
     pub clamped: bool,
     /// Volumes need depth before the near plane: surfaces leave it to them (C8).
     pub ledge: bool,
+    /// Objects whose surfaces must stay as they are, since volumes' caps meet them: into [`Scene::objects`].
+    pub casters: Vec<usize>,
     /// The pixels that the light may reach, as [`DrawState::scissor`]; `None`: any.
     pub scissor: Option<[u32; 4]>,
     /// What a picture of the volumes shows: all of their sides and caps.

@@ -65,6 +65,7 @@ fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
         of_all: true,
         infinite: true,
         clamped: false,
+        casters: Vec::new(),
         ledge: false,
         scissor: None,
         volumes: vec![volume],

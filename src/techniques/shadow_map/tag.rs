@@ -30,6 +30,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         of_all: false,
         infinite: false,
         clamped: false,
+        casters: Vec::new(),
         ledge: false,
         scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: Vec::new(),

@@ -13,6 +13,8 @@ use crate::techniques::Item;
 /// An object that casts.
 pub struct Casting {
     pub label: String,
+    /// Into the scene's objects.
+    pub object: usize,
     pub caster: Arc<Caster>,
     pub world_from_model: DMat4,
     /// In model space, of the parts that cast.
@@ -32,6 +34,7 @@ pub fn casting(items: &[Item]) -> Vec<Casting> {
         let ranges: Vec<Range<u32>> = parts.iter().map(|part| part.indices.clone()).collect();
         casting.push(Casting {
             label: first.label.clone(),
+            object: first.object,
             caster: adjacency(&first.mesh.0, ranges),
             world_from_model: first.world_from_model,
             bounds: parts.iter().fold(Aabb::EMPTY, |bounds, part| bounds.union(part.bounds)),

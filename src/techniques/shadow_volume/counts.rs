@@ -7,7 +7,8 @@ use crate::pass::{Compare, DrawState, Face, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
-/// The passes for all shapes, way by way. Sums modulo 256 do not care for their order.
+/// The passes for all shapes, way by way. Sums modulo 256 do not care for their order; where counts stop at 0, all that
+/// count up come before all that count down.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
     let label = |what: &str| format!("light {}: {what}", view.index);
     let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
@@ -47,7 +48,26 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     clamped.state.depth_clamp = true;
     passes.push(clamped);
     passes.retain(|pass| !matches!(&pass.counted, Counted::Volumes(draws) if draws.is_empty()));
-    passes
+    if settings.wrap {
+        return passes;
+    }
+    let only = |op| passes.iter().flat_map(move |pass| counting_only(pass, op)).collect::<Vec<_>>();
+    [StencilOp::Invert, up, down].into_iter().flat_map(only).collect()
+}
+
+/// What of a pass does `op`: the whole of it where both faces do, or one face, the other culled.
+fn counting_only(pass: &CountPass, op: StencilOp) -> Option<CountPass> {
+    let stencil = pass.state.stencil?;
+    let does = |ops: StencilOps| ops.pass == op || ops.depth_fail == op;
+    match (does(stencil.front), does(stencil.back)) {
+        (false, false) => None,
+        (true, true) => Some(pass.clone()),
+        (front, _) => {
+            let (culled, what) = if front { (Face::Back, "front faces") } else { (Face::Front, "back faces") };
+            let label = if pass.state.cull.is_some() { pass.label.clone() } else { format!("{}, {what}", pass.label) };
+            Some(culling(culled, CountPass { label, ..pass.clone() }))
+        }
+    }
 }
 
 fn culling(face: Face, mut pass: CountPass) -> CountPass {

@@ -4,7 +4,9 @@
 mod casters;
 mod choice;
 mod counts;
+mod doubt;
 mod ends;
+mod points;
 mod settings;
 mod shapes;
 
@@ -60,13 +62,14 @@ impl Technique for ShadowVolume {
         let mut term = LightTerm::unshadowed(view.scene, view.index);
         term.dimming = settings.dimming;
         let casting = casting(view.items);
-        warn(view, &casting, notes);
+        explain(view, &casting, notes);
         let ways = choice::ways(view, &casting, &settings, notes);
         let shapes = shapes::shapes(view, &casting, &ways, source(view), &settings, notes);
         if shapes.is_empty() {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
+        doubt::warn(view, &casting, &ways, &settings, notes);
         term.counting = Some(counting(view, &shapes, &settings));
         Ok(term)
     }
@@ -78,8 +81,10 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         passes: counts::passes(view, shapes, settings),
         redraw: settings.redraw,
         of_all: false,
-        infinite: has(Way::ZFail),
+        // The end of a truncated volume may lie beyond the camera's far plane too.
+        infinite: has(Way::ZFail) || has(Way::ZFailTruncated),
         clamped: has(Way::ZFailClamped),
+        casters: shapes.iter().map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped),
         scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
@@ -96,15 +101,9 @@ fn source(view: &LightView<'_>) -> Source {
     }
 }
 
-/// What a reader of the plan should know: holes that volumes do not have, and how soups are counted.
-fn warn(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
+/// How soups are counted.
+fn explain(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
     for caster in casting {
-        if caster.has_holes {
-            notes.warnings.push(format!(
-                "{}: its holes by the alpha test let light {} through, but its shadow volume has none",
-                caster.label, view.index
-            ));
-        }
         let open = caster.caster.shells().iter().filter(|shell| shell.kind != Kind::Closed).count();
         if open > 0 {
             let all = caster.caster.shells().len();

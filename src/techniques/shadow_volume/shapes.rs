@@ -18,6 +18,8 @@ use crate::techniques::{LightView, Notes};
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
     pub way: Way,
+    /// Its caster, into the scene's objects.
+    pub object: usize,
     pub sides: VolumeDraw,
     /// At the caster's own surface, or on the near plane; then the same with its front faces reversed; at the far end.
     pub caps: Vec<VolumeDraw>,
@@ -107,10 +109,15 @@ fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.
-fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
-    let world = settings.distance.unwrap_or_else(|| 2.0 * view.scene.world_bounds().radius());
+pub fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
+    let world = settings.distance.unwrap_or_else(|| default_distance(view));
     let scale = caster.world_from_model.determinant().abs().cbrt();
     world / scale
+}
+
+/// How far truncated volumes reach where nothing else is asked for, in world units.
+pub fn default_distance(view: &LightView<'_>) -> f64 {
+    2.0 * view.scene.world_bounds().radius()
 }
 
 /// What a draw is called, and where it stands.
@@ -146,7 +153,7 @@ impl Name<'_> {
         let reversed = VolumeDraw { reversed: true, ..draw("averted light cap", volume.light_cap_reversed()) };
         let caps = [draw("light cap", volume.light_cap()), reversed, draw("far cap", volume.far_cap())];
         let caps = caps.into_iter().filter(|cap| !cap.indices.is_empty()).collect();
-        Shape { way, sides: draw("sides", volume.sides()), caps, silhouette }
+        Shape { way, object: self.caster.object, sides: draw("sides", volume.sides()), caps, silhouette }
     }
 
     fn capped(&self, volume: &CappedVolume, silhouette: VolumeDraw) -> Shape {
@@ -154,7 +161,13 @@ impl Name<'_> {
         let draw = |what, indices| self.draw(what, &mesh, indices, VolumeSpace::Eye);
         let cap = draw("near cap", volume.near_cap());
         let caps = if cap.indices.is_empty() { Vec::new() } else { vec![cap] };
-        Shape { way: Way::ZPassCapped, sides: draw("sides", volume.sides()), caps, silhouette }
+        Shape {
+            way: Way::ZPassCapped,
+            object: self.caster.object,
+            sides: draw("sides", volume.sides()),
+            caps,
+            silhouette,
+        }
     }
 
     fn silhouette(&self, outline: &Outline) -> VolumeDraw {

@@ -1,0 +1,177 @@
+//! Warnings of counts that cannot be right. What is seen is sampled, and the count that the settings lead to is held
+//! against whether the light reaches it.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::casters::Casting;
+use super::choice::Way;
+use super::points::{Point, World};
+use super::settings::{Method, Settings};
+use super::shapes::model_distance;
+use crate::geometry::volume::Kind;
+use crate::techniques::{LightView, Notes};
+
+/// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
+const MOST_SAMPLES: u32 = 20_000;
+
+/// A sample counts as wrong only if so much aside, in pixels, is wrong too: GL rounds places to 1/256 of a pixel.
+const ASIDE: f64 = 1.0 / 64.0;
+
+/// Of layers that a stencil count tells apart.
+const LAYERS: u32 = 256;
+
+/// Why a sample is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Fault {
+    Hole,
+    NearInVolume,
+    EvenCount,
+    Ended,
+    TooMany,
+}
+
+/// Says why pixels will be wrong, where a sample finds some. Nothing is sampled where nothing can be.
+pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
+    let drawn: Vec<&Casting> =
+        casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
+    warn_of_reach(view, notes);
+    if !may_be_wrong(&drawn, settings.method) {
+        return;
+    }
+    let distance = |caster: &Casting| model_distance(view, caster, settings);
+    let ends = settings.method == Method::ZFailTruncated;
+    let world = World::new(view, &drawn, if ends { Some(&distance) } else { None });
+    let [width, height] = view.scene.image.size;
+    let step = (f64::from(width) * f64::from(height) / f64::from(MOST_SAMPLES)).sqrt().max(1.0);
+    let [across, down] = [width, height].map(|size| (f64::from(size) / step).ceil() as u32);
+    let samples = (0..across * down).into_par_iter().filter_map(|index| {
+        let place = (DVec2::new(f64::from(index % across), f64::from(index / across)) + 0.5) * step;
+        let point = world.at(place)?;
+        if settings.wrap && may_wrap(&point) {
+            return Some((Fault::TooMany, point));
+        }
+        let fault = fault(&point, settings)?;
+        let aside = [DVec2::splat(ASIDE), DVec2::splat(-ASIDE)];
+        let is_sure = aside.iter().all(|by| {
+            let beside = world.at(place + *by);
+            beside.is_some_and(|beside| self::fault(&beside, settings).is_some())
+        });
+        is_sure.then_some((fault, point))
+    });
+    let wrong: Vec<(Fault, Point)> = samples.collect();
+    for fault in [Fault::Hole, Fault::NearInVolume, Fault::EvenCount, Fault::Ended, Fault::TooMany] {
+        let points: Vec<Point> = wrong.iter().filter(|(own, _)| *own == fault).map(|(_, point)| *point).collect();
+        if !points.is_empty() {
+            let what = describe(fault, &points, &drawn, settings, view);
+            let share = format!("{} of {} sampled pixels are wrong", points.len(), across * down);
+            notes.warnings.push(format!("light {}: {what}; {share}", view.index));
+        }
+    }
+}
+
+/// A share of a pixel that rounding may move an edge by without turning pixels over.
+const MOST_MOVED: f64 = 0.2;
+
+/// Warns of triangles so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
+/// their casters' own vertices, which hence cannot be cut before.
+fn warn_of_reach(view: &LightView<'_>, notes: &mut Notes) {
+    let camera = &view.scene.camera;
+    let corners = view.items.iter().flat_map(|item| {
+        item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner).distance(camera.eye))
+    });
+    let farthest = corners.fold(0.0, f64::max);
+    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
+    let moved = farthest * 2.0_f64.powi(-23);
+    let height = 2.0 * (0.5 * camera.fov_y_radians).tan() * camera.target.distance(camera.eye);
+    let pixel = height / f64::from(view.scene.image.size[1]);
+    if moved > MOST_MOVED * pixel {
+        notes.warnings.push(format!(
+            "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.1} pixels: edges of shadow volumes are \
+             as far off",
+            view.index,
+            moved / pixel
+        ));
+    }
+}
+
+fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
+    let is_partial = matches!(method, Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZFailTruncated);
+    is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
+}
+
+/// How many volumes may hold one point: an open shell's triangles one by one, and of a closed one two that face the light.
+fn most_layers(drawn: &[&Casting]) -> usize {
+    let shells = drawn.iter().flat_map(|caster| caster.caster.shells());
+    shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
+}
+
+/// Whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
+fn may_wrap(point: &Point) -> bool {
+    let most = point.within + point.doubtful;
+    most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS
+}
+
+/// What makes a pixel wrong; `None`: it is right, or the depth buffer's rounding decides.
+fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
+    if point.doubtful > 0 {
+        return None;
+    }
+    let within = match settings.method {
+        Method::ZFailTruncated => point.within_ended,
+        _ => point.within,
+    };
+    let before = match settings.method {
+        Method::Parity | Method::ZPass | Method::ZPassTwoSided => point.before,
+        _ => 0,
+    };
+    let count = i64::from(within) - i64::from(before);
+    let is_dark = match (settings.method, settings.wrap) {
+        (Method::Parity, _) => count % 2 != 0,
+        (_, true) => count % i64::from(LAYERS) != 0,
+        (_, false) => count > 0,
+    };
+    (is_dark != point.is_shadowed).then_some(match () {
+        () if point.within > 0 && !point.is_shadowed => Fault::Hole,
+        () if within != point.within && before == 0 => Fault::Ended,
+        () if before > 0 => Fault::NearInVolume,
+        () if settings.method == Method::Parity => Fault::EvenCount,
+        () => Fault::TooMany,
+    })
+}
+
+fn describe(fault: Fault, points: &[Point], drawn: &[&Casting], settings: &Settings, view: &LightView<'_>) -> String {
+    let most = |of: fn(&Point) -> u32| points.iter().map(of).max().unwrap_or(0);
+    match fault {
+        Fault::Hole => {
+            let mut names: Vec<&str> =
+                drawn.iter().filter(|caster| caster.has_holes).map(|caster| caster.label.as_str()).collect();
+            names.dedup();
+            format!("{} has holes by the alpha test, and its shadow volume has none", names.join(", "))
+        }
+        Fault::NearInVolume => {
+            format!(
+                "the eye's near rectangle stands in up to {} shadow volumes, which `method` does not count",
+                most(|point| point.before)
+            )
+        }
+        Fault::EvenCount => {
+            format!("what is seen lies in up to {} shadow volumes, and an even number of them is light", {
+                most(|point| point.within)
+            })
+        }
+        Fault::Ended => {
+            let behind = points.iter().map(|point| point.behind).fold(0.0, f64::max);
+            let distance = settings.distance.unwrap_or_else(|| super::shapes::default_distance(view));
+            format!(
+                "volumes that end after {distance:.3} units end before what they shadow, up to {behind:.3} behind its caster"
+            )
+        }
+        Fault::TooMany => {
+            format!(
+                "what is seen lies in up to {} shadow volumes, and {LAYERS} of them count as none",
+                most(|point| point.within)
+            )
+        }
+    }
+}

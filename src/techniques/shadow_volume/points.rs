@@ -1,0 +1,255 @@
+//! Points that the camera sees, and what is true of them: how many volumes hold each, and whether light reaches it. By
+//! rays through pixels, in f64.
+
+use glam::{DVec2, DVec3};
+
+use super::casters::Casting;
+use super::source;
+use crate::geometry::Texture;
+use crate::geometry::rays::{Ray, Triangles};
+use crate::geometry::volume::{Outline, Source};
+use crate::scene::{LightKind, LightShape};
+use crate::techniques::{Item, LightView};
+
+/// What lies so near a point's own plane, relative to the segment from the light, is in it.
+const IN_PLANE: f64 = 1e-9;
+
+/// What is known of a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// How many volumes hold it.
+    pub within: u32,
+    /// The same for volumes that end at the given distance.
+    pub within_ended: u32,
+    /// Volumes at whose surface it lies, within the depth buffer's rounding: they may hold it or not.
+    pub doubtful: u32,
+    /// How many hold the point of the near rectangle on the same ray.
+    pub before: u32,
+    pub is_shadowed: bool,
+    /// How far behind the first caster that shadows it, in world units.
+    pub behind: f64,
+}
+
+/// What there is to see and to count.
+pub struct World<'a> {
+    view: &'a LightView<'a>,
+    source: Source,
+    surfaces: Triangles,
+    /// Of each triangle of `surfaces`: its item, and its number there.
+    owners: Vec<(usize, u32)>,
+    counted: Triangles,
+    /// The far ends of `counted`, where volumes end.
+    ended: Vec<[DVec3; 3]>,
+    has_holes: bool,
+    eye: Eye,
+    /// Of all coordinates.
+    largest: f64,
+}
+
+/// A ray's parameter is the depth along the camera's axis.
+struct Eye {
+    ahead: DVec3,
+    /// A pixel's width and height at depth 1.
+    right: DVec3,
+    up: DVec3,
+}
+
+impl<'a> World<'a> {
+    /// Of the volumes of `casting`. `distance`: how far each caster's volume goes, in its model's units, if it ends.
+    pub fn new(view: &'a LightView<'a>, casting: &[&Casting], distance: Option<&dyn Fn(&Casting) -> f64>) -> Self {
+        let (mut surfaces, mut owners) = (Vec::new(), Vec::new());
+        for (owner, item) in view.items.iter().enumerate() {
+            for triangle in 0..(item.indices.end - item.indices.start) / 3 {
+                let corners = vertices(item, triangle).map(|vertex| item.mesh.positions[vertex].map(f64::from));
+                surfaces.push(corners.map(|corner| item.world_from_model.transform_point3(DVec3::from_array(corner))));
+                owners.push((owner, triangle));
+            }
+        }
+        let (mut counted, mut ended) = (Vec::new(), Vec::new());
+        let mut outline = Outline::default();
+        for caster in casting {
+            let light = source(view).transformed(&caster.world_from_model.inverse());
+            outline.find(&caster.caster, light);
+            let to_world = |corner| caster.world_from_model.transform_point3(corner);
+            let weighed = caster.caster.triangles().iter().zip(outline.weights());
+            for (places, _) in weighed.filter(|(_, weight)| **weight != 0) {
+                let positions = caster.caster.positions();
+                let corners = places.map(|place| DVec3::from_array(positions[place as usize].map(f64::from)));
+                counted.push(corners.map(to_world));
+                if let Some(distance) = distance {
+                    let end = |corner| corner + distance(caster) * light.away(corner).normalize_or_zero();
+                    ended.push(corners.map(|corner| to_world(end(corner))));
+                }
+            }
+        }
+        let camera = &view.scene.camera;
+        let ahead = (camera.target - camera.eye).normalize();
+        let right = ahead.cross(camera.up).normalize();
+        let pixel = 2.0 * (0.5 * camera.fov_y_radians).tan() / f64::from(view.scene.image.size[1]);
+        let eye = Eye { ahead, right: pixel * right, up: pixel * right.cross(ahead) };
+        let largest = surfaces.iter().flatten().fold(camera.eye.abs(), |most, corner| most.max(corner.abs()));
+        Self {
+            view,
+            source: source(view),
+            surfaces: Triangles::new(surfaces),
+            owners,
+            counted: Triangles::new(counted),
+            ended,
+            has_holes: casting.iter().any(|caster| caster.has_holes),
+            eye,
+            largest: largest.max_element(),
+        }
+    }
+
+    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what the light
+    /// cannot reach.
+    pub fn at(&self, place: DVec2) -> Option<Point> {
+        let camera = &self.view.scene.camera;
+        let [width, height] = self.view.scene.image.size.map(f64::from);
+        let way = self.eye.ahead + (place.x - 0.5 * width) * self.eye.right + (0.5 * height - place.y) * self.eye.up;
+        let ray = Ray { origin: camera.eye, way, start: camera.near, end: camera.far };
+        let mut seen: Option<(f64, u32)> = None;
+        self.surfaces.crossings(&ray, |triangle, t| {
+            if seen.is_none_or(|(nearest, _)| t < nearest) && self.is_opaque(triangle, ray.origin + t * way) {
+                seen = Some((t, triangle));
+            }
+        });
+        let (depth, own) = seen?;
+        let point = camera.eye + depth * way;
+        if !self.is_in_cone(point) {
+            return None;
+        }
+        // Four codes of 24 bits, and what f32 rounds positions by.
+        let doubt = (depth * depth / camera.near * way.length()) * 2.0_f64.powi(-22) + self.largest * 2.0_f64.powi(-21);
+        let near = self.toward(camera.eye + camera.near * way);
+        let mut before = 0;
+        self.counted.crossings(&near, |_, _| before += 1);
+        Some(self.held(point, way, own, doubt, before))
+    }
+
+    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64, before: u32) -> Point {
+        let ray = self.toward(point);
+        let length = ray.way.length();
+        let longer = Ray { end: 1.0 + (4.0 * doubt / length).clamp(IN_PLANE, 1.0), ..ray };
+        let normal = normal(self.surfaces.corners(own));
+        let is_averted = normal.dot(ray.way) * normal.dot(way) < 0.0;
+        // Whether a crossing lies before the point; `None` where its distance from the point is in doubt.
+        let is_before = |corners: &[DVec3; 3], t: f64| {
+            let other = self::normal(corners);
+            let gap = other.dot(point - corners[0]).abs();
+            if gap <= IN_PLANE * (length + self.largest) && other.dot(normal).abs() > 1.0 - IN_PLANE {
+                Some(is_averted)
+            } else if gap <= doubt {
+                None
+            } else {
+                Some(t < 1.0)
+            }
+        };
+        let (mut within, mut within_ended, mut doubtful, mut first) = (0, 0, 0, f64::INFINITY);
+        self.counted.crossings(&longer, |triangle, t| match is_before(self.counted.corners(triangle), t) {
+            Some(true) => {
+                within += 1;
+                within_ended += u32::from(self.goes_on(triangle, &ray));
+                first = first.min(t);
+            }
+            Some(false) => {}
+            None => doubtful += 1,
+        });
+        let mut is_shadowed = within > 0;
+        if self.has_holes && is_shadowed {
+            is_shadowed = false;
+            self.surfaces.crossings(&longer, |triangle, t| {
+                if self.view.items[self.owners[triangle as usize].0].casts_shadow
+                    && is_before(self.surfaces.corners(triangle), t) == Some(true)
+                    && self.is_opaque(triangle, ray.origin + t * ray.way)
+                {
+                    is_shadowed = true;
+                }
+            });
+        }
+        let behind = (1.0 - first).max(0.0) * length;
+        Point { within, within_ended, doubtful, before, is_shadowed, behind }
+    }
+
+    /// From the light to a point, which has t = 1.
+    fn toward(&self, point: DVec3) -> Ray {
+        let away = self.source.away(point);
+        let way = match self.source {
+            Source::Point(_) => away,
+            // From beyond all there is.
+            Source::Direction(_) => away.normalize() * (4.0 * (self.largest + point.abs().max_element())),
+        };
+        Ray { origin: point - way, way, start: 0.0, end: 1.0 }
+    }
+
+    /// Whether the volume of a triangle that the ray crosses ends beyond t = 1, if it ends.
+    fn goes_on(&self, triangle: u32, ray: &Ray) -> bool {
+        let Some(end) = self.ended.get(triangle as usize) else { return true };
+        let normal = (end[1] - end[0]).cross(end[2] - end[0]);
+        normal.dot(end[0] - ray.origin) / normal.dot(ray.way) > 1.0
+    }
+
+    fn is_in_cone(&self, point: DVec3) -> bool {
+        let LightKind::Spot(spot) = &self.view.light().kind else { return true };
+        let clip = spot.frustum.clip_from_world() * point.extend(1.0);
+        let across = DVec2::new(clip.x, clip.y);
+        clip.w > 0.0
+            && match spot.shape {
+                LightShape::Cone => across.length() < clip.w,
+                LightShape::Frustum => across.abs().max_element() < clip.w,
+            }
+    }
+
+    /// Whether a triangle's surface passes the alpha test at a point of it.
+    fn is_opaque(&self, triangle: u32, point: DVec3) -> bool {
+        let (owner, number) = self.owners[triangle as usize];
+        let item = &self.view.items[owner];
+        if !(item.needs_alpha_test() && item.has_texcoords()) {
+            return true;
+        }
+        let [a, b, c] = *self.surfaces.corners(triangle);
+        let area = (b - a).cross(c - a);
+        let share = |cross: DVec3| cross.dot(area) / area.length_squared();
+        let (v, w) = (share((point - a).cross(c - a)), share((b - a).cross(point - a)));
+        let [ta, tb, tc] = vertices(item, number).map(|vertex| texcoord(item, vertex));
+        let at = ta + v * (tb - ta) + w * (tc - ta);
+        let decal = item.decal().filter(|decal| decal.has_alpha).map_or(1.0, |decal| lookup(decal, 3, at));
+        let alpha = item.material.alpha.as_ref();
+        let alpha = alpha.map_or(1.0, |map| lookup(map, if map.has_alpha { 3 } else { 0 }, at));
+        f64::from(item.material.opacity) * decal * alpha >= 0.5
+    }
+}
+
+fn normal([a, b, c]: &[DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// The three of an item's triangle, into its mesh's arrays.
+fn vertices(item: &Item, triangle: u32) -> [usize; 3] {
+    let first = (item.indices.start + 3 * triangle) as usize;
+    [0, 1, 2].map(|k| item.mesh.indices[first + k] as usize)
+}
+
+fn texcoord(item: &Item, vertex: usize) -> DVec2 {
+    let Some(texgen) = &item.material.texgen else {
+        let own = item.mesh.texcoords.as_ref().and_then(|all| all.get(vertex));
+        return own.map_or(DVec2::ZERO, |own| DVec2::from_array(own.map(f64::from)));
+    };
+    let [x, y, z] = item.mesh.positions[vertex];
+    let on = |plane: [f32; 4]| f64::from(plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
+    f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t))
+}
+
+/// LINEAR and REPEAT, as in [`crate::techniques::items::ALPHA_SAMPLER`]; in [0, 1].
+fn lookup(texture: &Texture, channel: usize, at: DVec2) -> f64 {
+    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
+    let texel = at * size - 0.5;
+    let (corner, weight) = (texel.floor(), texel - texel.floor());
+    let fetch = |dx: f64, dy: f64| {
+        let wrapped = (corner + DVec2::new(dx, dy)).rem_euclid(size);
+        let index = wrapped.y as usize * texture.width as usize + wrapped.x as usize;
+        texture.rgba.get(4 * index + channel).map_or(0.0, |byte| f64::from(*byte) / 255.0)
+    };
+    let row = |dy| fetch(0.0, dy) * (1.0 - weight.x) + fetch(1.0, dy) * weight.x;
+    row(0.0) * (1.0 - weight.y) + row(1.0) * weight.y
+}
