@@ -76,6 +76,12 @@ fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> 
     (errors.compared > 500).then_some(errors)
 }
 
+fn warnings(scene: &Scene, keys: &str) -> Vec<String> {
+    let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
+    let scene = with_shadow(scene, 0, &scene::shadow_settings(&keys).unwrap());
+    glumbra::plan::make(&scene, &glumbra::plan::Request::default()).unwrap().warnings
+}
+
 fn truth(scene: &Scene) -> Option<Truth> {
     ray::trace(scene, 0, &ray::Options { most_ambiguous: 0.2, ..Default::default() }).ok()
 }
@@ -144,6 +150,7 @@ fn random_scenes_under_a_sun() {
 fn floors_as_large_as_may_be() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
+    let mut wrong = Vec::new();
     let spot =
         "kind = \"spot\"\nposition = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\nnear = 0.5\nfar = 20.0\n";
     let point = "kind = \"point\"\nposition = [2.0, 4.0, 3.0]\nnear = 0.5\nfar = 200.0\n";
@@ -166,8 +173,14 @@ fn floors_as_large_as_may_be() {
             let all = ["bias = \"offset\"", "kernel = \"5x5\"", "compare = \"gequal\", format = \"depth32f\""];
             for keys in all.iter().chain(square.iter().filter(|_| light != point)) {
                 let Some(errors) = errors(&scene, &truth, keys, &mut renderer) else { continue };
-                assert!(errors.wrong_percent < 0.3, "{half}, {light}, {keys}: {} %", errors.wrong_percent);
+                // A sun's box is at least a thousandth as wide as it is deep, and an oblique floor makes it deep: its texels
+                // are then coarse, up to the share from which on the plan warns.
+                let most = if light == sun { 1.5 } else { 0.3 };
+                if errors.wrong_percent >= most && warnings(&scene, keys).is_empty() {
+                    wrong.push(format!("{half}, {far} {light} {keys}: {} %", errors.wrong_percent));
+                }
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -125,14 +125,18 @@ fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
         Method::Parity | Method::ZPass | Method::ZPassTwoSided => point.before,
         _ => 0,
     };
-    let count = i64::from(within) - i64::from(before);
+    let through_holes = match settings.method {
+        Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZPassCapped => point.through_holes,
+        _ => 0,
+    };
+    let count = i64::from(within) - i64::from(before) - i64::from(through_holes);
     let is_dark = match (settings.method, settings.wrap) {
         (Method::Parity, _) => count % 2 != 0,
         (_, true) => count % i64::from(LAYERS) != 0,
         (_, false) => count > 0,
     };
     (is_dark != point.is_shadowed).then_some(match () {
-        () if point.within > 0 && !point.is_shadowed => Fault::Hole,
+        () if (point.within > 0 && !point.is_shadowed) || through_holes != 0 => Fault::Hole,
         () if within != point.within && before == 0 => Fault::Ended,
         () if before > 0 => Fault::NearInVolume,
         () if settings.method == Method::Parity => Fault::EvenCount,

@@ -25,6 +25,9 @@ pub struct Point {
     pub doubtful: u32,
     /// How many hold the point of the near rectangle on the same ray.
     pub before: u32,
+    /// How many it is seen to enter through holes of their casters, less those that it is seen to leave: without caps
+    /// z-pass does not count them.
+    pub through_holes: i32,
     pub is_shadowed: bool,
     /// How far behind the first caster that shadows it, in world units.
     pub behind: f64,
@@ -124,10 +127,19 @@ impl<'a> World<'a> {
         let near = self.toward(camera.eye + camera.near * way);
         let mut before = 0;
         self.counted.crossings(&near, |_, _| before += 1);
-        Some(self.held(point, way, own, doubt, before))
+        let mut through_holes = 0;
+        if self.has_holes {
+            // What stands before the point and is not seen is a hole.
+            self.counted.crossings(&Ray { end: depth - doubt / way.length(), ..ray }, |triangle, t| {
+                let normal = normal(self.counted.corners(triangle));
+                let light_ray = self.source.away(ray.origin + t * way);
+                through_holes += if normal.dot(light_ray) * normal.dot(way) > 0.0 { 1 } else { -1 };
+            });
+        }
+        Some(Point { before, through_holes, ..self.held(point, way, own, doubt) })
     }
 
-    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64, before: u32) -> Point {
+    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64) -> Point {
         let ray = self.toward(point);
         let length = ray.way.length();
         let longer = Ray { end: 1.0 + (4.0 * doubt / length).clamp(IN_PLANE, 1.0), ..ray };
@@ -168,7 +180,7 @@ impl<'a> World<'a> {
             });
         }
         let behind = (1.0 - first).max(0.0) * length;
-        Point { within, within_ended, doubtful, before, is_shadowed, behind }
+        Point { within, within_ended, doubtful, before: 0, through_holes: 0, is_shadowed, behind }
     }
 
     /// From the light to a point, which has t = 1.
