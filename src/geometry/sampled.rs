@@ -96,7 +96,9 @@ impl Sampled {
         let normal = (b - a).cross(c - a);
         let share = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.length_squared();
         let weights = [share(b, c), share(c, a), share(a, b)];
-        let at = |index: u32| texcoords.get(index as usize).map_or(DVec2::ZERO, |[s, t]| DVec2::new(f64::from(*s), f64::from(*t)));
+        let at = |index: u32| {
+            texcoords.get(index as usize).map_or(DVec2::ZERO, |[s, t]| DVec2::new(f64::from(*s), f64::from(*t)))
+        };
         let corners = self.vertices(triangle);
         Some((0..3).map(|k| weights[k] * at(corners[k])).sum())
     }

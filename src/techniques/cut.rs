@@ -81,7 +81,13 @@ impl Cutter {
     pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
         let may = !scene.shading.per_vertex && !needs_vertices(scene);
         let across = ORDINARY_FOR_CAMERA * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
-        may.then_some(Self { clip_from_world: *clip_from_world, across, along: f64::INFINITY, nearest: near, planes: &PLANES })
+        may.then_some(Self {
+            clip_from_world: *clip_from_world,
+            across,
+            along: f64::INFINITY,
+            nearest: near,
+            planes: &PLANES,
+        })
     }
 
     /// All of `items`, of which those that reach too far are cut.

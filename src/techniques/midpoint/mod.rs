@@ -28,7 +28,7 @@ use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::doubt;
-use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
+use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
@@ -157,9 +157,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        // A gap of four codes counts as none, see `margin`.
-        let polygon = PolygonOffset { factor: 0.0, units: 3.0 };
-        doubt::warn(view, &settings.map, &Offset { polygon, texels: 0.0 }, notes);
+        doubt::warn(view, &settings.map, &doubt::WITHOUT_OFFSET, notes);
         Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
     }
 }

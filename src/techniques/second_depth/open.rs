@@ -55,10 +55,15 @@ pub fn warn(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, note
             )
         };
         if wrong.lit > 0 {
-            notes.warnings.push(format!("{} that it shadows: it has no far side there", says(wrong.lit, "lit by mistake are")));
+            notes
+                .warnings
+                .push(format!("{} that it shadows: it has no far side there", says(wrong.lit, "lit by mistake are")));
         }
         if wrong.dark > 0 {
-            notes.warnings.push(format!("{}: a far side lies at the very depth of what is lit", says(wrong.dark, "dark by mistake are")));
+            notes.warnings.push(format!(
+                "{}: a far side lies at the very depth of what is lit",
+                says(wrong.dark, "dark by mistake are")
+            ));
         }
     }
 }
@@ -118,16 +123,17 @@ impl Sampler<'_> {
         let across = self.view.projector.light_from_world.transpose();
         let [x, y] = [across.x_axis, across.y_axis].map(|axis| axis.truncate());
         let signature = signature(&met, slack);
-        let is_alike = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
-            .into_iter()
-            .all(|(right, up)| {
-                // In the seen triangle's plane, so that what lies at its depth stays there.
-                let moved = point.point + reach * (right * x + up * y);
-                let way = to_light(moved, rays);
-                let moved = moved + way * (point.normal.dot(point.point - moved) / point.normal.dot(way));
-                let there = on_the_way(self.items, &Seen { point: moved, ..*point }, -slack, rays);
-                self::signature(&there, slack) == signature
-            });
+        let is_alike =
+            [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                .into_iter()
+                .all(|(right, up)| {
+                    // In the seen triangle's plane, so that what lies at its depth stays there.
+                    let moved = point.point + reach * (right * x + up * y);
+                    let way = to_light(moved, rays);
+                    let moved = moved + way * (point.normal.dot(point.point - moved) / point.normal.dot(way));
+                    let there = on_the_way(self.items, &Seen { point: moved, ..*point }, -slack, rays);
+                    self::signature(&there, slack) == signature
+                });
         is_alike.then_some(verdict)
     }
 
