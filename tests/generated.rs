@@ -12,6 +12,7 @@ use glumbra::plan::{Plan, Request};
 use glumbra::report::metrics::{Band, Metrics, compare};
 use glumbra::report::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::stress;
 
 /// Of a filter of two texels, and one for what lies askew.
 const BAND_TEXELS: f64 = 3.0;
@@ -327,4 +328,51 @@ fn far_sides_are_right_or_named() {
         });
     }
     assert!(wrong > 2 && named <= 10, "{wrong} wrong, {named} named: only a third have open casters");
+}
+
+/// Random scenes and named cases, drawn by every setting of the technique: right, or warned of.
+fn assert_nothing_silently_wrong(technique: &str, named: &[&str]) {
+    let named = stress::named::cases().unwrap().into_iter().filter(|case| named.contains(&case.name.as_str()));
+    let cases: Vec<_> = (10..30).map(|index| stress::random::case(1, index)).chain(named).collect();
+    let options = stress::Options {
+        jobs: 2,
+        technique: Some(technique.to_owned()),
+        pictures: false,
+        context: ContextRequest::default(),
+    };
+    let mut wrong = Vec::new();
+    stress::run(&cases, &options, &Default::default(), |_, result| {
+        let rows = result.rows.iter().filter(|row| row.verdict == stress::Verdict::SilentlyWrong);
+        wrong.extend(rows.map(|row| format!("{}, light {}: {}", result.name, row.light, row.settings.to_inline())));
+    })
+    .unwrap();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Wound both ways, inwards, given in both windings, open: what a map of far sides loses is found by rays.
+#[test]
+fn far_sides_are_never_silently_wrong() {
+    assert_nothing_silently_wrong("second-depth", &["mesh-mixed-box-spot", "mesh-both-sides-spot", "cone-1.789e2"]);
+}
+
+/// A square given in both windings is one layer in float maps, too; too few codes or texels are said.
+#[test]
+fn midpoints_are_never_silently_wrong() {
+    assert_nothing_silently_wrong(
+        "midpoint",
+        &["mesh-both-sides-spot", "cone-1.789e2", "map-size-1e0", "light-near-1e8"],
+    );
+}
+
+/// A floor behind which nothing lies needs no far side, and closed casters are not refused for it.
+#[test]
+fn floors_need_no_far_side() {
+    let mut judge = Judge::new();
+    for seed in 0..4 {
+        let mut random = Random::new(seed);
+        let (mut text, _) = random.head("spot", 0.4, 30.0);
+        text += FLOOR;
+        text += "[[object]]\nmesh = \"box\"\nscale = 0.4\ntranslate = [0.0, 0.8, 0.0]\n";
+        judge.judge(&text, &["technique = \"second-depth\""], |keys, _, found| assert_right(keys, found, &text));
+    }
 }

@@ -8,8 +8,8 @@
 //!
 //! # Pitfalls that the document does not mention
 //! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer
-//!   lies behind itself. That is moved towards the light by two codes of the format, which no rounding reaches;
-//!   float maps keep the fragment's own bits. Both passes compute positions by the same arithmetic.
+//!   lies behind itself. That is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
+//!   rounding reaches: nor that by which two triangles in one plane differ.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
 //!   `tests/layers.rs`) and costs nothing. It is right where all that can be shadowed is a layer, so that the second one
 //!   has what casts no shadow too, and both are drawn under GL_DEPTH_CLAMP where something lies beyond the far plane:
@@ -28,7 +28,7 @@ use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::doubt;
-use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
+use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
@@ -157,9 +157,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        // Half of a gap is left of it, less the two codes by which layers are told apart.
-        let polygon = PolygonOffset { factor: 0.0, units: 1.0 };
-        doubt::warn(view, &settings.map, &Offset { polygon, texels: 0.0 }, notes);
+        doubt::warn(view, &settings.map, &doubt::WITHOUT_OFFSET, notes);
         Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
     }
 }
@@ -243,13 +241,12 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
     ending
 }
 
-/// Two codes of a format of fixed point, one for the rounding when a depth is stored [GL 4.6, 2.3.5.2: either of the
-/// two nearest], one for that when it is fetched; at 32 bits, of the float that drivers compute it in. A float format
-/// stores the fragment's depth as it is.
+/// Two codes of 16 bits: one for the rounding when a depth is stored [GL 4.6, 2.3.5.2: either of the two nearest], one for
+/// that when it is fetched. Of more bits, four steps of the f32 that drivers interpolate depth in: two triangles in one
+/// plane, such as a face given in both windings, differ by as many.
 fn margin(format: DepthFormat) -> f32 {
     match format {
         DepthFormat::Depth16 => 2.0 / 65535.0,
-        DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0 / 16_777_215.0,
-        DepthFormat::Depth32F => 4.0 / 16_777_216.0,
+        DepthFormat::Depth24 | DepthFormat::Depth32 | DepthFormat::Depth32F => 4.0 / 16_777_216.0,
     }
 }

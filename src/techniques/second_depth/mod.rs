@@ -14,6 +14,7 @@ use std::sync::Arc;
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
+use super::shadow_map::doubt;
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
@@ -102,6 +103,7 @@ impl Technique for SecondDepth {
         let layer = Layer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
+        doubt::warn(view, &settings, &doubt::WITHOUT_OFFSET, notes);
         Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))
     }
 }

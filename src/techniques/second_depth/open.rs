@@ -17,7 +17,7 @@ use crate::techniques::{FrustumView, Item, Notes};
 /// No more points than this are looked at, at the middles of pixels.
 const MOST_SAMPLES: u32 = 20_000;
 
-/// Lengths below this share of a point's coordinates and of its distance from the light are none.
+/// Lengths below this share of a point's coordinates and of its distance from the eye are none.
 const SLACK: f64 = 1e-7;
 
 /// Points that go wrong because of one item.
@@ -115,9 +115,10 @@ impl Sampler<'_> {
             Rays::From { position, .. } => position.distance(point.point),
             Rays::Along(_) => 1.0,
         };
-        let slack = SLACK * (point.point.abs().max_element() + length) / length;
+        let eye = point.point.distance(self.view.scene.camera.eye);
+        let slack = SLACK * (point.point.abs().max_element() + eye) / length;
         let met = on_the_way(self.items, point, -slack, rays);
-        let verdict = self.verdict(point, &met, length, slack)?;
+        let verdict = self.verdict(point, &met, slack)?;
         let reach = self.texel_at(point.point) * (bias::reach_texels(self.settings) + 1.0);
         let across = self.view.projector.light_from_world.transpose();
         let [x, y] = [across.x_axis, across.y_axis].map(|axis| axis.truncate());
@@ -136,7 +137,7 @@ impl Sampler<'_> {
         is_alike.then_some(verdict)
     }
 
-    fn verdict(&self, point: &Seen, met: &[Met], length: f64, slack: f64) -> Option<Verdict> {
+    fn verdict(&self, point: &Seen, met: &[Met], slack: f64) -> Option<Verdict> {
         let is_here = |met: &Met| met.is_own || met.t.abs() <= slack;
         let in_map = |met: &Met| self.items[met.item].in_map;
         let before = met.iter().filter(|met| !is_here(met));
@@ -146,8 +147,8 @@ impl Sampler<'_> {
                 .find(|met| is_here(met) && met.is_far_side && in_map(met) && met.item == point.item)
                 .map(|met| Verdict::Dark(met.item));
         };
-        let _ = length;
-        let is_kept = met.iter().any(|met| met.is_far_side && in_map(met));
+        // A far side at the point's own depth is before it in some texels and behind it in others.
+        let is_kept = met.iter().any(|met| met.is_far_side && in_map(met) && !is_here(met));
         (!is_kept).then_some(Verdict::Lit(first.item))
     }
 }

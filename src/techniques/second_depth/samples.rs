@@ -39,9 +39,6 @@ pub struct Met {
     pub is_far_side: bool,
     /// It is the seen triangle itself.
     pub is_own: bool,
-    /// The cosine of the angle between its plane's normal and the ray, positive.
-    #[allow(dead_code)]
-    pub cosine: f64,
 }
 
 pub fn placed<'a>(view: &FrustumView<'a>, casters: &[&Item]) -> Vec<Placed<'a>> {
@@ -149,10 +146,9 @@ pub fn on_the_way(items: &[Placed<'_>], seen: &Seen, behind: f64, rays: &Rays) -
         let ray = placed.to_model(&ray);
         placed.mesh.crossings(&ray, |met| {
             if placed.is_solid(met.triangle, ray.origin + met.t * ray.way) {
-                let cosine = placed.normal(met.triangle).dot(way.normalize()).abs();
                 let is_own = (item, met.triangle) == (seen.item, seen.triangle);
                 // The ray runs to the light: what it meets from the front looks away from it.
-                all.push(Met { item, t: met.t, is_far_side: !met.from_behind, is_own, cosine });
+                all.push(Met { item, t: met.t, is_far_side: !met.from_behind, is_own });
             }
         });
     }

@@ -63,7 +63,8 @@ impl Crop {
 /// frustum the map covers.
 pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
-    if settings.fit == Fit::None && !is_parallel {
+    // A map of one side's faces needs closed casters: what shadows nothing need not be one.
+    if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {
         return Crop::WHOLE;
     }
     let unseen = Unseen::new(view, settings.size, 0.0);
