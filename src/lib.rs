@@ -12,7 +12,7 @@
 //! 8. [`output`] writes PNG, EXR or NPY.
 //! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, [`oracle::fixed_function`] draws
 //!    the same passes by the driver's own fixed-function pipeline, and
-//! 10. [`report`] says how far apart they are, and what that cost.
+//! 10. [`report`] says how far apart they are, and what that cost; [`stress`] does so for scenes made to break them.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
