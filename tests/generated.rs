@@ -61,7 +61,7 @@ impl Random {
 
     /// A camera around the middle and a light above it, whose place this returns.
     fn head(&mut self, kind: &str, near: f64, far: f64) -> (String, [f64; 3]) {
-        let (turn, height) = (self.within(0.0, 6.28), self.within(1.0, 5.0));
+        let (turn, height) = (self.within(0.0, std::f64::consts::TAU), self.within(1.0, 5.0));
         let light = self.place(2.0, 2.5, 4.0);
         let (target, cone) = (self.place(0.5, 0.2, 0.4), self.within(40.0, 85.0));
         let aim = if kind == "point" { String::new() } else { format!("target = {target:?}\n") };
@@ -236,11 +236,15 @@ fn the_sample_program_has_no_acne_without_offset() {
 
 /// A texture's alpha: checks, noise, waves or stripes.
 fn alpha(random: &mut Random, kind: u32, x: f64, y: f64, count: f64) -> f64 {
-    let stripe = |x: f64| (2.0 * count * x) as u32 % 2 == 0;
+    let stripe = |x: f64| ((2.0 * count * x) as u32).is_multiple_of(2);
     match kind {
         0 => f64::from(u8::from(stripe(x) != stripe(y))),
         1 => random.next(),
-        2 => 0.5 + 0.5 * (6.28 * count.floor() * x).sin() * (6.28 * count.floor() * y).cos(),
+        2 => {
+            0.5 + 0.5
+                * (std::f64::consts::TAU * count.floor() * x).sin()
+                * (std::f64::consts::TAU * count.floor() * y).cos()
+        }
         _ => {
             if stripe(x) {
                 1.0
