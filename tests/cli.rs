@@ -452,7 +452,9 @@ fn maps_hold_the_codes_of_their_format() {
     };
     let map = |format: &str| {
         let set = format!("light.shadow.format={format}");
-        render(folder.path(), &["-o", "x.npy", "--aov", "light-depth", "--set", &set]);
+        // The default offset of a float map is that of 24 bits in other units, to the bit at depths above one half.
+        let offset = "light.shadow.offset={ factor = 1.1, units = 4.0 }";
+        render(folder.path(), &["-o", "x.npy", "--aov", "light-depth", "--set", &set, "--set", offset]);
         read_npy(&folder.path().join("x.light-depth.npy")).1
     };
     let (map16, map24, map32f) = (map("depth16"), map("depth24"), map("depth32f"));

@@ -82,8 +82,8 @@ fn unseen_change_no_pixel(shadows: &[String; 4]) -> usize {
     all_unseen
 }
 
-/// A sheet, what lies close below it, and a box below that, which the camera sees as little as its shadow: where the box
-/// is the second layer, the middle lies above what is lit otherwise.
+/// A sheet, a receiver that casts nothing below it, and a box below that, which the camera sees as little as its shadow.
+/// The receiver is the second layer, so that the box changes no pixel, drawn or not.
 #[test]
 fn an_unseen_second_layer_is_drawn() {
     let context = context::open(&ContextRequest::default()).unwrap();
@@ -114,7 +114,7 @@ fn an_unseen_second_layer_is_drawn() {
         let (pruned, left_out) = picture(&text, false);
         assert_eq!(left_out, idle);
         assert!(pruned == picture(&text, true).0);
-        assert_eq!(pruned == without, idle == 1, "the box is a second layer where it stands below");
+        assert!(pruned == without, "what is seen is the second layer itself");
     }
 }
 
