@@ -89,7 +89,7 @@ fn random_scenes_are_right_or_warned_of() {
         |row: &&&Row| !["parity", "\"z-pass\"", "two-sided"].iter().any(|key| row.settings.keys.contains(key));
     let volumes = rows.iter().filter(|row| row.settings.technique == "shadow-volume").filter(is_exact);
     let is_wrong = |row: &&Row| row.verdict == Verdict::SilentlyWrong && row.wrong_percent() > MOST_VOLUME_PERCENT;
-    assert!(!{ volumes }.any(|row| is_wrong(row)), "{failures}");
+    assert!(!{ volumes }.any(is_wrong), "{failures}");
     assert!(50 * alarms <= rows.len(), "{alarms} false alarms in {} rows: more than 2 %", rows.len());
     let defaults: Vec<&&Row> = rows.iter().filter(|row| row.settings.is_default()).collect();
     let unusable = defaults.iter().filter(|row| row.is_unusable()).count();

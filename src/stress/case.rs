@@ -17,7 +17,7 @@ pub struct Case {
     pub toml: String,
     /// Changes to it, as `--set` takes them.
     pub set: Vec<String>,
-    /// Names of the meshes and pictures of [`FILES`] that the scene names.
+    /// Names of the built-in meshes and pictures that the scene names.
     pub files: Vec<&'static str>,
     /// Mesh files made for this case, each with its name.
     pub made: Vec<(String, Vec<u8>)>,
