@@ -1,8 +1,10 @@
 //! The loop: plan a scene, run the passes on the device, read the pictures back.
 
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::time::Instant;
 
-use crate::context::Context;
+use crate::context::{self, Context, ContextRequest};
 use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};
@@ -23,6 +25,50 @@ pub enum Error {
 pub struct Renderer {
     device: Device,
     limits: Limits,
+}
+
+/// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done or
+/// `stop` is set. `finished` is called on the caller's thread with each number and what came of it, in no order.
+///
+/// # Errors
+///
+/// A context that cannot be had.
+pub fn on_contexts<T: Send>(
+    request: &ContextRequest,
+    [count, jobs]: [usize; 2],
+    stop: &AtomicBool,
+    work: impl Fn(usize, &mut Renderer) -> T + Sync,
+    mut finished: impl FnMut(usize, T),
+) -> Result<(), context::Error> {
+    let next = AtomicUsize::new(0);
+    let (send, receive) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.clamp(1, count.max(1)) {
+            let (send, next, work) = (send.clone(), &next, &work);
+            scope.spawn(move || {
+                let context = match context::open(request) {
+                    Ok(context) => context,
+                    Err(error) => {
+                        let _ = send.send(Err(error)); // the receiver outlives the senders
+                        return;
+                    }
+                };
+                let mut renderer = Renderer::new(context.as_ref());
+                while !stop.load(Ordering::Relaxed) {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count || send.send(Ok((index, work(index, &mut renderer)))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(send);
+        for result in receive {
+            let (index, result) = result?;
+            finished(index, result);
+        }
+        Ok(())
+    })
 }
 
 /// A planned scene's pictures.

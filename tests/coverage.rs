@@ -13,25 +13,9 @@ use glumbra::oracle::ray::{self, Answer, Reason, Truth};
 use glumbra::plan::Request;
 use glumbra::scene::{self, Scene};
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.unit() * choices.len() as f64) as usize]
-    }
-}
+#[path = "support/random.rs"]
+mod random;
+use random::Random;
 
 /// A mesh as an OBJ file whose own coordinates are scaled and moved.
 fn obj(mesh: &str, size: f64, at: [f64; 3]) -> String {
@@ -50,13 +34,13 @@ fn obj(mesh: &str, size: f64, at: [f64; 3]) -> String {
 
 /// Writes a scene into `folder`; whether its camera's planes are left out.
 fn write_scene(random: &mut Random, folder: &Path) -> bool {
-    let in_file = random.unit() < 0.5;
+    let in_file = random.share() < 0.5;
     let shift = random.pick(&[0.0, 1e4, 1e6, 1e9]);
     let scale = if shift > 0.0 { 1.0 } else { random.pick(&[1.0, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12]) };
     let ratio = random.pick(&[0.0, 0.0, 0.0, 1e2, 1e4, 1e6, 1e8, 1e10]);
     let moved = |p: [f64; 3]| [p[0] * scale + shift, p[1] * scale - 0.7 * shift, p[2] * scale + 0.3 * shift];
     let mut place =
-        |height: f64| [random.between(-3.0, 3.0), height * random.between(0.3, 1.0), random.between(-3.0, 3.0)];
+        |height: f64| [random.within(-3.0, 3.0), height * random.within(0.3, 1.0), random.within(-3.0, 3.0)];
     let (eye, target, lamp) = (moved(place(4.0)), moved(place(0.5)), moved(place(5.0)));
     let places = [[0.0; 3], place(1.5), place(1.5), place(1.5)];
     let mut text = format!("[image]\nsize = [80, 64]\n[camera]\neye = {eye:?}\ntarget = {target:?}\n");
@@ -68,7 +52,7 @@ fn write_scene(random: &mut Random, folder: &Path) -> bool {
     for (k, at) in places.into_iter().enumerate() {
         let (mesh, size) = match k {
             0 => ("quad", random.pick(&[4.0, 100.0, 3000.0])),
-            _ => (random.pick(&["box", "sphere", "torus"]), random.between(0.1, 0.5)),
+            _ => (random.pick(&["box", "sphere", "torus"]), random.within(0.1, 0.5)),
         };
         let (at, size) = (moved(at), size * scale);
         if in_file {
@@ -119,7 +103,7 @@ fn count_wrong(truth: &Truth, drawn: &[i64]) -> usize {
 fn every_pixel_shows_what_a_ray_meets_or_a_warning_says_why_not() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let [mut warned, mut right_with_automatic_planes] = [0; 2];
     for round in 0..70 {
         let folder = tempfile::tempdir().unwrap();

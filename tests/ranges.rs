@@ -8,26 +8,9 @@ use glumbra::frame::Renderer;
 use glumbra::report::run::draw_shade;
 use glumbra::scene::{self, LightKind, Loaded, Object, Scene};
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Its logarithm is uniform.
-    fn size(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-}
+#[path = "support/random.rs"]
+mod random;
+use random::Random;
 
 fn load(text: &str, overrides: &[&str]) -> Loaded {
     let folder = tempfile::tempdir().unwrap();
@@ -41,30 +24,30 @@ fn load(text: &str, overrides: &[&str]) -> Loaded {
 fn random_scene(random: &mut Random, scale: f64, kind: &str) -> String {
     let point = |p: [f64; 3]| format!("[{:?}, {:?}, {:?}]", p[0] * scale, p[1] * scale, p[2] * scale);
     let mut place =
-        |height: f64| [random.between(-4.0, 4.0), height * random.between(0.2, 1.0), random.between(-4.0, 4.0)];
+        |height: f64| [random.within(-4.0, 4.0), height * random.within(0.2, 1.0), random.within(-4.0, 4.0)];
     let (eye, target, lamp) = (place(3.0), place(1.0), place(5.0));
     let boxes: Vec<_> = (0..4).map(|_| place(2.0)).collect();
     let floor = random.size(1.0, 1e6) * scale;
-    let size = [[64, 64], [96, 40], [30, 90]][(random.unit() * 3.0) as usize];
+    let size = [[64, 64], [96, 40], [30, 90]][(random.share() * 3.0) as usize];
     let mut text = format!("[image]\nsize = {size:?}\n[camera]\neye = {}\ntarget = {}\n", point(eye), point(target));
     write!(
         text,
         "fov_y = {:?}\n[[light]]\nkind = \"{kind}\"\nposition = {}\n",
-        random.between(20.0, 100.0),
+        random.within(20.0, 100.0),
         point(lamp)
     )
     .unwrap();
     if kind == "spot" {
-        write!(text, "target = {}\ncone = {:?}\n", point(target), random.between(20.0, 100.0)).unwrap();
+        write!(text, "target = {}\ncone = {:?}\n", point(target), random.within(20.0, 100.0)).unwrap();
     }
     write!(text, "[[object]]\nmesh = \"quad\"\nscale = [{floor:?}, 1.0, {floor:?}]\n").unwrap();
     for at in boxes {
-        let turn = random.between(0.0, 90.0);
+        let turn = random.within(0.0, 90.0);
         write!(
             text,
             "[[object]]\nmesh = \"box\"\ntranslate = {}\nscale = {:?}\nrotate = {{ axis = [0, 1, 0], angle = {turn:?} }}\n",
             point(at),
-            random.between(0.05, 0.4) * scale
+            random.within(0.05, 0.4) * scale
         )
         .unwrap();
     }
@@ -101,7 +84,7 @@ fn moved(scene: &Scene, by: DVec3) -> Scene {
 fn a_scene_far_from_the_origin_has_the_same_picture() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for (round, by) in [1e4, 1e6, 1e9].into_iter().cycle().take(18).enumerate() {
         let kind = ["spot", "point", "sun"][round % 3];
         let mut text = random_scene(&mut random, 1.0, if kind == "point" { "point" } else { "spot" });
@@ -170,7 +153,7 @@ fn check(what: &str, [near, far]: [f64; 2], seen: Option<[f64; 2]>) {
 
 #[test]
 fn automatic_ranges_hold_what_is_in_view_at_any_scale() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut compared = 0;
     for round in 0..120 {
         let scale = [1.0, 1e-12, 1e12, 1e-4, 1e4][round % 5];

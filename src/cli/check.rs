@@ -75,7 +75,7 @@ pub fn run(arguments: &CheckArgs) -> ExitCode {
         // A reader that has seen enough (`glumbra check | head`) is no error.
         Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            super::say(format_args!("error: {error}"));
             ExitCode::from(2)
         }
     }

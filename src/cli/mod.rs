@@ -125,10 +125,16 @@ fn exit_code(result: Result<(), Error>) -> ExitCode {
         // A reader that has seen enough (`glumbra info | head`) is no error.
         Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            say(format_args!("error: {error}"));
             ExitCode::FAILURE
         }
     }
+}
+
+/// Writes a line on standard error. Where that is closed or full there is nowhere left to say it.
+fn say(line: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// Pretty JSON and a line's end on standard output.

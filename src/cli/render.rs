@@ -118,7 +118,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(&loaded.scene, &request)?;
     for warning in &plan.warnings {
-        eprintln!("warning: {warning}");
+        super::say(format_args!("warning: {warning}"));
     }
     let progress = progress(arguments.frames);
     let (frames, passes) = (arguments.frames, arguments.json);

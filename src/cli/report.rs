@@ -1,5 +1,6 @@
 //! `glumbra report`: errors against run time over a grid of settings, and `glumbra report merge`.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -171,9 +172,9 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
         return Err(Error::Interrupted { folder });
     }
     journal.remove();
-    report.scenes.iter().for_each(print_claims);
-    println!("{}", folder.join("report.html").display());
-    Ok(())
+    let mut out = std::io::stdout().lock();
+    report.scenes.iter().try_for_each(|scene| print_claims(scene, &mut out))?;
+    Ok(writeln!(out, "{}", folder.join("report.html").display())?)
 }
 
 fn options(arguments: &ReportArgs) -> Options {
@@ -198,7 +199,7 @@ fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec
     });
     let sweeps: Vec<Sweep> = prepared.collect::<Result<_, _>>()?;
     bar.finish_and_clear();
-    sweeps.iter().flat_map(|sweep| &sweep.warnings).for_each(|warning| eprintln!("warning: {warning}"));
+    sweeps.iter().flat_map(|sweep| &sweep.warnings).for_each(|warning| super::say(format_args!("warning: {warning}")));
     Ok(sweeps)
 }
 
@@ -212,7 +213,7 @@ pub(super) fn stop_on_interrupt() -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = handled {
-        eprintln!("warning: Ctrl-C will not leave a report: {error}");
+        super::say(format_args!("warning: Ctrl-C will not leave a report: {error}"));
     }
     stop
 }
@@ -273,14 +274,12 @@ fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> R
     Ok(())
 }
 
-fn print_claims(scene: &SceneReport) {
+fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()> {
     if scene.claims.is_empty() {
-        return;
+        return Ok(());
     }
-    println!("What the documents claim, on {}:", scene.path.display());
-    for claim in &scene.claims {
-        println!("  {claim}");
-    }
+    writeln!(out, "What the documents claim, on {}:", scene.path.display())?;
+    scene.claims.iter().try_for_each(|claim| writeln!(out, "  {claim}"))
 }
 
 /// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
@@ -303,6 +302,5 @@ fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
     write::write_all(&arguments.output, &report, &pictures, &goals)?;
-    println!("{}", arguments.output.join("report.html").display());
-    Ok(())
+    Ok(writeln!(std::io::stdout(), "{}", arguments.output.join("report.html").display())?)
 }

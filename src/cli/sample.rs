@@ -123,7 +123,7 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     file.map(|path| output::check_path(path)).transpose()?;
     let loaded = scene::load_embedded(&sample.scene, &arguments.overrides(sample))?;
     for warning in &loaded.warnings {
-        eprintln!("warning: {warning}");
+        super::say(format_args!("warning: {warning}"));
     }
     // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
     crate::plan::make(&loaded.scene, &Request::default())?;

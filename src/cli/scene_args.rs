@@ -35,7 +35,7 @@ impl SceneArgs {
     pub fn load(&self) -> Result<Loaded, Error> {
         let loaded = scene::load(&self.scene, &self.overrides())?;
         for warning in &loaded.warnings {
-            eprintln!("warning: {warning}");
+            super::say(format_args!("warning: {warning}"));
         }
         Ok(loaded)
     }

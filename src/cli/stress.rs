@@ -10,7 +10,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::report::{parse_shard, stop_on_interrupt};
-use super::{ContextArgs, Error, spinner};
+use super::{ContextArgs, Error, say, spinner};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
 use crate::output::whole;
@@ -99,7 +99,7 @@ pub fn run(arguments: &StressArgs) -> ExitCode {
         // A reader that has seen enough (`glumbra stress | head`) is no error.
         Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "error: {error}"); // nowhere else to say it
+            say(format_args!("error: {error}"));
             ExitCode::from(2)
         }
     }

@@ -26,7 +26,7 @@ impl Triangles {
         Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), corners }
     }
 
-    /// By the number of its place in what [`Triangles::new`] was given.
+    /// The corners of a triangle, by its place in what [`Triangles::new`] was given.
     pub fn corners(&self, triangle: u32) -> &[DVec3; 3] {
         &self.corners[triangle as usize]
     }

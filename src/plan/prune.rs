@@ -51,7 +51,7 @@ fn cull_draws(plan: &mut Plan) {
         let Work::Draw(draw_pass) = &mut pass.work else { continue };
         let has_no_ends = draw_pass.state.depth_clamp && draw_pass.state.clip_distances == 0;
         for batch in &mut draw_pass.batches {
-            // Of depth alone, faces are left out by a key of the scene.
+            // Passes of depth alone leave faces out by a key of the scene.
             let culls = batch.cull.is_some() && draw_pass.state.color_write;
             batch.draws.retain(|draw| {
                 let seen = match has_no_ends {

@@ -1,8 +1,8 @@
 //! Runs a grid over a scene: each row is drawn, held against the truth and timed, in this order.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::grid::{Grid, Setting};
@@ -152,33 +152,9 @@ impl Sweep {
         stop: &Arc<AtomicBool>,
         mut finished: impl FnMut(Row),
     ) -> Result<(), Error> {
-        let next = AtomicUsize::new(0);
-        let (send, receive) = mpsc::channel();
-        let jobs = options.jobs.clamp(1, todo.len().max(1));
-        std::thread::scope(|scope| {
-            for _ in 0..jobs {
-                let (send, next) = (send.clone(), &next);
-                scope.spawn(move || {
-                    let context = match context::open(&options.context) {
-                        Ok(context) => context,
-                        Err(error) => {
-                            let _ = send.send(Err(error)); // the receiver outlives the senders
-                            return;
-                        }
-                    };
-                    let mut renderer = Renderer::new(context.as_ref());
-                    while !stop.load(Ordering::Relaxed) {
-                        let Some(index) = todo.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
-                        let _ = send.send(Ok(self.row(*index, options, &mut renderer)));
-                    }
-                });
-            }
-            drop(send);
-            for row in receive {
-                finished(row?);
-            }
-            Ok(())
-        })
+        let work = |place: usize, renderer: &mut Renderer| self.row(todo[place], options, renderer);
+        frame::on_contexts(&options.context, [todo.len(), options.jobs], stop, work, |_, row| finished(row))?;
+        Ok(())
     }
 
     fn row(&self, index: usize, options: &Options, renderer: &mut Renderer) -> Row {

@@ -86,7 +86,7 @@ pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
     // Before the boxes too, where that costs little: who draws a map judges casters by their boxes.
     let boxes = objects.iter().map(|object| pyramid.span_of_box(object).least).fold(f64::INFINITY, f64::min);
     let near = near.min(0.99 * boxes).max(0.25 * near);
-    // Of what lies in the light's own place no map can be drawn.
+    // No map can be drawn of what lies in the light's own place.
     [near, far.max(2.0 * near)]
 }
 

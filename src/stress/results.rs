@@ -107,7 +107,7 @@ pub struct CaseResult {
     /// Whether a refusal is what the case expects.
     pub refusal_expected: bool,
     pub rows: Vec<Row>,
-    /// Of each technique whose rows are not all right, the worst one's, where pictures are asked for.
+    /// Pictures of the worst row of each technique whose rows are not all right, where pictures are asked for.
     #[serde(skip)]
     pub pictures: Vec<RowPictures>,
 }

@@ -1,8 +1,8 @@
 //! Runs cases on as many contexts as there are jobs.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::case::Case;
@@ -10,7 +10,7 @@ use super::judge::{Judge, Judged};
 use super::results::{CaseResult, Row, RowPictures, Verdict};
 use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
-use crate::frame::Renderer;
+use crate::frame::{self, Renderer};
 use crate::oracle::ray::Truth;
 use crate::report::difference;
 
@@ -35,37 +35,10 @@ pub fn run(
     cases: &[Case],
     options: &Options,
     stop: &Arc<AtomicBool>,
-    mut finished: impl FnMut(usize, CaseResult),
+    finished: impl FnMut(usize, CaseResult),
 ) -> Result<(), context::Error> {
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..options.jobs.clamp(1, cases.len().max(1)) {
-            let (send, next) = (send.clone(), &next);
-            scope.spawn(move || {
-                let context = match context::open(&options.context) {
-                    Ok(context) => context,
-                    Err(error) => {
-                        let _ = send.send(Err(error)); // the receiver outlives the senders
-                        return;
-                    }
-                };
-                let mut renderer = Renderer::new(context.as_ref());
-                while !stop.load(Ordering::Relaxed) {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(case) = cases.get(index) else { return };
-                    let result = draw_case(case, options, &mut renderer);
-                    let _ = send.send(Ok((index, result)));
-                }
-            });
-        }
-        drop(send);
-        for result in receive {
-            let (index, result) = result?;
-            finished(index, result);
-        }
-        Ok(())
-    })
+    let work = |index: usize, renderer: &mut Renderer| draw_case(&cases[index], options, renderer);
+    frame::on_contexts(&options.context, [cases.len(), options.jobs], stop, work, finished)
 }
 
 /// Draws one case by every row and judges each.

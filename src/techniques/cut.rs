@@ -56,13 +56,13 @@ const MOST_TRIANGLES: u32 = 1 << 16;
 /// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
 pub struct Cutter {
     clip_from_world: DMat4,
-    /// Of x and y, where w is 1.
+    /// The error of x and y that does not show, where w is 1.
     across: f64,
-    /// Of z.
+    /// The error of z that does not show.
     along: f64,
     /// The least w.
     nearest: f64,
-    /// Of [`PLANES`], those that cut.
+    /// Those of [`PLANES`] that cut.
     planes: &'static [DVec4],
 }
 

@@ -46,7 +46,7 @@ pub enum MapShape {
 }
 
 impl MapInfo {
-    /// Of a map as `projector` sees it, one face of a cube or the whole of a square map, drawn without polygon offset.
+    /// Describes a map as its projector sees it, one face of a cube or the whole of a square map, drawn without polygon offset.
     pub(super) fn new(view: &FrustumView<'_>, settings: &Settings, texels: f64) -> Self {
         Self {
             light: view.index,

@@ -1,5 +1,7 @@
 //! Numbers from a seed, by splitmix64: the same on every machine.
 
+#![allow(dead_code, reason = "not every test asks for all of it")]
+
 use glam::DVec3;
 
 pub struct Random(u64);
@@ -23,8 +25,16 @@ impl Random {
         low + (high - low) * self.share()
     }
 
+    /// In [low, high), evenly in the logarithm.
+    pub fn size(&mut self, low: f64, high: f64) -> f64 {
+        self.within(low.ln(), high.ln()).exp()
+    }
+
+    pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.below(choices.len())]
+    }
+
     /// In 0..count.
-    #[allow(dead_code, reason = "not every test asks for it")]
     pub fn below(&mut self, count: usize) -> usize {
         (self.share() * count as f64) as usize
     }

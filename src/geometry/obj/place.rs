@@ -30,7 +30,7 @@ impl Default for Places {
 }
 
 impl Places {
-    /// Of a position as written; `weight` divides it where it is not empty.
+    /// The place of a position as written; `weight` divides it where it is not empty.
     pub fn add(&mut self, xyz: [&str; 3], weight: &str) {
         let number = |word: &str| word.parse::<f64>().unwrap_or(0.0);
         let weight = if weight.is_empty() { 1.0 } else { number(weight) };

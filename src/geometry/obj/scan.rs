@@ -53,7 +53,7 @@ struct Scanner {
     scan: Scan,
     counts: Counts,
     forward: Vec<Forward>,
-    /// Of the face that is read, the vertices.
+    /// The vertices of the face that is read.
     face: Vec<usize>,
     corners: usize,
     corners_with_texcoord: usize,

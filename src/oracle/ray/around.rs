@@ -122,7 +122,7 @@ impl<'a> Surroundings<'a> {
         Some(around)
     }
 
-    /// Of a surface near the visible point, as [`Around::slope`].
+    /// The slope of a surface near the visible point, as [`Around::slope`].
     fn slope(&self, seen: &Seen<'_>, normal: DVec3) -> f64 {
         self.tracer.lamp.slope(seen.position, normal).min(STEEPEST)
     }

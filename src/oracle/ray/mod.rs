@@ -174,7 +174,7 @@ impl<'a> Tracer<'a> {
         Ok(truth)
     }
 
-    /// Of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in
+    /// The error of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in
     /// which the object's farthest vertex enters too.
     fn error_of(&self, placed: &Placed, reach: f64) -> f64 {
         let (origin, eye) = (placed.origin(), self.eye.position);
@@ -196,7 +196,7 @@ impl<'a> Tracer<'a> {
         2.0 * self.eye.infinite_depth_error(bits, depth, rise) * ray.length() / depth
     }
 
-    /// Of the triangle where the beam may meet it: the axis within the triangle's box. Elsewhere a huge triangle may be
+    /// The error of a triangle where the beam may meet it: the axis within the triangle's box. Elsewhere a huge triangle may be
     /// off by more.
     fn error_in(&self, beam: &Beam, triangle: &Triangle<'_>) -> f64 {
         let most = self.errors[triangle.object as usize];

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use crate::geometry::Texture;
-use crate::geometry::sampled::{Ray, Sampled};
+use crate::geometry::rays::Ray;
+use crate::geometry::sampled::Sampled;
 use crate::techniques::projector::Rays;
 use crate::techniques::{FrustumView, Item};
 
@@ -23,9 +24,9 @@ pub struct Seen {
     /// Into the items.
     pub item: usize,
     pub point: DVec3,
-    /// Of unit length, towards the eye.
+    /// The surface's normal, of unit length, towards the eye.
     pub normal: DVec3,
-    /// Of its item.
+    /// The triangle's number in its item.
     pub triangle: u32,
 }
 

@@ -147,7 +147,7 @@ fn seen_from<'a>(view: &LightView<'a>, point: &Point, face: CubeFace) -> Frustum
     FrustumView { light_view: *view, projector: Projector::of_frustum(&frustum_of(point, face)) }
 }
 
-/// Of all faces.
+/// The projectors of all faces.
 pub fn projectors(point: &Point) -> Vec<Projector> {
     CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
 }

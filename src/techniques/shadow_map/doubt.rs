@@ -24,15 +24,15 @@ const MOST_TESTS: usize = 300_000;
 /// were not chosen by, under every kind of light, with near planes down to 10^-5 in 16 bits and cones up to 179 degrees,
 /// 6 are warned of and have fewer wrong pixels; 65 of the 78 that have more, for want of codes or texels, are warned of.
 const MOST_LOST: f64 = 0.016;
-/// Of maps without a factor of the slope, which have nothing else to lose shadows by.
+/// The share of lost samples for maps without a slope factor, which have nothing else to lose shadows by.
 const MOST_LOST_WITHOUT_FACTOR: f64 = 0.002;
 const MOST_BURIED: f64 = 0.02;
 const MOST_UNCERTAIN: f64 = 0.1;
-/// Of the lost and the buried ones and a tenth of the uncertain ones. Measured with `glumbra stress`, of the named cases and
+/// The share of the lost and the buried samples and a tenth of the uncertain ones together. Measured with `glumbra stress`, of the named cases and
 /// 60 random ones of seed 11: 10 of 4885 rows are warned of and have fewer wrong pixels. Shadows that a
 /// mesh casts on itself are not sampled: of these nothing is said.
 const MOST_IN_ALL: f64 = 0.015;
-/// Of the buried ones, where many are uncertain.
+/// The share of buried samples, where many are uncertain.
 const SOME_BURIED: f64 = 0.003;
 
 /// For maps drawn without polygon offset. Layers within four codes are one; boxes are larger than what they hold, and the
@@ -103,7 +103,7 @@ fn name(format: DepthFormat) -> &'static str {
 struct Found {
     /// Samples within the light's reach.
     reached: u32,
-    /// Of these, with a caster as near as what rounding takes of a depth.
+    /// Samples of these with a caster as near as what rounding takes of a depth.
     lost: u32,
     /// With a caster as near as what the offset takes.
     buried: u32,
@@ -143,7 +143,7 @@ impl Boxed<'_> {
 }
 
 impl Boxed<'_> {
-    /// Of the face that `point` is nearest to, by shares of the box; of either sign.
+    /// The normal of the face that `point` is nearest to, by shares of the box; of either sign.
     fn normal_at(&self, point: DVec3) -> DVec3 {
         let at = self.model_from_world.transform_point3(point);
         let Aabb { min, max } = self.item.bounds;
@@ -252,7 +252,7 @@ impl Sampler<'_> {
         let Some((projector, here)) = projectors.iter().find_map(seen) else { return };
         found.reached += 1;
         let front = |from: DVec3| front(boxes, item, from, projector.rays);
-        // Of the levels of a map the two are met whose texels are about as wide as a pixel, as long as the surface shows it.
+        // A lookup meets the two levels whose texels are about as wide as a pixel.
         let texel = match settings.mipmaps {
             Mipmaps::None => here.texel,
             Mipmaps::EightTaps => 2.0 * here.texel,

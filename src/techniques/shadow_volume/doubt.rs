@@ -18,7 +18,7 @@ const MOST_SAMPLES: u32 = 20_000;
 /// A sample counts as wrong only if so much aside, in pixels, is wrong too: GL rounds places to 1/256 of a pixel.
 const ASIDE: f64 = 1.0 / 64.0;
 
-/// Of layers that a stencil count tells apart.
+/// The number of layers that a stencil count tells apart.
 const LAYERS: u32 = 256;
 
 /// Why a sample is wrong.

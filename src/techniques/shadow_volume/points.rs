@@ -38,14 +38,14 @@ pub struct World<'a> {
     view: &'a LightView<'a>,
     source: Source,
     surfaces: Triangles,
-    /// Of each triangle of `surfaces`: its item, and its number there.
+    /// The item of each triangle of `surfaces`, and its number there.
     owners: Vec<(usize, u32)>,
     counted: Triangles,
     /// The far ends of `counted`, where volumes end.
     ended: Vec<[DVec3; 3]>,
     has_holes: bool,
     eye: Eye,
-    /// Of all coordinates.
+    /// The largest of all coordinates.
     largest: f64,
 }
 
@@ -58,7 +58,7 @@ struct Eye {
 }
 
 impl<'a> World<'a> {
-    /// Of the volumes of `casting`. `distance`: how far each caster's volume goes, in its model's units, if it ends.
+    /// Prepares the volumes of `casting`. `distance`: how far each caster's volume goes, in its model's units, if it ends.
     pub fn new(view: &'a LightView<'a>, casting: &[&Casting], distance: Option<&dyn Fn(&Casting) -> f64>) -> Self {
         let (mut surfaces, mut owners) = (Vec::new(), Vec::new());
         for (owner, item) in view.items.iter().enumerate() {
