@@ -8,6 +8,8 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction}
 /// Triangles in one space, in a hierarchy of boxes.
 pub struct Triangles {
     corners: Vec<[DVec3; 3]>,
+    /// The greatest coordinate of any corner.
+    reach: f64,
     bvh: Bvh,
 }
 
@@ -23,7 +25,8 @@ pub struct Ray {
 impl Triangles {
     pub fn new(corners: Vec<[DVec3; 3]>) -> Self {
         let boxes: Vec<Aabb> = corners.iter().map(bound).collect();
-        Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), corners }
+        let reach = corners.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
+        Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach, corners }
     }
 
     /// The corners of a triangle, by its place in what [`Triangles::new`] was given.
@@ -34,7 +37,7 @@ impl Triangles {
     /// Calls `found` with each triangle that the ray crosses, and its t, in no particular order. An edge that two
     /// triangles share is crossed in one of them.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(u32, f64)) {
-        let slab = Slab::new(ray);
+        let slab = Slab::new(ray, self.reach);
         self.bvh.traverse(|node| {
             if !slab.meets(node) {
                 return TraversalAction::Prune;
@@ -63,8 +66,9 @@ struct Slab {
 }
 
 impl Slab {
-    fn new(ray: &Ray) -> Self {
-        let size = ray.origin.abs().max((ray.origin + ray.end * ray.way).abs()).max_element();
+    /// For boxes within `reach` of the origin: the ray's own end may lie at infinity, and none is met there.
+    fn new(ray: &Ray, reach: f64) -> Self {
+        let size = ray.origin.abs().max_element().max(reach);
         Self { ray: *ray, inverse: ray.way.recip(), pad: 16.0 * f64::EPSILON * size }
     }
 
@@ -115,6 +119,22 @@ mod tests {
             fan.crossings(&ray(9.0), |_, t| met.push(t));
             assert_eq!(met, vec![4.0; expected], "{x} {y}");
             fan.crossings(&ray(3.9), |_, _| panic!("before its end"));
+        }
+    }
+
+    #[test]
+    fn a_ray_without_end_looks_at_few_triangles() {
+        let place = |k: u32| DVec3::new(f64::from(k % 64), f64::from(k / 64), 0.0);
+        let triangles = (0..4096).map(|k| [place(k), place(k) + 0.5 * DVec3::X, place(k) + 0.5 * DVec3::Y]).collect();
+        let grid = Triangles::new(triangles);
+        for end in [9.0, f64::MAX, f64::INFINITY] {
+            let slab = Slab::new(&Ray { origin: DVec3::new(5.1, 7.1, 4.0), way: DVec3::NEG_Z, start: 0.0, end }, 64.0);
+            let mut looked_at = 0;
+            grid.bvh.traverse(|node| {
+                looked_at += 1;
+                if slab.meets(node) { TraversalAction::Continue } else { TraversalAction::Prune }
+            });
+            assert!(looked_at < 60, "{looked_at} for an end at {end}");
         }
     }
 }
