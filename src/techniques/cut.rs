@@ -18,7 +18,7 @@ use super::projector::{Projector, Rays};
 use crate::geometry::{Mesh, Part};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
-use crate::scene::Scene;
+use crate::scene::{LightKind, Scene};
 
 /// Roundings of 2^-24 of the greatest clip coordinate in a vertex that GL makes where it clips: one in each end's
 /// transform, one in the distance from the plane, one in the product.
@@ -50,8 +50,32 @@ const ORDINARY: f64 = 16.0;
 /// The same for a camera: 2^-24 of these is a ten-thousandth of what is seen, a tenth of a texel of a map that shows it.
 const ORDINARY_FOR_CAMERA: f64 = 400.0;
 
+/// Texels a side of the map that [`ordinary_for_camera`] reckons with.
+const MAP_SIZE: f64 = 1024.0;
+
 /// Meshes of more triangles have small ones.
 const MOST_TRIANGLES: u32 = 1 << 16;
+
+/// Clip coordinates up to so many times w are not too large for a camera, between [`ORDINARY`] and
+/// [`ORDINARY_FOR_CAMERA`]: fewer where a light's near plane is so near that its map tells few depths apart.
+///
+/// The place of a fragment in a map is interpolated as (s, t, r, q). Where corners have k times the fragment's own w, r/q
+/// is off by some roundings of k · 2^-24. A map whose near plane is at n has r/q = 1 - n / q, nearly: over one texel a
+/// slope of 45 degrees falls away by n texel / q, a texel being `texel` wide where q is 1. The error may be half of that.
+fn ordinary_for_camera(scene: &Scene) -> f64 {
+    let allowed = scene.lights.iter().filter_map(|light| {
+        let (position, near, tangent) = match &light.kind {
+            LightKind::Spot(spot) => {
+                (spot.frustum.position, spot.frustum.near, (0.5 * spot.frustum.cone_radians).tan())
+            }
+            LightKind::Point(point) => (point.position, point.near, 1.0),
+            LightKind::Directional { .. } => return None,
+        };
+        let fall = near * 2.0 * tangent / MAP_SIZE / position.distance(scene.camera.target);
+        Some(0.5 * fall / (CLIP_ROUNDINGS * 2.0_f64.powi(-24)))
+    });
+    allowed.fold(ORDINARY_FOR_CAMERA, f64::min).max(ORDINARY)
+}
 
 /// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
 pub struct Cutter {
@@ -85,7 +109,7 @@ impl Cutter {
     /// For an eye; `None` where vertices must stay as they are: light per vertex is of the file's vertices. Nor may be cut
     /// what volumes' caps meet.
     pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
-        let across = ORDINARY_FOR_CAMERA * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
+        let across = ordinary_for_camera(scene) * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
         (!scene.shading.per_vertex).then_some(Self {
             clip_from_world: *clip_from_world,
             across,

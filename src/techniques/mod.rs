@@ -10,6 +10,7 @@
 
 pub mod claims;
 pub mod cut;
+mod forecast;
 pub mod guard;
 pub mod guides;
 pub mod items;

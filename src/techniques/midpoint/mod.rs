@@ -24,11 +24,11 @@ mod single;
 
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
+use super::forecast::{self, Alone, Stored};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
-use super::shadow_map::doubt;
-use super::shadow_map::settings::{Fit, Mipmaps, Order, Settings as Map};
+use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
 use crate::pass::{
@@ -157,9 +157,26 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        doubt::warn(view, &settings.map, &doubt::WITHOUT_OFFSET, notes);
+        forecast::warn(view, &forecast_of(view, &settings, single, &layers.casters), notes);
         Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
     }
+}
+
+/// The map that the pictures of both layers are forecast from.
+fn forecast_of<'a>(
+    view: &FrustumView<'_>,
+    settings: &'a Settings,
+    single: Single,
+    casters: &'a [&'a Item],
+) -> forecast::Map<'a> {
+    let polygon = if single == Single::FirstOffset { bias::offset(&settings.map).polygon } else { NO_OFFSET };
+    let stored = Stored::Middle {
+        margin: f64::from(margin(settings.map.format)),
+        eye_linear: settings.average == Average::EyeLinear,
+        alone: if single == Single::Far { Alone::Far } else { Alone::Nearest },
+    };
+    let offset = Offset { polygon, texels: 0.0 };
+    forecast::Map { settings: &settings.map, offset, stored, casters, projectors: vec![view.projector.clone()] }
 }
 
 /// Says how much of the map is left out because no two layers can share a texel of it.

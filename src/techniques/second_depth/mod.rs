@@ -4,17 +4,14 @@
 //! What is lit is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
 //! offset. What looks away from the light is compared with itself, and errs; by its shading it is dark in any case. A
 //! caster that is open has no far side and would lose its shadow: it is refused by name, or with `closed = "assume"`
-//! drawn as it is, and named in a warning where that shadow is missed ([`open`]).
-
-mod open;
-mod samples;
+//! drawn as it is, and named in a warning where that shadow is missed.
 
 use std::sync::Arc;
 
+use super::forecast::{self, Stored};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
-use super::shadow_map::doubt;
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
 use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
@@ -98,12 +95,18 @@ impl Technique for SecondDepth {
         if casters.is_empty() && !view.keep_all {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         }
-        open::warn(view, &casters, &settings, notes);
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = Layer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, &settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
-        doubt::warn(view, &settings, &doubt::WITHOUT_OFFSET, notes);
+        let forecast = forecast::Map {
+            settings: &settings,
+            offset: forecast::NO_OFFSET,
+            stored: Stored::Nearest,
+            casters: &casters,
+            projectors: vec![view.projector.clone()],
+        };
+        forecast::warn(view, &forecast, notes);
         Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))
     }
 }

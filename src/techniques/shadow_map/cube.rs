@@ -9,7 +9,6 @@ use glam::{DMat4, DVec3, Vec2};
 use super::bias;
 use super::casters::{in_the_map, may_cast, warn_of_near};
 use super::depth::{self, Layer};
-use super::doubt;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
 use super::term::{sampler, texture_from_light_clip};
@@ -20,6 +19,7 @@ use crate::pass::{
     glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
+use crate::techniques::forecast::{self, Stored};
 use crate::techniques::guard::Guard;
 use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::unseen::Unseen;
@@ -63,7 +63,14 @@ pub fn describe(
         return super::without_casters(view, settings, notes);
     }
     let map = draw(view, &faces, settings, list, notes);
-    doubt::warn(&seen_from(view, point, CubeFace::PositiveX), settings, &bias::offset(settings), notes);
+    let forecast = forecast::Map {
+        settings,
+        offset: bias::offset(settings),
+        stored: Stored::Nearest,
+        casters: &casters,
+        projectors: projectors(point),
+    };
+    forecast::warn(view, &forecast, notes);
     term(view, point, map, settings)
 }
 

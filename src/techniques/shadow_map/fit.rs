@@ -30,6 +30,11 @@ impl Crop {
         0.5 * (self.min + self.max)
     }
 
+    /// The light's normalised device coordinates of those over the map.
+    pub fn light_clip(&self, map: DVec2) -> DVec2 {
+        self.center() + self.half() * map
+    }
+
     /// Half its size; (1, 1) of the whole.
     pub fn half(&self) -> DVec2 {
         0.5 * (self.max - self.min)

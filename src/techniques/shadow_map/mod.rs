@@ -6,7 +6,6 @@ pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
 pub(super) mod depth;
-pub(super) mod doubt;
 pub(super) mod fit;
 mod parallel;
 pub(super) mod settings;
@@ -17,6 +16,7 @@ mod texel;
 use self::casters::casters;
 use self::depth::Layer;
 use self::settings::Settings;
+use super::forecast::{self, Stored};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::projector::Projector;
 use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
@@ -116,12 +116,19 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
         return without_casters(view, &settings, notes);
     }
     let offset = bias::offset(&settings);
+    let forecast = forecast::Map {
+        settings: &settings,
+        offset,
+        stored: Stored::Nearest,
+        casters: &casters,
+        projectors: vec![view.projector.clone()],
+    };
+    forecast::warn(view, &forecast, notes);
     let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
     let fewer: Vec<&Item> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, &settings, list, notes);
-    doubt::warn(view, &settings, &offset, notes);
     let mut term = looked_up(view, map, &settings, offset.texels, notes);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
     term

@@ -6,15 +6,13 @@ use glam::{DMat4, DVec2, DVec3};
 
 use crate::geometry::Texture;
 use crate::geometry::rays::Ray;
-use crate::geometry::sampled::Sampled;
+use crate::geometry::sampled::{Crossing, Sampled};
 use crate::techniques::projector::Rays;
-use crate::techniques::{FrustumView, Item};
+use crate::techniques::{Item, LightView};
 
 /// An item made ready for rays.
 pub struct Placed<'a> {
     pub item: &'a Item,
-    /// Whether it is drawn into the map.
-    pub in_map: bool,
     model_from_world: DMat4,
     mesh: Sampled,
 }
@@ -34,6 +32,7 @@ pub struct Seen {
 pub struct Met {
     /// Into the items.
     pub item: usize,
+    pub triangle: u32,
     /// From the seen point towards the light, negative behind it; 1 at the light, of parallel light in world units.
     pub t: f64,
     /// Its front looks away from the light.
@@ -42,32 +41,40 @@ pub struct Met {
     pub is_own: bool,
 }
 
-pub fn placed<'a>(view: &FrustumView<'a>, casters: &[&Item]) -> Vec<Placed<'a>> {
+/// Every item but those whose transform has no inverse.
+pub fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
     let of = |item: &'a Item| {
         let mesh = match &item.wave {
             Some(wave) => wave.moved(&item.mesh.0),
             None => item.mesh.0.clone(),
         };
-        Placed {
-            item,
-            in_map: casters.iter().any(|caster| std::ptr::eq(*caster, item)),
-            model_from_world: item.world_from_model.inverse(),
-            mesh: Sampled::new(&mesh, item.indices.clone()),
-        }
+        let mesh = Sampled::new(&mesh, item.indices.clone());
+        Placed { item, model_from_world: item.world_from_model.inverse(), mesh }
     };
     view.items.iter().map(of).filter(|placed| placed.model_from_world.is_finite()).collect()
 }
 
 impl Placed<'_> {
-    fn to_model(&self, ray: &Ray) -> Ray {
+    /// Calls `look` with all that a ray of world space crosses, holes left out.
+    pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
         let origin = self.model_from_world.transform_point3(ray.origin);
-        Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray }
+        let ray = Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray };
+        self.mesh.crossings(&ray, |met| {
+            if self.is_solid(met.triangle, ray.origin + met.t * ray.way) {
+                look(met);
+            }
+        });
     }
 
-    /// In world space, to either side; of no length where the triangle has no area.
-    fn normal(&self, triangle: u32) -> DVec3 {
-        let [a, b, c] = self.mesh.corners(triangle).map(|corner| self.item.world_from_model.transform_point3(corner));
+    /// A triangle's normal, of unit length and to either side, in world space; zero where it has no area.
+    pub fn normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// A triangle's corners in world space.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.mesh.corners(triangle).map(|corner| self.item.world_from_model.transform_point3(corner))
     }
 
     /// Whether the alpha test passes at a point of a triangle, in model space.
@@ -116,9 +123,8 @@ pub fn seen(items: &[Placed<'_>], eye: DVec3, origin: DVec3, way: DVec3) -> Opti
     let mut nearest: Option<(f64, usize, u32)> = None;
     for (index, placed) in items.iter().enumerate() {
         let end = nearest.map_or(1.0, |(t, ..)| t);
-        let ray = Ray { end, ..placed.to_model(&ray) };
-        placed.mesh.crossings(&ray, |met| {
-            if nearest.is_none_or(|(t, ..)| met.t < t) && placed.is_solid(met.triangle, ray.origin + met.t * ray.way) {
+        placed.crossings(&Ray { end, ..ray }, |met| {
+            if nearest.is_none_or(|(t, ..)| met.t < t) {
                 nearest = Some((met.t, index, met.triangle));
             }
         });
@@ -144,13 +150,10 @@ pub fn on_the_way(items: &[Placed<'_>], seen: &Seen, behind: f64, rays: &Rays) -
     let ray = Ray { origin: seen.point, way, start: behind, end };
     let mut all = Vec::new();
     for (item, placed) in items.iter().enumerate().filter(|(_, placed)| placed.item.casts_shadow) {
-        let ray = placed.to_model(&ray);
-        placed.mesh.crossings(&ray, |met| {
-            if placed.is_solid(met.triangle, ray.origin + met.t * ray.way) {
-                let is_own = (item, met.triangle) == (seen.item, seen.triangle);
-                // The ray runs to the light: what it meets from the front looks away from it.
-                all.push(Met { item, t: met.t, is_far_side: !met.from_behind, is_own });
-            }
+        placed.crossings(&ray, |met| {
+            let is_own = (item, met.triangle) == (seen.item, seen.triangle);
+            // The ray runs to the light: what it meets from the front looks away from it.
+            all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
         });
     }
     all

@@ -1,0 +1,385 @@
+//! Forecasts where the picture of a map is wrong, by sampling: points that the camera sees in the middles of pixels are
+//! looked up in the map as the lit pass does it, in texels that rays find (`texels.rs`, `lookup.rs`), and held against a
+//! ray to the light. Warns, with the share, where
+//! - more than [`MOST_WRONG`] of what the light reaches is wrong: of too few texels, or too few codes of depth;
+//! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
+//!   or a caster that the map does not hold.
+
+mod lookup;
+mod points;
+mod texels;
+
+use glam::{DVec2, DVec3};
+
+use self::lookup::Receiver;
+use self::points::{Met, Placed, Seen, on_the_way, placed, seen, to_light};
+use self::texels::Texels;
+pub use self::texels::{Alone, Stored};
+use super::projector::{Projector, Rays};
+use super::shadow_map::bias;
+use super::shadow_map::settings::{Bias, Mipmaps, Offset, Settings};
+use super::{Item, LightView, Notes};
+use crate::pass::{DepthFormat, Face, PolygonOffset};
+use crate::scene::{LightKind, LightShape};
+
+/// The greatest share of the points in the light's reach that may be wrong without a warning.
+const MOST_WRONG: f64 = 0.015;
+
+/// In pictures where the light reaches fewer pixels a share says nothing.
+const FEWEST_PIXELS: u32 = 1000;
+
+/// At most so many points are looked at first, and where any of them is wrong as many as the second number.
+const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
+
+/// Lengths below this share of a point's coordinates and of its distance from the eye are none.
+const SLACK: f64 = 1e-7;
+
+/// A pixel higher or wider than this, in degrees, has neighbours in other directions altogether.
+const WIDEST_PIXEL: f64 = 30.0;
+
+/// No polygon offset.
+pub const NO_OFFSET: Offset = Offset { polygon: PolygonOffset { factor: 0.0, units: 0.0 }, texels: 0.0 };
+
+/// A map whose pictures are forecast.
+pub struct Map<'a> {
+    pub settings: &'a Settings,
+    pub offset: Offset,
+    pub stored: Stored,
+    /// What the map is drawn from.
+    pub casters: &'a [&'a Item],
+    /// One, or a cube's six.
+    pub projectors: Vec<Projector>,
+}
+
+/// Warns of what goes wrong.
+pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
+    warn_of_pixels(view, map.settings, notes);
+    let items = placed(view);
+    let mut forecast = Forecast::new(view, map, &items);
+    let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
+    // What has no far side may be a single pixel's: there is nothing that a few would tell of all.
+    if map.settings.cull.is_none() {
+        forecast.sample(few);
+    }
+    if forecast.is_uncertain() {
+        forecast.sample(many);
+    }
+    forecast.warn_of_share(notes);
+    forecast.warn_of_even(notes);
+}
+
+/// Says so of a normal offset in a picture of a few pixels: the normal is made from derivatives, from the pixels beside,
+/// which for pixels as wide as that may look past the surface's horizon.
+fn warn_of_pixels(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) {
+    let degrees = view.scene.camera.fov_y_radians.to_degrees() / f64::from(view.scene.image.size[1]);
+    if settings.bias == Bias::NormalOffset && degrees > WIDEST_PIXEL {
+        notes.warnings.push(format!(
+            "light {}: a pixel is {degrees:.0} degrees high, and `bias = \"normal-offset\"` finds no normal from the pixel \
+             beside it: take another bias",
+            view.index
+        ));
+    }
+}
+
+/// Pixels from one sample to the next, on each axis.
+fn step(view: &LightView<'_>, most: u32) -> u32 {
+    let [width, height] = view.scene.image.size;
+    (1..).find(|step| width.div_ceil(*step) * height.div_ceil(*step) <= most).unwrap_or(1)
+}
+
+/// A point that the picture will show wrong.
+struct Wrong {
+    /// Lit by mistake, or dark.
+    is_lit: bool,
+    /// Lost by the rounding of depths and the offset's units.
+    is_rounded: bool,
+    /// Wrong although nothing changes as far as a lookup reaches.
+    is_even: bool,
+    /// Whose shadow is missing, or what is dark: into the items.
+    item: usize,
+    /// The width of a texel, in pixels.
+    texel_pixels: f64,
+    /// What one code of depth measures there, and how far from the light that is, in world units.
+    code: f64,
+    distance: f64,
+}
+
+struct Forecast<'a> {
+    view: &'a LightView<'a>,
+    map: &'a Map<'a>,
+    items: &'a [Placed<'a>],
+    texels: Vec<Texels<'a>>,
+    /// Pixels from sample to sample.
+    step: u32,
+    /// Samples that face the light, within its reach.
+    reached: u32,
+    wrong: Vec<Wrong>,
+}
+
+impl<'a> Forecast<'a> {
+    fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a [Placed<'a>]) -> Self {
+        let texels = |projector: &Projector| {
+            Texels::new(items, map, projector.clone())
+        };
+        let texels = map.projectors.iter().map(texels).collect();
+        Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
+    }
+
+    /// Whether a few samples do not show that all is well.
+    fn is_uncertain(&self) -> bool {
+        self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
+    }
+
+    /// Looks at every `step`-th pixel of every `step`-th row, anew.
+    fn sample(&mut self, step: u32) {
+        (self.step, self.reached) = (step, 0);
+        self.wrong.clear();
+        let camera = &self.view.scene.camera;
+        let size = self.view.scene.image.size;
+        let world_from_clip = (camera.clip_from_view(self.view.scene.aspect()) * camera.view_from_world()).inverse();
+        let ray = |x: u32, y: u32| {
+            let [x, y] =
+                [(x, size[0]), (y, size[1])].map(|(at, size)| (2.0 * f64::from(at) + 1.0) / f64::from(size) - 1.0);
+            [-1.0, 1.0].map(|z| world_from_clip.project_point3(DVec3::new(x, y, z)))
+        };
+        let middles = |size: u32| (step / 2..size).step_by(step as usize);
+        for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
+            let [near, far] = ray(x, y);
+            let Some(point) = seen(self.items, camera.eye, near, far - near) else { continue };
+            // Where the rays of the pixels beside meet the same plane.
+            let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
+                near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
+            });
+            if let Some(wrong) = self.judge(&point, beside) {
+                self.wrong.push(wrong);
+            }
+        }
+    }
+
+    /// Counts a point within the light's reach, and says what the picture will show wrong.
+    fn judge(&mut self, point: &Seen, beside: [DVec3; 2]) -> Option<Wrong> {
+        let map = self.map;
+        let index = self.texels.iter().position(|texels| is_in(texels.projector(), point.point))?;
+        if !self.is_in_cone(point.point) || point.normal.dot(to_light(point.point, &self.rays())) <= 0.0 {
+            return None;
+        }
+        self.reached += 1;
+        let slack = self.slack(point);
+        let met = on_the_way(self.items, point, -slack, &self.rays());
+        let blockers = || met.iter().filter(|met| !met.is_own && met.t > slack);
+        let texels = &mut self.texels[index];
+        let light_from_world = texels.projector().light_from_world;
+        let light = light_from_world.transform_point3(point.point);
+        let place = texels.place(light).0;
+        let across = beside.map(|beside| {
+            (texels.place(light_from_world.transform_point3(beside)).0 - place).length()
+        });
+        let receiver = Receiver {
+            point: light,
+            normal: light_from_world.transform_vector3(point.normal),
+            pixel_texels: across[0].max(across[1]),
+        };
+        let lit = lookup::lit(texels, map.settings, map.offset.texels, &receiver) >= 0.5;
+        let is_blocked = blockers().next().is_some();
+        if lit != is_blocked {
+            return None;
+        }
+        let texel = texels.width_at(light);
+        let distance = if matches!(texels.projector().rays, Rays::From { .. }) { -light.z } else { 1.0 };
+        let code = code(map.settings.format) * length_of_depth(texels.projector(), distance);
+        let gap = |met: &Met| met.t * to_light(point.point, &self.rays()).length();
+        let nearest = blockers().min_by(|a, b| a.t.total_cmp(&b.t));
+        // Of two levels that are met, the coarser one.
+        let coarse = if map.settings.mipmaps == Mipmaps::All { 2.0 * receiver.pixel_texels.max(1.0) } else { 1.0 };
+        let is_even = self.is_even(point, &met, coarse * texel, slack)
+            && (!lit || (self.has_far_sides() && self.is_missed(point, blockers(), texel, code)));
+        let is_rounded = nearest.is_some_and(|met| gap(met) < (2.0 + f64::from(map.offset.polygon.units)) * code);
+        let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
+        Some(Wrong {
+            is_lit: lit,
+            is_rounded: lit && is_rounded,
+            is_even,
+            item: nearest.map_or(point.item, |met| met.item),
+            texel_pixels: texel / pixel,
+            code,
+            distance,
+        })
+    }
+
+    /// What counts as no length at a point, as a share of its way to the light.
+    fn slack(&self, point: &Seen) -> f64 {
+        let length = match self.rays() {
+            Rays::From { position, .. } => position.distance(point.point),
+            Rays::Along(_) => 1.0,
+        };
+        let eye = point.point.distance(self.view.scene.camera.eye);
+        SLACK * (point.point.abs().max_element() + eye) / length
+    }
+
+    /// Whether no far side lies before a point, or one that neither rounding nor slopes take for the point itself.
+    fn is_missed<'m>(&self, point: &Seen, blockers: impl Iterator<Item = &'m Met>, texel: f64, code: f64) -> bool {
+        let length = to_light(point.point, &self.rays()).length();
+        let mut far_sides = blockers.filter(|met| met.is_far_side).peekable();
+        far_sides.peek().is_none() || far_sides.any(|met| met.t * length > self.taken(point, met, texel, code))
+    }
+
+    /// How far before a point a caster may lie whose shadow bias and slopes take away, along the ray and in world units.
+    fn taken(&self, point: &Seen, met: &Met, texel: f64, code: f64) -> f64 {
+        let map = self.map;
+        let reach = bias::reach_texels(map.settings);
+        let factor = f64::from(map.offset.polygon.factor.abs());
+        let slope = |normal: DVec3| self.slope(point.point, normal);
+        let caster = slope(self.items[met.item].normal(met.triangle));
+        let slopes = (factor + reach) * caster + reach * slope(point.normal);
+        texel * (slopes + map.offset.texels + 1.0)
+            + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
+    }
+
+    /// How far a plane falls away along the light's ray for a step across it, both of unit length.
+    fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
+        let way = to_light(point, &self.rays()).normalize_or_zero();
+        let along = normal.dot(way).abs();
+        (1.0 - along * along).max(0.0).sqrt() / along.max(1e-6)
+    }
+
+    fn has_far_sides(&self) -> bool {
+        self.map.settings.cull == Some(Face::Front)
+    }
+
+    fn rays(&self) -> Rays {
+        self.map.projectors.first().map_or(Rays::Along(DVec3::NEG_Y), |projector| projector.rays)
+    }
+
+    fn is_in_cone(&self, point: DVec3) -> bool {
+        match &self.view.light().kind {
+            LightKind::Spot(spot) if spot.shape == LightShape::Cone => {
+                let clip = spot.frustum.clip_from_world() * point.extend(1.0);
+                clip.truncate().truncate().length() <= clip.w
+            }
+            _ => true,
+        }
+    }
+
+    /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches.
+    fn is_even(&self, point: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
+        let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
+        let rays = self.rays();
+        let Some(projector) = self.map.projectors.first() else { return false };
+        let rows = projector.light_from_world.transpose();
+        let axes = match self.map.projectors.len() {
+            1 => [rows.x_axis, rows.y_axis].map(|axis| axis.truncate()),
+            _ => {
+                let way = to_light(point.point, &rays).normalize_or_zero();
+                [way.any_orthonormal_vector(), way.cross(way.any_orthonormal_vector())]
+            }
+        };
+        let signature = signature(met, slack);
+        let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
+        around.filter(|step| *step != DVec2::ZERO).all(|step| {
+            // In the seen triangle's plane, so that what lies at its depth stays there.
+            let moved = point.point + reach * (step.x * axes[0] + step.y * axes[1]);
+            let way = to_light(moved, &rays);
+            let moved = moved + way * (point.normal.dot(point.point - moved) / point.normal.dot(way));
+            let there = on_the_way(self.items, &Seen { point: moved, ..*point }, -slack, &rays);
+            self::signature(&there, slack) == signature
+        })
+    }
+
+    /// In percent of what the light reaches.
+    fn percent(&self, count: usize) -> f64 {
+        100.0 * count as f64 / f64::from(self.reached.max(1))
+    }
+
+    /// Of too many wrong points.
+    fn warn_of_share(&self, notes: &mut Notes) {
+        let pixels = self.reached.saturating_mul(self.step.pow(2));
+        if pixels < FEWEST_PIXELS || self.wrong.len() as f64 <= MOST_WRONG * f64::from(self.reached) {
+            return;
+        }
+        let (index, percent) = (self.view.index, self.percent(self.wrong.len()));
+        let rounded: Vec<&Wrong> = self.wrong.iter().filter(|wrong| wrong.is_rounded).collect();
+        let widest = rounded.iter().max_by(|a, b| a.code.total_cmp(&b.code));
+        if let Some(widest) = widest.filter(|_| 2 * rounded.len() > self.wrong.len()) {
+            notes.warnings.push(format!(
+                "light {index}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about \
+                 {percent:.1} % of what it reaches is wrong, as near behind its caster as that: move `near` away, or take a \
+                 format of more bits",
+                name(self.map.settings.format),
+                widest.code,
+                widest.distance
+            ));
+            return;
+        }
+        let coarsest = self.wrong.iter().map(|wrong| wrong.texel_pixels).fold(0.0, f64::max);
+        notes.warnings.push(format!(
+            "light {index}: about {percent:.1} % of what it reaches gets the wrong shade: a texel of its map covers up to \
+             {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise `size`, narrow the cone, or move the \
+             light nearer"
+        ));
+    }
+
+    /// Of points that are wrong for no edge of a shadow, item by item.
+    fn warn_of_even(&self, notes: &mut Notes) {
+        let far_sides = self.has_far_sides();
+        for (index, placed) in self.items.iter().enumerate() {
+            for is_lit in [true, false] {
+                let is_it = |wrong: &&Wrong| wrong.is_even && wrong.is_lit == is_lit && wrong.item == index;
+                let count = self.wrong.iter().filter(is_it).count();
+                if count == 0 {
+                    continue;
+                }
+                let (what, why) = match (is_lit, far_sides) {
+                    (true, _) => ("lit by mistake", "that it shadows: it has no far side there"),
+                    (false, true) => ("dark by mistake", "on it: a far side lies at the very depth of what is lit"),
+                    (false, false) => ("dark by mistake", "on it: it shades itself"),
+                };
+                notes.warnings.push(format!(
+                    "{} in the map of light {}: {what} are {:.2} % of what the light reaches, {why}",
+                    placed.item.label,
+                    self.view.index,
+                    self.percent(count)
+                ));
+            }
+        }
+    }
+}
+
+/// Which sides of which items are met, whatever their order.
+fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
+    let mut all: Vec<_> = met.iter().map(|met| (met.item, met.is_far_side, met.t.abs() <= slack)).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
+fn is_in(projector: &Projector, point: DVec3) -> bool {
+    let clip = projector.clip_from_world() * point.extend(1.0);
+    clip.w > 0.0 && (matches!(projector.rays, Rays::Along(_)) || clip.truncate().truncate().abs().max_element() <= clip.w)
+}
+
+/// World units along the axis for one unit of window depth, at a distance along it.
+fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
+    // z = A w - B: depth is (1 + A - B / w) / 2. Of parallel light w is 1, and z linear.
+    match projector.rays {
+        Rays::From { .. } => 2.0 * distance * distance / projector.clip_from_light.w_axis.z.abs(),
+        Rays::Along(_) => 2.0 / projector.clip_from_light.z_axis.z.abs(),
+    }
+}
+
+fn name(format: DepthFormat) -> &'static str {
+    match format {
+        DepthFormat::Depth16 => "depth16",
+        DepthFormat::Depth24 => "depth24",
+        DepthFormat::Depth32 => "depth32",
+        DepthFormat::Depth32F => "depth32f",
+    }
+}
+
+/// The least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
+/// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
+fn code(format: DepthFormat) -> f64 {
+    match format {
+        DepthFormat::Depth16 => 1.0 / 65535.0,
+        _ => 2.0_f64.powi(-23),
+    }
+}

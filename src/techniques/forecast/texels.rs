@@ -1,0 +1,250 @@
+//! A map's texels as rays from the light find them, each when it is first asked for. f64; depths are those of the window,
+//! in [0, 1] and growing away from the light, whichever way the map's own run.
+
+use std::collections::HashMap;
+
+use glam::{DMat4, DVec2, DVec3};
+
+use super::Map;
+use super::points::Placed;
+use crate::geometry::rays::Ray;
+use crate::pass::{DepthFormat, Face, PolygonOffset};
+use crate::techniques::projector::{Projector, Rays};
+use crate::techniques::shadow_map::bias;
+use crate::techniques::shadow_map::settings::Settings;
+use crate::techniques::shadow_map::term::raster_from_clip;
+
+/// What a texel stores.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stored {
+    /// The nearest face of a caster, under the map's polygon offset.
+    Nearest,
+    /// The middle between the nearest caster and what lies next behind it by more than `margin`, casters or not; `alone`
+    /// where nothing does.
+    Middle { margin: f64, eye_linear: bool, alone: Alone },
+}
+
+/// What a texel with one layer alone stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Alone {
+    Far,
+    /// The layer, under the map's polygon offset.
+    Nearest,
+}
+
+/// A map, or one face of a cube.
+pub struct Texels<'a> {
+    items: &'a [Placed<'a>],
+    settings: &'a Settings,
+    stored: Stored,
+    offset: PolygonOffset,
+    /// Whether each item is a caster that the map is drawn from.
+    casts: Vec<bool>,
+    projector: Projector,
+    world_from_light: DMat4,
+    known: HashMap<[u32; 3], f64>,
+}
+
+/// A layer that a texel's ray crosses.
+#[derive(Clone, Copy)]
+struct Layer {
+    depth: f64,
+    item: usize,
+    triangle: u32,
+    casts: bool,
+}
+
+impl<'a> Texels<'a> {
+    pub fn new(items: &'a [Placed<'a>], map: &'a Map<'a>, projector: Projector) -> Self {
+        let casts = |placed: &Placed<'_>| map.casters.iter().any(|caster| std::ptr::eq(*caster, placed.item));
+        Self {
+            items,
+            settings: map.settings,
+            stored: map.stored,
+            offset: map.offset.polygon,
+            casts: items.iter().map(casts).collect(),
+            world_from_light: projector.light_from_world.inverse(),
+            projector,
+            known: HashMap::new(),
+        }
+    }
+
+    pub fn projector(&self) -> &Projector {
+        &self.projector
+    }
+
+    /// Texels a side of a level.
+    pub fn size(&self, level: u32) -> u32 {
+        (self.settings.size >> level).max(1)
+    }
+
+    /// The width of a texel of level 0 at a point in light space, along its longer side.
+    pub fn width_at(&self, light: DVec3) -> f64 {
+        let one = bias::texel_at_one(&self.projector, self.settings);
+        if matches!(self.projector.rays, Rays::From { .. }) { -light.z * one } else { one }
+    }
+
+    /// Where a point in light space is looked up, in texels of level 0 from a corner of the map; its window depth.
+    pub fn place(&self, light: DVec3) -> (DVec2, f64) {
+        let crop = raster_from_clip(self.settings) * self.settings.crop.map_clip_from_light_clip();
+        let clip = crop * self.projector.clip_from_light * light.extend(1.0);
+        let ndc = clip.truncate() / clip.w;
+        let size = f64::from(self.settings.size);
+        ((0.5 + 0.5 * ndc.truncate()) * size, 0.5 + 0.5 * ndc.z)
+    }
+
+    /// The depth that a texel holds.
+    pub fn depth(&mut self, level: u32, [x, y]: [u32; 2]) -> f64 {
+        let key = [level, x, y];
+        if let Some(depth) = self.known.get(&key) {
+            return *depth;
+        }
+        let depth = rounded(self.settings.format, self.found(level, [x, y]));
+        self.known.insert(key, depth);
+        depth
+    }
+
+    fn found(&self, level: u32, at: [u32; 2]) -> f64 {
+        let center = DVec2::new(f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5);
+        let ray = self.ray(level, center);
+        let layers = self.layers(&ray);
+        let nearest = layers.iter().filter(|layer| layer.casts).min_by(|a, b| a.depth.total_cmp(&b.depth));
+        let Some(nearest) = nearest else { return 1.0 };
+        let own = || nearest.depth + self.moved(level, center, nearest);
+        match self.stored {
+            Stored::Nearest => own(),
+            Stored::Middle { margin, eye_linear, alone } => {
+                let behind = layers.iter().map(|layer| layer.depth).filter(|depth| depth - margin > nearest.depth);
+                match behind.min_by(f64::total_cmp) {
+                    Some(second) => self.middle(nearest.depth, second, eye_linear),
+                    None if alone == Alone::Nearest => own(),
+                    None => 1.0,
+                }
+            }
+        }
+    }
+
+    fn middle(&self, first: f64, second: f64, eye_linear: bool) -> f64 {
+        if !eye_linear || matches!(self.projector.rays, Rays::Along(_)) {
+            return 0.5 * (first + second);
+        }
+        // A window depth is linear in 1 over the distance.
+        let distance = |depth: f64| self.distance(depth);
+        self.depth_at(0.5 * (distance(first) + distance(second)))
+    }
+
+    /// The window depth at a distance along the axis.
+    fn depth_at(&self, distance: f64) -> f64 {
+        let clip = self.projector.clip_from_light;
+        let z = clip.w_axis.z - clip.z_axis.z * distance;
+        0.5 + 0.5 * if matches!(self.projector.rays, Rays::From { .. }) { z / distance } else { z }
+    }
+
+    /// The other way around.
+    fn distance(&self, depth: f64) -> f64 {
+        let clip = self.projector.clip_from_light;
+        let z = 2.0 * depth - 1.0;
+        match self.projector.rays {
+            Rays::From { .. } => clip.w_axis.z / (z + clip.z_axis.z),
+            Rays::Along(_) => (clip.w_axis.z - z) / clip.z_axis.z,
+        }
+    }
+
+    /// The light's ray through a place of the map, in texels of a level, from the light (or the box's near side) to the far
+    /// plane.
+    fn ray(&self, level: u32, place: DVec2) -> Ray {
+        let clip = &self.projector.clip_from_light;
+        let map = 2.0 * place / f64::from(self.size(level)) - 1.0;
+        let clip_from_raster = raster_from_clip(self.settings).inverse();
+        let map = clip_from_raster.transform_point3(map.extend(0.0)).truncate();
+        let light = self.settings.crop.light_clip(map);
+        let scale = DVec2::new(clip.x_axis.x, clip.y_axis.y);
+        let (from, to) = match self.projector.rays {
+            Rays::From { .. } => {
+                let far = self.distance(1.0);
+                (DVec3::ZERO, (light / scale).extend(-1.0) * far)
+            }
+            Rays::Along(_) => {
+                let at = (light - clip.w_axis.truncate().truncate()) / scale;
+                (at.extend(-self.distance(0.0)), at.extend(-self.distance(1.0)))
+            }
+        };
+        let [from, to] = [from, to].map(|point| self.world_from_light.transform_point3(point));
+        Ray { origin: from, way: to - from, start: 0.0, end: 1.0 }
+    }
+
+    /// What the ray crosses and the map has drawn, in no order.
+    fn layers(&self, ray: &Ray) -> Vec<Layer> {
+        let mut layers = Vec::new();
+        let far_sides = match self.settings.cull {
+            None => None,
+            Some(Face::Front) => Some(true),
+            Some(Face::Back) => Some(false),
+        };
+        let with_receivers = matches!(self.stored, Stored::Middle { .. });
+        // What lies beyond the far plane is a second layer at depth 1.
+        let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
+        for (item, placed) in self.items.iter().enumerate() {
+            let casts = self.casts[item];
+            if !(casts || with_receivers) {
+                continue;
+            }
+            placed.crossings(ray, |met| {
+                // The ray runs away from the light: what it meets from behind looks away from it.
+                if far_sides.is_none_or(|far| far == met.from_behind) {
+                    let depth = self.depth_along(met.t);
+                    layers.push(Layer { depth, item, triangle: met.triangle, casts });
+                }
+            });
+        }
+        layers
+    }
+
+    /// The window depth at a share of a texel's ray, clamped as under GL_DEPTH_CLAMP.
+    fn depth_along(&self, t: f64) -> f64 {
+        let distance = match self.projector.rays {
+            Rays::From { .. } => t * self.distance(1.0),
+            Rays::Along(_) => {
+                let near = self.distance(0.0);
+                near + t * (self.distance(1.0) - near)
+            }
+        };
+        self.depth_at(distance).clamp(0.0, 1.0)
+    }
+
+    /// By how much the polygon offset moves a layer, in window depth [GL 4.6, 14.6.5].
+    fn moved(&self, level: u32, center: DVec2, layer: &Layer) -> f64 {
+        let PolygonOffset { factor, units } = self.offset;
+        let unit = match self.settings.format {
+            DepthFormat::Depth16 => 2.0_f64.powi(-16),
+            _ => 2.0_f64.powi(-24),
+        };
+        if factor == 0.0 {
+            return f64::from(units) * unit;
+        }
+        let placed = &self.items[layer.item];
+        let (corner, normal) = (placed.corners(layer.triangle)[0], placed.normal(layer.triangle));
+        let beside = |step: DVec2| {
+            let ray = self.ray(level, center + step);
+            let t = normal.dot(corner - ray.origin) / normal.dot(ray.way);
+            let distance = match self.projector.rays {
+                Rays::From { .. } => t * self.distance(1.0),
+                Rays::Along(_) => self.distance(0.0) + t * (self.distance(1.0) - self.distance(0.0)),
+            };
+            (self.depth_at(distance) - layer.depth).abs()
+        };
+        let slope = beside(DVec2::X).max(beside(DVec2::Y));
+        // A surface seen edge-on is moved to the far plane.
+        let slope = if slope.is_finite() { slope.min(1.0) } else { 1.0 };
+        f64::from(factor) * slope + f64::from(units) * unit
+    }
+}
+
+/// A depth as the map's format keeps it.
+fn rounded(format: DepthFormat, depth: f64) -> f64 {
+    let depth = depth.clamp(0.0, 1.0);
+    match format {
+        DepthFormat::Depth16 => (depth * 65535.0).round() / 65535.0,
+        _ => depth,
+    }
+}
