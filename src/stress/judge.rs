@@ -10,7 +10,7 @@
 //!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
 //!   3. it is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset makes
 //!      up for: an offset knows the slope of the surface that is stored, not of the one that is compared;
-//!   4. it is lit, and what shadows it lies so close before it that the bias reaches across.
+//!   4. it is lit, and what shadows it and stands in the map lies so close before it that the bias reaches across.
 //!
 //!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
@@ -22,7 +22,7 @@ use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::oracle::ray::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
-use crate::pass::DepthFormat;
+use crate::pass::{DepthFormat, Face};
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::report::metrics::ShadeImage;
 use crate::report::run::with_shadow;
@@ -247,8 +247,8 @@ impl<'a> Judge<'a> {
             return around.rise > 0.0
                 || (map.bias == Bias::Offset && around.nearer.iter().any(|near| shades(map, around, near)));
         }
-        !around.blockers.is_empty()
-            && around.blockers.iter().all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
+        let mut held = around.blockers.iter().filter(|blocker| holds(map, blocker)).peekable();
+        held.peek().is_some() && held.all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
     }
 }
 
@@ -291,6 +291,15 @@ fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
 fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
     let factor = f64::from(map.polygon.factor) * std::f64::consts::FRAC_1_SQRT_2;
     near.by > map.texel * around.scale * (factor * near.slope + map.texels)
+}
+
+/// Whether the map is drawn from a blocker's side.
+fn holds(map: &MapInfo, blocker: &Blocker) -> bool {
+    match map.cull {
+        None => true,
+        Some(Face::Front) => blocker.is_far_side,
+        Some(Face::Back) => !blocker.is_far_side,
+    }
 }
 
 /// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.

@@ -39,11 +39,6 @@ const PLANES: [DVec4; 5] = [
 /// picture after all, and with an error that is 2^-24 of the piece's farthest end.
 const PIECE: f64 = 4.0;
 
-/// So many pieces behind one another share an origin in a map, and in a picture: up to [`PIECE`] to this power times as
-/// far as the nearest one, about as far as [`ORDINARY`] and [`ORDINARY_FOR_CAMERA`] have it.
-const SHARE_ORIGIN: usize = 2;
-const SHARE_ORIGIN_FOR_CAMERA: usize = 4;
-
 /// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
 const ORDINARY: f64 = 16.0;
 
@@ -77,6 +72,11 @@ fn ordinary_for_camera(scene: &Scene) -> f64 {
     allowed.fold(ORDINARY_FOR_CAMERA, f64::min).max(ORDINARY)
 }
 
+/// How many powers of [`PIECE`] lie up to `times`.
+fn powers(times: f64) -> usize {
+    (times.ln() / PIECE.ln()) as usize
+}
+
 /// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
 pub struct Cutter {
     clip_from_world: DMat4,
@@ -86,6 +86,9 @@ pub struct Cutter {
     along: f64,
     /// The least w.
     nearest: f64,
+    /// So many pieces behind one another share an origin: up to [`PIECE`] to this power times as far as the nearest one,
+    /// about as far as clip coordinates are ordinary.
+    share_origin: usize,
     /// Those of [`PLANES`] that cut.
     planes: &'static [DVec4],
 }
@@ -103,18 +106,20 @@ impl Cutter {
         };
         // A twentieth of a texel, of which a width of 2 has as many as the map's size.
         let planes = if clamped { &PLANES[..4] } else { &PLANES[..] };
-        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest, planes }
+        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest, share_origin: powers(ORDINARY), planes }
     }
 
     /// For an eye; `None` where vertices must stay as they are: light per vertex is of the file's vertices. Nor may be cut
     /// what volumes' caps meet.
     pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
-        let across = ordinary_for_camera(scene) * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
+        let ordinary = ordinary_for_camera(scene);
+        let across = ordinary * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
         (!scene.shading.per_vertex).then_some(Self {
             clip_from_world: *clip_from_world,
             across,
             along: f64::INFINITY,
             nearest: near,
+            share_origin: powers(ordinary),
             planes: &PLANES,
         })
     }
@@ -201,11 +206,10 @@ impl Cutter {
             return Vec::new();
         }
         let nearest = polygons.iter().flatten().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min);
-        let share = if self.along.is_finite() { SHARE_ORIGIN } else { SHARE_ORIGIN_FOR_CAMERA };
         let mut groups: Vec<Vec<[Corner; 3]>> = vec![whole];
         for polygon in polygons {
             for (index, piece) in pieces(polygon, nearest.max(self.nearest)).into_iter().enumerate() {
-                let group = 1 + index / share;
+                let group = 1 + index / self.share_origin;
                 groups.resize(groups.len().max(group + 1), Vec::new());
                 groups[group].extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
             }

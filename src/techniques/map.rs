@@ -4,7 +4,7 @@ use super::FrustumView;
 use super::projector::{Projector, Rays};
 use super::shadow_map::settings::Settings;
 use super::shadow_map::{bias, fit};
-use crate::pass::{DepthFormat, PolygonOffset};
+use crate::pass::{DepthFormat, Face, PolygonOffset};
 use crate::scene::LightKind;
 
 pub use super::shadow_map::settings::Bias;
@@ -28,6 +28,8 @@ pub struct MapInfo {
     /// first one under "8-tap", and of the finer one of the two that are met under `mipmaps = true`.
     pub reach_texels: f64,
     pub bias: Bias,
+    /// Faces that the map leaves out, as the light sees them.
+    pub cull: Option<Face>,
     /// The polygon offset that the map is drawn with, positive away from the light; 0 of techniques that need none.
     pub polygon: PolygonOffset,
     /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
@@ -57,6 +59,7 @@ impl MapInfo {
             texel: bias::texel_at_one(&view.projector, settings),
             reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
             bias: settings.bias,
+            cull: settings.cull,
             polygon: PolygonOffset { factor: 0.0, units: 0.0 },
             texels,
         }

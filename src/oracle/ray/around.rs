@@ -59,6 +59,8 @@ pub struct Blocker {
     pub gap: f64,
     /// The steepest slope of the surface within the reach, as [`Around::slope`].
     pub slope: f64,
+    /// Whether its front looks away from the light.
+    pub is_far_side: bool,
 }
 
 /// A triangle by its object's and its own number.
@@ -116,7 +118,8 @@ impl<'a> Surroundings<'a> {
                 let beside = met.iter().map(|place| self.triangle(place));
                 let same = beside.filter(|other| other.is(&blocker) || other.touches(&blocker));
                 let steepest = same.map(|other| self.slope(&seen, other.normal())).fold(0.0, f64::max);
-                Blocker { gap: *gap, slope: steepest }
+                let looks_away = blocker.normal().dot(beam.axis()) > 0.0;
+                Blocker { gap: *gap, slope: steepest, is_far_side: looks_away != blocker.placed.mirrors() }
             })
             .collect();
         Some(around)
