@@ -260,8 +260,9 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches.
-    fn is_even(&self, point: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
+    /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
+    /// or, where the map is made of far sides, none of these at all.
+    fn is_even(&self, seen: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
         let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
         let rays = self.rays();
         let Some(projector) = self.map.projectors.first() else { return false };
@@ -269,20 +270,27 @@ impl<'a> Forecast<'a> {
         let axes = match self.map.projectors.len() {
             1 => [rows.x_axis, rows.y_axis].map(|axis| axis.truncate()),
             _ => {
-                let way = to_light(point.point, &rays).normalize_or_zero();
+                let way = to_light(seen.point, &rays).normalize_or_zero();
                 [way.any_orthonormal_vector(), way.cross(way.any_orthonormal_vector())]
             }
         };
         let signature = signature(met, slack);
+        let mut is_missed = self.has_far_sides();
         let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
-        around.filter(|step| *step != DVec2::ZERO).all(|step| {
+        let mut is_alike = true;
+        for step in around {
+            let across = seen.point + reach * (step.x * axes[0] + step.y * axes[1]);
+            let way = to_light(across, &rays);
             // In the seen triangle's plane, so that what lies at its depth stays there.
-            let moved = point.point + reach * (step.x * axes[0] + step.y * axes[1]);
-            let way = to_light(moved, &rays);
-            let moved = moved + way * (point.normal.dot(point.point - moved) / point.normal.dot(way));
-            let there = on_the_way(self.items, &Seen { point: moved, ..*point }, -slack, &rays);
-            self::signature(&there, slack) == signature
-        })
+            let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
+            let there = |point: DVec3| on_the_way(self.items, &Seen { point, ..*seen }, -slack, &rays);
+            is_alike = is_alike && self::signature(&there(moved), slack) == signature;
+            is_missed = is_missed && !there(across).iter().any(|met| met.is_far_side);
+            if !(is_alike || is_missed) {
+                return false;
+            }
+        }
+        true
     }
 
     /// In percent of what the light reaches.
