@@ -2,6 +2,7 @@
 //! looked up in the map as the lit pass does it, in texels that rays find (`texels.rs`, `lookup.rs`), and held against a
 //! ray to the light. Warns, with the share, where
 //! - more than [`MOST_WRONG`] of what the light reaches is wrong: of too few texels, or too few codes of depth;
+//! - a point before the near plane is lit by mistake;
 //! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
 //!   or a caster that the map does not hold.
 
@@ -66,6 +67,7 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     }
     forecast.warn_of_share(notes);
     forecast.warn_of_even(notes);
+    forecast.warn_of_near(notes);
 }
 
 /// Says so of a normal offset in a picture of a few pixels: the normal is made from derivatives, from the pixels beside,
@@ -95,6 +97,8 @@ struct Wrong {
     is_rounded: bool,
     /// Wrong although nothing changes as far as a lookup reaches.
     is_even: bool,
+    /// Lit by mistake before the near plane, where a map has no depths.
+    is_before_near: bool,
     /// Whose shadow is missing, or what is dark: into the items.
     item: usize,
     /// The width of a texel, in pixels.
@@ -170,7 +174,7 @@ impl<'a> Forecast<'a> {
         let texels = &mut self.texels[index];
         let light_from_world = texels.projector().light_from_world;
         let light = light_from_world.transform_point3(point.point);
-        let place = texels.place(light).0;
+        let (place, depth) = texels.place(light);
         let across = beside.map(|beside| {
             (texels.place(light_from_world.transform_point3(beside)).0 - place).length()
         });
@@ -199,6 +203,7 @@ impl<'a> Forecast<'a> {
             is_lit: lit,
             is_rounded: lit && is_rounded,
             is_even,
+            is_before_near: lit && depth <= 0.0,
             item: nearest.map_or(point.item, |met| met.item),
             texel_pixels: texel / pixel,
             code,
@@ -261,7 +266,7 @@ impl<'a> Forecast<'a> {
     }
 
     /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
-    /// or, where the map is made of far sides, none of these at all.
+    /// or, where the map is made of far sides, none of these at all, or nothing at all before the plane of what is seen.
     fn is_even(&self, seen: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
         let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
         let rays = self.rays();
@@ -275,7 +280,7 @@ impl<'a> Forecast<'a> {
             }
         };
         let signature = signature(met, slack);
-        let mut is_missed = self.has_far_sides();
+        let (mut is_missed, mut is_lit) = (self.has_far_sides(), self.has_far_sides());
         let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
         let mut is_alike = true;
         for step in around {
@@ -284,9 +289,11 @@ impl<'a> Forecast<'a> {
             // In the seen triangle's plane, so that what lies at its depth stays there.
             let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
             let there = |point: DVec3| on_the_way(self.items, &Seen { point, ..*seen }, -slack, &rays);
-            is_alike = is_alike && self::signature(&there(moved), slack) == signature;
+            let met = there(moved);
+            is_alike = is_alike && self::signature(&met, slack) == signature;
+            is_lit = is_lit && !met.iter().any(|met| !met.is_own && met.t > slack);
             is_missed = is_missed && !there(across).iter().any(|met| met.is_far_side);
-            if !(is_alike || is_missed) {
+            if !(is_alike || is_missed || is_lit) {
                 return false;
             }
         }
@@ -323,6 +330,19 @@ impl<'a> Forecast<'a> {
             "light {index}: about {percent:.1} % of what it reaches gets the wrong shade: a texel of its map covers up to \
              {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise `size`, narrow the cone, or move the \
              light nearer"
+        ));
+    }
+
+    /// Of points before the near plane.
+    fn warn_of_near(&self, notes: &mut Notes) {
+        let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near);
+        let (Rays::From { near, .. }, Some(first)) = (self.rays(), before().next()) else { return };
+        notes.warnings.push(format!(
+            "light {}'s near plane at {near}: {:.2} % of what it reaches lies before it in a shadow, such as that of {}, and is \
+             lit there: a map has no depths before its near plane",
+            self.view.index,
+            self.percent(before().count()),
+            self.items[first.item].item.label
         ));
     }
 

@@ -48,6 +48,7 @@ pub struct Texels<'a> {
 /// A layer that a texel's ray crosses.
 #[derive(Clone, Copy)]
 struct Layer {
+    /// Not clamped.
     depth: f64,
     item: usize,
     triangle: u32,
@@ -108,16 +109,18 @@ impl<'a> Texels<'a> {
         let center = DVec2::new(f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5);
         let ray = self.ray(level, center);
         let layers = self.layers(&ray);
-        let nearest = layers.iter().filter(|layer| layer.casts).min_by(|a, b| a.depth.total_cmp(&b.depth));
-        let Some(nearest) = nearest else { return 1.0 };
-        let own = || nearest.depth + self.moved(level, center, nearest);
+        let casting = || layers.iter().filter(|layer| layer.casts);
+        // The depth test compares what the offset has moved, and GL_DEPTH_CLAMP clamps that [GL 4.6, 14.6.5 and 17.3.4].
+        let moved = || casting().map(|layer| layer.depth + self.moved(level, center, layer)).fold(1.0, f64::min);
         match self.stored {
-            Stored::Nearest => own(),
+            Stored::Nearest => moved(),
             Stored::Middle { margin, eye_linear, alone } => {
-                let behind = layers.iter().map(|layer| layer.depth).filter(|depth| depth - margin > nearest.depth);
+                let clamped = |layer: &Layer| layer.depth.clamp(0.0, 1.0);
+                let nearest = casting().map(clamped).fold(1.0, f64::min);
+                let behind = layers.iter().map(clamped).filter(|depth| depth - margin > nearest);
                 match behind.min_by(f64::total_cmp) {
-                    Some(second) => self.middle(nearest.depth, second, eye_linear),
-                    None if alone == Alone::Nearest => own(),
+                    Some(second) => self.middle(nearest, second, eye_linear),
+                    None if alone == Alone::Nearest => moved(),
                     None => 1.0,
                 }
             }
@@ -200,7 +203,7 @@ impl<'a> Texels<'a> {
         layers
     }
 
-    /// The window depth at a share of a texel's ray, clamped as under GL_DEPTH_CLAMP.
+    /// The window depth at a share of a texel's ray; below 0 before the near plane.
     fn depth_along(&self, t: f64) -> f64 {
         let distance = match self.projector.rays {
             Rays::From { .. } => t * self.distance(1.0),
@@ -209,7 +212,7 @@ impl<'a> Texels<'a> {
                 near + t * (self.distance(1.0) - near)
             }
         };
-        self.depth_at(distance).clamp(0.0, 1.0)
+        self.depth_at(distance)
     }
 
     /// By how much the polygon offset moves a layer, in window depth [GL 4.6, 14.6.5].

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3};
 use crate::geometry::volume;
 use crate::math::{Aabb, frustum};
 use crate::techniques::projector::Rays;
-use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach, warn_of_near};
+use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
 use crate::techniques::unseen::Unseen;
@@ -93,7 +93,6 @@ pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
             beyond_far = Some(item.label.clone());
         }
     }
-    warn_of_near(view, &casters, notes);
     Layers { casters, receivers, beyond_far }
 }
 

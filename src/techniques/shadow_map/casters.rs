@@ -1,7 +1,5 @@
 //! Which of the scene's items are drawn into a light's map.
 
-use glam::{DVec3, DVec4};
-
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::math::frustum::{self, Overlap};
@@ -48,7 +46,6 @@ pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item
             casters.push(item);
         }
     }
-    warn_of_near(view, &casters, notes);
     casters
 }
 
@@ -66,64 +63,4 @@ pub fn is_before_near(view: &FrustumView<'_>, item: &Item) -> bool {
 
 pub fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
     format!("{} in the map of light {}", item.label, view.index)
-}
-
-/// Before its near plane a map has one depth alone: what casts there shadows all that lies beyond the plane, and nothing
-/// before it. Says so where something seen may lie there, behind something else.
-pub fn warn_of_near(view: &FrustumView<'_>, casters: &[&Item], notes: &mut Notes) {
-    let Rays::From { near, position } = view.projector.rays else { return };
-    let before: Vec<&Item> = casters.iter().copied().filter(|item| is_before_near(view, item)).collect();
-    if before.is_empty() {
-        return;
-    }
-    let camera = &view.scene.camera;
-    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let is_inside = |clip: DVec4| clip.truncate().abs().max_element() <= clip.w;
-    // Points of the item that are seen, lie in the light and before its near plane.
-    let places = |item: &Item| -> Vec<DVec3> {
-        let light_clip = view.clip_from_world();
-        grid(item)
-            .map(|point| item.world_from_model.transform_point3(point))
-            .filter(|point| {
-                let clip = light_clip * point.extend(1.0);
-                clip.truncate().truncate().abs().max_element() <= clip.w
-                    && clip.z < -clip.w
-                    && is_inside(camera_clip * point.extend(1.0))
-            })
-            .collect()
-    };
-    let shaded = |item: &Item| {
-        let places = places(item);
-        let shades = |caster: &&Item| {
-            let crossed = |point: &DVec3| middle_of_crossing(caster, *point, *point - position);
-            !std::ptr::eq::<Item>(*caster, item) && places.iter().filter_map(crossed).any(|at| -1.0 < at && at < -1e-6)
-        };
-        before.iter().copied().find(shades)
-    };
-    let seen = view.items.iter().filter(|item| is_before_near(view, item));
-    let Some((item, caster)) = seen.filter_map(|item| Some((item, shaded(item)?))).next() else { return };
-    let of = format!("light {}'s near plane at {near}: ", view.index);
-    // One is enough of each light, whose cube has six such planes.
-    if !notes.warnings.iter().any(|warning| warning.starts_with(&of)) {
-        let shadow = format!("{} lies before it in the shadow of {}", item.label, caster.label);
-        notes.warnings.push(format!("{of}{shadow}, and is lit there: a map has no depths before its near plane"));
-    }
-}
-
-/// A hundred points and more all over the item's box, in its model space.
-fn grid(item: &Item) -> impl Iterator<Item = DVec3> {
-    const STEPS: usize = 5;
-    let (min, size) = (item.bounds.min, item.bounds.max - item.bounds.min);
-    let share = |step: usize| step as f64 / (STEPS - 1) as f64;
-    (0..STEPS.pow(3))
-        .map(move |i| min + size * DVec3::new(share(i % STEPS), share(i / STEPS % STEPS), share(i / STEPS / STEPS)))
-}
-
-/// Where the line `point + t * way` is in the middle of the item's box; world space.
-pub fn middle_of_crossing(item: &Item, point: DVec3, way: DVec3) -> Option<f64> {
-    let model_from_world = item.world_from_model.inverse();
-    let (point, way) = (model_from_world.transform_point3(point), model_from_world.transform_vector3(way));
-    let (a, b) = ((item.bounds.min - point) / way, (item.bounds.max - point) / way);
-    let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
-    (enter <= leave).then_some(0.5 * (enter + leave))
 }

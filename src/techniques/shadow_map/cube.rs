@@ -7,7 +7,7 @@
 use glam::{DMat4, DVec3, Vec2};
 
 use super::bias;
-use super::casters::{in_the_map, may_cast, warn_of_near};
+use super::casters::{in_the_map, may_cast};
 use super::depth::{self, Layer};
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::tag;
@@ -105,7 +105,6 @@ fn needed<'a>(
     let what = format!("face {} of the map of light {}", face.name(), view.index);
     let holds = |item: &&&Item| view.keep_all || may_cast(&face_view, item);
     let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
-    warn_of_near(&face_view, &inside, notes);
     if inside.is_empty() {
         notes.left_out(what, "no caster that matters stands in it");
         return None;
