@@ -32,6 +32,8 @@ pub struct MapInfo {
     pub polygon: PolygonOffset,
     /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
     pub texels: f64,
+    /// Whether a texel holds the middle between the two nearest layers, in place of the nearest one.
+    pub middle: bool,
 }
 
 /// The frustum of a map, and the depths that it can hold.
@@ -59,6 +61,7 @@ impl MapInfo {
             bias: settings.bias,
             polygon: PolygonOffset { factor: 0.0, units: 0.0 },
             texels,
+            middle: false,
         }
     }
 }
