@@ -248,7 +248,9 @@ impl<'a> Judge<'a> {
             return true;
         }
         if map.middle && should_be_lit {
-            return surroundings.middle(x, y, reach, 2.0 * code(map, around.scale)) > 0.0;
+            // A depth is off by a code where it is stored, and by one where it is compared; layers within these are one.
+            let codes = 2.0 * code(map, around.scale);
+            return surroundings.middle(x, y, reach, codes) > -codes;
         }
         if should_be_lit {
             return around.rise > 0.0

@@ -99,7 +99,8 @@ impl<'a> Surroundings<'a> {
         let beam = self.beam(&seen, reach);
         let mut around = Around { scale, slope: self.slope(&seen, seen.normal), ..Around::default() };
         let (mut blockers, mut met) = (Vec::new(), Vec::new());
-        self.visit(&beam, |triangle| {
+        let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
+        self.visit(&beam, beam.radius(self.tracer.largest_error) + longer, |triangle| {
             self.look_at(triangle, &beam, &seen, &mut around, &mut blockers, &mut met);
             if around.edge { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -116,14 +117,12 @@ impl<'a> Surroundings<'a> {
         Some(around)
     }
 
-    /// Calls `look` with each triangle that the beam may meet, up to a little behind its base.
-    pub(super) fn visit(&self, beam: &Beam, look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
+    /// Calls `look` with each triangle that the beam may meet, up to so far behind its base.
+    pub(super) fn visit(&self, beam: &Beam, behind: f64, look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
         let axis = beam.axis();
-        let radius = beam.radius(self.tracer.largest_error);
-        let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
-        let end = 1.0 + (radius + longer) / axis.length();
+        let end = 1.0 + behind / axis.length();
         let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
-        self.tracer.world.visit(&segment, radius, look);
+        self.tracer.world.visit(&segment, beam.radius(self.tracer.largest_error), look);
     }
 
     /// The slope of a surface near the visible point, as [`Around::slope`].
@@ -224,4 +223,56 @@ fn before_plane(beam: &Beam, point: DVec3, seen: &Seen<'_>) -> f64 {
     // A ray that leaves the light away from the plane meets it behind the light.
     let is_met = ahead.is_finite() && (ahead > -1.0 || matches!(beam.apex, Apex::Infinity { .. }));
     if is_met { ahead * way.length() } else { 0.0 }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::scene;
+
+    /// Objects under a sun straight above, seen in one pixel that shows `target` from `eye`.
+    pub fn seen(objects: &str, eye: DVec3, target: DVec3) -> Scene {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let camera = format!(
+            "[image]\nsize = [1, 1]\n[camera]\neye = {:?}\ntarget = {:?}\nfov_y = 5.0\n",
+            eye.to_array(),
+            target.to_array()
+        );
+        let light = "[[light]]\nkind = \"directional\"\ndirection = [0.0, -1.0, 0.0]\n";
+        std::fs::write(&path, format!("{camera}{light}{objects}")).unwrap();
+        scene::load(&path, &[]).unwrap().scene
+    }
+
+    fn around(objects: &str, eye: DVec3, target: DVec3, reach: f64) -> Around {
+        let scene = seen(objects, eye, target);
+        Surroundings::new(&scene, 0, &Options::default()).unwrap().around(0, 0, reach).unwrap()
+    }
+
+    #[test]
+    fn what_is_nearer_is_found_at_its_nearest() {
+        let roof = "[[object]]\nmesh = \"box\"\nrotate = { axis = [0.0, 0.0, 1.0], angle = 30.0 }\n";
+        let (sin, cos) = 30_f64.to_radians().sin_cos();
+        let ridge = DVec3::new(cos - sin, cos + sin, 0.1);
+        // Down the steep side, 0.1 aside.
+        let point = ridge + 0.2 * DVec3::new(sin, -cos, 0.0);
+        for reach in [0.2, 0.3, 0.35] {
+            let found = around(roof, point + 3.0 * DVec3::new(cos, sin, 0.0), point, reach);
+            assert!(!found.edge && found.rise == 0.0, "{found:?}");
+            let most = found.nearer.iter().map(|near| near.by).fold(0.0, f64::max);
+            assert!((most - 0.2 * cos).abs() < 1e-3, "{reach}: {most}");
+        }
+    }
+
+    #[test]
+    fn the_visible_surface_ends_at_its_own_edge() {
+        let quad = "[[object]]\nmesh = \"quad\"\n";
+        for (x, ends) in [(0.5, false), (0.95, true)] {
+            let point = DVec3::new(x, 0.0, 0.1);
+            for objects in [quad.to_owned(), format!("{quad}casts_shadow = false\n")] {
+                let found = around(&objects, point + 3.0 * DVec3::Y + DVec3::X, point, 0.1);
+                assert_eq!([found.own_edge, found.edge], [ends, false], "{x}");
+            }
+        }
+    }
 }

@@ -368,6 +368,36 @@ mod tests {
     }
 
     #[test]
+    fn what_is_seen_edge_on_is_missed_from_beside_it() {
+        let [beam, _] = beams();
+        // In a plane through the apex, but for rounding: on either side of it by turns.
+        for off in [0.0, 1e-12, -1e-12] {
+            let corners = [DVec3::new(0.0, -1.0, 1.0), DVec3::new(off, 0.0, 2.0), DVec3::new(-off, 1.0, 1.0)];
+            assert!(beam.meet(&corners, 1e-9).is_some_and(|meeting| !meeting.surely_inside), "{off}");
+            for aside in [-0.1, 0.1] {
+                let beside = Beam { base: DVec3::X * aside, ..beam };
+                assert!(beside.meet(&corners, 1e-9).is_none(), "{off} {aside}");
+            }
+        }
+    }
+
+    #[test]
+    fn clipped_is_what_the_parallelogram_sees() {
+        for beam in beams() {
+            let beam = Beam { spread: [0.2 * DVec3::X, 0.1 * DVec3::Y], ..beam };
+            let corners = [DVec3::new(0.0, -9.0, 2.5), DVec3::new(9.0, 0.0, 2.5), DVec3::new(0.0, 9.0, 2.5)];
+            let wide = if matches!(beam.apex, Apex::At(_)) { 0.1 } else { 0.2 };
+            let clipped = beam.clip(&corners);
+            let (min, max) = clipped.iter().fold((clipped[0], clipped[0]), |(a, b), &at| (a.min(at), b.max(at)));
+            assert!(min.distance(DVec3::new(0.0, -0.5 * wide, 2.5)) < 1e-12, "{min}");
+            assert!(max.distance(DVec3::new(wide, 0.5 * wide, 2.5)) < 1e-12, "{max}");
+            assert!(beam.clip(&corners.map(|corner| corner + DVec3::X)).is_empty());
+            let right = beam.overlap(clipped, &corners.map(|corner| corner + 0.5 * wide * DVec3::X - DVec3::Z));
+            assert!(right.iter().all(|corner| corner.x > 0.0) && right.len() >= 4, "{right:?}");
+        }
+    }
+
+    #[test]
     fn parallel_beams_meet_what_lies_straight_before_their_base() {
         let [from_place, parallel] = beams();
         // At half the way a point 0.3 aside is in the light's way to 0.6 aside; for parallel light it stays at 0.3.
