@@ -171,6 +171,21 @@ fn steep_faces_in_one_plane_do_not_shade_each_other() {
     }
 }
 
+/// A steep side far behind in the box of a sun, before a floor beyond the box: its offset is as deep as what is left of the
+/// box.
+#[test]
+fn no_offset_lets_light_through_to_what_lies_behind_the_map() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let folder = tempfile::tempdir().unwrap();
+    let scene = random::case(5, 87).load(folder.path()).unwrap().scene;
+    for keys in ["size = 256", "size = 256, compare = \"gequal\"", "size = 256, format = \"depth32f\""] {
+        let settings = RowSettings { technique: "shadow-map".into(), keys: keys.into(), pictured: false };
+        let row = Judge::new(&scene, 0).unwrap().row(&settings, &mut renderer).row;
+        assert_eq!((row.verdict, row.beyond), (Verdict::Right, 0), "{keys}");
+    }
+}
+
 fn turn(scene: &mut Scene, way: impl Fn(DVec3) -> DVec3) {
     if let LightKind::Directional { direction } = &mut scene.lights[0].kind {
         *direction = way(*direction);
