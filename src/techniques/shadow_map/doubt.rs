@@ -7,7 +7,7 @@
 use glam::{DMat4, DVec3};
 
 use super::bias;
-use super::settings::{Bias, Mipmaps, Offset, Settings};
+use super::settings::{Mipmaps, Offset, Settings};
 use crate::math::Aabb;
 use crate::pass::{DepthFormat, PolygonOffset};
 use crate::scene::LightKind;
@@ -42,25 +42,8 @@ pub const WITHOUT_OFFSET: Offset = Offset { polygon: PolygonOffset { factor: 0.0
 /// Fewer samples than this prove nothing.
 const LEAST: u32 = 4;
 
-/// A pixel higher or wider than this, in degrees, has neighbours in other directions altogether.
-const WIDEST_PIXEL: f64 = 30.0;
-
-/// Says so of a normal offset in a picture of a few pixels: the normal is made from derivatives, from the pixels beside,
-/// which for pixels as wide as that may look past the surface's horizon.
-fn warn_of_pixels(view: &FrustumView<'_>, settings: &Settings, notes: &mut Notes) {
-    let degrees = view.scene.camera.fov_y_radians.to_degrees() / f64::from(view.scene.image.size[1]);
-    if settings.bias == Bias::NormalOffset && degrees > WIDEST_PIXEL {
-        notes.warnings.push(format!(
-            "light {}: a pixel is {degrees:.0} degrees high, and `bias = \"normal-offset\"` finds no normal from the pixel \
-             beside it: take another bias",
-            view.index
-        ));
-    }
-}
-
 /// Says so where too much of what the light reaches and the camera sees is beyond what the map can tell.
 pub fn warn(view: &FrustumView<'_>, settings: &Settings, offset: &Offset, notes: &mut Notes) {
-    warn_of_pixels(view, settings, notes);
     let Some(found) = sample(view, settings, offset) else { return };
     let share = |count: u32| if count < LEAST { 0.0 } else { f64::from(count) / f64::from(found.reached) };
     let (lost, buried, uncertain) = (share(found.lost), share(found.buried), share(found.uncertain));
