@@ -5,7 +5,8 @@ uniform sampler2D nearest;
 #ifdef COMPARE
 uniform sampler2DShadow nearest_compared; // GL_GREATER: 1 behind the nearest layer
 #endif
-// What a depth may lose when it is stored: the first layer's own fragments must not lie behind themselves.
+// What a depth may lose when it is stored: the first layer's own fragments must not lie behind themselves. It stands for a
+// surface across the light; a steep one loses more.
 uniform float margin;
 #ifdef EYE_LINEAR
 uniform float near_over_range; // n / (f - n)
@@ -13,10 +14,13 @@ uniform float near_over_range; // n / (f - n)
 
 void main()
 {
+    float own = gl_FragCoord.z;
+    // Depth is interpolated as z0 + x dz/dx + y dz/dy from a corner of the map, in f32: beside the sum the products are
+    // rounded, and two triangles in one plane differ by that too.
+    float apart = margin * (1.0 + fwidth(own) * float(textureSize(nearest, 0).x));
 #ifdef ALPHA_TEST
     alpha_test();
 #endif
-    float own = gl_FragCoord.z;
 #ifdef CLAMPED
     // As the depth test has it, which comes later [GL 4.6, 17.3.4].
     own = clamp(own, 0.0, 1.0);
@@ -25,11 +29,11 @@ void main()
 #ifdef COMPARE
     // The document's way: by the texture unit.
     vec2 texel_centre = gl_FragCoord.xy / vec2(textureSize(nearest, 0));
-    bool is_behind = texture(nearest_compared, vec3(texel_centre, own - margin)) != 0.0;
+    bool is_behind = texture(nearest_compared, vec3(texel_centre, own - apart)) != 0.0;
 #elif defined(REVERSED)
-    bool is_behind = own - margin < first;
+    bool is_behind = own - apart < first;
 #else
-    bool is_behind = own - margin > first;
+    bool is_behind = own - apart > first;
 #endif
     if (!is_behind)
         discard;
@@ -37,11 +41,11 @@ void main()
 #ifdef EYE_LINEAR
     // The window depth of the middle point. With u = f/(f - n) - z, which is as 1 over the distance, it is the harmonic
     // mean of both u: their mean less the square of half their difference over it.
-    float apart = 0.5 * (own - first);
+    float half_gap = 0.5 * (own - first);
 #ifdef REVERSED
-    middle -= apart * apart / (near_over_range + middle);
+    middle -= half_gap * half_gap / (near_over_range + middle);
 #else
-    middle += apart * apart / (near_over_range + 1.0 - middle);
+    middle += half_gap * half_gap / (near_over_range + 1.0 - middle);
 #endif
 #endif
     gl_FragDepth = middle;

@@ -33,7 +33,12 @@ void derive_shade_@()
 #else
     vec3 point = vec3((coord.xy - light_from_map_@.zw * coord.w) * light_from_map_@.xy, -coord.w);
 #endif
-    vec3 normal = cross(scaled_@(dFdx(point)), scaled_@(dFdy(point))); // to the viewer
+    // Over w what is interpolated is linear in the picture, and so is 1/w: derivatives of these are exact, though the pixel
+    // beside lies past the surface's horizon, where the point itself comes back from behind the eye.
+    float w = gl_FragCoord.w;
+    vec3 dx = dFdx(point * w) - point * dFdx(w);
+    vec3 dy = dFdy(point * w) - point * dFdy(w);
+    vec3 normal = cross(scaled_@(dx), scaled_@(dy)); // to the viewer
     normal *= inversesqrt(max(dot(normal, normal), 1e-30));
     float reach = dot(offset_reach_@, abs(normal.xy));
 #ifndef PARALLEL_@

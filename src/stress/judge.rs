@@ -6,11 +6,15 @@
 //! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
 //! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is
 //!   accounted for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
-//!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*);
+//!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*); of the visible
+//!      surface itself, it counts where a texel holds the middle of two layers: past it the second one lies far behind;
 //!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
 //!   3. it is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset makes
 //!      up for: an offset knows the slope of the surface that is stored, not of the one that is compared;
 //!   4. it is lit, and what shadows it and stands in the map lies so close before it that the bias reaches across.
+//!
+//!   Of a map of middles, in place of 2 and 3: it is dark, and somewhere within that reach the middle between two layers lies
+//!   before it. So thin a caster shades its own lit side, where it falls away from the light.
 //!
 //!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
@@ -243,9 +247,17 @@ impl<'a> Judge<'a> {
         if around.edge {
             return true;
         }
+        if map.middle && should_be_lit {
+            // A depth is off by a code where it is stored, and by one where it is compared; layers within these are one.
+            let codes = 2.0 * code(map, around.scale);
+            return surroundings.middle(x, y, reach, codes) > -codes;
+        }
         if should_be_lit {
             return around.rise > 0.0
                 || (map.bias == Bias::Offset && around.nearer.iter().any(|near| shades(map, around, near)));
+        }
+        if map.middle && around.own_edge {
+            return true;
         }
         let mut held = around.blockers.iter().filter(|blocker| holds(map, blocker)).peekable();
         held.peek().is_some() && held.all(|blocker| blocker.gap <= bias_reach(map, around, blocker))

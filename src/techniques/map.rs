@@ -34,6 +34,8 @@ pub struct MapInfo {
     pub polygon: PolygonOffset,
     /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
     pub texels: f64,
+    /// Whether a texel holds the middle between the two nearest layers, in place of the nearest one.
+    pub middle: bool,
 }
 
 /// The frustum of a map, and the depths that it can hold.
@@ -62,6 +64,7 @@ impl MapInfo {
             cull: settings.cull,
             polygon: PolygonOffset { factor: 0.0, units: 0.0 },
             texels,
+            middle: false,
         }
     }
 }

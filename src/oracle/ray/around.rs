@@ -3,8 +3,7 @@
 //!
 //! The reach is a parallelogram around the point, across the light's axis, as a map's texels are. Silhouettes and open
 //! edges inside it are found exactly, by the same beam that finds the doubt of a shadow ray (`beam.rs`). What rises
-//! before the visible plane, and what lies close before the point, is sampled on a grid: between silhouettes a surface
-//! changes slowly.
+//! before the visible plane, or beside the point, is greatest at a corner of the part of a triangle that lies in the reach.
 
 use std::ops::ControlFlow;
 
@@ -18,7 +17,7 @@ use crate::scene::Scene;
 
 /// One light of one scene, ready for questions about single pixels.
 pub struct Surroundings<'a> {
-    tracer: Tracer<'a>,
+    pub(super) tracer: Tracer<'a>,
     scene: &'a Scene,
     options: Options,
 }
@@ -28,12 +27,15 @@ pub struct Surroundings<'a> {
 pub struct Around {
     /// Whether a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
     pub edge: bool,
+    /// Whether the visible surface itself ends or folds over within the reach. It shadows nothing that it is seen with, but
+    /// may be the second layer of a map that stores the middle of two.
+    pub own_edge: bool,
     /// How far a caster stands before the plane of the visible surface somewhere within the reach, along the light's ray
     /// and in world units; 0: nowhere.
     pub rise: f64,
     /// What the point's own ray meets before the point.
     pub blockers: Vec<Blocker>,
-    /// Surfaces of other planes within the reach that lie nearer to the light than the point itself.
+    /// Surfaces of other planes within the reach that lie nearer to the light than the point itself, each at its nearest.
     pub nearer: Vec<Nearer>,
     /// How fast the visible surface's depth along the light's axis grows across a map, as GL's polygon offset has it but
     /// over both axes together: without unit.
@@ -65,9 +67,6 @@ pub struct Blocker {
 
 /// A triangle by its object's and its own number.
 type Place = (u32, u32);
-
-/// Lengths of the reach at which rises are sampled, on each axis.
-const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 
 /// The cosine between the normals of two triangles of one plane, at least.
 const SAME_PLANE: f64 = 1.0 - 1e-9;
@@ -101,13 +100,9 @@ impl<'a> Surroundings<'a> {
         let scale = self.tracer.lamp.depth_at(seen.position);
         let beam = self.beam(&seen, reach);
         let mut around = Around { scale, slope: self.slope(&seen, seen.normal), ..Around::default() };
-        let axis = beam.axis();
-        let radius = beam.radius(self.tracer.largest_error);
-        let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
-        let end = 1.0 + (radius + longer) / axis.length();
-        let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
         let (mut blockers, mut met) = (Vec::new(), Vec::new());
-        self.tracer.world.visit(&segment, radius, |triangle| {
+        let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
+        self.visit(&beam, beam.radius(self.tracer.largest_error) + longer, |triangle| {
             self.look_at(triangle, &beam, &seen, &mut around, &mut blockers, &mut met);
             if around.edge { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -125,12 +120,20 @@ impl<'a> Surroundings<'a> {
         Some(around)
     }
 
+    /// Calls `look` with each triangle that the beam may meet, up to so far behind its base.
+    pub(super) fn visit(&self, beam: &Beam, behind: f64, look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
+        let axis = beam.axis();
+        let end = 1.0 + behind / axis.length();
+        let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
+        self.tracer.world.visit(&segment, beam.radius(self.tracer.largest_error), look);
+    }
+
     /// The slope of a surface near the visible point, as [`Around::slope`].
     fn slope(&self, seen: &Seen<'_>, normal: DVec3) -> f64 {
         self.tracer.lamp.slope(seen.position, normal).min(STEEPEST)
     }
 
-    fn beam(&self, seen: &Seen<'_>, reach: f64) -> Beam {
+    pub(super) fn beam(&self, seen: &Seen<'_>, reach: f64) -> Beam {
         let spread = self.tracer.lamp.footprint(seen.position, reach);
         let apex = self.tracer.lamp.apex(seen.position);
         let way = match apex {
@@ -153,7 +156,7 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    fn triangle(&self, &(object, index): &Place) -> Triangle<'_> {
+    pub(super) fn triangle(&self, &(object, index): &Place) -> Triangle<'_> {
         self.tracer.world.triangle(object, index)
     }
 
@@ -166,7 +169,9 @@ impl<'a> Surroundings<'a> {
         blockers: &mut Vec<(Place, f64)>,
         met: &mut Vec<Place>,
     ) {
-        if !triangle.placed.casts_shadow || triangle.is(&seen.triangle) || triangle.is_degenerate() {
+        let is_own = triangle.is(&seen.triangle);
+        let may_shade = triangle.placed.casts_shadow && !is_own;
+        if triangle.is_degenerate() || !(may_shade || triangle.object == seen.triangle.object) {
             return;
         }
         let error = self.tracer.error_in(beam, triangle);
@@ -175,40 +180,102 @@ impl<'a> Surroundings<'a> {
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {
             return;
         }
-        let place = (triangle.object, triangle.index);
-        met.push(place);
         // The edge of a hole in a cut-out is an edge too, wherever the beam meets the cut-out.
         let is_cut = triangle.has_cutout() && !self.tracer.alpha_in(beam, triangle).surely_opaque();
-        around.edge |= is_cut || (near_edge && self.tracer.folds_inside(beam, triangle, error));
+        let ends = is_cut || (near_edge && self.tracer.folds_inside(beam, triangle, error));
+        if !may_shade {
+            around.own_edge |= ends;
+            return;
+        }
+        around.edge |= ends;
+        let place = (triangle.object, triangle.index);
+        met.push(place);
+        let doubt = seen.error + error;
+        let gap = |base: DVec3| gap(beam, base, seen, &triangle.corners).filter(|gap| *gap > doubt);
+        blockers.extend(gap(beam.base).map(|gap| (place, gap)));
         let is_same_plane = triangle.normal().dot(seen.normal).abs() > SAME_PLANE;
-        for u in STEPS {
-            for v in STEPS {
-                let base = beam.base + u * beam.spread[0] + v * beam.spread[1];
-                let Some((gap, at)) = gap(beam, base, seen, triangle) else { continue };
-                let by = self.tracer.lamp.depth_between(at, seen.position);
-                if !is_same_plane && by > seen.error + error {
-                    around.nearer.push(Nearer { by, slope: self.slope(seen, triangle.normal()) });
-                }
-                if gap <= seen.error + error {
-                    continue;
-                }
-                around.rise = around.rise.max(gap);
-                if (u, v) == (0.0, 0.0) {
-                    blockers.push((place, gap));
-                }
-            }
+        let (mut by, mut rise) = (0.0_f64, 0.0_f64);
+        for corner in beam.clip(&triangle.corners) {
+            by = by.max(self.tracer.lamp.depth_between(corner, seen.position));
+            rise = rise.max(before_plane(beam, corner, seen));
+        }
+        if rise > doubt {
+            around.rise = around.rise.max(rise);
+        }
+        if by > 0.0 && !is_same_plane {
+            around.nearer.push(Nearer { by, slope: self.slope(seen, triangle.normal()) });
         }
     }
 }
 
-/// How far before the visible surface's plane the ray to `base` crosses the triangle, and where; `None` where it does not.
-fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<(f64, DVec3)> {
+/// How far before the visible surface's plane the ray to `base` crosses the triangle; `None` where it does not.
+fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, corners: &[DVec3; 3]) -> Option<f64> {
     let way = match beam.apex {
         Apex::At(apex) => base - apex,
         Apex::Infinity { travel, length } => length * travel,
     };
-    let origin = base - way;
-    let at = crossing(origin, way, &triangle.corners)?;
-    let plane = seen.normal.dot(seen.position - origin) / seen.normal.dot(way);
-    (at > 0.0 && plane.is_finite()).then_some(((plane - at) * way.length(), origin + at * way))
+    let at = crossing(base - way, way, corners).filter(|at| *at > 0.0)?;
+    Some(before_plane(beam, base - way + at * way, seen))
+}
+
+/// How far before the visible surface's plane a point lies, along its own ray; negative behind it, 0 where the ray does not
+/// meet it.
+fn before_plane(beam: &Beam, point: DVec3, seen: &Seen<'_>) -> f64 {
+    let way = beam.way_to(point);
+    let ahead = seen.normal.dot(seen.position - point) / seen.normal.dot(way);
+    // A ray that leaves the light away from the plane meets it behind the light.
+    let is_met = ahead.is_finite() && (ahead > -1.0 || matches!(beam.apex, Apex::Infinity { .. }));
+    if is_met { ahead * way.length() } else { 0.0 }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::scene;
+
+    /// Objects under a sun straight above, seen in one pixel that shows `target` from `eye`.
+    pub fn seen(objects: &str, eye: DVec3, target: DVec3) -> Scene {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let camera = format!(
+            "[image]\nsize = [1, 1]\n[camera]\neye = {:?}\ntarget = {:?}\nfov_y = 5.0\n",
+            eye.to_array(),
+            target.to_array()
+        );
+        let light = "[[light]]\nkind = \"directional\"\ndirection = [0.0, -1.0, 0.0]\n";
+        std::fs::write(&path, format!("{camera}{light}{objects}")).unwrap();
+        scene::load(&path, &[]).unwrap().scene
+    }
+
+    fn around(objects: &str, eye: DVec3, target: DVec3, reach: f64) -> Around {
+        let scene = seen(objects, eye, target);
+        Surroundings::new(&scene, 0, &Options::default()).unwrap().around(0, 0, reach).unwrap()
+    }
+
+    #[test]
+    fn what_is_nearer_is_found_at_its_nearest() {
+        let roof = "[[object]]\nmesh = \"box\"\nrotate = { axis = [0.0, 0.0, 1.0], angle = 30.0 }\n";
+        let (sin, cos) = 30_f64.to_radians().sin_cos();
+        let ridge = DVec3::new(cos - sin, cos + sin, 0.1);
+        // Down the steep side, 0.1 aside.
+        let point = ridge + 0.2 * DVec3::new(sin, -cos, 0.0);
+        for reach in [0.2, 0.3, 0.35] {
+            let found = around(roof, point + 3.0 * DVec3::new(cos, sin, 0.0), point, reach);
+            assert!(!found.edge && found.rise == 0.0, "{found:?}");
+            let most = found.nearer.iter().map(|near| near.by).fold(0.0, f64::max);
+            assert!((most - 0.2 * cos).abs() < 1e-3, "{reach}: {most}");
+        }
+    }
+
+    #[test]
+    fn the_visible_surface_ends_at_its_own_edge() {
+        let quad = "[[object]]\nmesh = \"quad\"\n";
+        for (x, ends) in [(0.5, false), (0.95, true)] {
+            let point = DVec3::new(x, 0.0, 0.1);
+            for objects in [quad.to_owned(), format!("{quad}casts_shadow = false\n")] {
+                let found = around(&objects, point + 3.0 * DVec3::Y + DVec3::X, point, 0.1);
+                assert_eq!([found.own_edge, found.edge], [ends, false], "{x}");
+            }
+        }
+    }
 }

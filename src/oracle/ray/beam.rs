@@ -169,7 +169,7 @@ impl Beam {
         let error_at_base = error * self.lever(corners);
         let mut surely_inside = true;
         for k in 0..3 {
-            match self.beside(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3], error_at_base) {
+            match self.beside(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3], [error, error_at_base]) {
                 Side::Before => return None,
                 Side::Near => surely_inside = false,
                 Side::Beyond => {}
@@ -181,19 +181,45 @@ impl Beam {
     }
 
     /// On which side of the plane through apex and edge the whole base lies: `Beyond`: on the third corner's.
-    fn beside(&self, from: DVec3, to: DVec3, third: DVec3, error_at_base: f64) -> Side {
+    ///
+    /// Where the third corner lies in that plane within its error, the triangle is seen edge-on: what lies beside the plane,
+    /// on either side, misses it.
+    fn beside(&self, from: DVec3, to: DVec3, third: DVec3, [error, error_at_base]: [f64; 2]) -> Side {
         let (normal, on_plane) = self.plane_through(from, to);
         let normal = normal.normalize_or_zero();
         let inward = normal.dot(third - on_plane);
-        let slack = self.reach_along(normal, &self.spread) + self.error + error_at_base;
+        let is_edge_on = inward.abs() <= error;
+        let corners_error = if is_edge_on { 2.0 * error_at_base } else { error_at_base };
+        let slack = self.reach_along(normal, &self.spread) + self.error + corners_error;
         let value = normal.dot(self.base - on_plane) * inward.signum();
-        if !slack.is_finite() || inward == 0.0 || value.abs() <= slack {
+        if !slack.is_finite() || normal == DVec3::ZERO || value.abs() <= slack {
             Side::Near
-        } else if value > 0.0 {
+        } else if value > 0.0 && !is_edge_on {
             Side::Beyond
         } else {
             Side::Before
         }
+    }
+
+    /// The part of a triangle that lies in the beam's parallelogram as the apex sees it, without any error: a convex polygon, of
+    /// no corners where there is none.
+    pub fn clip(&self, corners: &[DVec3; 3]) -> Vec<DVec3> {
+        let [a, b] = self.spread;
+        [(a, b), (-a, b), (b, a), (-b, a)].into_iter().fold(corners.to_vec(), |polygon, (aside, along)| {
+            let side = self.base + aside;
+            let normal = self.way_to(side).cross(along);
+            cut(&polygon, normal * -normal.dot(aside).signum(), side)
+        })
+    }
+
+    /// The part of a convex polygon that a triangle covers, or that covers it, as the apex sees both.
+    pub fn overlap(&self, polygon: Vec<DVec3>, corners: &[DVec3; 3]) -> Vec<DVec3> {
+        (0..3).fold(polygon, |polygon, k| {
+            let [from, to, third] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
+            let (normal, on_plane) = self.plane_through(from, to);
+            let inward = normal.dot(third - on_plane);
+            if inward == 0.0 { Vec::new() } else { cut(&polygon, normal * inward.signum(), on_plane) }
+        })
     }
 
     fn reach_along(&self, normal: DVec3, spread: &[DVec3; 2]) -> f64 {
@@ -269,6 +295,23 @@ impl Beam {
     }
 }
 
+/// The part of a convex polygon on the side of a plane that `inward` points to.
+fn cut(polygon: &[DVec3], inward: DVec3, on_plane: DVec3) -> Vec<DVec3> {
+    let heights: Vec<f64> = polygon.iter().map(|corner| inward.dot(*corner - on_plane)).collect();
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (k, &corner) in polygon.iter().enumerate() {
+        let next = (k + 1) % polygon.len();
+        let (height, next_height) = (heights[k], heights[next]);
+        if height >= 0.0 {
+            kept.push(corner);
+        }
+        if (height < 0.0) != (next_height < 0.0) {
+            kept.push(corner.lerp(polygon[next], height / (height - next_height)));
+        }
+    }
+    kept
+}
+
 /// The closest points of a ray's piece [start, end] and of an edge: the ray's parameter, and their distance.
 fn closest(origin: DVec3, axis: DVec3, start: f64, end: f64, from: DVec3, to: DVec3) -> (f64, f64) {
     let (edge, offset) = (to - from, origin - from);
@@ -321,6 +364,36 @@ mod tests {
             assert!(!beam.is_fold(edge, DVec3::X, Some(-DVec3::X), 1e-9));
             assert!(beam.is_fold(edge, DVec3::X, Some(DVec3::new(0.5, 0.0, -1.0)), 1e-9));
             assert!(beam.is_fold(edge, DVec3::X, None, 1e-9));
+        }
+    }
+
+    #[test]
+    fn what_is_seen_edge_on_is_missed_from_beside_it() {
+        let [beam, _] = beams();
+        // In a plane through the apex, but for rounding: on either side of it by turns.
+        for off in [0.0, 1e-12, -1e-12] {
+            let corners = [DVec3::new(0.0, -1.0, 1.0), DVec3::new(off, 0.0, 2.0), DVec3::new(-off, 1.0, 1.0)];
+            assert!(beam.meet(&corners, 1e-9).is_some_and(|meeting| !meeting.surely_inside), "{off}");
+            for aside in [-0.1, 0.1] {
+                let beside = Beam { base: DVec3::X * aside, ..beam };
+                assert!(beside.meet(&corners, 1e-9).is_none(), "{off} {aside}");
+            }
+        }
+    }
+
+    #[test]
+    fn clipped_is_what_the_parallelogram_sees() {
+        for beam in beams() {
+            let beam = Beam { spread: [0.2 * DVec3::X, 0.1 * DVec3::Y], ..beam };
+            let corners = [DVec3::new(0.0, -9.0, 2.5), DVec3::new(9.0, 0.0, 2.5), DVec3::new(0.0, 9.0, 2.5)];
+            let wide = if matches!(beam.apex, Apex::At(_)) { 0.1 } else { 0.2 };
+            let clipped = beam.clip(&corners);
+            let (min, max) = clipped.iter().fold((clipped[0], clipped[0]), |(a, b), &at| (a.min(at), b.max(at)));
+            assert!(min.distance(DVec3::new(0.0, -0.5 * wide, 2.5)) < 1e-12, "{min}");
+            assert!(max.distance(DVec3::new(wide, 0.5 * wide, 2.5)) < 1e-12, "{max}");
+            assert!(beam.clip(&corners.map(|corner| corner + DVec3::X)).is_empty());
+            let right = beam.overlap(clipped, &corners.map(|corner| corner + 0.5 * wide * DVec3::X - DVec3::Z));
+            assert!(right.iter().all(|corner| corner.x > 0.0) && right.len() >= 4, "{right:?}");
         }
     }
 

@@ -26,6 +26,7 @@ mod beam;
 mod camera;
 mod cutout;
 mod light;
+mod middle;
 mod primary;
 mod shadow;
 mod shells;

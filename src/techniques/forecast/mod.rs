@@ -18,7 +18,7 @@ use self::texels::Texels;
 pub use self::texels::{Alone, Stored};
 use super::projector::{Projector, Rays};
 use super::shadow_map::bias;
-use super::shadow_map::settings::{Bias, Mipmaps, Offset, Settings};
+use super::shadow_map::settings::{Mipmaps, Offset, Settings};
 use super::{Item, LightView, Notes};
 use crate::pass::{DepthFormat, Face, PolygonOffset};
 use crate::scene::{LightKind, LightShape};
@@ -34,9 +34,6 @@ const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
 
 /// Lengths below this share of a point's coordinates and of its distance from the eye are none.
 const SLACK: f64 = 1e-7;
-
-/// A pixel higher or wider than this, in degrees, has neighbours in other directions altogether.
-const WIDEST_PIXEL: f64 = 30.0;
 
 /// No polygon offset.
 pub const NO_OFFSET: Offset = Offset { polygon: PolygonOffset { factor: 0.0, units: 0.0 }, texels: 0.0 };
@@ -54,7 +51,6 @@ pub struct Map<'a> {
 
 /// Warns of what goes wrong.
 pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
-    warn_of_pixels(view, map.settings, notes);
     let items = placed(view);
     let mut forecast = Forecast::new(view, map, &items);
     let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
@@ -68,19 +64,6 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     forecast.warn_of_share(notes);
     forecast.warn_of_even(notes);
     forecast.warn_of_near(notes);
-}
-
-/// Says so of a normal offset in a picture of a few pixels: the normal is made from derivatives, from the pixels beside,
-/// which for pixels as wide as that may look past the surface's horizon.
-fn warn_of_pixels(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) {
-    let degrees = view.scene.camera.fov_y_radians.to_degrees() / f64::from(view.scene.image.size[1]);
-    if settings.bias == Bias::NormalOffset && degrees > WIDEST_PIXEL {
-        notes.warnings.push(format!(
-            "light {}: a pixel is {degrees:.0} degrees high, and `bias = \"normal-offset\"` finds no normal from the pixel \
-             beside it: take another bias",
-            view.index
-        ));
-    }
 }
 
 /// Pixels from one sample to the next, on each axis.

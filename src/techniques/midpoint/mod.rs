@@ -30,7 +30,7 @@ use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
-use super::{Axis, FrustumView, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
@@ -158,7 +158,9 @@ impl Technique for Midpoint {
             }
         };
         forecast::warn(view, &forecast_of(view, &settings, single, &layers.casters), notes);
-        Ok(shadow_map::looked_up(view, map, &settings.map, 0.0, notes))
+        let mut term = shadow_map::looked_up(view, map, &settings.map, 0.0, notes);
+        term.map_info = term.map_info.map(|info| MapInfo { middle: true, ..info });
+        Ok(term)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The passes that draw the casters' depth from the light [Hardware Shadow Mapping, "How To Do It"; techniques A1-A4].
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 use super::bias;
 use super::casters::is_before_near;
@@ -96,6 +96,7 @@ pub fn draw(
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let clamped = is_clamped(view, layer, "depth", notes);
     let (plain, cleared) = state(settings, layer.offset, clamped);
+    let plain = if ends_before_cleared(view, layer, settings) { before_cleared(plain) } else { plain };
     let mut state = DrawState { scissor: layer.scissor, ..plain };
     if !received.is_empty() {
         let cull = state.cull.take();
@@ -187,9 +188,44 @@ pub fn state(
     }
 }
 
+/// The greatest depth that is drawn where what is cleared must lie behind it: two codes of 16 bits before 1.
+const LAST: f64 = 1.0 - 1.0 / 32_768.0;
+
+/// Whether an offset could move what is drawn to the depth that the map is cleared to, although what it shadows lies behind:
+/// what lies beyond the box of parallel light is compared at depth 1, and would be lit through it. A steep side's offset has no
+/// bound. What lies beyond the box itself must still be clipped.
+fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {
+    let PolygonOffset { factor, units } = layer.offset;
+    let clip_from_world = map_clip_from_world(view, settings);
+    let is_held = |item: &&Item| {
+        let clip_from_model = clip_from_world * item.world_from_model;
+        item.bounds.corners().into_iter().all(|corner| (clip_from_model * corner.extend(1.0)).z.abs() <= LAST)
+    };
+    matches!(view.projector.rays, Rays::Along(_))
+        && (factor > 0.0 || units > 0.0)
+        && !layer.clamped
+        && layer.casters.iter().all(is_held)
+}
+
+/// Clamps depths, after their offset [GL 4.6, 14.6.5 and 17.3.4], to [`LAST`] from either end. The range is that of the state
+/// before; [`depths_kept`] makes up for its being shorter.
+fn before_cleared(state: DrawState) -> DrawState {
+    let [near, far] = state.depth_range;
+    let last = near + (far - near) * LAST as f32;
+    DrawState { depth_clamp: true, depth_range: [near, last], ..state }
+}
+
+/// Clip space whose depths under the shorter range are what they were.
+fn depths_kept() -> DMat4 {
+    let longer = LAST.recip();
+    DMat4::from_translation(DVec3::new(0.0, 0.0, longer - 1.0)) * DMat4::from_scale(DVec3::new(1.0, 1.0, longer))
+}
+
 /// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
 pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
     let clip_from_world = map_clip_from_world(view, settings);
+    let clip_from_world =
+        if ends_before_cleared(view, layer, settings) { depths_kept() * clip_from_world } else { clip_from_world };
     let texel = bias::texel_at_one(&view.projector, settings);
     let clamped = layer.clamped || clamps_near(view, layer).is_some();
     let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped);
