@@ -15,9 +15,6 @@ use crate::techniques::{LightView, Notes};
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
 
-/// A sample counts as wrong only if so much aside, in pixels, is wrong too: GL rounds places to 1/256 of a pixel.
-const ASIDE: f64 = 1.0 / 64.0;
-
 /// The number of layers that a stencil count tells apart.
 const LAYERS: u32 = 256;
 
@@ -52,9 +49,10 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
             return Some((Fault::TooMany, point));
         }
         let fault = fault(&point, settings)?;
-        let aside = [DVec2::splat(ASIDE), DVec2::splat(-ASIDE)];
-        let is_sure = aside.iter().all(|by| {
-            let beside = world.at(place + *by);
+        // What GL may show there instead must be wrong too.
+        let aside = [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)].map(|way| point.aside * way);
+        let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
+            let beside = world.at(place + by);
             beside.is_some_and(|beside| self::fault(&beside, settings).is_some())
         });
         is_sure.then_some((fault, point))

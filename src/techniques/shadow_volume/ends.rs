@@ -58,9 +58,7 @@ pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source
     let clear = |point: DVec3| side * height(point) > slack(point);
     let near = corners(&seen::clip_from_world(view).inverse()).into_iter().take(4);
     let light_is_clear = side * above > SLACK * source.away(middle).length();
-    let others = view
-        .items
-        .iter()
+    let others = seen::items(view)
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
     light_is_clear && clear(view.scene.camera.eye) && { near }.all(clear) && { others }.all(is_before)
 }
