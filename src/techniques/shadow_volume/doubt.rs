@@ -10,7 +10,7 @@ use super::points::{Point, World};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
 use crate::geometry::volume::Kind;
-use crate::techniques::{LightView, Notes};
+use crate::techniques::{Item, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
@@ -32,7 +32,7 @@ enum Fault {
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
-    warn_of_reach(view, notes);
+    warn_of_reach(view, &drawn, notes);
     if !may_be_wrong(&drawn, settings.method) {
         return;
     }
@@ -71,11 +71,13 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
 /// A share of a pixel that rounding may move an edge by without turning pixels over.
 const MOST_MOVED: f64 = 0.2;
 
-/// Warns of triangles so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
-/// their casters' own vertices, which hence cannot be cut before.
-fn warn_of_reach(view: &LightView<'_>, notes: &mut Notes) {
+/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
+/// their casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
+fn warn_of_reach(view: &LightView<'_>, drawn: &[&Casting], notes: &mut Notes) {
     let camera = &view.scene.camera;
-    let corners = view.items.iter().flat_map(|item| {
+    let is_whole =
+        |item: &&Item| view.scene.shading.per_vertex || drawn.iter().any(|caster| caster.object == item.object);
+    let corners = view.items.iter().filter(is_whole).flat_map(|item| {
         item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner).distance(camera.eye))
     });
     let farthest = corners.fold(0.0, f64::max);

@@ -109,8 +109,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what the light
-    /// cannot reach.
+    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what is outside the
+    /// light's shape.
     pub fn at(&self, place: DVec2) -> Option<Point> {
         let camera = &self.view.scene.camera;
         let [width, height] = self.view.scene.image.size.map(f64::from);
@@ -124,7 +124,7 @@ impl<'a> World<'a> {
         });
         let (depth, own) = seen?;
         let point = camera.eye + depth * way;
-        if !self.is_in_cone(point) {
+        if !self.is_held(point) {
             return None;
         }
         let aside = SUBPIXEL + self.rounding(point, own) / (depth * self.eye.right.length());
@@ -218,11 +218,18 @@ impl<'a> World<'a> {
         normal.dot(end[0] - ray.origin) / normal.dot(ray.way) > 1.0
     }
 
-    fn is_in_cone(&self, point: DVec3) -> bool {
-        let LightKind::Spot(spot) = &self.view.light().kind else { return true };
+    fn is_held(&self, point: DVec3) -> bool {
+        let spot = match &self.view.light().kind {
+            LightKind::Spot(spot) => spot,
+            LightKind::Point(light) => {
+                let depth = (point - light.position).abs().max_element();
+                return light.near < depth && depth < light.far;
+            }
+            LightKind::Directional { .. } => return true,
+        };
         let clip = spot.frustum.clip_from_world() * point.extend(1.0);
         let across = DVec2::new(clip.x, clip.y);
-        clip.w > 0.0
+        clip.z.abs() < clip.w
             && match spot.shape {
                 LightShape::Cone => across.length() < clip.w,
                 LightShape::Frustum => across.abs().max_element() < clip.w,
