@@ -32,7 +32,7 @@ enum Fault {
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
-    warn_of_reach(view, &drawn, notes);
+    warn_of_reach(view, casting, ways, notes);
     if !may_be_wrong(&drawn, settings.method) {
         return;
     }
@@ -68,31 +68,41 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
     }
 }
 
-/// A share of a pixel that rounding may move an edge by without turning pixels over.
+/// A share of a pixel that rounding may move a volume's edge by without turning pixels over.
 const MOST_MOVED: f64 = 0.2;
 
-/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
-/// their casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
-fn warn_of_reach(view: &LightView<'_>, drawn: &[&Casting], notes: &mut Notes) {
+/// The same for surfaces that stay whole for a cap, and every shadow on them: many edges, of which each may turn a pixel.
+const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
+
+/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a part of a pixel: volumes meet their
+/// casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
+fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
     let camera = &view.scene.camera;
-    let is_whole =
-        |item: &&Item| view.scene.shading.per_vertex || drawn.iter().any(|caster| caster.object == item.object);
-    let corners = view.items.iter().filter(is_whole).flat_map(|item| {
-        item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner).distance(camera.eye))
-    });
-    let farthest = corners.fold(0.0, f64::max);
-    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
-    let moved = farthest * 2.0_f64.powi(-23);
+    let most_moved = |item: &Item| {
+        let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
+        match way {
+            _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
+            Some(Way::ZFail | Way::ZFailClamped | Way::ZFailTruncated) => Some(MOST_MOVED_WHOLE),
+            None | Some(Way::LeftOut) => None,
+            Some(_) => Some(MOST_MOVED),
+        }
+    };
     let height = 2.0 * (0.5 * camera.fov_y_radians).tan() * camera.target.distance(camera.eye);
     let pixel = height / f64::from(view.scene.image.size[1]);
-    if moved > MOST_MOVED * pixel {
-        notes.warnings.push(format!(
-            "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.1} pixels: edges of shadow volumes are \
-             as far off",
-            view.index,
-            moved / pixel
-        ));
-    }
+    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
+    let moved = |reach: f64| reach * 2.0_f64.powi(-23) / pixel;
+    let reaches = view.items.iter().filter_map(|item| {
+        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+        let reach = corners.iter().map(|corner| corner.distance(camera.eye)).fold(0.0, f64::max);
+        most_moved(item).filter(|most| moved(reach) > *most).map(|_| reach)
+    });
+    let Some(farthest) = reaches.max_by(f64::total_cmp) else { return };
+    notes.warnings.push(format!(
+        "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.2} pixels: edges of shadow volumes are \
+         as far off",
+        view.index,
+        moved(farthest)
+    ));
 }
 
 fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
