@@ -24,6 +24,8 @@ pub struct Builder<'a> {
     pub items: &'a [Item],
     /// Objects whose meshes volumes' caps meet, into the scene's: they are drawn as they are.
     pub kept: Vec<usize>,
+    /// Volumes are counted in the picture.
+    pub counted: bool,
     pub list: &'a mut PassList,
     pub notes: &'a mut Notes,
     pub request: &'a Request,
@@ -233,7 +235,7 @@ impl Builder<'_> {
 impl<'a> Builder<'a> {
     /// The items as every pass before this lens draws them.
     pub fn cut_items(&self, lens: &Lens) -> Cow<'a, [Item]> {
-        let cutter = Cutter::for_eye(self.scene, &lens.camera.clip_from_world(), lens.camera.near());
+        let cutter = Cutter::for_eye(self.scene, &lens.camera, self.counted);
         cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items, &self.kept))
     }
 }

@@ -26,8 +26,9 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let camera = Lens::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
+    let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
-    let mut builder = Builder { scene, items: &items, kept, list: &mut list, notes: &mut notes, request };
+    let mut builder = Builder { scene, items: &items, kept, counted, list: &mut list, notes: &mut notes, request };
     let target = match request.subject {
         Subject::Camera => builder.camera_picture(&terms)?,
         Subject::Light(index) => builder.light_picture(index)?,

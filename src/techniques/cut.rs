@@ -3,9 +3,10 @@
 //! GL clips in f32: where it cuts an edge, the new vertex and all that is interpolated to it are off by about 2^-24 of the
 //! edge's ends. Of a floor whose corners lie 10⁵ units away this is 0.006 units where light and eye stand 4 units above it:
 //! more than the offset of its own texels, so that it goes dark in patches, or all over. What is cut before needs no
-//! clipping by GL, and is off by 2^-24 of its own distance: what lies much farther than the rest becomes a mesh of its own
-//! about an origin of its own, since positions are off by 2^-24 of their distance from their origin. Every pass for the
-//! same eye, and every pass of the same map, draws the same cut meshes, so that depths agree to the bit.
+//! clipping by GL, and is off by 2^-24 of its own distance. Positions are off by 2^-24 of their distance from their origin:
+//! for an eye that is the eye itself, and in a map what lies much farther than the rest becomes a mesh of its own about an
+//! origin of its own. Every pass for the same eye, and every pass of the same map, draws the same cut meshes, so that
+//! depths agree to the bit.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -15,6 +16,7 @@ use glam::{DMat4, DVec3, DVec4, Vec2, Vec3};
 
 use super::Item;
 use super::projector::{Projector, Rays};
+use super::surface::Viewer;
 use crate::geometry::{Mesh, Part};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
@@ -39,10 +41,15 @@ const PLANES: [DVec4; 5] = [
 /// picture after all, and with an error that is 2^-24 of the piece's farthest end.
 const PIECE: f64 = 4.0;
 
+/// So many pieces behind one another share an origin in a map: up to [`PIECE`] to this power times as far as the nearest
+/// one, about as far as [`ORDINARY`] has it.
+const SHARE_ORIGIN: usize = 2;
+
 /// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
 const ORDINARY: f64 = 16.0;
 
 /// The same for a camera: 2^-24 of these is a ten-thousandth of what is seen, a tenth of a texel of a map that shows it.
+/// Where volumes are counted, [`ORDINARY`] holds: their sides meet the surfaces themselves, to a hundredth of a pixel.
 const ORDINARY_FOR_CAMERA: f64 = 400.0;
 
 /// Texels a side of the map that [`ordinary_for_camera`] reckons with.
@@ -72,11 +79,6 @@ fn ordinary_for_camera(scene: &Scene) -> f64 {
     allowed.fold(ORDINARY_FOR_CAMERA, f64::min).max(ORDINARY)
 }
 
-/// How many powers of [`PIECE`] lie up to `times`.
-fn powers(times: f64) -> usize {
-    (times.ln() / PIECE.ln()) as usize
-}
-
 /// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
 pub struct Cutter {
     clip_from_world: DMat4,
@@ -86,11 +88,10 @@ pub struct Cutter {
     along: f64,
     /// The least w.
     nearest: f64,
-    /// So many pieces behind one another share an origin: up to [`PIECE`] to this power times as far as the nearest one,
-    /// about as far as clip coordinates are ordinary.
-    share_origin: usize,
     /// Those of [`PLANES`] that cut.
     planes: &'static [DVec4],
+    /// The origin of all that is cut, in world space; `None`: pieces have their own.
+    origin: Option<DVec3>,
 }
 
 impl Cutter {
@@ -106,21 +107,21 @@ impl Cutter {
         };
         // A twentieth of a texel, of which a width of 2 has as many as the map's size.
         let planes = if clamped { &PLANES[..4] } else { &PLANES[..] };
-        Self { clip_from_world: *clip_from_world, across: 0.1 / f64::from(size), along, nearest, share_origin: powers(ORDINARY), planes }
+        let across = 0.1 / f64::from(size);
+        Self { clip_from_world: *clip_from_world, across, along, nearest, planes, origin: None }
     }
 
     /// For an eye; `None` where vertices must stay as they are: light per vertex is of the file's vertices. Nor may be cut
-    /// what volumes' caps meet.
-    pub fn for_eye(scene: &Scene, clip_from_world: &DMat4, near: f64) -> Option<Self> {
-        let ordinary = ordinary_for_camera(scene);
-        let across = ordinary * CLIP_ROUNDINGS * 2.0_f64.powi(-24);
+    /// what volumes' caps meet. `counted`: volumes' sides meet what is drawn.
+    pub fn for_eye(scene: &Scene, viewer: &Viewer, counted: bool) -> Option<Self> {
+        let ordinary = if counted { ORDINARY } else { ordinary_for_camera(scene) };
         (!scene.shading.per_vertex).then_some(Self {
-            clip_from_world: *clip_from_world,
-            across,
+            clip_from_world: viewer.clip_from_world(),
+            across: ordinary * CLIP_ROUNDINGS * 2.0_f64.powi(-24),
             along: f64::INFINITY,
-            nearest: near,
-            share_origin: powers(ordinary),
+            nearest: viewer.near(),
             planes: &PLANES,
+            origin: Some(viewer.eye_from_world.inverse().w_axis.truncate()),
         })
     }
 
@@ -206,10 +207,13 @@ impl Cutter {
             return Vec::new();
         }
         let nearest = polygons.iter().flatten().map(|corner| corner.clip.w).fold(f64::INFINITY, f64::min);
+        let to_model = item.world_from_model.inverse();
+        let shared = self.origin.map(|origin| to_model.transform_point3(origin)).filter(|origin| origin.is_finite());
+        let share = if shared.is_some() { usize::MAX } else { SHARE_ORIGIN };
         let mut groups: Vec<Vec<[Corner; 3]>> = vec![whole];
         for polygon in polygons {
             for (index, piece) in pieces(polygon, nearest.max(self.nearest)).into_iter().enumerate() {
-                let group = 1 + index / self.share_origin;
+                let group = 1 + index / share;
                 groups.resize(groups.len().max(group + 1), Vec::new());
                 groups[group].extend((2..piece.len()).map(|k| [piece[0], piece[k - 1], piece[k]]));
             }
@@ -217,7 +221,8 @@ impl Cutter {
         let part = |corners: Vec<[Corner; 3]>| {
             let bounds = Aabb::from_points(corners.iter().flatten().map(|corner| corner.position));
             // Object-linear coordinates are made from the model's own.
-            let origin = if item.material.texgen.is_some() { DVec3::ZERO } else { bounds.center() };
+            let own = shared.unwrap_or_else(|| bounds.center());
+            let origin = if item.material.texgen.is_some() { DVec3::ZERO } else { own };
             (Arc::new(made(mesh, &corners, origin)), origin)
         };
         groups.into_iter().filter(|corners| !corners.is_empty()).map(part).collect()

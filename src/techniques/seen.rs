@@ -2,20 +2,25 @@
 
 use glam::{DMat4, DVec3};
 
-use super::LightView;
+use super::{Item, LightView};
 use crate::geometry::volume;
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, corners};
 
 /// The eye, the near rectangle, and the boxes of all that is in view.
 pub fn bounds(view: &LightView<'_>) -> Aabb {
+    let near = corners(&clip_from_world(view).inverse()).into_iter().take(4).chain([view.scene.camera.eye]);
+    let start = Aabb::from_points(near);
+    items(view).fold(start, |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
+}
+
+/// What is in view.
+pub fn items<'a>(view: &LightView<'a>) -> impl Iterator<Item = &'a Item> {
     let clip_from_world = clip_from_world(view);
-    let near = corners(&clip_from_world.inverse()).into_iter().take(4).chain([view.scene.camera.eye]);
-    let seen = view
-        .items
-        .iter()
-        .filter(|item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside);
-    seen.fold(Aabb::from_points(near), |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
+    let is_seen = move |item: &&Item| {
+        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
+    };
+    view.items.iter().filter(is_seen)
 }
 
 /// The camera's.

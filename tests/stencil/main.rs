@@ -5,6 +5,7 @@ mod count;
 #[allow(dead_code)]
 #[path = "../volumes/homogeneous.rs"]
 mod homogeneous;
+mod lights;
 mod meshes;
 mod positions;
 #[path = "../oracle/scenes.rs"]

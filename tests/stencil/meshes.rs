@@ -7,7 +7,7 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use crate::count::{Bench, Held, RIGHT, truth};
-use crate::scenes::{floor, light, object, scene};
+use crate::scenes::{Shape, floor, light, mesh, object, scene};
 use crate::shapes::{cases, dense, placements, soup};
 
 fn over_floor(mesh: Mesh, place: DMat4, size: u32) -> Scene {
@@ -77,5 +77,35 @@ fn counts_beyond_255_wrap_or_saturate() {
         // order of the faces.
         let saturating = bench.hold(&scene, &truth, &format!("method = \"{method}\", count = \"saturate\""));
         assert!(saturating.different > 0, "{method}: {saturating:?}");
+    }
+}
+
+/// A column of sides a thousand times as tall as they are wide, with ends of slices as thin.
+fn reeded_column(sides: u32) -> Shape {
+    let corner = |k: u32, height: f64| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k % sides) / f64::from(sides)).sin_cos();
+        DVec3::new(0.3 * cos, height, 0.3 * sin)
+    };
+    let mut points: Vec<DVec3> = (0..sides).flat_map(|k| [corner(k, -0.8), corner(k, 0.8)]).collect();
+    points.extend([DVec3::Y * -0.8, DVec3::Y * 0.8]);
+    let (low, high) = (2 * sides, 2 * sides + 1);
+    let triangles = (0..sides).flat_map(|k| {
+        let ([a, b], [c, d]) = ([2 * k, 2 * k + 1], [2 * ((k + 1) % sides), 2 * ((k + 1) % sides) + 1]);
+        [[a, b, c], [b, d, c], [low, a, c], [high, d, b]]
+    });
+    (points, triangles.collect())
+}
+
+/// What is seen of a lit sliver, and of its neighbours, is bounded by caps that are slivers too.
+#[test]
+fn slivers_are_counted_exactly() {
+    let mut bench = Bench::new();
+    let column = reeded_column(1200);
+    let opened = (column.0.clone(), column.1.iter().skip(700).copied().collect());
+    for (name, shape) in [("closed", &column), ("open", &opened)] {
+        for (turned, place) in placements() {
+            let held = hold_all(&mut bench, &format!("{name} column {turned}"), &over_floor(mesh(shape), place, 128));
+            assert!(held.told > 5000 && held.inside > 200, "{name} {turned}: {held:?}");
+        }
     }
 }

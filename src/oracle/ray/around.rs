@@ -149,6 +149,7 @@ impl<'a> Surroundings<'a> {
             base: seen.position,
             spread: [spread[0] + seen.spread[0], spread[1] + seen.spread[1]],
             surface_spread,
+            slip: [DVec3::ZERO; 2],
             error: seen.error,
             depth_error: seen.error,
             start: 0.0,

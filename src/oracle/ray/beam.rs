@@ -78,6 +78,9 @@ pub(super) struct Beam {
     /// How the base moves on its own surface: equal to `spread` for shadow rays; for primary rays the spread lies in
     /// the image plane and this on the surface seen.
     pub surface_spread: [DVec3; 2],
+    /// How a surface that the beam meets may lie aside of its place, one vector a direction, for the sides of shadow
+    /// volumes: they are drawn as the visible surface is, and each is rounded for itself. Zero for rays.
+    pub slip: [DVec3; 2],
     /// Radius of the ball around each base point.
     pub error: f64,
     /// The same against surfaces that may lie at the base's own depth; not below `error`.
@@ -113,7 +116,8 @@ pub(super) struct Meeting {
 impl Beam {
     /// The largest distance from the centre segment that belongs to the beam, for corners off by `error`.
     pub fn radius(&self, error: f64) -> f64 {
-        self.spread[0].length() + self.spread[1].length() + self.error + error
+        let moves = self.spread.iter().chain(&self.slip).map(|way| way.length());
+        moves.sum::<f64>() + self.error + error
     }
 
     /// Where the centre segment begins.
@@ -190,7 +194,7 @@ impl Beam {
         let inward = normal.dot(third - on_plane);
         let is_edge_on = inward.abs() <= error;
         let corners_error = if is_edge_on { 2.0 * error_at_base } else { error_at_base };
-        let slack = self.reach_along(normal, &self.spread) + self.error + corners_error;
+        let slack = self.moved_along(normal) + self.error + corners_error;
         let value = normal.dot(self.base - on_plane) * inward.signum();
         if !slack.is_finite() || normal == DVec3::ZERO || value.abs() <= slack {
             Side::Near
@@ -222,6 +226,11 @@ impl Beam {
         })
     }
 
+    /// How far base and surface may move against one another.
+    fn moved_along(&self, normal: DVec3) -> f64 {
+        self.reach_along(normal, &self.spread) + self.reach_along(normal, &self.slip)
+    }
+
     fn reach_along(&self, normal: DVec3, spread: &[DVec3; 2]) -> f64 {
         normal.dot(spread[0]).abs() + normal.dot(spread[1]).abs()
     }
@@ -247,7 +256,7 @@ impl Beam {
                 Side::Before
             }
         };
-        let moved = self.reach_along(normal, &self.spread).max(self.reach_along(normal, &self.surface_spread));
+        let moved = self.moved_along(normal).max(self.reach_along(normal, &self.surface_spread));
         let at_base = side(normal.dot(self.base - a), moved + self.depth_error + 2.0 * error);
         let Apex::At(apex) = self.apex else { return (at_base, Side::Beyond) };
         let start = apex + self.start * (self.base - apex);
@@ -269,7 +278,7 @@ impl Beam {
         }
         let (normal, on_plane) = self.plane_through(from, to);
         let normal = normal.normalize_or_zero();
-        let slack = taper * (self.reach_along(normal, &self.spread) + self.error) * 1.01 + error;
+        let slack = taper * (self.moved_along(normal) + self.error) * 1.01 + error;
         normal.dot(self.base - on_plane).abs() * taper <= slack
     }
 
@@ -350,6 +359,7 @@ mod tests {
             base: DVec3::ZERO,
             spread: [DVec3::ZERO; 2],
             surface_spread: [DVec3::ZERO; 2],
+            slip: [DVec3::ZERO; 2],
             error: 1e-9,
             depth_error: 1e-9,
             start: 0.0,

@@ -48,6 +48,7 @@ impl Tracer<'_> {
             base: self.eye.position + depth * direction,
             spread: [self.eye.right, self.eye.up].map(|way| way * self.subpixel * depth),
             surface_spread,
+            slip: [DVec3::ZERO; 2],
             error,
             depth_error: error + self.eye.depth_error(depth, rise),
             start: self.eye.near / depth,

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use super::beam::{Beam, Meeting, Side};
 use super::primary::Seen;
 use super::truth::Reason;
@@ -51,6 +53,7 @@ impl Tracer<'_> {
             base: seen.position,
             spread: seen.spread,
             surface_spread: seen.spread,
+            slip: [DVec3::ZERO; 2],
             error: seen.error,
             depth_error: seen.error,
             start: 0.0,

@@ -165,12 +165,23 @@ impl<'t, 'a> Counting<'t, 'a> {
     fn behind(&self, seen: &Seen<'_>) -> Tally {
         let bits = self.tracer.depth_buffer_bits.unwrap_or(24);
         let error = seen.error + self.tracer.depth_misplacement(seen, bits);
-        let mut tally = self.along(&self.beam(seen.position, seen.spread, error), Some(seen));
+        let mut tally = self.along(&self.beam_of(seen, error), Some(seen));
         if let Some(reason) = self.grazing(seen) {
             tally.doubtful += 1;
             tally.reason = Some(reason);
         }
         tally
+    }
+
+    /// From the light to what a pixel shows. GL rounds the places of vertices in the picture and leaves their depths: at a
+    /// pixel's centre the visible surface has the depth of a place aside, and a volume's side that of another.
+    fn beam_of(&self, seen: &Seen<'_>, error: f64) -> Beam {
+        let eye = &self.tracer.eye;
+        let width = self.tracer.subpixel * eye.depth_of(seen.position - eye.position);
+        let slip = [eye.right, eye.up].map(|way| way * width);
+        let deeper = [0, 1].map(|k| seen.spread[k] - slip[k]);
+        let beam = self.beam(seen.position, deeper, error);
+        Beam { surface_spread: seen.spread, slip, ..beam }
     }
 
     /// From the light to a point that may lie anywhere in `spread` and `error`. Corners are extruded along their own
@@ -181,6 +192,7 @@ impl<'t, 'a> Counting<'t, 'a> {
             base: point,
             spread,
             surface_spread: spread,
+            slip: [DVec3::ZERO; 2],
             error,
             depth_error: error,
             start: 0.0,

@@ -105,9 +105,7 @@ struct Forecast<'a> {
 
 impl<'a> Forecast<'a> {
     fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a [Placed<'a>]) -> Self {
-        let texels = |projector: &Projector| {
-            Texels::new(items, map, projector.clone())
-        };
+        let texels = |projector: &Projector| Texels::new(items, map, projector.clone());
         let texels = map.projectors.iter().map(texels).collect();
         Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
     }
@@ -158,9 +156,7 @@ impl<'a> Forecast<'a> {
         let light_from_world = texels.projector().light_from_world;
         let light = light_from_world.transform_point3(point.point);
         let (place, depth) = texels.place(light);
-        let across = beside.map(|beside| {
-            (texels.place(light_from_world.transform_point3(beside)).0 - place).length()
-        });
+        let across = beside.map(|beside| (texels.place(light_from_world.transform_point3(beside)).0 - place).length());
         let receiver = Receiver {
             point: light,
             normal: light_from_world.transform_vector3(point.normal),
@@ -219,8 +215,7 @@ impl<'a> Forecast<'a> {
         let slope = |normal: DVec3| self.slope(point.point, normal);
         let caster = slope(self.items[met.item].normal(met.triangle));
         let slopes = (factor + reach) * caster + reach * slope(point.normal);
-        texel * (slopes + map.offset.texels + 1.0)
-            + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
+        texel * (slopes + map.offset.texels + 1.0) + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
     }
 
     /// How far a plane falls away along the light's ray for a step across it, both of unit length.
@@ -365,7 +360,8 @@ fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
 /// Whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
 fn is_in(projector: &Projector, point: DVec3) -> bool {
     let clip = projector.clip_from_world() * point.extend(1.0);
-    clip.w > 0.0 && (matches!(projector.rays, Rays::Along(_)) || clip.truncate().truncate().abs().max_element() <= clip.w)
+    clip.w > 0.0
+        && (matches!(projector.rays, Rays::Along(_)) || clip.truncate().truncate().abs().max_element() <= clip.w)
 }
 
 /// World units along the axis for one unit of window depth, at a distance along it.

@@ -24,8 +24,8 @@ mod single;
 
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
-use super::forecast::{self, Alone, Stored};
 use super::claims::{Claim, Contender, Quantity, Relation};
+use super::forecast::{self, Alone, Stored};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};

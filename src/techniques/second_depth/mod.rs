@@ -8,8 +8,8 @@
 
 use std::sync::Arc;
 
-use super::forecast::{self, Stored};
 use super::claims::{Claim, Contender, Quantity, Relation};
+use super::forecast::{self, Stored};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};

@@ -3,12 +3,16 @@
 use super::choice::Way;
 use super::settings::Settings;
 use super::shapes::Shape;
-use crate::pass::{Compare, DrawState, Face, Stencil, StencilOp, StencilOps};
+use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
 /// The passes for all shapes, way by way. Sums modulo 256 do not care for their order; where counts stop at 0, all that
 /// count up come before all that count down.
+///
+/// A pass for one face keeps what the other finds, and culls none: of a side narrower than GL's own rounding llvmpipe
+/// culls by the area of the vertices as they are, and counts by that of the rounded ones. A face that a culling pass
+/// takes for the other one would be counted by neither pass.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
     let label = |what: &str| format!("light {}: {what}", view.index);
     let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
@@ -34,8 +38,8 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     };
     passes.push(parity);
     let drawn = sides(&[Way::ZPass]);
-    passes.push(culling(Face::Back, counted("z-pass, front faces", pass(up), keep, drawn.clone())));
-    passes.push(culling(Face::Front, counted("z-pass, back faces", keep, pass(down), drawn)));
+    passes.push(counted("z-pass, front faces", pass(up), keep, drawn.clone()));
+    passes.push(counted("z-pass, back faces", keep, pass(down), drawn));
     passes.push(counted("z-pass", pass(up), pass(down), sides(&[Way::ZPassTwoSided])));
     let capped = of(&[Way::ZPassCapped]);
     let near_caps = capped.iter().flat_map(|shape| shape.caps.clone()).collect();
@@ -55,7 +59,7 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     [StencilOp::Invert, up, down].into_iter().flat_map(only).collect()
 }
 
-/// What of a pass does `op`: the whole of it where both faces do, or one face, the other culled.
+/// What of a pass does `op`: the whole of it where both faces do, or one face.
 fn counting_only(pass: &CountPass, op: StencilOp) -> Option<CountPass> {
     let stencil = pass.state.stencil?;
     let does = |ops: StencilOps| ops.pass == op || ops.depth_fail == op;
@@ -63,16 +67,14 @@ fn counting_only(pass: &CountPass, op: StencilOp) -> Option<CountPass> {
         (false, false) => None,
         (true, true) => Some(pass.clone()),
         (front, _) => {
-            let (culled, what) = if front { (Face::Back, "front faces") } else { (Face::Front, "back faces") };
-            let label = if pass.state.cull.is_some() { pass.label.clone() } else { format!("{}, {what}", pass.label) };
-            Some(culling(culled, CountPass { label, ..pass.clone() }))
+            let keep = StencilOps::KEEP;
+            let is_whole = [stencil.front, stencil.back].contains(&keep);
+            let what = if front { "front faces" } else { "back faces" };
+            let label = if is_whole { pass.label.clone() } else { format!("{}, {what}", pass.label) };
+            let one = if front { Stencil { back: keep, ..stencil } } else { Stencil { front: keep, ..stencil } };
+            Some(CountPass { label, state: DrawState { stencil: Some(one), ..pass.state }, ..pass.clone() })
         }
     }
-}
-
-fn culling(face: Face, mut pass: CountPass) -> CountPass {
-    pass.state.cull = Some(face);
-    pass
 }
 
 /// Depth LESS: far caps lie at exactly 1 and fail against the cleared 1, a surface's own cap fails against itself.

@@ -10,13 +10,10 @@ use super::points::{Point, World};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
 use crate::geometry::volume::Kind;
-use crate::techniques::{LightView, Notes};
+use crate::techniques::{Item, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
-
-/// A sample counts as wrong only if so much aside, in pixels, is wrong too: GL rounds places to 1/256 of a pixel.
-const ASIDE: f64 = 1.0 / 64.0;
 
 /// The number of layers that a stencil count tells apart.
 const LAYERS: u32 = 256;
@@ -35,7 +32,7 @@ enum Fault {
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
-    warn_of_reach(view, notes);
+    warn_of_reach(view, casting, ways, notes);
     if !may_be_wrong(&drawn, settings.method) {
         return;
     }
@@ -52,9 +49,10 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
             return Some((Fault::TooMany, point));
         }
         let fault = fault(&point, settings)?;
-        let aside = [DVec2::splat(ASIDE), DVec2::splat(-ASIDE)];
-        let is_sure = aside.iter().all(|by| {
-            let beside = world.at(place + *by);
+        // What GL may show there instead must be wrong too.
+        let aside = [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)].map(|way| point.aside * way);
+        let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
+            let beside = world.at(place + by);
             beside.is_some_and(|beside| self::fault(&beside, settings).is_some())
         });
         is_sure.then_some((fault, point))
@@ -70,29 +68,41 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
     }
 }
 
-/// A share of a pixel that rounding may move an edge by without turning pixels over.
+/// A share of a pixel that rounding may move a volume's edge by without turning pixels over.
 const MOST_MOVED: f64 = 0.2;
 
-/// Warns of triangles so large that GL's clipping in f32 moves what is seen of them by a good part of a pixel: volumes meet
-/// their casters' own vertices, which hence cannot be cut before.
-fn warn_of_reach(view: &LightView<'_>, notes: &mut Notes) {
+/// The same for surfaces that stay whole for a cap, and every shadow on them: many edges, of which each may turn a pixel.
+const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
+
+/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a part of a pixel: volumes meet their
+/// casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
+fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
     let camera = &view.scene.camera;
-    let corners = view.items.iter().flat_map(|item| {
-        item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner).distance(camera.eye))
-    });
-    let farthest = corners.fold(0.0, f64::max);
-    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
-    let moved = farthest * 2.0_f64.powi(-23);
+    let most_moved = |item: &Item| {
+        let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
+        match way {
+            _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
+            Some(Way::ZFail | Way::ZFailClamped | Way::ZFailTruncated) => Some(MOST_MOVED_WHOLE),
+            None | Some(Way::LeftOut) => None,
+            Some(_) => Some(MOST_MOVED),
+        }
+    };
     let height = 2.0 * (0.5 * camera.fov_y_radians).tan() * camera.target.distance(camera.eye);
     let pixel = height / f64::from(view.scene.image.size[1]);
-    if moved > MOST_MOVED * pixel {
-        notes.warnings.push(format!(
-            "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.1} pixels: edges of shadow volumes are \
-             as far off",
-            view.index,
-            moved / pixel
-        ));
-    }
+    // Two roundings of 2^-24: one of the corner, one of the vertex that clipping makes.
+    let moved = |reach: f64| reach * 2.0_f64.powi(-23) / pixel;
+    let reaches = view.items.iter().filter_map(|item| {
+        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+        let reach = corners.iter().map(|corner| corner.distance(camera.eye)).fold(0.0, f64::max);
+        most_moved(item).filter(|most| moved(reach) > *most).map(|_| reach)
+    });
+    let Some(farthest) = reaches.max_by(f64::total_cmp) else { return };
+    notes.warnings.push(format!(
+        "light {}: surfaces reach {farthest:.3e} units away, where f32 rounds by {:.2} pixels: edges of shadow volumes are \
+         as far off",
+        view.index,
+        moved(farthest)
+    ));
 }
 
 fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {

@@ -84,7 +84,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         // The end of a truncated volume may lie beyond the camera's far plane too.
         infinite: has(Way::ZFail) || has(Way::ZFailTruncated),
         clamped: has(Way::ZFailClamped),
-        casters: shapes.iter().map(|shape| shape.object).collect(),
+        casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped),
         scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),

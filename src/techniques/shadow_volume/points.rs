@@ -14,6 +14,9 @@ use crate::techniques::{Item, LightView};
 /// What lies so near a point's own plane, relative to the segment from the light, is in it.
 const IN_PLANE: f64 = 1e-9;
 
+/// GL rounds places to so much of a pixel.
+const SUBPIXEL: f64 = 1.0 / 256.0;
+
 /// What is known of a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
@@ -28,6 +31,8 @@ pub struct Point {
     /// How many it is seen to enter through holes of their casters, less those that it is seen to leave: without caps
     /// z-pass does not count them.
     pub through_holes: i32,
+    /// How far aside, in pixels, a picture may show it: both ways across.
+    pub aside: f64,
     pub is_shadowed: bool,
     /// How far behind the first caster that shadows it, in world units.
     pub behind: f64,
@@ -104,8 +109,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what the light
-    /// cannot reach.
+    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what is outside the
+    /// light's shape.
     pub fn at(&self, place: DVec2) -> Option<Point> {
         let camera = &self.view.scene.camera;
         let [width, height] = self.view.scene.image.size.map(f64::from);
@@ -119,9 +124,10 @@ impl<'a> World<'a> {
         });
         let (depth, own) = seen?;
         let point = camera.eye + depth * way;
-        if !self.is_in_cone(point) {
+        if !self.is_held(point) {
             return None;
         }
+        let aside = SUBPIXEL + self.rounding(point, own) / (depth * self.eye.right.length());
         // Four codes of 24 bits, and what f32 rounds positions by.
         let doubt = (depth * depth / camera.near * way.length()) * 2.0_f64.powi(-22) + self.largest * 2.0_f64.powi(-21);
         let near = self.toward(camera.eye + camera.near * way);
@@ -136,7 +142,7 @@ impl<'a> World<'a> {
                 through_holes += if normal.dot(light_ray) * normal.dot(way) > 0.0 { 1 } else { -1 };
             });
         }
-        Some(Point { before, through_holes, ..self.held(point, way, own, doubt) })
+        Some(Point { before, through_holes, aside, ..self.held(point, way, own, doubt) })
     }
 
     fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64) -> Point {
@@ -180,7 +186,18 @@ impl<'a> World<'a> {
             });
         }
         let behind = (1.0 - first).max(0.0) * length;
-        Point { within, within_ended, doubtful, before: 0, through_holes: 0, is_shadowed, behind }
+        Point { within, within_ended, doubtful, before: 0, through_holes: 0, aside: 0.0, is_shadowed, behind }
+    }
+
+    /// What f32 rounds a point of a triangle by: four times, by 2^-24 of what meets in a transform.
+    fn rounding(&self, point: DVec3, triangle: u32) -> f64 {
+        let origin = self.view.items[self.owners[triangle as usize].0].world_from_model.w_axis.truncate();
+        let light = match self.source {
+            Source::Point(light) => light,
+            Source::Direction(_) => self.view.scene.camera.eye,
+        };
+        let met = point.distance(origin) + origin.distance(self.view.scene.camera.eye) + origin.distance(light);
+        4.0 * 2.0_f64.powi(-24) * met
     }
 
     /// From the light to a point, which has t = 1.
@@ -201,11 +218,18 @@ impl<'a> World<'a> {
         normal.dot(end[0] - ray.origin) / normal.dot(ray.way) > 1.0
     }
 
-    fn is_in_cone(&self, point: DVec3) -> bool {
-        let LightKind::Spot(spot) = &self.view.light().kind else { return true };
+    fn is_held(&self, point: DVec3) -> bool {
+        let spot = match &self.view.light().kind {
+            LightKind::Spot(spot) => spot,
+            LightKind::Point(light) => {
+                let depth = (point - light.position).abs().max_element();
+                return light.near < depth && depth < light.far;
+            }
+            LightKind::Directional { .. } => return true,
+        };
         let clip = spot.frustum.clip_from_world() * point.extend(1.0);
         let across = DVec2::new(clip.x, clip.y);
-        clip.w > 0.0
+        clip.z.abs() < clip.w
             && match spot.shape {
                 LightShape::Cone => across.length() < clip.w,
                 LightShape::Frustum => across.abs().max_element() < clip.w,

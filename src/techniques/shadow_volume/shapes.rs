@@ -30,6 +30,11 @@ impl Shape {
     pub fn whole(&self) -> impl Iterator<Item = VolumeDraw> {
         std::iter::once(&self.sides).chain(&self.caps).cloned()
     }
+
+    /// Whether it has a cap that must have its caster's very depths.
+    pub fn meets_surface(&self) -> bool {
+        self.way != Way::ZPassCapped && !self.caps.is_empty()
+    }
 }
 
 /// The shapes of those that are not left out.
