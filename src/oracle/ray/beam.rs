@@ -379,14 +379,18 @@ mod tests {
 
     #[test]
     fn what_is_seen_edge_on_is_missed_from_beside_it() {
-        let [beam, _] = beams();
-        // In a plane through the apex, but for rounding: on either side of it by turns.
-        for off in [0.0, 1e-12, -1e-12] {
-            let corners = [DVec3::new(0.0, -1.0, 1.0), DVec3::new(off, 0.0, 2.0), DVec3::new(-off, 1.0, 1.0)];
-            assert!(beam.meet(&corners, 1e-9).is_some_and(|meeting| !meeting.surely_inside), "{off}");
-            for aside in [-0.1, 0.1] {
-                let beside = Beam { base: DVec3::X * aside, ..beam };
-                assert!(beside.meet(&corners, 1e-9).is_none(), "{off} {aside}");
+        // Planes through the apex, turned any way: rounding alone decides on which side of an edge the third corner lies.
+        for turn in 0..500 {
+            let (sin, cos) = (0.013 * f64::from(turn)).sin_cos();
+            let (apex, ahead) = (DVec3::new(0.3, 0.7, 5.1), DVec3::new(0.3 * sin, 0.2 * cos, -1.0).normalize());
+            let aside = ahead.cross(DVec3::new(cos, sin, 0.1)).normalize();
+            let along = ahead.cross(aside);
+            let corners = [(-0.7, 2.1), (0.1, 3.3), (0.9, 2.7)].map(|(a, b)| apex + b * ahead + a * along);
+            let beam = Beam { apex: Apex::At(apex), base: apex + 5.0 * ahead, ..beams()[0] };
+            assert!(beam.meet(&corners, 1e-9).is_some(), "{turn}");
+            for side in [-0.1, 0.1] {
+                let beside = Beam { base: beam.base + side * aside, ..beam };
+                assert!(beside.meet(&corners, 1e-9).is_none(), "{turn} {side}");
             }
         }
     }
