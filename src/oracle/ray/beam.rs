@@ -335,6 +335,16 @@ mod tests {
     }
 
     #[test]
+    fn a_surface_that_may_lie_aside_passes_what_its_place_does_not() {
+        for beam in beams() {
+            let [from, to] = [DVec3::new(0.01, -1.0, 2.5), DVec3::new(0.01, 1.0, 2.5)];
+            assert!(!beam.passes_edge(from, to, 1e-9));
+            assert!(Beam { slip: [DVec3::X * 0.03, DVec3::ZERO], ..beam }.passes_edge(from, to, 1e-9));
+            assert!(!Beam { slip: [DVec3::Y * 0.03, DVec3::ZERO], ..beam }.passes_edge(from, to, 1e-9));
+        }
+    }
+
+    #[test]
     fn parallel_beams_meet_what_lies_straight_before_their_base() {
         let [from_place, parallel] = beams();
         // At half the way a point 0.3 aside is in the light's way to 0.6 aside; for parallel light it stays at 0.3.
