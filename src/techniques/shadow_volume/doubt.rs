@@ -53,7 +53,11 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
         let aside = [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)].map(|way| point.aside * way);
         let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
             let beside = world.at(place + by);
-            beside.is_some_and(|beside| self::fault(&beside, settings).is_some())
+            beside.is_some_and(|beside| {
+                // Dark on both sides of another volume's edge, of which one is lit by parity.
+                let is_dark = point.is_shadowed && beside.is_shadowed;
+                self::fault(&beside, settings).is_some() || (settings.method == Method::Parity && is_dark)
+            })
         });
         is_sure.then_some((fault, point))
     });
