@@ -378,7 +378,6 @@ mod tests {
     }
 
     #[test]
-<<<<<<< HEAD
     fn what_is_seen_edge_on_is_missed_from_beside_it() {
         // Planes through the apex, turned any way: rounding alone decides on which side of an edge the third corner lies.
         for turn in 0..500 {
@@ -409,14 +408,16 @@ mod tests {
             assert!(beam.clip(&corners.map(|corner| corner + DVec3::X)).is_empty());
             let right = beam.overlap(clipped, &corners.map(|corner| corner + 0.5 * wide * DVec3::X - DVec3::Z));
             assert!(right.iter().all(|corner| corner.x > 0.0) && right.len() >= 4, "{right:?}");
-=======
+        }
+    }
+
+    #[test]
     fn a_surface_that_may_lie_aside_passes_what_its_place_does_not() {
         for beam in beams() {
             let [from, to] = [DVec3::new(0.01, -1.0, 2.5), DVec3::new(0.01, 1.0, 2.5)];
             assert!(!beam.passes_edge(from, to, 1e-9));
             assert!(Beam { slip: [DVec3::X * 0.03, DVec3::ZERO], ..beam }.passes_edge(from, to, 1e-9));
             assert!(!Beam { slip: [DVec3::Y * 0.03, DVec3::ZERO], ..beam }.passes_edge(from, to, 1e-9));
->>>>>>> s3-c
         }
     }
 
