@@ -174,8 +174,16 @@ impl<'a> Forecast<'a> {
         let nearest = blockers().min_by(|a, b| a.t.total_cmp(&b.t));
         // Of two levels that are met, the coarser one.
         let coarse = if map.settings.mipmaps == Mipmaps::All { 2.0 * receiver.pixel_texels.max(1.0) } else { 1.0 };
-        let is_even = self.is_even(point, &met, coarse * texel, slack)
-            && (!lit || (self.has_far_sides() && self.is_missed(point, blockers(), texel, code)));
+        let is_even = || self.is_even(point, &met, coarse * texel, slack);
+        let is_even = match (lit, self.has_far_sides()) {
+            (false, _) => is_even(),
+            (true, false) => false,
+            (true, true) => {
+                let far_sides = || blockers().filter(|met| met.is_far_side);
+                let is_apart = |met: &Met| gap(met) > self.taken(point, met, texel, code);
+                far_sides().next().is_none() || (far_sides().any(is_apart) && is_even())
+            }
+        };
         let is_rounded = nearest.is_some_and(|met| gap(met) < (2.0 + f64::from(map.offset.polygon.units)) * code);
         let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
         Some(Wrong {
@@ -198,13 +206,6 @@ impl<'a> Forecast<'a> {
         };
         let eye = point.point.distance(self.view.scene.camera.eye);
         SLACK * (point.point.abs().max_element() + eye) / length
-    }
-
-    /// Whether no far side lies before a point, or one that neither rounding nor slopes take for the point itself.
-    fn is_missed<'m>(&self, point: &Seen, blockers: impl Iterator<Item = &'m Met>, texel: f64, code: f64) -> bool {
-        let length = to_light(point.point, &self.rays()).length();
-        let mut far_sides = blockers.filter(|met| met.is_far_side).peekable();
-        far_sides.peek().is_none() || far_sides.any(|met| met.t * length > self.taken(point, met, texel, code))
     }
 
     /// How far before a point a caster may lie whose shadow bias and slopes take away, along the ray and in world units.
@@ -244,7 +245,7 @@ impl<'a> Forecast<'a> {
     }
 
     /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
-    /// or, where the map is made of far sides, none of these at all, or nothing at all before the plane of what is seen.
+    /// or, where the map is made of far sides, nothing at all before the plane of what is seen.
     fn is_even(&self, seen: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
         let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
         let rays = self.rays();
@@ -258,7 +259,7 @@ impl<'a> Forecast<'a> {
             }
         };
         let signature = signature(met, slack);
-        let (mut is_missed, mut is_lit) = (self.has_far_sides(), self.has_far_sides());
+        let mut is_lit = self.has_far_sides();
         let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
         let mut is_alike = true;
         for step in around {
@@ -266,12 +267,10 @@ impl<'a> Forecast<'a> {
             let way = to_light(across, &rays);
             // In the seen triangle's plane, so that what lies at its depth stays there.
             let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
-            let there = |point: DVec3| on_the_way(self.items, &Seen { point, ..*seen }, -slack, &rays);
-            let met = there(moved);
+            let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays);
             is_alike = is_alike && self::signature(&met, slack) == signature;
             is_lit = is_lit && !met.iter().any(|met| !met.is_own && met.t > slack);
-            is_missed = is_missed && !there(across).iter().any(|met| met.is_far_side);
-            if !(is_alike || is_missed || is_lit) {
+            if !(is_alike || is_lit) {
                 return false;
             }
         }
