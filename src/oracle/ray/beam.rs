@@ -168,6 +168,21 @@ impl Beam {
         if least > 0.0 { least.recip() } else { f64::INFINITY }
     }
 
+    /// How far the base lies from the apex, over how far the nearest corner or edge of a triangle does; infinite where the
+    /// apex may lie in the triangle. 1 where there is no apex.
+    fn turn(&self, corners: &[DVec3; 3]) -> f64 {
+        let (Apex::At(apex), true) = (self.apex, self.levers) else { return 1.0 };
+        let edges = || (0..3).map(|k| (corners[k], corners[(k + 1) % 3]));
+        let away = edges().map(|(from, to)| {
+            let along = ((apex - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+            apex.distance(from + along * (to - from))
+        });
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let is_over = edges().all(|(from, to)| (to - from).cross(apex - from).dot(normal) >= 0.0);
+        let nearest = if is_over { 0.0 } else { away.fold(f64::INFINITY, f64::min) };
+        if nearest > 0.0 { self.axis().length() / nearest } else { f64::INFINITY }
+    }
+
     /// `None`: no line of the beam meets the triangle within its edges.
     pub fn meet(&self, corners: &[DVec3; 3], error: f64) -> Option<Meeting> {
         let error_at_base = error * self.lever(corners);
@@ -187,13 +202,15 @@ impl Beam {
     /// On which side of the plane through apex and edge the whole base lies: `Beyond`: on the third corner's.
     ///
     /// Where the third corner lies in that plane within its error, the triangle is seen edge-on: what lies beside the plane,
-    /// on either side, misses it.
+    /// on either side, misses it. Beside is farther than the plane turns about the apex when the triangle moves by its error:
+    /// next to the apex that is all around it.
     fn beside(&self, from: DVec3, to: DVec3, third: DVec3, [error, error_at_base]: [f64; 2]) -> Side {
         let (normal, on_plane) = self.plane_through(from, to);
         let normal = normal.normalize_or_zero();
         let inward = normal.dot(third - on_plane);
         let is_edge_on = inward.abs() <= error;
-        let corners_error = if is_edge_on { 2.0 * error_at_base } else { error_at_base };
+        let corners_error =
+            if is_edge_on { 2.0 * error_at_base.max(error * self.turn(&[from, to, third])) } else { error_at_base };
         let slack = self.moved_along(normal) + self.error + corners_error;
         let value = normal.dot(self.base - on_plane) * inward.signum();
         if !slack.is_finite() || normal == DVec3::ZERO || value.abs() <= slack {

@@ -18,9 +18,10 @@ pub struct Receiver {
     pub pixel_texels: f64,
 }
 
-/// The share of the comparisons that find light.
-pub fn lit(texels: &mut Texels<'_>, settings: &Settings, moved_texels: f64, receiver: &Receiver) -> f64 {
+/// The share of the comparisons that find light, where the reference is `deeper` by so much window depth.
+pub fn lit(texels: &mut Texels<'_>, settings: &Settings, moved_texels: f64, receiver: &Receiver, deeper: f64) -> f64 {
     let mut lookup = Lookup::new(texels, settings, moved_texels, receiver);
+    lookup.depth += deeper;
     match settings.mipmaps {
         Mipmaps::None => lookup.kernel(0),
         Mipmaps::EightTaps => 0.5 * (lookup.kernel(0) + lookup.kernel(1)),

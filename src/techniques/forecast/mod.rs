@@ -151,7 +151,9 @@ impl<'a> Forecast<'a> {
         self.reached += 1;
         let slack = self.slack(point);
         let met = on_the_way(self.items, point, -slack, &self.rays());
-        let blockers = || met.iter().filter(|met| !met.is_own && met.t > slack);
+        // A surface that the light lies in is edge-on to it, and shadows nothing.
+        let end = if matches!(self.rays(), Rays::From { .. }) { 1.0 - SLACK } else { f64::INFINITY };
+        let blockers = || met.iter().filter(|met| !met.is_own && met.t > slack && met.t < end);
         let texels = &mut self.texels[index];
         let light_from_world = texels.projector().light_from_world;
         let light = light_from_world.transform_point3(point.point);
@@ -162,8 +164,12 @@ impl<'a> Forecast<'a> {
             normal: light_from_world.transform_vector3(point.normal),
             pixel_texels: across[0].max(across[1]),
         };
-        let lit = lookup::lit(texels, map.settings, map.offset.texels, &receiver) >= 0.5;
         let is_blocked = blockers().next().is_some();
+        // Rounding may take a code of the stored depth, and a code of the compared one.
+        let rounding = 2.0 * code(map.settings.format);
+        let mut is_lit = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper) >= 0.5;
+        let outcome = is_lit(0.0);
+        let lit = if is_blocked { outcome || is_lit(-rounding) } else { outcome && is_lit(rounding) };
         if lit != is_blocked {
             return None;
         }
@@ -188,7 +194,7 @@ impl<'a> Forecast<'a> {
         let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
         Some(Wrong {
             is_lit: lit,
-            is_rounded: lit && is_rounded,
+            is_rounded: lit != outcome || (lit && is_rounded),
             is_even,
             is_before_near: lit && depth <= 0.0,
             item: nearest.map_or(point.item, |met| met.item),

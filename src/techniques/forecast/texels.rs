@@ -173,7 +173,8 @@ impl<'a> Texels<'a> {
             }
         };
         let [from, to] = [from, to].map(|point| self.world_from_light.transform_point3(point));
-        Ray { origin: from, way: to - from, start: 0.0, end: 1.0 }
+        // Not a surface that the light lies in: it is edge-on.
+        Ray { origin: from, way: to - from, start: 1e-9, end: 1.0 }
     }
 
     /// What the ray crosses and the map has drawn, in no order.
@@ -218,9 +219,12 @@ impl<'a> Texels<'a> {
     /// By how much the polygon offset moves a layer, in window depth [GL 4.6, 14.6.5].
     fn moved(&self, level: u32, center: DVec2, layer: &Layer) -> f64 {
         let PolygonOffset { factor, units } = self.offset;
+        // GL's r, the least that is told apart [GL 4.6, 14.6.5]: of 24 bits drivers take up to two codes, of floats what it is
+        // between 1/2 and 1.
         let unit = match self.settings.format {
             DepthFormat::Depth16 => 2.0_f64.powi(-16),
-            _ => 2.0_f64.powi(-24),
+            DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0_f64.powi(-23),
+            DepthFormat::Depth32F => 2.0_f64.powi(-24),
         };
         if factor == 0.0 {
             return f64::from(units) * unit;
