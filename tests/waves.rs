@@ -157,6 +157,12 @@ fn second_depth_refuses_what_folds_over() {
 }
 
 /// What rests out of sight of camera and light, and what a wave brings there, is drawn; what none brings, is not.
+/// The greatest difference of two pictures, in codes of one channel.
+fn apart(a: &Pixels, b: &Pixels) -> u8 {
+    let (Pixels::Rgba8 { data: a, .. }, Pixels::Rgba8 { data: b, .. }) = (a, b) else { return u8::MAX };
+    a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(u8::MAX)
+}
+
 #[test]
 fn nothing_is_left_out_that_a_wave_brings() {
     let context = context::open(&ContextRequest::default()).unwrap();
@@ -180,7 +186,9 @@ fn nothing_is_left_out_that_a_wave_brings() {
             (renderer.read(&plan).unwrap().picture, left_out)
         };
         let ((pruned, left_out), (whole, _)) = (draw(false), draw(true));
-        assert!(pruned == whole, "{technique} {amplitude}");
+        // A floor whose volume is left out is cut to what is seen, and interpolated between other vertices than the whole.
+        let most = u8::from(technique == "shadow-volume");
+        assert!(apart(&pruned, &whole) <= most, "{technique} {amplitude}: {}", apart(&pruned, &whole));
         assert_eq!(left_out, !stays, "{technique} {amplitude}");
     }
 }

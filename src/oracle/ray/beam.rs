@@ -208,7 +208,8 @@ impl Beam {
         let (normal, on_plane) = self.plane_through(from, to);
         let normal = normal.normalize_or_zero();
         let inward = normal.dot(third - on_plane);
-        let is_edge_on = inward.abs() <= error;
+        // A corner that moves along its own ray stays on its side.
+        let is_edge_on = if self.levers { inward.abs() <= error } else { inward == 0.0 };
         let corners_error =
             if is_edge_on { 2.0 * error_at_base.max(error * self.turn(&[from, to, third])) } else { error_at_base };
         let slack = self.moved_along(normal) + self.error + corners_error;

@@ -165,8 +165,9 @@ impl<'a> Forecast<'a> {
             pixel_texels: across[0].max(across[1]),
         };
         let is_blocked = blockers().next().is_some();
-        // Rounding may take a code of the stored depth, and a code of the compared one.
-        let rounding = 2.0 * code(map.settings.format);
+        // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
+        // compared one.
+        let rounding = 2.0 * code(DepthFormat::Depth32F);
         let mut is_lit = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper) >= 0.5;
         let outcome = is_lit(0.0);
         let lit = if is_blocked { outcome || is_lit(-rounding) } else { outcome && is_lit(rounding) };

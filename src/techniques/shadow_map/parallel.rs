@@ -9,10 +9,11 @@
 //! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end, and where the box ends before its casters do, nothing
 //! beyond lies behind them.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3, DVec4};
 
 use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
+use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::guard::Guard;
@@ -60,7 +61,10 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
     let boxes: Vec<Aabb> =
         view.items.iter().map(|item| item.bounds.transformed(&(light_from_world * item.world_from_model))).collect();
     let needed = needed(view.items, &boxes)?;
-    let (min, max) = whole_texels(&needed, settings);
+    let (min, max) = match shallow(view.items, &light_from_world, &needed, settings) {
+        Some(sides) => sides,
+        None => whole_texels(&needed, settings),
+    };
     let size = max - min;
     notes.chosen(
         format!("the map of light {}", view.index),
@@ -90,6 +94,43 @@ fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
         }
     }
     (!needed.is_empty() && needed.min.is_finite() && needed.max.is_finite()).then_some(needed)
+}
+
+/// A box deeper than so many times its width may be deep for what lies beside it.
+const DEEP: f64 = 16.0;
+
+/// How much farther the casters are looked at than what is needed, over the longer side.
+const BESIDE: f64 = 0.5;
+
+/// The sides of a box that holds no more of the casters' depth than they have within it: an oblique floor is as deep as it
+/// is long. `None` where `needed` is not deep, or nothing is gained.
+fn shallow(items: &[Item], light_from_world: &DMat4, needed: &Aabb, settings: &Settings) -> Option<(DVec3, DVec3)> {
+    let extent = needed.max - needed.min;
+    let longer = extent.x.max(extent.y);
+    if longer == 0.0 || extent.z <= DEEP * longer {
+        return None;
+    }
+    let (low, high) = (needed.min - BESIDE * longer, needed.max + BESIDE * longer);
+    let sides = [
+        DVec4::new(1.0, 0.0, 0.0, -low.x),
+        DVec4::new(-1.0, 0.0, 0.0, high.x),
+        DVec4::new(0.0, 1.0, 0.0, -low.y),
+        DVec4::new(0.0, -1.0, 0.0, high.y),
+    ];
+    let mut depth = Aabb::EMPTY;
+    for item in items.iter().filter(|item| item.casts_shadow) {
+        let light_from_model = *light_from_world * item.world_from_model;
+        let corners = item.bounds.corners().map(|corner| light_from_model.transform_point3(corner));
+        for face in faces(&corners) {
+            let within = sides.iter().fold(face.to_vec(), |polygon, side| clip_polygon(&polygon, side));
+            depth = depth.union(Aabb::from_points(within));
+        }
+    }
+    let mut narrow = *needed;
+    (narrow.min.z, narrow.max.z) = (needed.min.z.max(depth.min.z), needed.max.z.min(depth.max.z));
+    let (min, max) = whole_texels(&narrow, settings);
+    let is_looked_at = min.truncate().cmpge(low.truncate()).all() && max.truncate().cmple(high.truncate()).all();
+    (narrow.min.z <= narrow.max.z && is_looked_at).then_some((min, max))
 }
 
 /// `needed` with its rim, in whole texels of a grid through the world's origin.
