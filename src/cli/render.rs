@@ -113,7 +113,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
         ..Request::default()
     };
     // A scene that cannot be planned needs no context to be refused.
-    crate::plan::make(&loaded.scene, &request)?;
+    crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..request.clone() })?;
     let context = arguments.road.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(&loaded.scene, &request)?;

@@ -126,10 +126,10 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
         super::say(format_args!("warning: {warning}"));
     }
     // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
-    crate::plan::make(&loaded.scene, &Request::default())?;
+    crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..Request::default() })?;
     let mode = Mode::from(arguments.mode);
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
-    crate::plan::make(&scene, &request)?;
+    crate::plan::make(&scene, &Request { sampled_warnings: false, ..request.clone() })?;
     if let Some(path) = &arguments.output {
         return write(path, &draw(&scene, request, path, arguments)?);
     }

@@ -71,7 +71,8 @@ fn light_terms(
         // What is out of the camera's sight may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
         let keep_all = request.keep_all;
-        let view = LightView { scene, items, index, shown_whole, keep_all };
+        let sampled_warnings = request.sampled_warnings;
+        let view = LightView { scene, items, index, shown_whole, keep_all, sampled_warnings };
         let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&source.kind, &mut keys)?;

@@ -28,6 +28,8 @@ pub struct LightView<'a> {
     pub shown_whole: bool,
     /// Whether even what no picture can show is drawn, to prove that it changes none.
     pub keep_all: bool,
+    /// Whether warnings are worth some milliseconds.
+    pub sampled_warnings: bool,
 }
 
 impl<'a> LightView<'a> {

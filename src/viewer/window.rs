@@ -16,6 +16,7 @@ use crate::context::window::{self, WindowContext};
 use crate::context::{self, Choice, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
+use crate::plan::Request;
 
 /// How a state is shown.
 #[derive(Clone, Debug)]
@@ -96,7 +97,7 @@ impl App {
         let size = context.size();
         self.state.resize(size);
         let (scene, request) = self.state.frame();
-        let plan = renderer.plan(&scene, &request)?;
+        let plan = renderer.plan(&scene, &Request { sampled_warnings: false, ..request })?;
         renderer.draw(&plan)?;
         renderer.present(&plan, size)?;
         if self.shown.capture && self.captured.is_none() {

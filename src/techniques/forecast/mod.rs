@@ -51,14 +51,18 @@ pub struct Map<'a> {
 
 /// Warns of what goes wrong.
 pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
+    if !view.sampled_warnings {
+        return;
+    }
     let items = placed(view);
     let mut forecast = Forecast::new(view, map, &items);
     let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
-    // What has no far side may be a single pixel's: there is nothing that a few would tell of all.
-    if map.settings.cull.is_none() {
+    // Of a map of far sides single pixels may be wrong where a caster is open: a few samples tell nothing of all.
+    let starts_with_few = map.settings.cull.is_none() && few > many;
+    if starts_with_few {
         forecast.sample(few);
     }
-    if forecast.is_uncertain() {
+    if !starts_with_few || forecast.is_uncertain() {
         forecast.sample(many);
     }
     forecast.warn_of_share(notes);

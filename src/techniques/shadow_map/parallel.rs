@@ -173,7 +173,8 @@ mod tests {
         let scene = scene_of(objects, shadow);
         let items = items(&scene, false);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
-        let view = LightView { scene: &scene, items: &items, index: 0, shown_whole: false, keep_all: false };
+        let (shown_whole, keep_all, sampled_warnings) = (false, false, false);
+        let view = LightView { scene: &scene, items: &items, index: 0, shown_whole, keep_all, sampled_warnings };
         let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;
         Some(Aabb::from_points(crate::math::frustum::corners(&found.clip_from_world().inverse())))
     }

@@ -69,7 +69,9 @@ impl Technique for ShadowVolume {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
-        doubt::warn(view, &casting, &ways, &settings, notes);
+        if view.sampled_warnings {
+            doubt::warn(view, &casting, &ways, &settings, notes);
+        }
         term.counting = Some(counting(view, &shapes, &settings));
         Ok(term)
     }
