@@ -43,24 +43,11 @@ fn failures(results: &[CaseResult]) -> Vec<String> {
     results.iter().flat_map(of).collect()
 }
 
-/// Named cases with a row that is silently wrong, which is known and not mended yet: by a pixel or a few.
-const KNOWN: [&str; 2] = ["light-near-1e5", "mirrored"];
-
-/// The greatest part of the rows of random scenes that may be silently wrong, and of the pixels of such a row: midpoint
-/// and second-depth maps leave single pixels beyond the bound, and some coarse maps have more than 1.5 % wrong without a
-/// warning (scene 72 the most, 6.07 % of a small picture). None of it is right; it is pinned here, so that it cannot grow.
-const MOST_ROWS: f64 = 0.01;
-const MOST_PERCENT: f64 = 6.5;
-
-/// The same of the ways to count volumes that are exact: single pixels of two scenes.
-const MOST_VOLUME_PERCENT: f64 = 0.1;
-
 #[test]
 fn no_named_case_is_silently_wrong() {
     let cases = named::cases().unwrap();
     assert!(cases.len() >= 60);
-    let mut results = run(&cases);
-    results.retain(|result| !KNOWN.contains(&result.name.as_str()));
+    let results = run(&cases);
     let failures = failures(&results);
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
@@ -75,21 +62,9 @@ fn random_scenes_are_right_or_warned_of() {
     };
     let results = run(&(0..200).map(small).collect::<Vec<_>>());
     let failures = failures(&results).join("\n");
-    println!("{failures}");
-    assert!(!results.iter().any(CaseResult::is_misjudged), "{failures}");
+    assert!(failures.is_empty(), "{failures}");
     let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
-    let [_, alarms, _, _, silent] = tally(rows.iter().copied());
-    assert!(silent as f64 <= MOST_ROWS * rows.len() as f64, "{silent} of {} rows:\n{failures}", rows.len());
-    // A share of few pixels says nothing.
-    let is_bad = |row: &&&Row| row.verdict == Verdict::SilentlyWrong && row.compared >= 1000;
-    let worst = rows.iter().filter(is_bad).map(|row| row.wrong_percent()).fold(0.0, f64::max);
-    assert!(worst <= MOST_PERCENT, "{failures}");
-    // Parity and plain z-pass are wrong by nature, and warned of by samples.
-    let is_exact =
-        |row: &&&Row| !["parity", "\"z-pass\"", "two-sided"].iter().any(|key| row.settings.keys.contains(key));
-    let volumes = rows.iter().filter(|row| row.settings.technique == "shadow-volume").filter(is_exact);
-    let is_wrong = |row: &&Row| row.verdict == Verdict::SilentlyWrong && row.wrong_percent() > MOST_VOLUME_PERCENT;
-    assert!(!{ volumes }.any(is_wrong), "{failures}");
+    let [_, alarms, ..] = tally(rows.iter().copied());
     assert!(50 * alarms <= rows.len(), "{alarms} false alarms in {} rows: more than 2 %", rows.len());
     let defaults: Vec<&&Row> = rows.iter().filter(|row| row.settings.is_default()).collect();
     let unusable = defaults.iter().filter(|row| row.is_unusable()).count();

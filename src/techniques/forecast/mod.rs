@@ -95,6 +95,29 @@ struct Wrong {
     distance: f64,
 }
 
+/// What lies between a point and the light.
+struct Way<'p> {
+    point: &'p Seen,
+    met: Vec<Met>,
+    /// Parameters up to this are the point's own place, and from `end` on the light's.
+    slack: f64,
+    end: f64,
+    /// World units for a parameter of 1.
+    length: f64,
+}
+
+impl Way<'_> {
+    /// What shadows the point.
+    fn blockers(&self) -> impl Iterator<Item = &Met> {
+        self.met.iter().filter(|met| !met.is_own && met.t > self.slack && met.t < self.end)
+    }
+
+    /// From something met to the point, in world units.
+    fn gap(&self, met: &Met) -> f64 {
+        met.t * self.length
+    }
+}
+
 struct Forecast<'a> {
     view: &'a LightView<'a>,
     map: &'a Map<'a>,
@@ -153,60 +176,64 @@ impl<'a> Forecast<'a> {
             return None;
         }
         self.reached += 1;
-        let slack = self.slack(point);
-        let met = on_the_way(self.items, point, -slack, &self.rays());
-        // A surface that the light lies in is edge-on to it, and shadows nothing.
-        let end = if matches!(self.rays(), Rays::From { .. }) { 1.0 - SLACK } else { f64::INFINITY };
-        let blockers = || met.iter().filter(|met| !met.is_own && met.t > slack && met.t < end);
-        let texels = &mut self.texels[index];
-        let light_from_world = texels.projector().light_from_world;
-        let light = light_from_world.transform_point3(point.point);
-        let (place, depth) = texels.place(light);
-        let across = beside.map(|beside| (texels.place(light_from_world.transform_point3(beside)).0 - place).length());
-        let receiver = Receiver {
-            point: light,
-            normal: light_from_world.transform_vector3(point.normal),
-            pixel_texels: across[0].max(across[1]),
-        };
-        let is_blocked = blockers().next().is_some();
+        let way = self.way(point);
+        let receiver = receiver(&self.texels[index], point, beside);
+        let is_blocked = way.blockers().next().is_some();
         // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
         // compared one.
         let rounding = 2.0 * code(DepthFormat::Depth32F);
+        let texels = &mut self.texels[index];
         let mut is_lit = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper) >= 0.5;
         let outcome = is_lit(0.0);
         let lit = if is_blocked { outcome || is_lit(-rounding) } else { outcome && is_lit(rounding) };
         if lit != is_blocked {
             return None;
         }
-        let texel = texels.width_at(light);
-        let distance = if matches!(texels.projector().rays, Rays::From { .. }) { -light.z } else { 1.0 };
+        let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
+        let wrong = self.wrong(&way, &receiver, &self.texels[index], lit);
+        let texel_pixels = wrong.texel_pixels / pixel;
+        Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
+    }
+
+    /// What lies between a point and the light.
+    fn way<'p>(&self, point: &'p Seen) -> Way<'p> {
+        let slack = self.slack(point);
+        // A surface that the light lies in is edge-on to it, and shadows nothing.
+        let end = if matches!(self.rays(), Rays::From { .. }) { 1.0 - SLACK } else { f64::INFINITY };
+        let length = to_light(point.point, &self.rays()).length();
+        Way { point, met: on_the_way(self.items, point, -slack, &self.rays()), slack, end, length }
+    }
+
+    /// Why a point is wrong, whose pixel is one world unit wide.
+    fn wrong(&self, way: &Way<'_>, receiver: &Receiver, texels: &Texels<'_>, lit: bool) -> Wrong {
+        let map = self.map;
+        let texel = texels.width_at(receiver.point);
+        let distance = if matches!(texels.projector().rays, Rays::From { .. }) { -receiver.point.z } else { 1.0 };
         let code = code(map.settings.format) * length_of_depth(texels.projector(), distance);
-        let gap = |met: &Met| met.t * to_light(point.point, &self.rays()).length();
-        let nearest = blockers().min_by(|a, b| a.t.total_cmp(&b.t));
         // Of two levels that are met, the coarser one.
         let coarse = if map.settings.mipmaps == Mipmaps::All { 2.0 * receiver.pixel_texels.max(1.0) } else { 1.0 };
-        let is_even = || self.is_even(point, &met, coarse * texel, slack);
+        let is_even = || self.is_even(way, coarse * texel);
         let is_even = match (lit, self.has_far_sides()) {
             (false, _) => is_even(),
             (true, false) => false,
             (true, true) => {
-                let far_sides = || blockers().filter(|met| met.is_far_side);
-                let is_apart = |met: &Met| gap(met) > self.taken(point, met, texel, code);
+                let far_sides = || way.blockers().filter(|met| met.is_far_side);
+                let is_apart = |met: &Met| way.gap(met) > self.taken(way.point, met, texel, code);
                 far_sides().next().is_none() || (far_sides().any(is_apart) && is_even())
             }
         };
-        let is_rounded = nearest.is_some_and(|met| gap(met) < (2.0 + f64::from(map.offset.polygon.units)) * code);
-        let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
-        Some(Wrong {
+        let nearest = way.blockers().min_by(|a, b| a.t.total_cmp(&b.t));
+        let taken = (2.0 + f64::from(map.offset.polygon.units)) * code;
+        Wrong {
             is_lit: lit,
-            is_rounded: lit != outcome || (lit && is_rounded),
+            is_rounded: lit && nearest.is_some_and(|met| way.gap(met) < taken),
             is_even,
-            is_before_near: lit && depth <= 0.0,
-            item: nearest.map_or(point.item, |met| met.item),
-            texel_pixels: texel / pixel,
+            is_before_near: lit && texels.place(receiver.point).1 <= 0.0,
+            item: nearest.map_or(way.point.item, |met| met.item),
+            texel_pixels: texel,
             code,
             distance,
-        })
+        }
     }
 
     /// What counts as no length at a point, as a share of its way to the light.
@@ -257,7 +284,8 @@ impl<'a> Forecast<'a> {
 
     /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
     /// or, where the map is made of far sides, nothing at all before the plane of what is seen.
-    fn is_even(&self, seen: &Seen, met: &[Met], texel: f64, slack: f64) -> bool {
+    fn is_even(&self, way: &Way<'_>, texel: f64) -> bool {
+        let Way { point: seen, slack, .. } = *way;
         let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
         let rays = self.rays();
         let Some(projector) = self.map.projectors.first() else { return false };
@@ -269,7 +297,7 @@ impl<'a> Forecast<'a> {
                 [way.any_orthonormal_vector(), way.cross(way.any_orthonormal_vector())]
             }
         };
-        let signature = signature(met, slack);
+        let signature = signature(&way.met, slack);
         let mut is_lit = self.has_far_sides();
         let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
         let mut is_alike = true;
@@ -314,11 +342,19 @@ impl<'a> Forecast<'a> {
             return;
         }
         let coarsest = self.wrong.iter().map(|wrong| wrong.texel_pixels).fold(0.0, f64::max);
-        notes.warnings.push(format!(
-            "light {index}: about {percent:.1} % of what it reaches gets the wrong shade: a texel of its map covers up to \
-             {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise `size`, narrow the cone, or move the \
-             light nearer"
-        ));
+        let why = if coarsest > 1.0 {
+            format!(
+                "a texel of its map covers up to {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise \
+                 `size`, narrow the cone, or move the light nearer"
+            )
+        } else {
+            String::from(
+                "it grazes much of that, whose depth changes within a texel of its map: raise `size`, or move the light",
+            )
+        };
+        notes
+            .warnings
+            .push(format!("light {index}: about {percent:.1} % of what it reaches gets the wrong shade: {why}"));
     }
 
     /// Of points before the near plane.
@@ -357,6 +393,19 @@ impl<'a> Forecast<'a> {
                 ));
             }
         }
+    }
+}
+
+/// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.
+fn receiver(texels: &Texels<'_>, point: &Seen, beside: [DVec3; 2]) -> Receiver {
+    let light_from_world = texels.projector().light_from_world;
+    let light = light_from_world.transform_point3(point.point);
+    let place = texels.place(light).0;
+    let across = beside.map(|beside| (texels.place(light_from_world.transform_point3(beside)).0 - place).length());
+    Receiver {
+        point: light,
+        normal: light_from_world.transform_vector3(point.normal),
+        pixel_texels: across[0].max(across[1]),
     }
 }
 

@@ -206,14 +206,8 @@ impl<'a> Texels<'a> {
 
     /// The window depth at a share of a texel's ray; below 0 before the near plane.
     fn depth_along(&self, t: f64) -> f64 {
-        let distance = match self.projector.rays {
-            Rays::From { .. } => t * self.distance(1.0),
-            Rays::Along(_) => {
-                let near = self.distance(0.0);
-                near + t * (self.distance(1.0) - near)
-            }
-        };
-        self.depth_at(distance)
+        let start = if matches!(self.projector.rays, Rays::From { .. }) { 0.0 } else { self.distance(0.0) };
+        self.depth_at(start + t * (self.distance(1.0) - start))
     }
 
     /// By how much the polygon offset moves a layer, in window depth [GL 4.6, 14.6.5].
@@ -234,11 +228,7 @@ impl<'a> Texels<'a> {
         let beside = |step: DVec2| {
             let ray = self.ray(level, center + step);
             let t = normal.dot(corner - ray.origin) / normal.dot(ray.way);
-            let distance = match self.projector.rays {
-                Rays::From { .. } => t * self.distance(1.0),
-                Rays::Along(_) => self.distance(0.0) + t * (self.distance(1.0) - self.distance(0.0)),
-            };
-            (self.depth_at(distance) - layer.depth).abs()
+            (self.depth_along(t) - layer.depth).abs()
         };
         let slope = beside(DVec2::X).max(beside(DVec2::Y));
         // A surface seen edge-on is moved to the far plane.
