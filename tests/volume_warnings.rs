@@ -68,7 +68,7 @@ fn random_scenes_are_right_or_warned_of() {
     assert!(count(Verdict::Warned) > 0 && count(Verdict::Right) > 3 * count(Verdict::Warned));
 }
 
-/// Of each: a pixel or a few, by a floor without end, sides narrower than GL rounds by, a hole that is hardly wider, and
+/// Each had a pixel or a few wrong, by a floor without end, sides narrower than GL rounds by, a hole that is hardly wider, and
 /// the terminator of a dense mesh.
 #[test]
 fn scenes_that_were_wrong_by_a_pixel_are_right_or_warned_of() {

@@ -8,9 +8,45 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction}
 /// Triangles in one space, in a hierarchy of boxes.
 pub struct Triangles {
     corners: Vec<[DVec3; 3]>,
+    boxes: Boxes,
+}
+
+/// Boxes in one space, in a hierarchy.
+pub struct Boxes {
     /// The greatest coordinate of any corner.
     reach: f64,
     bvh: Bvh,
+}
+
+impl Boxes {
+    /// From each box's least and greatest corner.
+    pub fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
+        let mut reach: f64 = 0.0;
+        let boxes: Vec<Aabb> = boxes
+            .map(|[min, max]| {
+                reach = reach.max(min.abs().max(max.abs()).max_element());
+                Aabb::new(Vector::from_array(min.to_array()), Vector::from_array(max.to_array()))
+            })
+            .collect();
+        Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach }
+    }
+
+    /// Calls `found` with each box that the ray may meet, in no particular order; returns how many nodes were looked at.
+    pub fn met(&self, ray: &Ray, mut found: impl FnMut(u32)) -> usize {
+        let slab = Slab::new(ray, self.reach);
+        let mut looked_at = 0;
+        self.bvh.traverse(|node| {
+            looked_at += 1;
+            if !slab.meets(node) {
+                return TraversalAction::Prune;
+            }
+            if let Some(index) = node.leaf_data() {
+                found(index);
+            }
+            TraversalAction::Continue
+        });
+        looked_at
+    }
 }
 
 /// The points `origin + t * way` with `start <= t <= end`.
@@ -24,9 +60,8 @@ pub struct Ray {
 
 impl Triangles {
     pub fn new(corners: Vec<[DVec3; 3]>) -> Self {
-        let boxes: Vec<Aabb> = corners.iter().map(bound).collect();
-        let reach = corners.iter().flatten().fold(0.0, |reach: f64, corner| reach.max(corner.abs().max_element()));
-        Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach, corners }
+        let bounds = corners.iter().map(|[a, b, c]| [a.min(*b).min(*c), a.max(*b).max(*c)]);
+        Self { boxes: Boxes::new(bounds), corners }
     }
 
     /// The corners of a triangle, by its place in what [`Triangles::new`] was given.
@@ -37,25 +72,14 @@ impl Triangles {
     /// Calls `found` with each triangle that the ray crosses, and its t, in no particular order. An edge that two
     /// triangles share is crossed in one of them.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(u32, f64)) {
-        let slab = Slab::new(ray, self.reach);
-        self.bvh.traverse(|node| {
-            if !slab.meets(node) {
-                return TraversalAction::Prune;
-            }
-            if let Some(triangle) = node.leaf_data()
-                && let Some(t) = crossing(ray, &self.corners[triangle as usize])
+        self.boxes.met(ray, |triangle| {
+            if let Some(t) = crossing(ray, &self.corners[triangle as usize])
                 && (ray.start..=ray.end).contains(&t)
             {
                 found(triangle, t);
             }
-            TraversalAction::Continue
         });
     }
-}
-
-fn bound([a, b, c]: &[DVec3; 3]) -> Aabb {
-    let (min, max) = (a.min(*b).min(*c), a.max(*b).max(*c));
-    Aabb::new(Vector::from_array(min.to_array()), Vector::from_array(max.to_array()))
 }
 
 /// The slab test, against boxes grown by its own rounding.
@@ -128,12 +152,8 @@ mod tests {
         let triangles = (0..4096).map(|k| [place(k), place(k) + 0.5 * DVec3::X, place(k) + 0.5 * DVec3::Y]).collect();
         let grid = Triangles::new(triangles);
         for end in [9.0, f64::MAX, f64::INFINITY] {
-            let slab = Slab::new(&Ray { origin: DVec3::new(5.1, 7.1, 4.0), way: DVec3::NEG_Z, start: 0.0, end }, 64.0);
-            let mut looked_at = 0;
-            grid.bvh.traverse(|node| {
-                looked_at += 1;
-                if slab.meets(node) { TraversalAction::Continue } else { TraversalAction::Prune }
-            });
+            let ray = Ray { origin: DVec3::new(5.1, 7.1, 4.0), way: DVec3::NEG_Z, start: 0.0, end };
+            let looked_at = grid.boxes.met(&ray, |_| {});
             assert!(looked_at < 60, "{looked_at} for an end at {end}");
         }
     }

@@ -9,7 +9,7 @@ use glumbra::scene::{self, Light, Scene};
 
 use crate::scenes::{floor, frustum_of, light, mesh, object, scene, square, sun};
 
-/// Of the square.
+/// The square's height over the floor, in world units.
 const HEIGHT: f64 = 0.75;
 
 /// A square that floats over a floor which casts nothing.

@@ -91,7 +91,7 @@ mod tests {
     use super::super::around::tests::seen;
     use super::*;
 
-    /// Of objects that are turned by 30 degrees, from above.
+    /// The middle over objects that are turned by 30 degrees, from above.
     fn middle(objects: &str, reach: f64) -> f64 {
         let turn = "rotate = { axis = [0.0, 0.0, 1.0], angle = 30.0 }\n";
         let objects = objects.replace("[[object]]\n", &format!("[[object]]\n{turn}"));

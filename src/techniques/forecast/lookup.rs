@@ -12,7 +12,7 @@ use crate::techniques::shadow_map::settings::{Bias, Mipmaps, Settings};
 pub struct Receiver {
     /// In light space.
     pub point: DVec3,
-    /// Of unit length, towards the eye, in light space.
+    /// Unit length, towards the eye, in light space.
     pub normal: DVec3,
     /// The longer side of a pixel on the surface, as the map sees it, in texels of level 0.
     pub pixel_texels: f64,

@@ -1,7 +1,7 @@
 //! Forecasts where the picture of a map is wrong, by sampling: points that the camera sees in the middles of pixels are
 //! looked up in the map as the lit pass does it, in texels that rays find (`texels.rs`, `lookup.rs`), and held against a
 //! ray to the light. Warns, with the share, where
-//! - more than [`MOST_WRONG`] of what the light reaches is wrong: of too few texels, or too few codes of depth;
+//! - more than [`told::MOST_WRONG`] of what the light reaches is wrong: of too few texels, or too few codes of depth;
 //! - a point before the near plane is lit by mistake;
 //! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
 //!   or a caster that the map does not hold.
@@ -9,11 +9,12 @@
 mod lookup;
 mod points;
 mod texels;
+mod told;
 
 use glam::{DVec2, DVec3};
 
 use self::lookup::Receiver;
-use self::points::{Met, Placed, Seen, on_the_way, placed, seen, to_light};
+use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
 use self::texels::Texels;
 pub use self::texels::{Alone, Stored};
 use super::projector::{Projector, Rays};
@@ -22,9 +23,6 @@ use super::shadow_map::settings::{Mipmaps, Offset, Settings};
 use super::{Item, LightView, Notes};
 use crate::pass::{DepthFormat, Face, PolygonOffset};
 use crate::scene::{LightKind, LightShape};
-
-/// The greatest share of the points in the light's reach that may be wrong without a warning.
-const MOST_WRONG: f64 = 0.015;
 
 /// In pictures where the light reaches fewer pixels a share says nothing.
 const FEWEST_PIXELS: u32 = 1000;
@@ -54,10 +52,10 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     if !view.sampled_warnings {
         return;
     }
-    let items = placed(view);
+    let items = Items::new(view);
     let mut forecast = Forecast::new(view, map, &items);
     let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
-    // Of a map of far sides single pixels may be wrong where a caster is open: a few samples tell nothing of all.
+    // A map of far sides may be wrong in single pixels where a caster is open: a few samples tell nothing of all.
     let starts_with_few = map.settings.cull.is_none() && few > many;
     if starts_with_few {
         forecast.sample(few);
@@ -65,9 +63,7 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     if !starts_with_few || forecast.is_uncertain() {
         forecast.sample(many);
     }
-    forecast.warn_of_share(notes);
-    forecast.warn_of_even(notes);
-    forecast.warn_of_near(notes);
+    told::all(&forecast, notes);
 }
 
 /// Pixels from one sample to the next, on each axis.
@@ -121,7 +117,7 @@ impl Way<'_> {
 struct Forecast<'a> {
     view: &'a LightView<'a>,
     map: &'a Map<'a>,
-    items: &'a [Placed<'a>],
+    items: &'a Items<'a>,
     texels: Vec<Texels<'a>>,
     /// Pixels from sample to sample.
     step: u32,
@@ -131,7 +127,7 @@ struct Forecast<'a> {
 }
 
 impl<'a> Forecast<'a> {
-    fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a [Placed<'a>]) -> Self {
+    fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a Items<'a>) -> Self {
         let texels = |projector: &Projector| Texels::new(items, map, projector.clone());
         let texels = map.projectors.iter().map(texels).collect();
         Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
@@ -210,7 +206,7 @@ impl<'a> Forecast<'a> {
         let texel = texels.width_at(receiver.point);
         let distance = if matches!(texels.projector().rays, Rays::From { .. }) { -receiver.point.z } else { 1.0 };
         let code = code(map.settings.format) * length_of_depth(texels.projector(), distance);
-        // Of two levels that are met, the coarser one.
+        // The coarser one of the two levels that are met.
         let coarse = if map.settings.mipmaps == Mipmaps::All { 2.0 * receiver.pixel_texels.max(1.0) } else { 1.0 };
         let is_even = || self.is_even(way, coarse * texel);
         let is_even = match (lit, self.has_far_sides()) {
@@ -252,7 +248,7 @@ impl<'a> Forecast<'a> {
         let reach = bias::reach_texels(map.settings);
         let factor = f64::from(map.offset.polygon.factor.abs());
         let slope = |normal: DVec3| self.slope(point.point, normal);
-        let caster = slope(self.items[met.item].normal(met.triangle));
+        let caster = slope(self.items.placed[met.item].normal(met.triangle));
         let slopes = (factor + reach) * caster + reach * slope(point.normal);
         texel * (slopes + map.offset.texels + 1.0) + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
     }
@@ -315,85 +311,6 @@ impl<'a> Forecast<'a> {
         }
         true
     }
-
-    /// In percent of what the light reaches.
-    fn percent(&self, count: usize) -> f64 {
-        100.0 * count as f64 / f64::from(self.reached.max(1))
-    }
-
-    /// Of too many wrong points.
-    fn warn_of_share(&self, notes: &mut Notes) {
-        let pixels = self.reached.saturating_mul(self.step.pow(2));
-        if pixels < FEWEST_PIXELS || self.wrong.len() as f64 <= MOST_WRONG * f64::from(self.reached) {
-            return;
-        }
-        let (index, percent) = (self.view.index, self.percent(self.wrong.len()));
-        let rounded: Vec<&Wrong> = self.wrong.iter().filter(|wrong| wrong.is_rounded).collect();
-        let widest = rounded.iter().max_by(|a, b| a.code.total_cmp(&b.code));
-        if let Some(widest) = widest.filter(|_| 2 * rounded.len() > self.wrong.len()) {
-            notes.warnings.push(format!(
-                "light {index}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about \
-                 {percent:.1} % of what it reaches is wrong, as near behind its caster as that: move `near` away, or take a \
-                 format of more bits",
-                name(self.map.settings.format),
-                widest.code,
-                widest.distance
-            ));
-            return;
-        }
-        let coarsest = self.wrong.iter().map(|wrong| wrong.texel_pixels).fold(0.0, f64::max);
-        let why = if coarsest > 1.0 {
-            format!(
-                "a texel of its map covers up to {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise \
-                 `size`, narrow the cone, or move the light nearer"
-            )
-        } else {
-            String::from(
-                "it grazes much of that, whose depth changes within a texel of its map: raise `size`, or move the light",
-            )
-        };
-        notes
-            .warnings
-            .push(format!("light {index}: about {percent:.1} % of what it reaches gets the wrong shade: {why}"));
-    }
-
-    /// Of points before the near plane.
-    fn warn_of_near(&self, notes: &mut Notes) {
-        let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near);
-        let (Rays::From { near, .. }, Some(first)) = (self.rays(), before().next()) else { return };
-        notes.warnings.push(format!(
-            "light {}'s near plane at {near}: {:.2} % of what it reaches lies before it in a shadow, such as that of {}, and is \
-             lit there: a map has no depths before its near plane",
-            self.view.index,
-            self.percent(before().count()),
-            self.items[first.item].item.label
-        ));
-    }
-
-    /// Of points that are wrong for no edge of a shadow, item by item.
-    fn warn_of_even(&self, notes: &mut Notes) {
-        let far_sides = self.has_far_sides();
-        for (index, placed) in self.items.iter().enumerate() {
-            for is_lit in [true, false] {
-                let is_it = |wrong: &&Wrong| wrong.is_even && wrong.is_lit == is_lit && wrong.item == index;
-                let count = self.wrong.iter().filter(is_it).count();
-                if count == 0 {
-                    continue;
-                }
-                let (what, why) = match (is_lit, far_sides) {
-                    (true, _) => ("lit by mistake", "that it shadows: it has no far side there"),
-                    (false, true) => ("dark by mistake", "on it: a far side lies at the very depth of what is lit"),
-                    (false, false) => ("dark by mistake", "on it: it shades itself"),
-                };
-                notes.warnings.push(format!(
-                    "{} in the map of light {}: {what} are {:.2} % of what the light reaches, {why}",
-                    placed.item.label,
-                    self.view.index,
-                    self.percent(count)
-                ));
-            }
-        }
-    }
 }
 
 /// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.
@@ -429,15 +346,6 @@ fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
     match projector.rays {
         Rays::From { .. } => 2.0 * distance * distance / projector.clip_from_light.w_axis.z.abs(),
         Rays::Along(_) => 2.0 / projector.clip_from_light.z_axis.z.abs(),
-    }
-}
-
-fn name(format: DepthFormat) -> &'static str {
-    match format {
-        DepthFormat::Depth16 => "depth16",
-        DepthFormat::Depth24 => "depth24",
-        DepthFormat::Depth32 => "depth32",
-        DepthFormat::Depth32F => "depth32f",
     }
 }
 

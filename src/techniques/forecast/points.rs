@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use crate::geometry::Texture;
-use crate::geometry::rays::Ray;
+use crate::geometry::rays::{Boxes, Ray};
 use crate::geometry::sampled::{Crossing, Sampled};
 use crate::techniques::projector::Rays;
 use crate::techniques::{Item, LightView};
@@ -41,8 +41,33 @@ pub struct Met {
     pub is_own: bool,
 }
 
+/// All items made ready for rays, in a hierarchy of boxes.
+pub struct Items<'a> {
+    pub placed: Vec<Placed<'a>>,
+    boxes: Boxes,
+}
+
+impl<'a> Items<'a> {
+    pub fn new(view: &LightView<'a>) -> Self {
+        let placed = placed(view);
+        let bounds = |placed: &Placed<'_>| {
+            let bounds = placed.item.bounds.transformed(&placed.item.world_from_model);
+            [bounds.min, bounds.max]
+        };
+        Self { boxes: Boxes::new(placed.iter().map(bounds)), placed }
+    }
+
+    /// Calls `look` with all that a ray of world space crosses, and of which item, holes left out.
+    pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(usize, Crossing)) {
+        self.boxes.met(ray, |index| {
+            let index = index as usize;
+            self.placed[index].crossings(ray, |met| look(index, met));
+        });
+    }
+}
+
 /// Every item but those whose transform has no inverse.
-pub fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
+fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
     let of = |item: &'a Item| {
         let mesh = match &item.wave {
             Some(wave) => wave.moved(&item.mesh.0),
@@ -56,7 +81,7 @@ pub fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
 
 impl Placed<'_> {
     /// Calls `look` with all that a ray of world space crosses, holes left out.
-    pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
+    fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
         let origin = self.model_from_world.transform_point3(ray.origin);
         let ray = Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray };
         self.mesh.crossings(&ray, |met| {
@@ -118,19 +143,16 @@ fn texel(texture: &Arc<Texture>, at: DVec2, channel: usize) -> f64 {
 }
 
 /// The nearest point on the way from the near plane to the far plane, `origin` to `origin + way`.
-pub fn seen(items: &[Placed<'_>], eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
+pub fn seen(items: &Items<'_>, eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
     let ray = Ray { origin, way, start: 0.0, end: 1.0 };
     let mut nearest: Option<(f64, usize, u32)> = None;
-    for (index, placed) in items.iter().enumerate() {
-        let end = nearest.map_or(1.0, |(t, ..)| t);
-        placed.crossings(&Ray { end, ..ray }, |met| {
-            if nearest.is_none_or(|(t, ..)| met.t < t) {
-                nearest = Some((met.t, index, met.triangle));
-            }
-        });
-    }
+    items.crossings(&ray, |item, met| {
+        if nearest.is_none_or(|(t, ..)| met.t < t) {
+            nearest = Some((met.t, item, met.triangle));
+        }
+    });
     let (t, item, triangle) = nearest?;
-    let (point, normal) = (origin + t * way, items[item].normal(triangle));
+    let (point, normal) = (origin + t * way, items.placed[item].normal(triangle));
     let normal = if normal.dot(eye - point) < 0.0 { -normal } else { normal };
     (normal != DVec3::ZERO).then_some(Seen { item, point, normal, triangle })
 }
@@ -144,17 +166,17 @@ pub fn to_light(point: DVec3, rays: &Rays) -> DVec3 {
 }
 
 /// All casters on the line through the point and the light, from `behind` of it (a parameter below 0) on.
-pub fn on_the_way(items: &[Placed<'_>], seen: &Seen, behind: f64, rays: &Rays) -> Vec<Met> {
+pub fn on_the_way(items: &Items<'_>, seen: &Seen, behind: f64, rays: &Rays) -> Vec<Met> {
     let end = if matches!(rays, Rays::From { .. }) { 1.0 } else { f64::MAX };
     let way = to_light(seen.point, rays);
     let ray = Ray { origin: seen.point, way, start: behind, end };
     let mut all = Vec::new();
-    for (item, placed) in items.iter().enumerate().filter(|(_, placed)| placed.item.casts_shadow) {
-        placed.crossings(&ray, |met| {
+    items.crossings(&ray, |item, met| {
+        if items.placed[item].item.casts_shadow {
             let is_own = (item, met.triangle) == (seen.item, seen.triangle);
             // The ray runs to the light: what it meets from the front looks away from it.
             all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
-        });
-    }
+        }
+    });
     all
 }

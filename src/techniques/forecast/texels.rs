@@ -1,14 +1,15 @@
 //! A map's texels as rays from the light find them, each when it is first asked for. f64; depths are those of the window,
 //! in [0, 1] and growing away from the light, whichever way the map's own run.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DMat4, DVec2, DVec3};
 
 use super::Map;
-use super::points::Placed;
+use super::points::{Items, Placed};
 use crate::geometry::rays::Ray;
 use crate::pass::{DepthFormat, Face, PolygonOffset};
+use crate::techniques::Item;
 use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::shadow_map::bias;
 use crate::techniques::shadow_map::settings::Settings;
@@ -34,7 +35,7 @@ pub enum Alone {
 
 /// A map, or one face of a cube.
 pub struct Texels<'a> {
-    items: &'a [Placed<'a>],
+    items: &'a Items<'a>,
     settings: &'a Settings,
     stored: Stored,
     offset: PolygonOffset,
@@ -56,14 +57,15 @@ struct Layer {
 }
 
 impl<'a> Texels<'a> {
-    pub fn new(items: &'a [Placed<'a>], map: &'a Map<'a>, projector: Projector) -> Self {
-        let casts = |placed: &Placed<'_>| map.casters.iter().any(|caster| std::ptr::eq(*caster, placed.item));
+    pub fn new(items: &'a Items<'a>, map: &'a Map<'a>, projector: Projector) -> Self {
+        let casters: HashSet<*const Item> = map.casters.iter().map(|caster| std::ptr::from_ref(*caster)).collect();
+        let casts = |placed: &Placed<'_>| casters.contains(&std::ptr::from_ref(placed.item));
         Self {
             items,
             settings: map.settings,
             stored: map.stored,
             offset: map.offset.polygon,
-            casts: items.iter().map(casts).collect(),
+            casts: items.placed.iter().map(casts).collect(),
             world_from_light: projector.light_from_world.inverse(),
             projector,
             known: HashMap::new(),
@@ -188,19 +190,14 @@ impl<'a> Texels<'a> {
         let with_receivers = matches!(self.stored, Stored::Middle { .. });
         // What lies beyond the far plane is a second layer at depth 1.
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
-        for (item, placed) in self.items.iter().enumerate() {
+        self.items.crossings(ray, |item, met| {
             let casts = self.casts[item];
-            if !(casts || with_receivers) {
-                continue;
+            // The ray runs away from the light: what it meets from behind looks away from it.
+            if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
+                let depth = self.depth_along(met.t);
+                layers.push(Layer { depth, item, triangle: met.triangle, casts });
             }
-            placed.crossings(ray, |met| {
-                // The ray runs away from the light: what it meets from behind looks away from it.
-                if far_sides.is_none_or(|far| far == met.from_behind) {
-                    let depth = self.depth_along(met.t);
-                    layers.push(Layer { depth, item, triangle: met.triangle, casts });
-                }
-            });
-        }
+        });
         layers
     }
 
@@ -223,7 +220,7 @@ impl<'a> Texels<'a> {
         if factor == 0.0 {
             return f64::from(units) * unit;
         }
-        let placed = &self.items[layer.item];
+        let placed = &self.items.placed[layer.item];
         let (corner, normal) = (placed.corners(layer.triangle)[0], placed.normal(layer.triangle));
         let beside = |step: DVec2| {
             let ray = self.ray(level, center + step);

@@ -44,8 +44,8 @@ pub fn offset(settings: &Settings) -> Offset {
 }
 
 fn default_offset(settings: &Settings) -> Offset {
-    // Of triangles that reach 16 times as far as the fragment (`cut.rs` sees to no more), r and q are each interpolated to
-    // some 16 times 2^-24. A unit of floats between 1/2 and 1 is half of what it is of 24 bits.
+    // Triangles reach up to 16 times as far as the fragment (`cut.rs` cuts others), so that r and q are each off by some
+    // 16 times 2^-24. A unit of floats between 1/2 and 1 is half of what it is of 24 bits.
     let units = match settings.format {
         DepthFormat::Depth16 => 1.0,
         DepthFormat::Depth24 | DepthFormat::Depth32 => 24.0,
