@@ -6,23 +6,28 @@ use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
 use glumbra::report::metrics::{Band, compare};
 use glumbra::report::run::draw_shade;
-use glumbra::scene;
+use glumbra::scene::{self, Scene};
 use glumbra::stress::{Judge, RowSettings, random};
 
-/// README's camera and objects, under a spotlight.
+/// README's camera, and what else a scene has.
+fn loaded(rest: &str) -> Scene {
+    let camera = "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, format!("{camera}{rest}")).unwrap();
+    scene::load(&path, &[]).unwrap().scene
+}
+
+/// README's objects, under a spotlight.
 fn wrong_and_warned(cone: f64, near: f64, far: f64, keys: &str, renderer: &mut Renderer) -> (f64, Vec<String>) {
     let text = format!(
-        "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n\
-         [[light]]\nkind = \"spot\"\nposition = [-3.0, 4.0, 1.0]\ntarget = [0.0, 0.5, 0.0]\ncone = {cone:?}\n\
+        "[[light]]\nkind = \"spot\"\nposition = [-3.0, 4.0, 1.0]\ntarget = [0.0, 0.5, 0.0]\ncone = {cone:?}\n\
          near = {near:?}\nfar = {far:?}\n[light.shadow]\ntechnique = \"shadow-map\"\n{keys}\n\
          [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n\
          [[object]]\nmesh = \"box\"\nscale = 0.5\ntranslate = [0.0, 0.5, 0.0]\n\
          [[object]]\nmesh = \"box\"\nscale = [0.3, 1.0, 0.3]\ntranslate = [-1.0, 1.0, -1.0]\n"
     );
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    let scene = scene::load(&path, &[]).unwrap().scene;
+    let scene = loaded(&text);
     let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
     let shade = draw_shade(&scene, 0, renderer).unwrap();
     let errors = compare(&truth, &shade, &Band { texels: 2.0, map_size: [1024; 2] }).unwrap().facing;
@@ -101,17 +106,13 @@ fn what_no_edge_of_a_shadow_explains_is_told() {
         ("midpoint\"", 4.6, "a map has no depths before its near plane"),
     ] {
         let text = format!(
-            "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n\
-                 [[light]]\nkind = \"spot\"\nposition = [0.0, 5.0, 0.5]\ntarget = [0.0, 0.0, 0.0]\ncone = 60.0\n\
+            "[[light]]\nkind = \"spot\"\nposition = [0.0, 5.0, 0.5]\ntarget = [0.0, 0.0, 0.0]\ncone = 60.0\n\
                  near = {near:?}\nfar = 20.0\n[light.shadow]\ntechnique = \"{keys}\n\
                  [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n\
                  [[object]]\nmesh = \"quad\"\nscale = 0.4\ntranslate = [0.0, 1.5, 0.0]\n\
                  [[object]]\nmesh = \"quad\"\nscale = 0.6\ntranslate = [0.0, 0.5, 0.0]\n"
         );
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("scene.toml");
-        std::fs::write(&path, text).unwrap();
-        let loaded = scene::load(&path, &[]).unwrap().scene;
+        let loaded = loaded(&text);
         let warnings = |sampled_warnings| {
             plan::make(&loaded, &Request { sampled_warnings, ..Request::default() }).unwrap().warnings
         };

@@ -8,6 +8,7 @@
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
+mod alpha;
 pub mod claims;
 pub mod cut;
 mod forecast;

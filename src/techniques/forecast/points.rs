@@ -1,14 +1,11 @@
 //! Points that the camera sees, and what lies on their way to the light: found by rays through the items' triangles.
 
-use std::sync::Arc;
+use glam::{DMat4, DVec3};
 
-use glam::{DMat4, DVec2, DVec3};
-
-use crate::geometry::Texture;
 use crate::geometry::rays::{Boxes, Ray};
 use crate::geometry::sampled::{Crossing, Sampled};
 use crate::techniques::projector::Rays;
-use crate::techniques::{Item, LightView};
+use crate::techniques::{Item, LightView, alpha};
 
 /// An item made ready for rays.
 pub struct Placed<'a> {
@@ -85,7 +82,7 @@ impl Placed<'_> {
         let origin = self.model_from_world.transform_point3(ray.origin);
         let ray = Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray };
         self.mesh.crossings(&ray, |met| {
-            if self.is_solid(met.triangle, ray.origin + met.t * ray.way) {
+            if alpha::passes(self.item, met.triangle, &self.mesh.corners(met.triangle), ray.origin + met.t * ray.way) {
                 look(met);
             }
         });
@@ -101,45 +98,6 @@ impl Placed<'_> {
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh.corners(triangle).map(|corner| self.item.world_from_model.transform_point3(corner))
     }
-
-    /// Whether the alpha test passes at a point of a triangle, in model space.
-    fn is_solid(&self, triangle: u32, point: DVec3) -> bool {
-        if !(self.item.needs_alpha_test() && self.item.has_texcoords()) {
-            return true;
-        }
-        let material = &self.item.material;
-        let at = match &material.texgen {
-            Some(texgen) => {
-                let [s, t] = [texgen.s, texgen.t].map(|plane| {
-                    let [x, y, z, w] = plane.map(f64::from);
-                    f64::from(texgen.scale) * (DVec3::new(x, y, z).dot(point) + w)
-                });
-                DVec2::new(s, t)
-            }
-            None => match self.mesh.texcoord(triangle, point) {
-                Some(at) => at,
-                None => return true,
-            },
-        };
-        let decal = material.decal.as_ref().filter(|decal| decal.has_alpha).map_or(1.0, |decal| texel(decal, at, 3));
-        let channel = |map: &Texture| if map.has_alpha { 3 } else { 0 };
-        let alpha = material.alpha.as_ref().map_or(1.0, |map| texel(map, at, channel(map)));
-        f64::from(material.opacity) * decal * alpha >= 0.5
-    }
-}
-
-/// One channel of a texture that repeats, by the mean of the four texels around, in [0, 1].
-fn texel(texture: &Arc<Texture>, at: DVec2, channel: usize) -> f64 {
-    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
-    let place = at * size - 0.5;
-    let (low, share) = (place.floor(), place - place.floor());
-    let value = |x: f64, y: f64| {
-        let [x, y] = [x.rem_euclid(size.x), y.rem_euclid(size.y)].map(|place| place as usize);
-        let index = 4 * (y * texture.width as usize + x) + channel;
-        texture.rgba.get(index).map_or(1.0, |byte| f64::from(*byte) / 255.0)
-    };
-    let row = |y: f64| value(low.x, y) * (1.0 - share.x) + value(low.x + 1.0, y) * share.x;
-    row(low.y) * (1.0 - share.y) + row(low.y + 1.0) * share.y
 }
 
 /// The nearest point on the way from the near plane to the far plane, `origin` to `origin + way`.

@@ -5,11 +5,10 @@ use glam::{DVec2, DVec3};
 
 use super::casters::Casting;
 use super::source;
-use crate::geometry::Texture;
 use crate::geometry::rays::{Ray, Triangles};
 use crate::geometry::volume::{Outline, Source};
 use crate::scene::{LightKind, LightShape};
-use crate::techniques::{Item, LightView};
+use crate::techniques::{LightView, alpha};
 
 /// What lies so near a point's own plane, relative to the segment from the light, is in it.
 const IN_PLANE: f64 = 1e-9;
@@ -68,7 +67,7 @@ impl<'a> World<'a> {
         let (mut surfaces, mut owners) = (Vec::new(), Vec::new());
         for (owner, item) in view.items.iter().enumerate() {
             for triangle in 0..(item.indices.end - item.indices.start) / 3 {
-                let corners = vertices(item, triangle).map(|vertex| item.mesh.positions[vertex].map(f64::from));
+                let corners = alpha::vertices(item, triangle).map(|vertex| item.mesh.positions[vertex].map(f64::from));
                 surfaces.push(corners.map(|corner| item.world_from_model.transform_point3(DVec3::from_array(corner))));
                 owners.push((owner, triangle));
             }
@@ -239,53 +238,10 @@ impl<'a> World<'a> {
     /// Whether a triangle's surface passes the alpha test at a point of it.
     fn is_opaque(&self, triangle: u32, point: DVec3) -> bool {
         let (owner, number) = self.owners[triangle as usize];
-        let item = &self.view.items[owner];
-        if !(item.needs_alpha_test() && item.has_texcoords()) {
-            return true;
-        }
-        let [a, b, c] = *self.surfaces.corners(triangle);
-        let area = (b - a).cross(c - a);
-        let share = |cross: DVec3| cross.dot(area) / area.length_squared();
-        let (v, w) = (share((point - a).cross(c - a)), share((b - a).cross(point - a)));
-        let [ta, tb, tc] = vertices(item, number).map(|vertex| texcoord(item, vertex));
-        let at = ta + v * (tb - ta) + w * (tc - ta);
-        let decal = item.decal().filter(|decal| decal.has_alpha).map_or(1.0, |decal| lookup(decal, 3, at));
-        let alpha = item.material.alpha.as_ref();
-        let alpha = alpha.map_or(1.0, |map| lookup(map, if map.has_alpha { 3 } else { 0 }, at));
-        f64::from(item.material.opacity) * decal * alpha >= 0.5
+        alpha::passes(&self.view.items[owner], number, self.surfaces.corners(triangle), point)
     }
 }
 
 fn normal([a, b, c]: &[DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
-}
-
-/// The three of an item's triangle, into its mesh's arrays.
-fn vertices(item: &Item, triangle: u32) -> [usize; 3] {
-    let first = (item.indices.start + 3 * triangle) as usize;
-    [0, 1, 2].map(|k| item.mesh.indices[first + k] as usize)
-}
-
-fn texcoord(item: &Item, vertex: usize) -> DVec2 {
-    let Some(texgen) = &item.material.texgen else {
-        let own = item.mesh.texcoords.as_ref().and_then(|all| all.get(vertex));
-        return own.map_or(DVec2::ZERO, |own| DVec2::from_array(own.map(f64::from)));
-    };
-    let [x, y, z] = item.mesh.positions[vertex];
-    let on = |plane: [f32; 4]| f64::from(plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
-    f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t))
-}
-
-/// LINEAR and REPEAT, as in [`crate::techniques::items::ALPHA_SAMPLER`]; in [0, 1].
-fn lookup(texture: &Texture, channel: usize, at: DVec2) -> f64 {
-    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
-    let texel = at * size - 0.5;
-    let (corner, weight) = (texel.floor(), texel - texel.floor());
-    let fetch = |dx: f64, dy: f64| {
-        let wrapped = (corner + DVec2::new(dx, dy)).rem_euclid(size);
-        let index = wrapped.y as usize * texture.width as usize + wrapped.x as usize;
-        texture.rgba.get(4 * index + channel).map_or(0.0, |byte| f64::from(*byte) / 255.0)
-    };
-    let row = |dy| fetch(0.0, dy) * (1.0 - weight.x) + fetch(1.0, dy) * weight.x;
-    row(0.0) * (1.0 - weight.y) + row(1.0) * weight.y
 }

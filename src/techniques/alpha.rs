@@ -1,0 +1,54 @@
+//! The alpha test at a point of an item's triangle, in f64, for decisions by sampling.
+
+use glam::{DVec2, DVec3};
+
+use super::Item;
+use crate::geometry::Texture;
+
+/// Whether the alpha test passes at `point` of a triangle, counted from the item's first; `corners` are of the space that
+/// the point is in.
+pub fn passes(item: &Item, triangle: u32, corners: &[DVec3; 3], point: DVec3) -> bool {
+    if !(item.needs_alpha_test() && item.has_texcoords()) {
+        return true;
+    }
+    let [a, b, c] = *corners;
+    let area = (b - a).cross(c - a);
+    let share = |cross: DVec3| cross.dot(area) / area.length_squared();
+    let (v, w) = (share((point - a).cross(c - a)), share((b - a).cross(point - a)));
+    let [ta, tb, tc] = vertices(item, triangle).map(|vertex| texcoord(item, vertex));
+    let at = ta + v * (tb - ta) + w * (tc - ta);
+    let decal = item.decal().filter(|decal| decal.has_alpha).map_or(1.0, |decal| lookup(decal, 3, at));
+    let alpha = item.material.alpha.as_ref();
+    let alpha = alpha.map_or(1.0, |map| lookup(map, if map.has_alpha { 3 } else { 0 }, at));
+    f64::from(item.material.opacity) * decal * alpha >= 0.5
+}
+
+/// The three of an item's triangle, into its mesh's arrays.
+pub fn vertices(item: &Item, triangle: u32) -> [usize; 3] {
+    let first = (item.indices.start + 3 * triangle) as usize;
+    [0, 1, 2].map(|k| item.mesh.indices[first + k] as usize)
+}
+
+fn texcoord(item: &Item, vertex: usize) -> DVec2 {
+    let Some(texgen) = &item.material.texgen else {
+        let own = item.mesh.texcoords.as_ref().and_then(|all| all.get(vertex));
+        return own.map_or(DVec2::ZERO, |own| DVec2::from_array(own.map(f64::from)));
+    };
+    let [x, y, z] = item.mesh.positions[vertex];
+    let on = |plane: [f32; 4]| f64::from(plane[0] * x + plane[1] * y + plane[2] * z + plane[3]);
+    f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t))
+}
+
+/// LINEAR and REPEAT, as in [`super::items::ALPHA_SAMPLER`]; in [0, 1].
+fn lookup(texture: &Texture, channel: usize, at: DVec2) -> f64 {
+    let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
+    let texel = at * size - 0.5;
+    let (corner, weight) = (texel.floor(), texel - texel.floor());
+    let fetch = |dx: f64, dy: f64| {
+        let wrapped = (corner + DVec2::new(dx, dy)).rem_euclid(size);
+        let index = wrapped.y as usize * texture.width as usize + wrapped.x as usize;
+        texture.rgba.get(4 * index + channel).map_or(0.0, |byte| f64::from(*byte) / 255.0)
+    };
+    let row = |dy| fetch(0.0, dy) * (1.0 - weight.x) + fetch(1.0, dy) * weight.x;
+    row(0.0) * (1.0 - weight.y) + row(1.0) * weight.y
+}
