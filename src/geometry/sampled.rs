@@ -27,8 +27,11 @@ pub struct Crossing {
 /// A mesh by its address, which no other has while a `Weak` is left of it, and a range of its indices.
 type Key = (usize, Range<u32>);
 
+/// A hierarchy, and the mesh that it is of.
+type Kept = (Weak<Mesh>, Arc<Triangles>);
+
 /// Hierarchies, each kept as long as its mesh lives: a plan is made for every frame.
-static CACHE: Mutex<Option<HashMap<Key, (Weak<Mesh>, Arc<Triangles>)>>> = Mutex::new(None);
+static CACHE: Mutex<Option<HashMap<Key, Kept>>> = Mutex::new(None);
 
 impl Sampled {
     /// The triangles that `indices` holds; an index that the mesh does not have counts as its origin.
