@@ -30,6 +30,7 @@ mod middle;
 mod primary;
 mod shadow;
 mod shells;
+mod slivers;
 mod solid;
 mod truth;
 mod volumes;

@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use super::beam::{Beam, Side, crossing_once};
 use super::primary::Seen;
 use super::shells::{Rule, rules};
+use super::slivers::Slivers;
 use super::truth::{Answer, Hit, Reason};
 use super::world::{Segment, Triangle};
 use super::{Error, Options, Tracer, doubt};
@@ -128,6 +129,7 @@ pub(super) struct Counting<'t, 'a> {
     tracer: &'t Tracer<'a>,
     /// Of each object, of each triangle.
     rules: Vec<Vec<Rule>>,
+    slivers: Slivers,
 }
 
 impl<'t, 'a> Counting<'t, 'a> {
@@ -136,7 +138,8 @@ impl<'t, 'a> Counting<'t, 'a> {
         let of_object = |(object, placed): (usize, _)| {
             rules(&scene.objects[object], tracer.world.solid(object as u32), placed, light)
         };
-        Self { tracer, rules: tracer.world.placed.iter().enumerate().map(of_object).collect() }
+        let rules: Vec<Vec<Rule>> = tracer.world.placed.iter().enumerate().map(of_object).collect();
+        Self { tracer, slivers: Slivers::new(tracer, &rules), rules }
     }
 
     fn pixel(&self, x: u32, y: u32) -> CountPixel {
@@ -170,6 +173,9 @@ impl<'t, 'a> Counting<'t, 'a> {
             tally.doubtful += 1;
             tally.reason = Some(reason);
         }
+        let by_slivers = self.slivers.doubtful(self.tracer, seen);
+        tally.doubtful += by_slivers;
+        doubt(&mut tally.reason, (by_slivers > 0).then_some(Reason::ShadowEdge));
         tally
     }
 

@@ -158,14 +158,14 @@ impl<'a> Forecast<'a> {
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
             });
-            if let Some(wrong) = self.judge(&point, beside) {
+            if let Some(wrong) = self.judge(&point, [x, y], beside) {
                 self.wrong.push(wrong);
             }
         }
     }
 
     /// Counts a point within the light's reach, and says what the picture will show wrong.
-    fn judge(&mut self, point: &Seen, beside: [DVec3; 2]) -> Option<Wrong> {
+    fn judge(&mut self, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> Option<Wrong> {
         let map = self.map;
         let index = self.texels.iter().position(|texels| is_in(texels.projector(), point.point))?;
         if !self.is_in_cone(point.point) || point.normal.dot(to_light(point.point, &self.rays())) <= 0.0 {
@@ -177,7 +177,7 @@ impl<'a> Forecast<'a> {
         let is_blocked = way.blockers().next().is_some();
         // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
         // compared one.
-        let rounding = 2.0 * code(DepthFormat::Depth32F);
+        let rounding = 2.0 * code(DepthFormat::Depth32F) + self.interpolation_error(index, point, pixel, beside);
         let texels = &mut self.texels[index];
         let mut is_lit = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper) >= 0.5;
         let outcome = is_lit(0.0);
@@ -185,10 +185,32 @@ impl<'a> Forecast<'a> {
         if lit != is_blocked {
             return None;
         }
-        let pixel = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
+        let pixel_width = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
         let wrong = self.wrong(&way, &receiver, &self.texels[index], lit);
-        let texel_pixels = wrong.texel_pixels / pixel;
+        let texel_pixels = wrong.texel_pixels / pixel_width;
         Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
+    }
+
+    /// By how much interpolation in f32 may move a point's window depth. A rasterizer finds what is interpolated from its value
+    /// at the window's origin, which lies the farther off the more steeply the camera sees the surface; of r and q, each divided
+    /// by the camera's w, both are rounded there.
+    fn interpolation_error(&self, texels: usize, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> f64 {
+        let camera = &self.view.scene.camera;
+        let ahead = (camera.target - camera.eye).normalize_or_zero();
+        let texels = &self.texels[texels];
+        let is_parallel = matches!(texels.projector().rays, Rays::Along(_));
+        let value = |at: DVec3| {
+            let light = texels.projector().light_from_world.transform_point3(at);
+            if is_parallel { texels.place(light).1 } else { -light.z }
+        };
+        let w = |at: DVec3| ahead.dot(at - camera.eye);
+        let here = value(point.point);
+        let steps = beside.map(|beside| (value(beside) / w(beside) - here / w(point.point)).abs());
+        let at_origin = f64::from(pixel[0]) * steps[0] + f64::from(pixel[1]) * steps[1];
+        // Of parallel light z alone, of a depth in [0, 1].
+        let relative = if is_parallel { 1.0 } else { 2.0 / here };
+        let error = 2.0_f64.powi(-24) * at_origin * w(point.point) * relative;
+        if error.is_finite() { error.abs().min(1.0) } else { 1.0 }
     }
 
     /// What lies between a point and the light.
