@@ -155,6 +155,27 @@ fn steep_faces_in_one_plane_do_not_shade_each_other() {
 
 /// A steep side far behind in the box of a sun, before a floor beyond the box: its offset is as deep as what is left of the
 /// box.
+/// Sides of volumes that the eye sees edge-on: the oracle calls the one or two samples that they cover uncertain.
+#[test]
+fn sides_seen_edge_on_are_in_doubt() {
+    let keys = "method = \"z-fail-truncated\"";
+    assert_right(1, 657, "shadow-volume", &[keys]);
+    assert_right(5, 40, "shadow-volume", &[keys]);
+}
+
+/// A facet that the camera sees within 2 degrees: one pixel of it is dark, of the rounding of r and q in their interpolation.
+#[test]
+fn the_rounding_of_steep_interpolation_is_told() {
+    let settings = RowSettings { technique: "shadow-map".into(), keys: String::new(), pictured: false };
+    let folder = tempfile::tempdir().unwrap();
+    let scene = random::case(1, 304).load(folder.path()).unwrap().scene;
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let row = Judge::new(&scene, 1).unwrap().row(&settings, &mut renderer).row;
+    // Another driver may interpolate otherwise, and have no wrong pixel.
+    assert!(matches!(row.verdict, Verdict::Warned | Verdict::FalseAlarm), "{row:?}");
+}
+
 #[test]
 fn no_offset_lets_light_through_to_what_lies_behind_the_map() {
     let keys = ["size = 256", "size = 256, compare = \"gequal\"", "size = 256, format = \"depth32f\""];

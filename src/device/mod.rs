@@ -1,6 +1,6 @@
 //! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
 //!
-//! GL objects are made when a list first needs them and kept while later lists do. A pass that would draw again what
+//! GL objects are made when a list first needs them and kept while later lists do; programs longer, up to a number. A pass that would draw again what
 //! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 pub mod bench;
@@ -15,6 +15,7 @@ pub mod probe;
 mod program;
 pub mod queries;
 mod readback;
+mod recent;
 mod run;
 mod state;
 
@@ -33,11 +34,15 @@ pub use readback::Pixels;
 pub use run::{Measure, PassTime};
 pub(crate) use state::compare_code;
 
+/// Programs kept although the current list does not use them. A software driver holds some hundred kilobytes of machine code
+/// for each.
+const MOST_PROGRAMS: usize = 200;
+
 /// A GL context's objects, and the passes that they already hold.
 pub struct Device {
     gl: Rc<glow::Context>,
     meshes: HashMap<*const Mesh, mesh::GpuMesh>,
-    programs: HashMap<Program, program::GpuProgram>,
+    programs: recent::Recent<Program, program::GpuProgram>,
     images: Vec<(ImageDesc, Rc<image::GpuImage>)>,
     framebuffers: HashMap<(Target, Vec<u32>), framebuffer::Framebuffer>,
     samplers: HashMap<Sampler, image::GpuSampler>,
@@ -55,7 +60,7 @@ impl Device {
         Self {
             gl: context.gl().clone(),
             meshes: HashMap::new(),
-            programs: HashMap::new(),
+            programs: recent::Recent::new(MOST_PROGRAMS),
             images: Vec::new(),
             framebuffers: HashMap::new(),
             samplers: HashMap::new(),

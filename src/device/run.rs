@@ -149,6 +149,10 @@ impl Device {
                 }
             }
         }
+        if self.programs.end_round() {
+            // GL may give the numbers of deleted programs to new ones.
+            self.state = None;
+        }
         Ok(())
     }
 
@@ -175,7 +179,7 @@ impl Device {
     }
 
     fn make_program(&mut self, pass: &str, batch: &Batch) -> Result<(), Error> {
-        if !self.programs.contains_key(&batch.program) {
+        if !self.programs.touch(&batch.program) {
             let linked = program::create(&self.gl, &batch.program)?;
             linked.check(pass, batch)?;
             self.programs.insert(batch.program.clone(), linked);

@@ -31,7 +31,17 @@ type Key = (usize, Range<u32>);
 type Kept = (Weak<Mesh>, Arc<Triangles>);
 
 /// Hierarchies, each kept as long as its mesh lives: a plan is made for every frame.
-static CACHE: Mutex<Option<HashMap<Key, Kept>>> = Mutex::new(None);
+static CACHE: Mutex<Option<Cache>> = Mutex::new(None);
+
+#[derive(Default)]
+struct Cache {
+    kept: HashMap<Key, Kept>,
+    /// As many are let in before those of dead meshes are let go.
+    room: usize,
+}
+
+/// So many hierarchies are no burden.
+const LEAST_ROOM: usize = 32;
 
 impl Sampled {
     /// The triangles that `indices` holds; an index that the mesh does not have counts as its origin.
@@ -39,17 +49,18 @@ impl Sampled {
         let key = (Arc::as_ptr(mesh) as usize, indices);
         let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
         let cache = cache.get_or_insert_default();
-        if let Some((_, triangles)) = cache.get(&key) {
+        if let Some((_, triangles)) = cache.kept.get(&key) {
             return Self(triangles.clone());
         }
-        // Each time that it is full, so that what is looked through grows no faster than what is put in.
-        if cache.len() == cache.capacity() {
-            cache.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+        // At twice what was alive, so that what is looked through grows no faster than what is put in.
+        if cache.kept.len() >= cache.room {
+            cache.kept.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+            cache.room = 2 * cache.kept.len() + LEAST_ROOM;
         }
         let range = mesh.indices.get(key.1.start as usize..key.1.end as usize).unwrap_or_default();
         let corners = |corners: &[u32]| [0, 1, 2].map(|k| position(mesh, corners[k]));
         let triangles = Arc::new(Triangles::new(range.chunks_exact(3).map(corners).collect()));
-        cache.insert(key, (Arc::downgrade(mesh), triangles.clone()));
+        cache.kept.insert(key, (Arc::downgrade(mesh), triangles.clone()));
         Self(triangles)
     }
 
