@@ -7,7 +7,7 @@ use super::claimed::{Claimed, Measurement, Verdict};
 use super::metrics::{self, Band, Metrics, Split};
 use super::numbers::plain;
 use super::run::{draw_shade, with_shadow};
-use super::tune::{self, DEFAULT_SIZE, Point, Search};
+use super::tune::{self, Point, Search};
 use crate::frame::Renderer;
 use crate::oracle::ray::{Answer, Hit, Truth};
 use crate::scene::{Scene, Value};
@@ -29,7 +29,7 @@ pub fn measure(
     band_texels: f64,
     renderer: &mut Renderer,
 ) -> Result<Vec<Claimed>, tune::Error> {
-    let size = map_size(scene, light);
+    let size = tune::size_of(&scene.lights[light].shadow);
     let options = tune::Options { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
     let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
     let kind = &scene.lights[light].kind;
@@ -54,14 +54,6 @@ pub fn measure(
         }
     }
     Ok(claimed)
-}
-
-/// That of the scene as written.
-fn map_size(scene: &Scene, light: usize) -> u32 {
-    match scene.lights[light].shadow.get("size").map(|entry| &entry.value) {
-        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
-        _ => DEFAULT_SIZE,
-    }
 }
 
 fn name(quantity: Quantity) -> &'static str {

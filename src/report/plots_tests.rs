@@ -4,10 +4,12 @@ use super::super::results::Outcome;
 use super::super::samples;
 use super::*;
 
+const LINKS: Links<'_> = Links { page: "../report.html", scene: 1 };
+
 fn time_plot(change: impl FnOnce(&mut SceneReport)) -> Option<String> {
     let mut report = samples::report();
     change(&mut report.scenes[0]);
-    error_against_time(&report.scenes[0], &report.machine).unwrap()
+    error_against_time(&report.scenes[0], &report.machine, LINKS).unwrap()
 }
 
 /// What stands between tags.
@@ -73,11 +75,47 @@ fn a_single_row_has_a_plot() {
 #[test]
 fn map_sizes_are_plotted_where_several_exist() {
     let report = samples::report();
-    let svg = error_against_map_size(&report.scenes[0], &report.machine).unwrap().unwrap();
+    let svg = error_against_map_size(&report.scenes[0], &report.machine, LINKS).unwrap().unwrap();
     for size in ["256", "512", "1024", "2048", "4096"] {
         assert!(texts(&svg).iter().any(|text| text == size), "{size}");
     }
     let mut one = report.scenes[0].clone();
     one.rows.retain(|row| row.settings.iter().all(|(key, value)| key != "size" || value == "512"));
-    assert_eq!(error_against_map_size(&one, &report.machine).unwrap(), None);
+    assert_eq!(error_against_map_size(&one, &report.machine, LINKS).unwrap(), None);
+}
+
+#[test]
+fn points_link_to_their_rows_and_say_what_they_are() {
+    let report = samples::report();
+    let svg = time_plot(|_| ()).unwrap();
+    for row in report.scenes[0].rows.iter().filter(|row| row.measured().is_some()) {
+        let link = format!("<a href=\"../report.html#s1r{}\"><title>row {0}: {} ", row.index, row.technique);
+        assert!(svg.contains(&link), "{link}");
+    }
+    assert_eq!(svg.matches("</a>").count(), svg.matches("<a ").count());
+}
+
+#[test]
+fn a_plot_has_a_title_and_a_description() {
+    let report = samples::report();
+    let size = error_against_map_size(&report.scenes[0], &report.machine, LINKS).unwrap().unwrap();
+    for (svg, title) in [(time_plot(|_| ()).unwrap(), "time"), (size, "map size")] {
+        let title = format!("Error against {title}: main.toml");
+        assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"));
+        assert!(
+            svg.contains(&format!("role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<desc>wrong pixels"))
+        );
+    }
+}
+
+/// As many bars as points, each of two ends.
+#[test]
+fn every_point_has_its_error_bar() {
+    let count = |svg: &str| svg.matches("<polyline").count() + svg.matches("<line").count();
+    let with = time_plot(|_| ()).unwrap();
+    let narrow = |scene: &mut SceneReport| scene.rows.truncate(scene.rows.len() - 10);
+    let fewer = time_plot(narrow).unwrap();
+    // The last ten rows have nine points, of which one at least is on the front.
+    assert!(count(&with) >= count(&fewer) + 3 * 8, "{} {}", count(&with), count(&fewer));
+    assert!(texts(&with).iter().any(|text| text == "least to greatest run"));
 }
