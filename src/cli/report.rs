@@ -322,8 +322,8 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
     if scene.claims.is_empty() {
         return Ok(());
     }
-    writeln!(out, "What the documents claim, on {}:", scene.path.display())?;
-    scene.claims.iter().try_for_each(|claim| writeln!(out, "  {claim}"))
+    writeln!(out, "# What the documents claim, on {}:", scene.path.display())?;
+    scene.claims.iter().try_for_each(|claim| writeln!(out, "#   {claim}"))
 }
 
 /// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.

@@ -267,6 +267,11 @@ impl Sweep {
         Ok(Saved { same_pixels: picture == whole_picture, whole, pruned, left_out })
     }
 
+    /// A row, not measured.
+    pub fn row_of(&self, index: usize) -> &Row {
+        &self.rows[index].0
+    }
+
     /// The scene with a row's settings.
     pub fn scene_of(&self, index: usize) -> Scene {
         with_shadow(&self.scene, self.report.light, &self.rows[index].1)

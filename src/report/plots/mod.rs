@@ -120,7 +120,7 @@ pub fn error_against_time(scene: &SceneReport, machine: &Machine, links: Links<'
             canvas.floor(&x, floor)?;
         }
         for point in &all.points {
-            let marker = Marker { kind: point.technique, radius: 0, opacity: 0.35, is_outlined: false };
+            let marker = Marker { kind: point.technique, radius: 0, opacity: 0.5, is_outlined: false };
             let [from, to] = point.bar.map(|time| canvas.place(time, y.place(point.wrong_percent)));
             canvas.bar(from, to, marker)?;
         }
@@ -164,6 +164,8 @@ fn draw_front(canvas: &Canvas<'_>, all: &Points<'_>, front: &[usize], y: &Axis) 
     }
     let mut last_label: Option<(i32, i32)> = None;
     for (point, at) in places {
+        let [from, to] = point.bar.map(|time| canvas.place(time, y.place(point.wrong_percent)));
+        canvas.bar(from, to, Marker { kind: point.technique, radius: 0, opacity: 1.0, is_outlined: false })?;
         let marker = Marker { kind: point.technique, radius: all.radius(point.size), opacity: 1.0, is_outlined: true };
         canvas.marker(at, marker)?;
         if last_label.is_none_or(|last| at.0 - last.0 > 34 || at.1 - last.1 > 15) {
