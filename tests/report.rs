@@ -250,7 +250,7 @@ fn bad_arguments_say_what_is_wrong() {
 /// Second depth needs closed casters, which is seen only when the row is planned with its objects.
 #[test]
 fn rows_that_fail_while_they_are_drawn_are_counted() {
-    let work = Work::new();
+    let work = Work::with_files();
     std::fs::write(work.path("grid.toml"), "[[sweep]]\ntechnique = \"second-depth\"\n").unwrap();
     let output = work.report(&["-o", "out"]).output().unwrap();
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -348,7 +348,9 @@ fn a_row_is_what_render_draws_from_its_toml() {
 #[test]
 fn nothing_outside_the_cone_counts_as_missing() {
     let work = Work::new();
-    let sweep = run::prepare(&work.path("scene.toml"), &[], &Grid::Standard { quick: true }, &options()).unwrap();
+    let sweep =
+        run::prepare(&work.path("scene.toml"), &[String::from("light.cone=25")], &Grid::Own(Vec::new()), &options())
+            .unwrap();
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let shade = draw_shade(&sweep.scene, 0, &mut renderer).unwrap();

@@ -4,7 +4,7 @@
 use glam::{DMat4, DVec3, DVec4};
 
 use super::claimed::{Claimed, Measurement, Verdict};
-use super::metrics::{self, Band, Metrics, Split};
+use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, Split};
 use super::numbers::plain;
 use super::run::{draw_shade, with_shadow};
 use super::tune::{self, Point, Search};
@@ -100,6 +100,9 @@ impl Contest<'_> {
         let seen = self.seen(who)?;
         let (value, why) = match &seen.metrics {
             Err(why) => (None, Some(why.clone())),
+            Ok(metrics) if compared(metrics, quantity) < FEWEST_COMPARED => {
+                (None, Some(format!("fewer than {FEWEST_COMPARED} pixels could be compared")))
+            }
             Ok(metrics) => {
                 let value = match quantity {
                     Quantity::FalseShadow => Some(metrics.facing.false_shadow.outside_percent),
@@ -189,6 +192,14 @@ fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
     let plane: DVec4 = hit.normal.extend(-hit.normal.dot(hit.position));
     let plane = window_from_world.inverse().transpose() * plane;
     (plane.x / plane.z).abs().max((plane.y / plane.z).abs())
+}
+
+/// The pixels that a quantity is measured over, or those beside them.
+fn compared(metrics: &Metrics, quantity: Quantity) -> usize {
+    match quantity {
+        Quantity::Leak | Quantity::WrongAway => metrics.all.compared,
+        _ => metrics.facing.compared,
+    }
 }
 
 /// `None` where nothing that is turned away was compared.

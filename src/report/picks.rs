@@ -184,6 +184,9 @@ impl Pick<'_> {
     /// What the times leave open.
     pub fn doubts(&self, goals: &Goals) -> Vec<String> {
         let mut doubts = Vec::new();
+        if self.bar[0] == self.bar[1] {
+            doubts.push(String::from("It was timed once: how far its times spread is not known."));
+        }
         if self.may_be_late {
             doubts.push(format!("Not sure: some runs of this work took longer than {} ms.", plain(goals.milliseconds)));
         }

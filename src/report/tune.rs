@@ -147,7 +147,8 @@ pub fn tune(
     let chosen = within.or(least);
     let toml = |point: Point| {
         let shadow = changed(&scene.lights[options.light].shadow, point.size, point.factor, point.units)?;
-        Ok::<_, scene::Error>(format!("[light.shadow]\n{}", shadow.to_toml()))
+        let lines = shadow.entries.iter().map(|(key, entry)| format!("{key} = {}\n", entry.value.to_toml()));
+        Ok::<_, scene::Error>(format!("[light.shadow]\n{}", lines.collect::<String>()))
     };
     Ok(Tuned {
         curve,
