@@ -54,7 +54,7 @@ impl Mark {
     /// Of a value's fields, all of them.
     fn debug(&mut self, value: &dyn fmt::Debug) {
         // A mark takes whatever is written.
-        let _ = write!(self, "{value:?}\n");
+        let _ = writeln!(self, "{value:?}");
     }
 
     fn finish(self) -> String {

@@ -21,9 +21,7 @@ pub enum Error {
     #[error("{path}: has no [[sweep]]; write one with a technique and an array of values for each key to vary", path = .path.display())]
     Empty { path: PathBuf },
     #[error("{path}: is a grid of {rows} rows, more than {MOST_ROWS}: list fewer values, or split it", path = .path.display())]
-    TooManyRows { path: PathBuf, rows: u128 },
-    #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
-    Row { scene: PathBuf, inline: String, reason: String },
+    TooManyRows { path: PathBuf, rows: u64 },
 }
 
 /// `technique = "…", key = value, …` of a table, as the inside of an inline table.
@@ -101,10 +99,9 @@ pub fn load(path: &Path) -> Result<Vec<Settings>, Error> {
         return Err(Error::Empty { path: path.to_owned() });
     }
     let sweeps = sweeps.into_iter().map(read_sweep).collect::<Result<Vec<_>, _>>()?;
-    let count =
-        |axes: &[Values]| axes.iter().fold(1_u128, |rows, (_, values)| rows.saturating_mul(values.len() as u128));
-    let rows = sweeps.iter().fold(0_u128, |rows, (_, axes)| rows.saturating_add(count(axes)));
-    if rows > MOST_ROWS as u128 {
+    let count = |axes: &[Values]| axes.iter().fold(1_u64, |rows, (_, values)| rows.saturating_mul(values.len() as u64));
+    let rows = sweeps.iter().fold(0_u64, |rows, (_, axes)| rows.saturating_add(count(axes)));
+    if rows > MOST_ROWS as u64 {
         return Err(Error::TooManyRows { path: path.to_owned(), rows });
     }
     let mut settings: Vec<Settings> = sweeps.iter().flat_map(|(technique, axes)| product(technique, axes)).collect();

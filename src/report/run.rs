@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -33,8 +33,8 @@ pub enum Error {
     Context(#[from] context::Error),
     #[error(transparent)]
     Truth(#[from] ray::Error),
-    #[error(transparent)]
-    Grid(#[from] grid::Error),
+    #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
+    Row { scene: PathBuf, inline: String, reason: String },
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
     #[error("--shard {index}/{count}: write I/N with 1 <= I <= N")]
@@ -125,7 +125,7 @@ fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layou
             Err(error) => {
                 let (inline, reason) = (grid::to_inline(&setting), error.to_string());
                 match grid {
-                    Grid::Own(_) => return Err(grid::Error::Row { scene: path.to_owned(), inline, reason }.into()),
+                    Grid::Own(_) => return Err(Error::Row { scene: path.to_owned(), inline, reason }),
                     Grid::Standard { .. } => layout.left_out.push(format!(
                         "{}: the grid's row {inline} is left out, as it does not go with the scene's own keys: {reason}",
                         path.display()
