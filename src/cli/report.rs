@@ -14,11 +14,10 @@ use crate::context::{self, Profile};
 use crate::frame::Renderer;
 use crate::report::grid::{self, Grid};
 use crate::report::html::{Goals, Pictures};
-use crate::report::journal::{self, Journal};
-use crate::report::kept;
-use crate::report::results::{Report, SceneReport, VERSION};
+use crate::report::journal::{self, Journal, Known};
+use crate::report::results::{Outcome, Report, Row, SceneReport, VERSION};
 use crate::report::run::{self, Options, Sweep};
-use crate::report::{claims, merge, pictures, write};
+use crate::report::{claims, fingerprint, kept, merge, picks, pictures, write};
 
 /// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
 #[derive(Debug, Args)]
@@ -125,6 +124,10 @@ Examples:
   glumbra report a.toml b.toml -o out/report --grid grid.toml --error 0.05
   parallel glumbra report a.toml -o part{} --shard {}/4 ::: 1 2 3 4 && glumbra report merge part* -o out/report
 
+A row is the scene's own [light.shadow] with the row's keys in place of its own, as `render --set` would draw it. All rows are
+checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of
+[light.shadow]. Rows that could not be measured end in exit code 1, and the report holds the others.
+
 Without a grid file the report also holds what the documents claim of the techniques against each scene.
 
 Ctrl-C leaves a report of what was done; --resume goes on from there.";
@@ -154,13 +157,18 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
         version: VERSION,
         complete: false,
         machine: run::machine(&options)?,
-        notes: Vec::new(),
+        notes: notes_of(&sweeps),
         asked_scenes: sweeps.len(),
         scenes: sweeps.iter().map(|sweep| sweep.report.clone()).collect(),
     };
     write::make_folder(&folder)?;
     let stop = stop_on_interrupt();
-    let journal = measure(arguments, &folder, &sweeps, &options, &stop, &mut report)?;
+    let stamp = fingerprint::stamp(&report.machine, &options);
+    if arguments.resume {
+        take_up(&folder, &stamp, &sweeps, &mut report)?;
+    }
+    let mut journal = Journal::open(&folder, arguments.resume, &stamp)?;
+    measure(&sweeps, &options, &stop, &mut journal, &mut report)?;
     report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
     if arguments.grid.is_none() && options.shard.0 == 1 && !stop.load(Ordering::Relaxed) {
@@ -174,7 +182,33 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     journal.remove();
     let mut out = std::io::stdout().lock();
     report.scenes.iter().try_for_each(|scene| print_claims(scene, &mut out))?;
-    Ok(writeln!(out, "{}", folder.join("report.html").display())?)
+    print_answers(&report, &goals, &folder, &mut out)?;
+    check_failures(&report, folder)
+}
+
+/// What of the standard grid was left out, once.
+fn notes_of(sweeps: &[Sweep]) -> Vec<String> {
+    sweeps.iter().flat_map(|sweep| sweep.notes.iter().cloned()).collect()
+}
+
+/// The settings to take, and where the page is.
+fn print_answers(report: &Report, goals: &Goals, folder: &Path, out: &mut impl Write) -> Result<(), Error> {
+    for scene in &report.scenes {
+        writeln!(out, "{}", picks::to_text(scene, goals))?;
+    }
+    Ok(writeln!(out, "# {}", folder.join("report.html").display())?)
+}
+
+/// Rows that could not be measured are told at the end, when the others are safe.
+fn check_failures(report: &Report, folder: PathBuf) -> Result<(), Error> {
+    let failed: Vec<&Row> = report.scenes.iter().flat_map(SceneReport::failed).collect();
+    let rows = report.scenes.iter().map(|scene| scene.rows.len()).sum();
+    match failed.first() {
+        Some(Row { index, outcome: Outcome::Failed(why), .. }) => {
+            Err(Error::FailedRows { failed: failed.len(), rows, row: *index, why: why.clone(), folder })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn options(arguments: &ReportArgs) -> Options {
@@ -218,21 +252,31 @@ pub(super) fn stop_on_interrupt() -> Arc<AtomicBool> {
     stop
 }
 
-/// Runs every scene's rows that are not in the journal yet, and puts all of them into the report.
+/// Takes up the rows of an earlier run that the journal holds, and says what of it is not believed.
+fn take_up(folder: &Path, stamp: &str, sweeps: &[Sweep], report: &mut Report) -> Result<(), Error> {
+    let is_known =
+        |fingerprint: &str, row: &Row| match sweeps.iter().find(|sweep| sweep.report.fingerprint == fingerprint) {
+            None => Known::OtherScene,
+            Some(sweep) if sweep.has(row) => Known::Row,
+            Some(_) => Known::NoSuchRow,
+        };
+    let done = journal::done(folder, stamp, is_known)?;
+    done.warnings.iter().for_each(|warning| super::say(format_args!("warning: {warning}")));
+    for scene in &mut report.scenes {
+        let of_scene = done.rows.iter().filter(|(fingerprint, _)| *fingerprint == scene.fingerprint);
+        scene.rows = of_scene.map(|(_, row)| row.clone()).collect();
+    }
+    Ok(())
+}
+
+/// Runs every scene's rows that are not there yet, and puts all of them into the journal and the report.
 fn measure(
-    arguments: &ReportArgs,
-    folder: &Path,
     sweeps: &[Sweep],
     options: &Options,
     stop: &Arc<AtomicBool>,
+    journal: &mut Journal,
     report: &mut Report,
-) -> Result<Journal, Error> {
-    for scene in &mut report.scenes {
-        if arguments.resume {
-            scene.rows = journal::done(folder, &scene.fingerprint)?;
-        }
-    }
-    let mut journal = Journal::open(folder, arguments.resume)?;
+) -> Result<(), Error> {
     let todo: Vec<Vec<usize>> =
         sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| sweep.todo(options, &scene.rows)).collect();
     let bar = ProgressBar::new(todo.iter().map(|rows| rows.len() as u64).sum());
@@ -256,7 +300,7 @@ fn measure(
         scene.rows.sort_by_key(|row| row.index);
     }
     bar.finish_and_clear();
-    Ok(journal)
+    Ok(())
 }
 
 /// Holds what the documents claim against each scene.
@@ -278,8 +322,8 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
     if scene.claims.is_empty() {
         return Ok(());
     }
-    writeln!(out, "What the documents claim, on {}:", scene.path.display())?;
-    scene.claims.iter().try_for_each(|claim| writeln!(out, "  {claim}"))
+    writeln!(out, "# What the documents claim, on {}:", scene.path.display())?;
+    scene.claims.iter().try_for_each(|claim| writeln!(out, "#   {claim}"))
 }
 
 /// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
@@ -302,5 +346,6 @@ fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
     write::write_all(&arguments.output, &report, &pictures, &goals)?;
-    Ok(writeln!(std::io::stdout(), "{}", arguments.output.join("report.html").display())?)
+    print_answers(&report, &goals, &arguments.output, &mut std::io::stdout().lock())?;
+    check_failures(&report, arguments.output.clone())
 }

@@ -13,7 +13,8 @@ use crate::report::tune::{self, Options, Point, Tuned};
 #[command(after_help = "\
 For each map size and slope factor the least number of units is searched that leaves no false shadow (acne) on surfaces
 that face the light, beyond a band of texels around the true shadow edge; of these offsets the one that leaks least is
-taken, and of the sizes the smallest that leaks no more than --leak percent. Whatever technique the scene names, it is the
+taken, and of the sizes the smallest that leaks no more than --leak percent. At least 1000 pixels must be comparable.
+The answer takes the place of the light's [light.shadow]: it has the scene's other keys too. Whatever technique the scene names, it is the
 shadow map's offset; techniques without one are measured beside it.
 
 Example:
@@ -74,6 +75,9 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     if arguments.json { super::print_json(&tuned) } else { print(&tuned, &options) }
 }
 
+/// With fewer pixels in shadow there is little that could leak.
+const FEWEST_SHADOWED: usize = 100;
+
 fn line(point: &Point) -> String {
     format!(
         "{:>5}  factor {:>4}  units {:>8}  false shadow {:>9.4} %  leak {:>8.4} %  wrong {:>8.4} %",
@@ -84,6 +88,11 @@ fn line(point: &Point) -> String {
 fn print(tuned: &Tuned, options: &Options) -> Result<(), Error> {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
+    let (compared, facing, shadowed) = (tuned.compared, tuned.compared_facing, tuned.compared_shadowed);
+    writeln!(out, "# {compared} pixels were compared, {facing} of them facing the light; {shadowed} lie in shadow")?;
+    if shadowed < FEWEST_SHADOWED {
+        writeln!(out, "# So few in shadow say little of leak: an offset that is too large would not be seen")?;
+    }
     writeln!(out, "# map   offset                          facing the light, beyond the band   all pixels compared")?;
     for point in &tuned.curve {
         writeln!(out, "{} {}", if point.clean { " " } else { "x" }, line(point))?;
@@ -97,7 +106,7 @@ fn print(tuned: &Tuned, options: &Options) -> Result<(), Error> {
         Some(point) => {
             let within = if tuned.within_leak { "at most" } else { "the least found, still above" };
             writeln!(out, "\n# leak {:.4} %: {within} {} %", point.leak_percent, options.leak_percent)?;
-            write!(out, "{}", point.to_toml())?;
+            write!(out, "{}", tuned.chosen_toml.as_deref().unwrap_or_default())?;
         }
     }
     writeln!(out, "\n# Without an offset to tune:")?;

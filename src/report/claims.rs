@@ -4,10 +4,10 @@
 use glam::{DMat4, DVec3, DVec4};
 
 use super::claimed::{Claimed, Measurement, Verdict};
-use super::metrics::{self, Band, Metrics, Split};
+use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, Split};
 use super::numbers::plain;
 use super::run::{draw_shade, with_shadow};
-use super::tune::{self, DEFAULT_SIZE, Point, Search};
+use super::tune::{self, Point, Search};
 use crate::frame::Renderer;
 use crate::oracle::ray::{Answer, Hit, Truth};
 use crate::scene::{Scene, Value};
@@ -29,7 +29,7 @@ pub fn measure(
     band_texels: f64,
     renderer: &mut Renderer,
 ) -> Result<Vec<Claimed>, tune::Error> {
-    let size = map_size(scene, light);
+    let size = tune::size_of(&scene.lights[light].shadow);
     let options = tune::Options { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
     let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
     let kind = &scene.lights[light].kind;
@@ -54,14 +54,6 @@ pub fn measure(
         }
     }
     Ok(claimed)
-}
-
-/// That of the scene as written.
-fn map_size(scene: &Scene, light: usize) -> u32 {
-    match scene.lights[light].shadow.get("size").map(|entry| &entry.value) {
-        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
-        _ => DEFAULT_SIZE,
-    }
 }
 
 fn name(quantity: Quantity) -> &'static str {
@@ -108,6 +100,9 @@ impl Contest<'_> {
         let seen = self.seen(who)?;
         let (value, why) = match &seen.metrics {
             Err(why) => (None, Some(why.clone())),
+            Ok(metrics) if compared(metrics, quantity) < FEWEST_COMPARED => {
+                (None, Some(format!("fewer than {FEWEST_COMPARED} pixels could be compared")))
+            }
             Ok(metrics) => {
                 let value = match quantity {
                     Quantity::FalseShadow => Some(metrics.facing.false_shadow.outside_percent),
@@ -197,6 +192,14 @@ fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
     let plane: DVec4 = hit.normal.extend(-hit.normal.dot(hit.position));
     let plane = window_from_world.inverse().transpose() * plane;
     (plane.x / plane.z).abs().max((plane.y / plane.z).abs())
+}
+
+/// The pixels that a quantity is measured over, or those beside them.
+fn compared(metrics: &Metrics, quantity: Quantity) -> usize {
+    match quantity {
+        Quantity::Leak | Quantity::WrongAway => metrics.all.compared,
+        _ => metrics.facing.compared,
+    }
 }
 
 /// `None` where nothing that is turned away was compared.

@@ -22,7 +22,7 @@ pub const NOT_COMPARED: [u8; 3] = [0xcc, 0x79, 0xa7];
 pub const LEGEND: [([u8; 3], &str); 8] = [
     (FALSE_SHADOW, "false shadow"),
     (LEAK, "leak"),
-    (NOT_COMPARED, "drawn in only one of the two"),
+    (NOT_COMPARED, "in the light in only one of the two"),
     (LIT, "lit"),
     (AMBIGUOUS, "ambiguous"),
     (SHADOWED, "shadowed"),
@@ -61,7 +61,9 @@ pub fn difference_picture(truth: &Truth, shade: &ShadeImage) -> Result<RgbImage,
     }
     Ok(paint(truth, |index, pixel| match (pixel.answer, shade.covered[index]) {
         (Answer::Ambiguous(_), _) => AMBIGUOUS,
-        (Answer::Background, true) | (Answer::Lit | Answer::Shadowed | Answer::OutsideCone, false) => NOT_COMPARED,
+        (Answer::Background, true) | (Answer::Lit | Answer::Shadowed, false) => NOT_COMPARED,
+        // Not known: of a surface that shows no light.
+        (_, true) if shade.shade[index].is_nan() => true_color(pixel),
         (Answer::Lit, true) if !is_lit(shade.shade[index]) => FALSE_SHADOW,
         (Answer::Shadowed, true) if is_lit(shade.shade[index]) => LEAK,
         _ => true_color(pixel),
@@ -127,6 +129,8 @@ mod tests {
             (Answer::Background, None, BACKGROUND),
             (Answer::Background, Some(1.0), NOT_COMPARED),
             (Answer::OutsideCone, Some(0.0), OUTSIDE_CONE),
+            (Answer::OutsideCone, None, OUTSIDE_CONE),
+            (Answer::Lit, Some(f32::NAN), LIT),
             (Answer::Lit, Some(1.0), LIT),
             (Answer::Lit, Some(0.4), FALSE_SHADOW),
             (Answer::Lit, None, NOT_COMPARED),

@@ -1,8 +1,11 @@
 //! The page of a made-up report.
 
+use super::super::picks::{Picks, pareto};
 use super::super::results::Outcome;
 use super::super::samples;
 use super::*;
+
+const GOALS: Goals = Goals { wrong_percent: 0.5, milliseconds: 10.0 };
 
 fn page(change: impl FnOnce(&mut Report)) -> String {
     let mut report = samples::report();
@@ -10,7 +13,7 @@ fn page(change: impl FnOnce(&mut Report)) -> String {
     let png = |name: &str| Some(name.as_bytes().to_vec());
     let difference = DifferencePicture { row: 5, caption: "5 < 6".to_owned(), png: b"difference".to_vec() };
     let scene = ScenePictures { picture: png("picture"), truth: png("truth"), differences: vec![difference] };
-    to_html(&report, &Pictures { scenes: vec![scene] }, &Goals { wrong_percent: 0.5, milliseconds: 10.0 })
+    to_html(&report, &Pictures { scenes: vec![scene] }, &GOALS)
 }
 
 /// Every tag that is opened is closed, in order.
@@ -90,8 +93,9 @@ fn every_row_is_there_and_the_best_are_marked() {
     for row in &scene.rows {
         assert!(page.contains(&format!("<tr id=\"s1r{}\"", row.index)), "row {}", row.index);
     }
-    assert_eq!(page.matches(">Pareto front</span>").count(), scene.pareto().len());
-    let cheapest = scene.cheapest_below(0.5).unwrap();
+    let picks = Picks::of(scene, &GOALS);
+    assert_eq!(page.matches(">Pareto front</span>").count(), pareto(scene, &picks.times).len());
+    let cheapest = picks.cheapest.unwrap().row;
     assert!(page.contains(&tags::escape(&cheapest.to_toml())));
     let line = page.lines().find(|line| line.contains(&format!("<tr id=\"s1r{}\"", cheapest.index))).unwrap();
     assert!(line.contains(">cheapest</span>"), "{line}");
@@ -129,4 +133,53 @@ fn doubts_are_told() {
     assert!(page(cut).contains(said) && page(cut).contains("7 of 94 rows"));
     assert!(page(|report| report.machine.jobs = 3).contains("3 rows were measured at once"));
     assert!(page(|report| report.notes.push("a < b".to_owned())).contains("a &lt; b"));
+}
+
+#[test]
+fn the_answer_stands_first() {
+    let page = page(|_| ());
+    let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text}"));
+    let answer = at("<h3>The settings to take</h3>");
+    for later in ["<figure>", "<div class=\"plot\">", "Measured on</h2>", "What the documents claim", "All 94 rows"] {
+        assert!(answer < at(later), "{later}");
+    }
+}
+
+#[test]
+fn times_have_error_bars_and_doubts() {
+    let rows = samples::report().scenes[0].rows.iter().filter(|row| row.measured().is_some()).count();
+    let sure = page(|_| ());
+    assert_eq!(sure.matches("<span class=\"bar\" title=").count(), rows);
+    assert!(!sure.contains("The machine did other work meanwhile"));
+    let doubtful = page(|report| {
+        for row in &mut report.scenes[0].rows {
+            if let Outcome::Measured(measured) = &mut row.outcome {
+                measured.frame_redrawn.median *= 2.0;
+                measured.frame_redrawn.greatest *= 2.0;
+            }
+        }
+    });
+    for part in [
+        "The machine did other work meanwhile",
+        "<p class=\"doubt\">",
+        ">perhaps cheapest</span>",
+        "The least of 5 runs",
+    ] {
+        assert!(doubtful.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn pictures_say_what_they_show_and_points_lead_to_rows() {
+    let page = page(|_| ());
+    for alt in [
+        "alt=\"scenes/main.toml as it is written, rendered in 512 × 512 pixels\"",
+        "alt=\"the truth by ray casting: of the drawn pixels 75 % lit, 24 % shadowed, 1 % ambiguous",
+        "alt=\"where row 5, shadow-map size = 256",
+        "<title>Error against time: main.toml</title>",
+        "<a href=\"#s1r5\"><title>row 5: shadow-map",
+        "@media print",
+    ] {
+        assert!(page.contains(alt), "{alt}");
+    }
 }

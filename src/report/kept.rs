@@ -37,6 +37,15 @@ pub(super) fn files(folder: &Path, report: &Report, pictures: &Pictures) -> Vec<
     files
 }
 
+/// Whether a file of this name is a picture that [`files`] may have named.
+pub(super) fn is_picture(name: &str) -> bool {
+    let Some((fingerprint, what)) = name.strip_suffix(".png").and_then(|stem| stem.split_once('-')) else {
+        return false;
+    };
+    let is_row = what.strip_prefix("row-").is_some_and(|index| index.parse::<usize>().is_ok());
+    fingerprint.chars().all(|letter| letter.is_ascii_alphanumeric()) && (is_row || what == "picture" || what == "truth")
+}
+
 fn row(index: usize) -> String {
     format!("row-{index}")
 }

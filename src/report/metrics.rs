@@ -11,6 +11,9 @@ use crate::oracle::ray::{Answer, Pixel, Truth};
 
 pub use super::edges::EdgeDistance;
 
+/// The fewest pixels compared by which a setting is recommended: a tenth of a percent of them is one pixel.
+pub const FEWEST_COMPARED: usize = 1000;
+
 /// A rendered shade: how much of the light's diffuse and specular terms reaches each pixel, in [0, 1]. Row 0 is the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadeImage {
@@ -19,7 +22,7 @@ pub struct ShadeImage {
     pub height: u32,
     /// `width * height` values, 0: shadow, 1: full light. Looked at only where something is drawn.
     pub shade: Vec<f32>,
-    /// Whether the picture shows a surface there.
+    /// Whether the picture shows a surface there that lies in the light's cone or frustum.
     pub covered: Vec<bool>,
 }
 
@@ -74,9 +77,9 @@ pub struct LeftOut {
     pub ambiguous: usize,
     /// Outside the light's cone or frustum: unlit in any case.
     pub outside_cone: usize,
-    /// The truth shows a surface, the picture none.
+    /// The truth shows a surface that lies in the light's cone or frustum, the picture none.
     pub not_drawn: usize,
-    /// The picture shows a surface, the truth none.
+    /// The picture shows a surface in the light's cone or frustum, the truth none at all.
     pub only_drawn: usize,
 }
 
@@ -199,8 +202,9 @@ fn leave_out(truth: &Truth, shade: &ShadeImage) -> LeftOut {
             (Answer::Background, false) => &mut left_out.background,
             (Answer::Background, true) => &mut left_out.only_drawn,
             (Answer::Ambiguous(_), _) => &mut left_out.ambiguous,
-            (_, false) => &mut left_out.not_drawn,
-            (Answer::OutsideCone, true) => &mut left_out.outside_cone,
+            // A shade is transparent where no light reaches, whether a surface is there or not.
+            (Answer::OutsideCone, _) => &mut left_out.outside_cone,
+            (Answer::Lit | Answer::Shadowed, false) => &mut left_out.not_drawn,
             (Answer::Lit | Answer::Shadowed, true) => continue,
         };
         *counter += 1;

@@ -3,6 +3,7 @@
 use super::difference::{self, difference_picture, truth_picture};
 use super::html::{DifferencePicture, Goals, ScenePictures};
 use super::metrics;
+use super::picks::{Pick, Picks};
 use super::results::{Row, SceneReport};
 use super::run::{Sweep, draw_shade};
 use crate::device::Pixels;
@@ -43,13 +44,12 @@ pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Ren
 pub(super) fn rows_that_matter<'r>(report: &'r SceneReport, goals: &Goals) -> Vec<(&'r Row, String)> {
     let measured = || report.rows.iter().filter(|row| row.measured().is_some());
     let wrong = |row: &Row| row.measured().map_or(0.0, |measured| measured.wrong_percent());
+    let picks = Picks::of(report, goals);
+    let picked = |pick: &Option<Pick<'r>>| pick.as_ref().map(|pick| pick.row);
     let candidates = [
         (measured().find(|row| row.index == 0), String::from("as the scene is written")),
-        (
-            report.cheapest_below(goals.wrong_percent),
-            format!("the cheapest that is wrong in at most {} %", goals.wrong_percent),
-        ),
-        (report.best_within(goals.milliseconds), format!("the most exact within {} ms", goals.milliseconds)),
+        (picked(&picks.cheapest), format!("the cheapest that is wrong in at most {} %", goals.wrong_percent)),
+        (picked(&picks.most_exact), format!("the most exact within {} ms", goals.milliseconds)),
         (measured().min_by(|a, b| wrong(a).total_cmp(&wrong(b))), String::from("the most exact of all")),
         (measured().max_by(|a, b| wrong(a).total_cmp(&wrong(b))), String::from("the most wrong of all")),
     ];

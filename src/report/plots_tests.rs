@@ -4,10 +4,12 @@ use super::super::results::Outcome;
 use super::super::samples;
 use super::*;
 
+const LINKS: Links<'_> = Links { page: "../report.html", scene: 1 };
+
 fn time_plot(change: impl FnOnce(&mut SceneReport)) -> Option<String> {
     let mut report = samples::report();
     change(&mut report.scenes[0]);
-    error_against_time(&report.scenes[0], &report.machine).unwrap()
+    error_against_time(&report.scenes[0], &report.machine, LINKS).unwrap()
 }
 
 /// What stands between tags.
@@ -73,11 +75,52 @@ fn a_single_row_has_a_plot() {
 #[test]
 fn map_sizes_are_plotted_where_several_exist() {
     let report = samples::report();
-    let svg = error_against_map_size(&report.scenes[0], &report.machine).unwrap().unwrap();
+    let svg = error_against_map_size(&report.scenes[0], &report.machine, LINKS).unwrap().unwrap();
     for size in ["256", "512", "1024", "2048", "4096"] {
         assert!(texts(&svg).iter().any(|text| text == size), "{size}");
     }
     let mut one = report.scenes[0].clone();
     one.rows.retain(|row| row.settings.iter().all(|(key, value)| key != "size" || value == "512"));
-    assert_eq!(error_against_map_size(&one, &report.machine).unwrap(), None);
+    assert_eq!(error_against_map_size(&one, &report.machine, LINKS).unwrap(), None);
+}
+
+#[test]
+fn points_link_to_their_rows_and_say_what_they_are() {
+    let report = samples::report();
+    let svg = time_plot(|_| ()).unwrap();
+    for row in report.scenes[0].rows.iter().filter(|row| row.measured().is_some()) {
+        let link = format!("<a href=\"../report.html#s1r{}\"><title>row {0}: {} ", row.index, row.technique);
+        assert!(svg.contains(&link), "{link}");
+    }
+    assert_eq!(svg.matches("</a>").count(), svg.matches("<a ").count());
+}
+
+#[test]
+fn a_plot_has_a_title_and_a_description() {
+    let report = samples::report();
+    let size = error_against_map_size(&report.scenes[0], &report.machine, LINKS).unwrap().unwrap();
+    for (svg, title) in [(time_plot(|_| ()).unwrap(), "time"), (size, "map size")] {
+        let title = format!("Error against {title}: main.toml");
+        assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"));
+        assert!(
+            svg.contains(&format!("role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<desc>wrong pixels"))
+        );
+    }
+}
+
+/// A bar ends in two strokes across it, six pixels long.
+#[test]
+fn every_point_has_its_error_bar() {
+    let report = samples::report();
+    let svg = time_plot(|_| ()).unwrap();
+    let is_end = |points: &str| {
+        let numbers: Vec<i32> = points.split([',', ' ']).filter_map(|number| number.parse().ok()).collect();
+        matches!(numbers[..], [a, b, c, d] if a == c && (b - d).abs() == 6)
+    };
+    let ends = svg.split("points=\"").skip(1).filter(|part| is_end(part.split('"').next().unwrap_or_default())).count();
+    let rows = report.scenes[0].rows.iter().filter(|row| row.measured().is_some()).count();
+    let front = pareto(&report.scenes[0], &Times::of(&report.scenes[0])).len();
+    // Those of the front are drawn once more above its line; one stands in the legend.
+    assert_eq!(ends, 2 * (rows + front + 1));
+    assert!(texts(&svg).iter().any(|text| text == "least to greatest run"));
 }

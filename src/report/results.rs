@@ -1,11 +1,11 @@
 //! What a report holds: plain values that are written as JSON, read back, merged and drawn.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::claimed::Claimed;
-use super::metrics::Metrics;
+use super::metrics::{FEWEST_COMPARED, Metrics};
 
 /// A whole report, or a part of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,8 +44,13 @@ pub struct Machine {
 /// One scene over the grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneReport {
+    /// As text; what is no UTF-8 in it is replaced.
+    #[serde(serialize_with = "as_text")]
     pub path: PathBuf,
-    /// Of the scene's file, the grid, the light and the layout: parts with the same one can be merged.
+    /// The path's bytes in hexadecimal, where it is no UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path_bytes: Option<String>,
+    /// Of the scene, the files that it names, the grid, the light and the layout: parts with the same one can be merged.
     pub fingerprint: String,
     /// Into the scene's lights.
     pub light: usize,
@@ -104,7 +109,7 @@ pub struct Row {
     /// In the grid, from 0; row 0 is the scene as it is written.
     pub index: usize,
     pub technique: String,
-    /// `key = value` in TOML, without the technique.
+    /// `key = value` in TOML, without the technique: all keys of `[light.shadow]`, the scene's own among them.
     pub settings: Vec<(String, String)>,
     pub outcome: Outcome,
 }
@@ -134,6 +139,9 @@ pub struct Measured {
     /// Draws and triangles of a frame with everything drawn.
     pub draw_calls: usize,
     pub triangles: u64,
+    /// Of what its passes do: rows with the same one should take the same time. Empty in older reports.
+    #[serde(default)]
+    pub work: String,
     pub left_out: Vec<crate::techniques::LeftOut>,
     pub warnings: Vec<String>,
 }
@@ -200,44 +208,30 @@ impl Row {
     }
 }
 
+/// JSON has no text that is no UTF-8: see [`SceneReport::path_bytes`].
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
+}
+
+/// For [`SceneReport::path_bytes`].
+pub fn bytes_of(path: &Path) -> Option<String> {
+    let hexadecimal = |byte: &u8| format!("{byte:02x}");
+    path.to_str().is_none().then(|| path.as_os_str().as_encoded_bytes().iter().map(hexadecimal).collect())
+}
+
 impl SceneReport {
-    /// The rows that no other is both faster and less wrong than, by [`Measured::frame_redrawn`] and wrong percent;
-    /// fastest first.
-    pub fn pareto(&self) -> Vec<&Row> {
-        let mut rows: Vec<(&Row, &Measured)> =
-            self.rows.iter().filter_map(|row| row.measured().map(|measured| (row, measured))).collect();
-        // A picture of which no pixel could be compared is not right, only unjudged.
-        rows.retain(|(_, measured)| measured.metrics.all.compared > 0);
-        rows.sort_by(|(_, a), (_, b)| {
-            a.frame_redrawn
-                .median
-                .total_cmp(&b.frame_redrawn.median)
-                .then(a.wrong_percent().total_cmp(&b.wrong_percent()))
-        });
-        let mut least = f64::INFINITY;
-        let mut front = Vec::new();
-        for (row, measured) in rows {
-            if measured.wrong_percent() < least {
-                least = measured.wrong_percent();
-                front.push(row);
-            }
-        }
-        front
-    }
-
-    /// The fastest row that is wrong in at most `percent` of the pixels compared.
-    pub fn cheapest_below(&self, percent: f64) -> Option<&Row> {
-        self.pareto().into_iter().find(|row| row.measured().is_some_and(|m| m.wrong_percent() <= percent))
-    }
-
-    /// The least wrong row whose redrawn frame takes at most `milliseconds`.
-    pub fn best_within(&self, milliseconds: f64) -> Option<&Row> {
-        let within = |row: &&Row| row.measured().is_some_and(|m| m.frame_redrawn.median <= milliseconds);
-        self.pareto().into_iter().rfind(within)
+    /// The rows that could not be drawn or compared.
+    pub fn failed(&self) -> Vec<&Row> {
+        self.rows.iter().filter(|row| row.measured().is_none()).collect()
     }
 }
 
 impl Measured {
+    /// Whether enough pixels could be compared to say how wrong it is. A picture that could not is not right, only unjudged.
+    pub fn is_judged(&self) -> bool {
+        self.metrics.all.compared >= FEWEST_COMPARED
+    }
+
     /// Of all pixels compared.
     pub fn wrong_percent(&self) -> f64 {
         self.metrics.all.wrong_percent

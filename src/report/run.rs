@@ -1,23 +1,28 @@
 //! Runs a grid over a scene: each row is drawn, held against the truth and timed, in this order.
 
-use std::path::Path;
+use std::collections::HashSet;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::grid::{Grid, Setting};
+use super::fingerprint;
+use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics, ShadeImage};
 use super::results::{
-    Cost, Machine, Measured, Outcome, PassCost, Row, Saved, SceneReport, Spread, TruthSummary, VERSION,
+    Cost, Machine, Measured, Outcome, PassCost, Row, Saved, SceneReport, Spread, TruthSummary, bytes_of,
 };
+use super::tune;
 use crate::context::{self, ContextRequest};
 use crate::device::{Measure, PassTime, Pixels};
 use crate::frame::{self, Renderer};
 use crate::oracle::ray::{self, Answer, Truth};
-use crate::pass::{Pass, Work};
-use crate::plan::{Plan, Request, ViewRequest};
-use crate::scene::{self, Loaded, Scene, Settings};
+use crate::pass::{DrawState, ImageId, Pass, Work};
+use crate::plan::{self, Plan, Request, ViewRequest};
+use crate::scene::{self, Loaded, Scene, Settings, Value};
 use crate::techniques::views::View;
+use crate::techniques::{self, TABLE, Technique};
 
 /// Why a report cannot be begun. What goes wrong in a row is told in that row.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +33,8 @@ pub enum Error {
     Context(#[from] context::Error),
     #[error(transparent)]
     Truth(#[from] ray::Error),
+    #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
+    Row { scene: PathBuf, inline: String, reason: String },
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
     #[error("--shard {index}/{count}: write I/N with 1 <= I <= N")]
@@ -54,33 +61,39 @@ pub struct Sweep {
     pub scene: Scene,
     pub truth: Truth,
     pub report: SceneReport,
-    /// What loading the scene warned of.
+    /// What loading the scene and laying out its grid warned of.
     pub warnings: Vec<String>,
+    /// What the report should say of the grid.
+    pub notes: Vec<String>,
     /// By index; row 0 is the scene as written.
     rows: Vec<(Row, Settings)>,
 }
 
-/// Loads a scene, traces its truth and lays out its grid.
+/// Loads a scene, lays out its grid and traces its truth. Every row is resolved here, before any is drawn.
 ///
 /// # Errors
 ///
-/// A scene that does not load, a light that is not there, a truth that the oracle does not know.
+/// A scene that does not load, a light that is not there, a row of one's own grid that cannot be, a truth that the oracle
+/// does not know.
 pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options) -> Result<Sweep, Error> {
-    let Loaded { scene, warnings } = scene::load(path, overrides)?;
-    let count = scene.lights.len();
-    let light = scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
-    let start = Instant::now();
-    let truth = ray::trace(&scene, options.light, &ray::Options::default())?;
-    let trace_ms = start.elapsed().as_secs_f64() * 1e3;
-    let grid = grid.settings(&light.kind);
-    let rows = layout(&light.shadow, &grid)?;
     let (index, shards) = options.shard;
     if index == 0 || index > shards {
         return Err(Error::Shard { index, count: shards });
     }
+    let Loaded { scene, mut warnings } = scene::load(path, overrides)?;
+    let count = scene.lights.len();
+    if options.light >= count {
+        return Err(Error::NoLight { index: options.light, count });
+    }
+    let Layout { rows, left_out } = layout(path, &scene, options.light, grid)?;
+    warnings.extend(left_out.iter().cloned());
+    let start = Instant::now();
+    let truth = ray::trace(&scene, options.light, &ray::Options::default())?;
+    let trace_ms = start.elapsed().as_secs_f64() * 1e3;
     let report = SceneReport {
         path: path.to_owned(),
-        fingerprint: fingerprint(path, overrides, &grid, options),
+        path_bytes: bytes_of(path),
+        fingerprint: fingerprint::of_rows(&scene, rows.iter().map(|(row, _)| row), options),
         light: options.light,
         size: scene.image.size,
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),
@@ -90,24 +103,90 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
-    Ok(Sweep { scene, truth, report, warnings, rows })
+    Ok(Sweep { scene, truth, report, warnings, notes: left_out, rows })
 }
 
-/// Row 0 is the scene as written; the others are the grid's.
-fn layout(written: &Settings, grid: &[Setting]) -> Result<Vec<(Row, Settings)>, Error> {
-    let technique = match written.get("technique").map(|entry| &entry.value) {
-        Some(scene::Value::String(name)) => name.clone(),
-        _ => String::from("none"),
-    };
-    let keys = written.entries.iter().filter(|(key, _)| key != "technique");
-    let settings = keys.map(|(key, entry)| (key.clone(), entry.value.to_toml())).collect();
-    let row = |index, technique, settings| Row { index, technique, settings, outcome: Outcome::Failed(String::new()) };
-    let mut rows = vec![(row(0, technique, settings), written.clone())];
-    for (index, setting) in grid.iter().enumerate() {
-        let table = scene::shadow_settings(&setting.to_inline())?;
-        rows.push((row(index + 1, setting.technique.clone(), setting.keys.clone()), table));
+/// The rows of a scene's grid, and what of the standard grid does not go with the scene's own keys.
+struct Layout {
+    rows: Vec<(Row, Settings)>,
+    left_out: Vec<String>,
+}
+
+/// Row 0 is the scene as written; the others are the grid's over it.
+fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layout, Error> {
+    let source = &scene.lights[light];
+    let bare = Scene { objects: Vec::new(), ..scene.clone() };
+    let written = readable(&source.shadow);
+    let mut layout = Layout { rows: vec![(row_of(0, &written), written)], left_out: Vec::new() };
+    for setting in grid.settings(&source.kind)? {
+        let settings = over(&source.shadow, &setting);
+        match check_settings(&bare, light, &settings) {
+            Ok(()) => layout.rows.push((row_of(layout.rows.len(), &settings), settings)),
+            Err(error) => {
+                let (inline, reason) = (grid::to_inline(&setting), error.to_string());
+                match grid {
+                    Grid::Own(_) => return Err(Error::Row { scene: path.to_owned(), inline, reason }),
+                    Grid::Standard { .. } => layout.left_out.push(format!(
+                        "{}: the grid's row {inline} is left out, as it does not go with the scene's own keys: {reason}",
+                        path.display()
+                    )),
+                }
+            }
+        }
     }
-    Ok(rows)
+    Ok(layout)
+}
+
+/// A row that is not measured yet.
+fn row_of(index: usize, settings: &Settings) -> Row {
+    let keys = settings.entries.iter().filter(|(key, _)| key != "technique");
+    let settings_text = keys.map(|(key, entry)| (key.clone(), entry.value.to_toml())).collect();
+    let technique = technique_of(settings).to_owned();
+    Row { index, technique, settings: settings_text, outcome: Outcome::Failed(String::new()) }
+}
+
+fn technique_of(settings: &Settings) -> &str {
+    match settings.get("technique").map(|entry| &entry.value) {
+        Some(Value::String(name)) => name,
+        _ => "none",
+    }
+}
+
+/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as `render --set` would have it; without what
+/// the technique does not read. Written into the scene file it draws the same.
+pub fn over(written: &Settings, setting: &Settings) -> Settings {
+    let mut merged = setting.clone();
+    merged.path.clone_from(&written.path);
+    for (key, entry) in &written.entries {
+        if merged.get(key).is_none() {
+            merged.set(key, entry.clone());
+        }
+    }
+    readable(&merged)
+}
+
+/// Without the keys that only other techniques read.
+fn readable(settings: &Settings) -> Settings {
+    let name = technique_of(settings);
+    let (mine, others): (Vec<_>, Vec<_>) = TABLE.iter().partition(|technique| technique.name() == name);
+    let keys = |rows: Vec<&&'static dyn Technique>| -> Vec<&str> {
+        rows.into_iter().flat_map(|technique| techniques::keys(*technique)).collect()
+    };
+    let (mine, others) = (keys(mine), keys(others));
+    let mut kept = settings.clone();
+    kept.entries.retain(|(key, _)| {
+        let key = key.as_str();
+        key == "technique" || mine.contains(&key) || !others.contains(&key)
+    });
+    kept
+}
+
+/// Whether a scene without objects can be planned with `settings`: whatever is wrong with them alone is found here, by the
+/// reader that a frame's plan has.
+fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<(), plan::Error> {
+    let views = vec![ViewRequest { view: View::Shade, light }];
+    let request = Request { views, sampled_warnings: false, ..Request::default() };
+    plan::make(&with_shadow(bare, light, settings), &request).map(|_| ())
 }
 
 fn summarise(truth: &Truth, trace_ms: f64) -> TruthSummary {
@@ -121,23 +200,18 @@ fn summarise(truth: &Truth, trace_ms: f64) -> TruthSummary {
     }
 }
 
-/// Of everything that decides what the rows are, but not of the machine: FNV-1a, 64 bits.
-fn fingerprint(path: &Path, overrides: &[String], grid: &[Setting], options: &Options) -> String {
-    let mut text = std::fs::read(path).unwrap_or_default();
-    let rest = format!("{overrides:?}{grid:?}{}{}{VERSION}", options.light, options.band_texels);
-    text.extend_from_slice(rest.as_bytes());
-    let hash = text
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3));
-    format!("{hash:016x}")
-}
-
 impl Sweep {
     /// The rows of this shard that `done` does not have.
     pub fn todo(&self, options: &Options, done: &[Row]) -> Vec<usize> {
         let (index, count) = options.shard;
-        let rows = 0..self.rows.len();
-        rows.filter(|row| row % count == index - 1 && !done.iter().any(|have| have.index == *row)).collect()
+        let done: HashSet<usize> = done.iter().map(|row| row.index).collect();
+        (0..self.rows.len()).filter(|row| row % count == index - 1 && !done.contains(row)).collect()
+    }
+
+    /// Whether `row` is one of this sweep's, measured or not.
+    pub fn has(&self, row: &Row) -> bool {
+        let known = self.rows.get(row.index).map(|(known, _)| known);
+        known.is_some_and(|known| known.technique == row.technique && known.settings == row.settings)
     }
 
     /// Measures `todo`, calling `finished` with each row as it is done, until all are or `stop` is set.
@@ -160,7 +234,7 @@ impl Sweep {
     fn row(&self, index: usize, options: &Options, renderer: &mut Renderer) -> Row {
         let (row, settings) = &self.rows[index];
         let scene = with_shadow(&self.scene, options.light, settings);
-        let band = Band { texels: options.band_texels, map_size: [map_size(row); 2] };
+        let band = Band { texels: options.band_texels, map_size: [tune::size_of(settings); 2] };
         let outcome = match measure(&scene, &self.truth, &band, options, renderer) {
             Ok(measured) => Outcome::Measured(Box::new(measured)),
             Err(why) => Outcome::Failed(why),
@@ -193,6 +267,11 @@ impl Sweep {
         Ok(Saved { same_pixels: picture == whole_picture, whole, pruned, left_out })
     }
 
+    /// A row, not measured.
+    pub fn row_of(&self, index: usize) -> &Row {
+        &self.rows[index].0
+    }
+
     /// The scene with a row's settings.
     pub fn scene_of(&self, index: usize) -> Scene {
         with_shadow(&self.scene, self.report.light, &self.rows[index].1)
@@ -206,12 +285,6 @@ pub fn with_shadow(scene: &Scene, light: usize, settings: &Settings) -> Scene {
         light.shadow = settings.clone();
     }
     scene
-}
-
-/// The map's side, by which the edge band is measured; 1024 for techniques without a map.
-fn map_size(row: &Row) -> u32 {
-    let size = row.settings.iter().find(|(key, _)| key == "size");
-    size.and_then(|(_, value)| value.parse().ok()).unwrap_or(1024)
 }
 
 fn measure(
@@ -235,9 +308,40 @@ fn measure(
         buffer_bytes: summary.buffer_bytes,
         draw_calls: summary.passes.iter().map(|pass| pass.draw_calls).sum(),
         triangles: summary.passes.iter().map(|pass| pass.triangles).sum(),
+        work: work_of(&plan),
         left_out: plan.left_out,
         warnings: plan.warnings,
     })
+}
+
+/// A mark of what a frame's passes do, but for their polygon offsets and the values of uniforms: frames of one mark should
+/// take the same time.
+fn work_of(plan: &Plan) -> String {
+    let image = |id: ImageId| {
+        let desc = plan.list.desc(id);
+        (desc.size, desc.format)
+    };
+    let mut text = String::new();
+    for pass in &plan.list.passes {
+        // Writing to a string cannot fail.
+        let _ = match &pass.work {
+            Work::CopyDepth { from, to, .. } => writeln!(text, "copy {:?} {:?}", image(*from), image(*to)),
+            Work::Draw(draw) => {
+                let state = DrawState { polygon_offset: None, ..draw.state };
+                let targets = draw.target.color.iter().chain(&draw.target.depth).map(|id| image(*id));
+                let targets: Vec<_> = targets.collect();
+                writeln!(text, "{:?} {:?} {:?} {targets:?} {state:?}", draw.viewport, draw.target.level, draw.clear)
+            }
+        };
+        let Work::Draw(draw) = &pass.work else { continue };
+        for batch in &draw.batches {
+            let inputs: Vec<_> = batch.inputs.iter().map(|input| (image(input.image), &input.sampler)).collect();
+            let draws: Vec<_> = batch.draws.iter().map(|draw| (&draw.indices, draw.order)).collect();
+            let (cull, scissor) = (batch.cull, batch.scissor);
+            let _ = writeln!(text, "{:?} {inputs:?} {cull:?} {scissor:?} {draws:?}", batch.program);
+        }
+    }
+    fingerprint::of_text(&text)
 }
 
 /// Draws the shade and holds it against the truth. A frame is not timed before that.

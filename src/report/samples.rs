@@ -55,6 +55,7 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
     let rows: Vec<Row> = rows.into_iter().enumerate().map(|(index, (name, keys))| row(index, name, keys)).collect();
     SceneReport {
         path: path.into(),
+        path_bytes: None,
         fingerprint: fingerprint.to_owned(),
         light: 0,
         size: [512, 512],
@@ -112,6 +113,7 @@ fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
         buffer_bytes: 2_500_000,
         draw_calls: 14,
         triangles: 138_902,
+        work: format!("{technique} {size} {}", has("filter", "linear")),
         left_out: vec![crate::techniques::LeftOut {
             what: "color buffer of the map".to_owned(),
             why: "only depth & <nothing else> is read".to_owned(),

@@ -3,11 +3,12 @@
 //! A larger offset only ever removes false shadow and adds leak. So for each slope factor there is a least number of
 //! units without false shadow, found by bisection over powers of two; of all factors the pair with the least leak wins.
 
-use super::metrics::{self, Band, Metrics};
-use super::run::{draw_shade, with_shadow};
+use super::grid;
+use super::metrics::{self, Band, FEWEST_COMPARED, Metrics};
+use super::run::{draw_shade, over, with_shadow};
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::{self, Truth};
-use crate::scene::{self, Scene, Settings};
+use crate::oracle::ray::{self, Answer, Pixel, Truth};
+use crate::scene::{self, Scene, Settings, Value};
 use crate::techniques::{TABLE, Technique};
 
 /// Why nothing can be tuned.
@@ -23,6 +24,12 @@ pub enum Error {
     Metrics(#[from] metrics::Error),
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
+    #[error(
+        "nothing can be tuned: of light {light} {compared} pixels could be compared, {facing} of them on surfaces that face \
+         it; each needs {FEWEST_COMPARED} at least. Does the light reach what the camera sees? Is the picture large enough \
+         (--size)? Is another light meant (--light)?"
+    )]
+    TooFew { light: usize, compared: usize, facing: usize },
 }
 
 /// What to search, and what is good enough.
@@ -56,6 +63,9 @@ pub struct Point {
     pub wrong_percent: f64,
     /// Whether the false shadow is within [`Options::false_per_100_000`].
     pub clean: bool,
+    /// Pixels that the percentages are of: all, and those on surfaces that face the light.
+    pub compared: usize,
+    pub compared_facing: usize,
 }
 
 /// What the search saw and chose.
@@ -66,6 +76,12 @@ pub struct Tuned {
     pub best: Vec<Point>,
     /// The smallest map that leaks no more than it may, or, where none does, the one that leaks least.
     pub chosen: Option<Point>,
+    /// The chosen point as `[light.shadow]`, with all that the scene's own has besides: it takes that table's place.
+    pub chosen_toml: Option<String>,
+    /// Pixels of which the truth is sure and which were drawn, those of them that face the light, and those in shadow.
+    pub compared: usize,
+    pub compared_facing: usize,
+    pub compared_shadowed: usize,
     /// Whether `chosen` is within the leak that was asked for.
     pub within_leak: bool,
     /// Techniques that have no offset to tune, as they are by default.
@@ -108,6 +124,10 @@ pub fn tune(
     let count = scene.lights.len();
     scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
     let truth = ray::trace(scene, options.light, &ray::Options::default())?;
+    let is_sure = |pixel: &&Pixel| matches!(pixel.answer, Answer::Lit | Answer::Shadowed);
+    let faces = |pixel: &&Pixel| pixel.hit.is_some_and(|hit| hit.faces_light());
+    let sure = || truth.pixels.iter().filter(is_sure);
+    check_count(options.light, sure().count(), sure().filter(faces).count())?;
     let mut search = Search::new(scene, &truth, options, renderer, &mut tick);
     let mut best = Vec::new();
     for size in &options.sizes {
@@ -121,7 +141,31 @@ pub fn tune(
     let within = best.iter().find(|point| point.leak_percent <= options.leak_percent).copied();
     let least = best.iter().min_by(|a, b| a.leak_percent.total_cmp(&b.leak_percent)).copied();
     let rivals = search.rivals();
-    Ok(Tuned { curve: search.curve, best, chosen: within.or(least), within_leak: within.is_some(), rivals })
+    let curve = search.curve;
+    let (compared, compared_facing) = curve.first().map_or((0, 0), |point| (point.compared, point.compared_facing));
+    check_count(options.light, compared, compared_facing)?;
+    let chosen = within.or(least);
+    let toml = |point: Point| {
+        let shadow = changed(&scene.lights[options.light].shadow, point.size, point.factor, point.units)?;
+        let lines = shadow.entries.iter().map(|(key, entry)| format!("{key} = {}\n", entry.value.to_toml()));
+        Ok::<_, scene::Error>(format!("[light.shadow]\n{}", lines.collect::<String>()))
+    };
+    Ok(Tuned {
+        curve,
+        best,
+        chosen,
+        chosen_toml: chosen.map(toml).transpose()?,
+        compared,
+        compared_facing,
+        compared_shadowed: truth.count(|answer| answer == Answer::Shadowed),
+        within_leak: within.is_some(),
+        rivals,
+    })
+}
+
+/// Refuses to conclude from too few pixels.
+fn check_count(light: usize, compared: usize, facing: usize) -> Result<(), Error> {
+    if compared.min(facing) < FEWEST_COMPARED { Err(Error::TooFew { light, compared, facing }) } else { Ok(()) }
 }
 
 /// What was seen of a scene so far.
@@ -203,18 +247,23 @@ impl<'a> Search<'a> {
         let has_offset = |technique: &&&dyn Technique| technique.axes().iter().any(|axis| axis.key == "offset");
         let rows = TABLE.iter().filter(|technique| !technique.axes().is_empty() && !has_offset(technique));
         let rivals = rows.map(|technique| {
-            let settings = plainest(*technique);
-            let errors = self.errors_of(&settings);
+            let plain = scene::shadow_settings(&plainest(*technique));
+            let (settings, errors) = match plain {
+                Err(error) => (plainest(*technique), Err(error.to_string())),
+                Ok(plain) => {
+                    let settings = over(&self.scene.lights[self.options.light].shadow, &plain);
+                    (grid::to_inline(&settings), self.errors_of(&settings))
+                }
+            };
             Rival { technique: technique.name(), settings, errors }
         });
         rivals.collect()
     }
 
-    fn errors_of(&mut self, settings: &str) -> Result<RivalErrors, String> {
-        let shadow = scene::shadow_settings(settings).map_err(|error| error.to_string())?;
-        let scene = with_shadow(self.scene, self.options.light, &shadow);
+    fn errors_of(&mut self, shadow: &Settings) -> Result<RivalErrors, String> {
+        let scene = with_shadow(self.scene, self.options.light, shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer).map_err(|error| error.to_string())?;
-        let band = Band { texels: self.options.band_texels, map_size: [DEFAULT_SIZE; 2] };
+        let band = Band { texels: self.options.band_texels, map_size: [size_of(shadow); 2] };
         let metrics = metrics::compare(self.truth, &shade, &band).map_err(|error| error.to_string())?;
         Ok(RivalErrors {
             false_shadow_percent: metrics.facing.false_shadow.outside_percent,
@@ -240,6 +289,8 @@ impl<'a> Search<'a> {
             leak_facing_percent: facing.leak_percent,
             wrong_percent: all.wrong_percent,
             clean: facing.false_shadow.outside as f64 <= self.spare(facing.compared),
+            compared: all.compared,
+            compared_facing: facing.compared,
         };
         self.curve.push(point);
         (self.tick)(&point);
@@ -270,10 +321,20 @@ fn units_of(exponent: i32) -> f64 {
     if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }
 }
 
-/// `shadow` as a shadow map of another size and offset.
+/// `shadow` as a shadow map of another size and offset, which alone keeps its surfaces from shading themselves.
 fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
     let offset = format!("offset = {{ factor = {factor:?}, units = {units:?} }}");
-    under(shadow, size, &format!("technique = \"shadow-map\", {offset}"))
+    let mut written = shadow.clone();
+    written.entries.retain(|(key, _)| key != "bias");
+    Ok(over(&written, &scene::shadow_settings(&format!("technique = \"shadow-map\", size = {size}, {offset}"))?))
+}
+
+/// The side of a light's map.
+pub(super) fn size_of(shadow: &Settings) -> u32 {
+    match shadow.get("size").map(|entry| &entry.value) {
+        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
+        _ => DEFAULT_SIZE,
+    }
 }
 
 /// `shadow` with another technique, size and `keys`, which are not its own.
@@ -282,14 +343,4 @@ pub(super) fn under(shadow: &Settings, size: u32, keys: &str) -> Result<Settings
     let kept = shadow.entries.iter().filter(|(key, _)| !replaced.contains(&key.as_str()));
     let kept: Vec<String> = kept.map(|(key, entry)| format!(", {key} = {}", entry.value.to_toml())).collect();
     scene::shadow_settings(&format!("{keys}, size = {size}{}", kept.concat()))
-}
-
-impl Point {
-    /// The keys of `[light.shadow]` to paste.
-    pub fn to_toml(&self) -> String {
-        format!(
-            "[light.shadow]\ntechnique = \"shadow-map\"\nsize = {}\noffset = {{ factor = {:?}, units = {:?} }}\n",
-            self.size, self.factor, self.units
-        )
-    }
 }

@@ -3,11 +3,13 @@
 //! Each is made in memory, written beside its name, brought to the disk and renamed, so that a full disk or a kill
 //! leaves an older report or a newer one and never half of one.
 
+use std::collections::HashSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::html::{Goals, Pictures, to_html};
+use super::plots::Links;
 use super::results::{Report, SceneReport};
 use super::{csv, kept, plots};
 use crate::output::whole;
@@ -19,13 +21,16 @@ pub enum Error {
     Folder { path: PathBuf, reason: io::Error },
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
     Write { path: PathBuf, reason: io::Error },
+    #[error("{path}: is of an older report and cannot be removed: {reason}", path = .path.display())]
+    Stale { path: PathBuf, reason: io::Error },
     #[error("the report of {path} cannot be put in JSON: {reason}", path = .path.display())]
     Json { path: PathBuf, reason: String },
     #[error("{scene}: {reason}", scene = .scene.display())]
     Plot { scene: PathBuf, reason: plots::Error },
 }
 
-/// Writes all files of a report, and makes the folder where it is missing.
+/// Writes all files of a report, makes the folder where it is missing, and removes the plots and pictures that an older
+/// report left there.
 ///
 /// # Errors
 ///
@@ -38,9 +43,10 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &Pictures, goals: &Go
     ];
     for (index, scene) in report.scenes.iter().enumerate() {
         let plot = |reason| Error::Plot { scene: scene.path.clone(), reason };
+        let links = Links { page: "../report.html", scene: index + 1 };
         let both = [
-            ("error-against-time", plots::error_against_time(scene, &report.machine).map_err(plot)?),
-            ("error-against-map-size", plots::error_against_map_size(scene, &report.machine).map_err(plot)?),
+            (KINDS[0], plots::error_against_time(scene, &report.machine, links).map_err(plot)?),
+            (KINDS[1], plots::error_against_map_size(scene, &report.machine, links).map_err(plot)?),
         ];
         for (kind, svg) in both {
             let path = folder.join("plots").join(plot_name(index + 1, scene, kind));
@@ -53,7 +59,30 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &Pictures, goals: &Go
         make_folder(&kept::folder_in(folder))?;
     }
     files.extend(kept_pictures);
-    write_files(&files)
+    write_files(&files)?;
+    let written: HashSet<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
+    remove_stale(&folder.join("plots"), &written, is_plot)?;
+    remove_stale(&kept::folder_in(folder), &written, kept::is_picture)
+}
+
+/// The plots of a scene.
+const KINDS: [&str; 2] = ["error-against-time", "error-against-map-size"];
+
+fn is_plot(name: &str) -> bool {
+    let is_numbered = name.split_once('-').is_some_and(|(number, _)| number.parse::<usize>().is_ok());
+    is_numbered && KINDS.iter().any(|kind| name.ends_with(&format!("-{kind}.svg")))
+}
+
+/// Removes what an older report left in a folder: files whose names `is_ours`, but for those just `written`.
+fn remove_stale(folder: &Path, written: &HashSet<&Path>, is_ours: fn(&str) -> bool) -> Result<(), Error> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if is_ours(&name) && !written.contains(path.as_path()) {
+            fs::remove_file(&path).map_err(|reason| Error::Stale { path, reason })?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes `report.json` only: what a sweep leaves after each row, and goes on from.
@@ -123,6 +152,45 @@ mod tests {
         let plots = ["1-main-error-against-map-size.svg", "1-main-error-against-time.svg"];
         assert_eq!(names(&folder.join("plots")), plots);
         assert_eq!(merge::load(&folder).unwrap(), report);
+    }
+
+    #[test]
+    fn an_older_reports_plots_and_pictures_are_removed_and_nothing_else() {
+        use super::super::difference::to_png;
+        use super::super::html::{DifferencePicture, ScenePictures};
+        let folder = tempfile::tempdir().unwrap();
+        let png = to_png(&image::RgbImage::new(2, 2)).unwrap();
+        let difference = |row| DifferencePicture { row, caption: String::new(), png: png.clone() };
+        let write = |name: &str, fingerprint: &str, row| {
+            let mut report = samples::report();
+            report.scenes = vec![samples::scene(name, fingerprint)];
+            let scene =
+                ScenePictures { truth: Some(png.clone()), differences: vec![difference(row)], ..Default::default() };
+            write_all(folder.path(), &report, &Pictures { scenes: vec![scene] }, &Goals::default()).unwrap();
+        };
+        write("old.toml", "f1", 3);
+        for mine in ["plots/mine.svg", "pictures/mine.png", "pictures/f1-note.png"] {
+            fs::write(folder.path().join(mine), "mine").unwrap();
+        }
+        write("new.toml", "f2", 4);
+        let plots = ["1-new-error-against-map-size.svg", "1-new-error-against-time.svg", "mine.svg"];
+        assert_eq!(names(&folder.path().join("plots")), plots);
+        let pictures = ["f1-note.png", "f2-row-4.png", "f2-truth.png", "mine.png"];
+        assert_eq!(names(&folder.path().join("pictures")), pictures);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_path_that_is_no_utf_8_is_written_as_text_and_as_bytes() {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir().unwrap();
+        let mut report = samples::report();
+        report.scenes[0].path = std::ffi::OsStr::from_bytes(b"a/\xff.toml").into();
+        report.scenes[0].path_bytes = super::super::results::bytes_of(&report.scenes[0].path);
+        write(folder.path(), &report).unwrap();
+        let scene = merge::load(folder.path()).unwrap().scenes.remove(0);
+        assert_eq!(scene.path, Path::new("a/\u{fffd}.toml"));
+        assert_eq!(scene.path_bytes.as_deref(), Some("612fff2e746f6d6c"));
     }
 
     #[test]

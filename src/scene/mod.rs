@@ -72,6 +72,15 @@ pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
 }
 
+/// A TOML file that is no scene, as a table whose entries know their lines.
+///
+/// # Errors
+///
+/// A file that cannot be read, is too long, or is no TOML.
+pub fn table(path: &Path) -> Result<Settings, Error> {
+    parse::document(path, &read_text(path)?)
+}
+
 /// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
 pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());

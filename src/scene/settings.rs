@@ -130,6 +130,11 @@ impl<'a> Reader<'a> {
         self.settings.get(key)
     }
 
+    /// The keys that were asked for.
+    pub fn known(&self) -> &[&'static str] {
+        &self.known
+    }
+
     /// Where the table stands.
     pub fn origin(&self) -> &'a Origin {
         &self.settings.origin

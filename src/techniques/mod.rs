@@ -30,7 +30,7 @@ pub mod views;
 
 use self::claims::Claim;
 use crate::pass::PassList;
-use crate::scene::{LightKind, Reader, Scene, SettingsError, suggest};
+use crate::scene::{LightKind, Reader, Scene, Settings, SettingsError, suggest};
 pub use items::Item;
 pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 pub use map::{MapInfo, MapShape};
@@ -153,6 +153,15 @@ impl Notes {
 /// A key with a wrong value, with its place in the scene file.
 pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
     TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
+}
+
+/// The keys of `[light.shadow]` that a technique reads.
+pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
+    let empty = Settings::default();
+    let mut keys = empty.read();
+    // A key that is absent has no wrong value.
+    let _ = technique.check(&mut keys);
+    keys.known().to_vec()
 }
 
 /// Whether the technique of some light of the scene reads casters' vertices.

@@ -19,7 +19,7 @@ pub(super) struct Column {
 /// The groups in order, each with what its columns have in common.
 pub(super) const GROUPS: [(&str, &str); 6] = [
     ("wrong pixels, %", "Shares of the pixels compared. False shadow and leak add up to all."),
-    ("time, ms", "Median of several runs, from the first call to the end of glFinish, unless said otherwise."),
+    ("time, ms", "Medians of several runs, from the first call to the end of glFinish, unless said otherwise."),
     (
         "facing, %",
         "The same over surfaces whose visible side faces the light only: on the others shading leaves no light, so \
@@ -69,6 +69,9 @@ fn edge(distance: Option<EdgeDistance>, of: fn(&EdgeDistance) -> f64) -> Option<
     distance.as_ref().map(of)
 }
 
+/// The column with error bars.
+pub(super) const REDRAWN: &str = "redrawn";
+
 pub(super) const COLUMNS: [Column; 27] = [
     column(0, "all", 3, "All that is wrong: false shadow and leak, inside the band and outside.", |m| {
         compared(m, |e| e.wrong_percent)
@@ -92,7 +95,13 @@ pub(super) const COLUMNS: [Column; 27] = [
         "Light where shadow belongs, outside the band: an offset too large, a caster lost.",
         |m| compared(m, |e| e.leak.outside_percent),
     ),
-    column(1, "redrawn", 3, "A frame that draws everything, the maps among it.", |m| Some(m.frame_redrawn.median)),
+    column(
+        1,
+        REDRAWN,
+        3,
+        "A frame that draws everything, the maps among it; below it a bar from its least to its greatest run.",
+        |m| Some(m.frame_redrawn.median),
+    ),
     column(1, "redrawn: least", 3, "The fastest of its runs.", |m| Some(m.frame_redrawn.least)),
     column(1, "redrawn: most", 3, "The slowest of its runs.", |m| Some(m.frame_redrawn.greatest)),
     column(1, "kept", 3, "A frame that keeps the maps that a static scene's first frame drew.", |m| {
@@ -144,7 +153,11 @@ pub(super) const COLUMNS: [Column; 27] = [
     column(5, "compared", 0, "Pixels that both show and of which the truth is sure. Only these are judged.", |m| {
         Some(all(m).compared as f64)
     }),
-    column(5, "drawn in one only", 0, "Pixels that only the picture or only the truth shows; not judged.", |m| {
-        Some((m.metrics.left_out.not_drawn + m.metrics.left_out.only_drawn) as f64)
-    }),
+    column(
+        5,
+        "lit in one only",
+        0,
+        "Pixels where only the picture or only the truth shows a surface in the light's reach; not judged.",
+        |m| Some((m.metrics.left_out.not_drawn + m.metrics.left_out.only_drawn) as f64),
+    ),
 ];

@@ -3,7 +3,8 @@
 use super::super::difference::LEGEND;
 use super::super::metrics::Band;
 use super::super::numbers::{bytes, grouped, plain};
-use super::super::plots;
+use super::super::picks::{Picks, Times, pareto, titles, unjudged};
+use super::super::plots::{self, Links};
 use super::super::results::{Cost, Machine, Measured, Row, SceneReport};
 use super::claims;
 use super::table::{self, Marks};
@@ -19,6 +20,7 @@ pub(super) fn section(
 ) -> String {
     let [width, height] = scene.size;
     let truth = &scene.truth;
+    let times = Times::of(scene);
     let mut text = format!(
         "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles. The truth \
          took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).</p>\n",
@@ -36,17 +38,16 @@ pub(super) fn section(
         text +=
             &format!("<p class=\"note\">{} of {} rows of the grid are here.</p>\n", scene.rows.len(), scene.grid_rows);
     }
+    text += &answers(scene, number, goals);
+    text += "<h3>Error against time</h3>\n";
+    let links = Links { page: "", scene: number };
+    text += &plot(plots::error_against_time(scene, machine, links), "There is no row to plot.");
+    text += &plot(plots::error_against_map_size(scene, machine, links), "");
     text += &figures(scene, pictures);
-    text += "<h3>The settings to take</h3>\n<div class=\"cards\">\n";
-    text += &cards(scene, number, goals);
-    text += "</div>\n";
     text += &claims::section(scene);
     text += &saved_text(scene);
-    text += "<h3>Error against time</h3>\n";
-    text += &plot(plots::error_against_time(scene, machine), "There is no row to plot.");
-    text += &plot(plots::error_against_map_size(scene, machine), "");
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
-    text += &table::table(scene, number, &marks(scene, goals));
+    text += &table::table(scene, number, &marks(scene, &times, goals));
     text + "</section>\n"
 }
 
@@ -79,16 +80,26 @@ fn saved_text(scene: &SceneReport) -> String {
 }
 
 fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
+    let [width, height] = scene.size;
+    let name = scene.path.display();
     let mut figures = String::new();
     if let Some(png) = &pictures.picture {
-        figures += &figure(png, scene.size, "the scene as rendered", "The scene as it is written, rendered");
+        let alt = format!("{name} as it is written, rendered in {width} × {height} pixels");
+        figures += &figure(png, scene.size, &alt, "The scene as it is written, rendered");
     }
     if let Some(png) = &pictures.truth {
-        figures += &figure(png, scene.size, "the truth by ray casting", "The truth, by ray casting");
+        let truth = &scene.truth;
+        let share = |count: usize| plain(100.0 * count as f64 / truth.drawn.max(1) as f64);
+        let (lit, shadowed, ambiguous) = (share(truth.lit), share(truth.shadowed), share(truth.ambiguous));
+        let alt = format!(
+            "the truth by ray casting: of the drawn pixels {lit} % lit, {shadowed} % shadowed, {ambiguous} % ambiguous, the \
+             rest outside the light"
+        );
+        figures += &figure(png, scene.size, &alt, "The truth, by ray casting");
     }
     for difference in &pictures.differences {
         let caption = format!("Row {}: {}", difference.row, difference.caption);
-        figures += &figure(&difference.png, scene.size, &format!("what row {} has wrong", difference.row), &caption);
+        figures += &figure(&difference.png, scene.size, &difference_alt(scene, difference.row), &caption);
     }
     if figures.is_empty() {
         return "<p class=\"note\">This report was written without pictures.</p>\n".to_owned();
@@ -98,6 +109,21 @@ fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
     };
     let legend: String = LEGEND.iter().map(item).collect();
     format!("<div class=\"figures\">\n{figures}</div>\n<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n")
+}
+
+/// What a difference picture shows, in words.
+fn difference_alt(scene: &SceneReport, index: usize) -> String {
+    let row = scene.rows.iter().find(|row| row.index == index);
+    match row.and_then(|row| Some((row, row.measured()?))) {
+        None => format!("where row {index} differs from the truth"),
+        Some((row, measured)) => format!(
+            "where row {index}, {} {}, differs from the truth: {} % false shadow in blue, {} % leak in orange",
+            row.technique,
+            row.settings_text(),
+            plain(measured.metrics.all.false_shadow_percent),
+            plain(measured.metrics.all.leak_percent)
+        ),
+    }
 }
 
 fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
@@ -122,60 +148,84 @@ fn band_text(scene: &SceneReport) -> String {
     format!("<p>The band reaches {range} away from true shadow edges.</p>\n")
 }
 
-fn marks(scene: &SceneReport, goals: &Goals) -> Marks {
+fn marks(scene: &SceneReport, times: &Times<'_>, goals: &Goals) -> Marks {
     let mut marks = Marks::new();
-    let mut mark = |row: Option<&Row>, why| {
-        if let Some(row) = row {
-            marks.entry(row.index).or_default().push(why);
-        }
-    };
-    mark(scene.rows.iter().find(|row| row.index == 0), "as written");
-    mark(scene.cheapest_below(goals.wrong_percent), "cheapest");
-    mark(scene.best_within(goals.milliseconds), "most exact");
-    for row in scene.pareto() {
-        mark(Some(row), "Pareto front");
+    let mut mark = |row: &Row, why| marks.entry(row.index).or_default().push(why);
+    if let Some(row) = scene.rows.iter().find(|row| row.index == 0) {
+        mark(row, "as written");
+    }
+    let picks = Picks::of(scene, goals);
+    let chips = [("cheapest", "perhaps cheapest"), ("most exact", "perhaps most exact")];
+    for (pick, (chip, perhaps)) in [picks.cheapest, picks.most_exact].iter().flatten().zip(chips) {
+        mark(pick.row, chip);
+        pick.rivals.iter().for_each(|row| mark(row, perhaps));
+    }
+    for (row, _) in pareto(scene, times) {
+        mark(row, "Pareto front");
     }
     marks
 }
 
-fn cards(scene: &SceneReport, number: usize, goals: &Goals) -> String {
-    let front = scene.pareto();
-    let instead = |row: Option<&&Row>, what: &str| match row.and_then(|row| Some((row, row.measured()?))) {
+/// The settings to take, or why none is named.
+fn answers(scene: &SceneReport, number: usize, goals: &Goals) -> String {
+    let mut text = String::from("<h3>The settings to take</h3>\n");
+    let picks = Picks::of(scene, goals);
+    let warnings = unjudged(scene).or_else(|| picks.times.warning());
+    text.extend(warnings.map(|warning| format!("<p class=\"note\">{}</p>\n", escape(&warning))));
+    format!("{text}<div class=\"cards\">\n{}</div>\n", cards(scene, &picks, number, goals))
+}
+
+fn cards(scene: &SceneReport, picks: &Picks<'_>, number: usize, goals: &Goals) -> String {
+    let front = pareto(scene, &picks.times);
+    let instead = |best: Option<&(&Row, &Measured)>, what: &str| match best {
         Some((row, measured)) => format!(
             "No setting measured is. The {what} is row {}: {} % wrong in {} ms.",
             row.index,
             plain(measured.wrong_percent()),
-            plain(measured.frame_redrawn.median)
+            plain(picks.times.of_row(measured))
         ),
         None => "No setting was measured.".to_owned(),
     };
-    let cheapest = card(
-        &format!("Cheapest with at most {} % wrong", plain(goals.wrong_percent)),
-        scene.cheapest_below(goals.wrong_percent),
-        &instead(front.last(), "least wrong"),
-        number,
-    );
-    let best = card(
-        &format!("Most exact within {} ms", plain(goals.milliseconds)),
-        scene.best_within(goals.milliseconds),
-        &instead(front.first(), "fastest"),
-        number,
-    );
-    let written = scene.rows.iter().find(|row| row.index == 0);
-    cheapest + &best + &card("The scene as it is written", written, "Row 0 was not measured.", number)
+    let picked = [&picks.cheapest, &picks.most_exact];
+    let instead = [instead(front.last(), "least wrong"), instead(front.first(), "fastest")];
+    let mut text = String::new();
+    for ((title, pick), instead) in titles(goals).iter().zip(picked).zip(instead) {
+        text += &match pick {
+            Some(pick) => card(title, (pick.row, pick.measured), &pick.doubts(goals), number, &picks.times),
+            None => empty_card(title, &instead),
+        };
+    }
+    let written = scene.rows.iter().find(|row| row.index == 0).and_then(|row| Some((row, row.measured()?)));
+    let title = "The scene as it is written";
+    text + &match written {
+        Some(written) => card(title, written, &[], number, &picks.times),
+        None => empty_card(title, "Row 0 was not measured."),
+    }
 }
 
-fn card(title: &str, row: Option<&Row>, instead: &str, number: usize) -> String {
-    let title = escape(title);
-    let Some((row, measured)) = row.and_then(|row| Some((row, row.measured()?))) else {
-        return format!("<div class=\"card\"><h4>{title}</h4>\n<p>{}</p></div>\n", escape(instead));
-    };
+fn empty_card(title: &str, instead: &str) -> String {
+    format!("<div class=\"card\"><h4>{}</h4>\n<p>{}</p></div>\n", escape(title), escape(instead))
+}
+
+fn card(
+    title: &str,
+    (row, measured): (&Row, &Measured),
+    doubts: &[String],
+    number: usize,
+    times: &Times<'_>,
+) -> String {
+    let [least, greatest] = times.bar(measured).map(plain);
+    let doubts: String = doubts.iter().map(|doubt| format!("<p class=\"doubt\">{}</p>\n", escape(doubt))).collect();
     format!(
-        "<div class=\"card\"><h4>{title}</h4>\n<p class=\"key\"><b>{}</b> % wrong in <b>{}</b> ms, {} · \
-         <a href=\"#s{number}r{index}\">row {index}</a></p>\n<pre><code>{}</code></pre>\n{}</div>\n",
+        "<div class=\"card\"><h4>{}</h4>\n<p class=\"key\"><b>{}</b> % wrong in <b>{}</b> ms, {} · \
+         <a href=\"#s{number}r{index}\">row {index}</a></p>\n<p>The {} of {} runs; runs of this work took {least} to \
+         {greatest} ms.</p>\n{doubts}<pre><code>{}</code></pre>\n{}</div>\n",
+        escape(title),
         plain(measured.wrong_percent()),
-        plain(measured.frame_redrawn.median),
+        plain(times.of_row(measured)),
         bytes(measured.image_bytes + measured.buffer_bytes),
+        times.name(),
+        measured.frame_redrawn.runs,
         escape(&row.to_toml()),
         plan_text(measured),
         index = row.index,
@@ -186,10 +236,13 @@ fn card(title: &str, row: Option<&Row>, instead: &str, number: usize) -> String 
 fn plan_text(measured: &Measured) -> String {
     let left_out = list(measured.left_out.iter().map(|item| format!("{}: {}", item.what, item.why)));
     let left_out = if left_out.is_empty() { "<p>Nothing.</p>\n".to_owned() } else { left_out };
-    let mut text =
-        format!("<div class=\"wide\">{}</div>\n<h5>Left out of its plan</h5>\n{left_out}", table::passes(measured));
-    if !measured.warnings.is_empty() {
-        text += &format!("<h5>Warnings</h5>\n{}", list(measured.warnings.iter().cloned()));
-    }
-    text
+    let warnings = match measured.warnings.is_empty() {
+        true => String::new(),
+        false => format!("<h5>Warnings</h5>\n{}", list(measured.warnings.iter().cloned())),
+    };
+    format!(
+        "{warnings}<details><summary>Its passes, and what is left out</summary>\n<div class=\"wide\">{}</div>\n<h5>Left out \
+         of its plan</h5>\n{left_out}</details>\n",
+        table::passes(measured)
+    )
 }

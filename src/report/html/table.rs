@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::super::numbers::{fixed, grouped};
-use super::super::results::{Measured, Outcome, Row, SceneReport};
-use super::columns::{COLUMNS, GROUPS};
+use super::super::results::{Measured, Outcome, Row, SceneReport, Spread};
+use super::columns::{COLUMNS, GROUPS, REDRAWN};
 use super::tags::escape;
 
 /// Why a row is marked, by its index.
@@ -28,14 +28,15 @@ pub(super) fn table(scene: &SceneReport, number: usize, marks: &Marks) -> String
         push(&mut text, format_args!("<th title=\"{}\">{}</th>", escape(column.meaning), escape(short)));
     }
     text.push_str("</tr>\n</thead>\n<tbody>\n");
+    let scale = Scale::of(scene);
     for row in &scene.rows {
-        push_row(&mut text, row, number, marks.get(&row.index).map_or(&[][..], Vec::as_slice));
+        push_row(&mut text, row, number, &scale, marks.get(&row.index).map_or(&[][..], Vec::as_slice));
     }
     text.push_str("</tbody>\n</table></div>\n");
     text
 }
 
-fn push_row(text: &mut String, row: &Row, number: usize, marks: &[&str]) {
+fn push_row(text: &mut String, row: &Row, number: usize, scale: &Scale, marks: &[&str]) {
     let class = match (&row.outcome, marks.is_empty()) {
         (Outcome::Failed(_), _) => " class=\"failed\"",
         (_, false) => " class=\"marked\"",
@@ -61,9 +62,45 @@ fn push_row(text: &mut String, row: &Row, number: usize, marks: &[&str]) {
         ),
     );
     for column in &COLUMNS {
-        push(text, format_args!("<td>{}</td>", escape(&column.text(row.measured()))));
+        let bar =
+            row.measured().filter(|_| column.name == REDRAWN).map(|m| scale.bar(&m.frame_redrawn)).unwrap_or_default();
+        push(text, format_args!("<td>{}{bar}</td>", escape(&column.text(row.measured()))));
     }
     text.push_str("</tr>\n");
+}
+
+/// Where error bars lie: from the least to the greatest run of all rows, logarithmic as in the plot.
+struct Scale {
+    least: f64,
+    greatest: f64,
+}
+
+impl Scale {
+    fn of(scene: &SceneReport) -> Self {
+        let spreads = || scene.rows.iter().filter_map(Row::measured).map(|measured| measured.frame_redrawn);
+        Self {
+            least: spreads().map(|spread| spread.least).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min),
+            greatest: spreads().map(|spread| spread.greatest).fold(0.0, f64::max),
+        }
+    }
+
+    /// In percent of the way from the least to the greatest.
+    fn place(&self, time: f64) -> f64 {
+        let place = 100.0 * (time / self.least).ln() / (self.greatest / self.least).ln();
+        if place.is_finite() { place.clamp(0.0, 100.0) } else { 0.0 }
+    }
+
+    fn bar(&self, spread: &Spread) -> String {
+        let [from, at, to] = [spread.least, spread.median, spread.greatest].map(|time| self.place(time));
+        format!(
+            "<span class=\"bar\" title=\"{} to {} ms\"><i style=\"left:{from:.1}%;width:{:.1}%\"></i><b \
+             style=\"left:{at:.1}%\"></b></span>",
+            fixed(spread.least, 3),
+            fixed(spread.greatest, 3),
+            to - from
+        )
+        .replace("\"<", "\"&lt;")
+    }
 }
 
 fn folded_passes(measured: &Measured) -> String {

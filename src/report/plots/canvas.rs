@@ -7,6 +7,7 @@ use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKe
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::super::html::tags::escape;
 use super::super::numbers::plain;
 use super::Error;
 use super::axis::Axis;
@@ -53,6 +54,8 @@ pub(crate) struct Canvas<'a> {
     root: Root<'a>,
     chart: Chart<'a>,
     legend_y: i32,
+    /// SVG.
+    links: String,
 }
 
 /// Draws on a new sheet; the result is SVG.
@@ -61,17 +64,29 @@ pub(crate) fn draw(
     axes: [&Axis; 2],
     draw: impl FnOnce(&mut Canvas<'_>) -> Result<(), Error>,
 ) -> Result<String, Error> {
-    let mut svg = String::new();
+    let (mut svg, links);
+    svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         write_titles(&root, words)?;
         let chart = draw_axes(&root, words, axes)?;
-        let mut canvas = Canvas { root, chart, legend_y: 100 };
+        let mut canvas = Canvas { root, chart, legend_y: 100, links: String::new() };
         draw(&mut canvas)?;
         canvas.root.present().map_err(failed)?;
+        links = canvas.links;
     }
-    Ok(svg)
+    Ok(described(&svg, words, &links))
+}
+
+/// With a title and a description for who cannot see it, and with `links` over everything.
+fn described(svg: &str, words: &Words<'_>, links: &str) -> String {
+    let Some((head, rest)) = svg.split_once('>') else { return svg.to_owned() };
+    let (title, text) = (escape(&words.title), escape(&format!("{} against {}", words.y, words.x)));
+    let body = rest.trim_end().trim_end_matches("</svg>");
+    format!(
+        "{head} role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<desc>{text}</desc>{body}{links}</svg>\n"
+    )
 }
 
 fn write_titles(root: &Root<'_>, words: &Words<'_>) -> Result<(), Error> {
@@ -141,6 +156,27 @@ impl Canvas<'_> {
         };
         self.root.draw(&Polygon::new(corners.clone(), fill)).map_err(failed)?;
         self.root.draw(&PathElement::new(corners, outline)).map_err(failed)
+    }
+
+    /// Makes a place of the sheet a link, with a tip.
+    pub fn link(&mut self, at: Place, target: &str, tip: &str) {
+        self.links += &format!(
+            "<a href=\"{}\"><title>{}</title><circle cx=\"{}\" cy=\"{}\" r=\"7\" fill=\"#000\" fill-opacity=\"0\"/></a>\n",
+            escape(target),
+            escape(tip),
+            at.0,
+            at.1
+        );
+    }
+
+    /// A bar along the first axis, with ends.
+    pub fn bar(&self, from: Place, to: Place, marker: Marker) -> Result<(), Error> {
+        let color = COLORS[marker.kind % COLORS.len()].mix(marker.opacity);
+        let ends = [from, to].map(|(x, y)| vec![(x, y - 3), (x, y + 3)]);
+        for line in [vec![from, to]].into_iter().chain(ends) {
+            self.root.draw(&PathElement::new(line, color.stroke_width(1))).map_err(failed)?;
+        }
+        Ok(())
     }
 
     /// Around a marker.

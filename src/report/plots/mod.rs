@@ -9,6 +9,7 @@ pub(crate) mod canvas;
 use std::path::Path;
 
 use super::numbers::{grouped, plain};
+use super::picks::{Times, pareto};
 use super::results::{Machine, Measured, Row, SceneReport};
 use axis::Axis;
 use canvas::{Canvas, Marker, Words};
@@ -20,10 +21,27 @@ pub enum Error {
     Draw(String),
 }
 
+/// Where the rows stand that points link to: `#s1r5` on the page itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Links<'a> {
+    /// The page's place, seen from the plot; empty on the page itself.
+    pub page: &'a str,
+    /// The scene's number on it.
+    pub scene: usize,
+}
+
+impl Links<'_> {
+    fn to(self, row: &Row) -> String {
+        format!("{}#s{}r{}", self.page, self.scene, row.index)
+    }
+}
+
 /// A row that can be placed.
 struct Point<'a> {
     row: &'a Row,
     milliseconds: f64,
+    /// The least and the greatest of its own runs.
+    bar: [f64; 2],
     wrong_percent: f64,
     size: Option<f64>,
     technique: usize,
@@ -35,11 +53,13 @@ struct Points<'a> {
     techniques: Vec<&'a str>,
     /// Ascending, each once.
     sizes: Vec<f64>,
+    times: Times<'a>,
 }
 
 impl<'a> Points<'a> {
     fn of(scene: &'a SceneReport) -> Self {
-        let mut all = Self { points: Vec::new(), techniques: Vec::new(), sizes: Vec::new() };
+        let times = Times::of(scene);
+        let mut all = Self { points: Vec::new(), techniques: Vec::new(), sizes: Vec::new(), times };
         let compared = |m: &&Measured| m.metrics.all.compared > 0 && m.frame_redrawn.median > 0.0;
         for (row, measured) in scene.rows.iter().filter_map(|row| Some((row, row.measured().filter(compared)?))) {
             let name = row.technique.as_str();
@@ -49,8 +69,9 @@ impl<'a> Points<'a> {
             });
             let size = row.settings.iter().find(|(key, _)| key == "size").and_then(|(_, value)| value.parse().ok());
             let size = size.filter(|size: &f64| size.is_finite() && *size > 0.0);
-            let (milliseconds, wrong_percent) = (measured.frame_redrawn.median, measured.wrong_percent());
-            all.points.push(Point { row, milliseconds, wrong_percent, size, technique });
+            let (milliseconds, wrong_percent) = (all.times.of_row(measured), measured.wrong_percent());
+            let bar = [measured.frame_redrawn.least, measured.frame_redrawn.greatest];
+            all.points.push(Point { row, milliseconds, bar, wrong_percent, size, technique });
         }
         all.sizes = all.points.iter().filter_map(|point| point.size).collect();
         all.sizes.sort_by(f64::total_cmp);
@@ -82,26 +103,32 @@ impl<'a> Points<'a> {
 /// # Errors
 ///
 /// What the plotting library says.
-pub fn error_against_time(scene: &SceneReport, machine: &Machine) -> Result<Option<String>, Error> {
+pub fn error_against_time(scene: &SceneReport, machine: &Machine, links: Links<'_>) -> Result<Option<String>, Error> {
     let all = Points::of(scene);
-    let x = Axis::over(all.points.iter().map(|point| point.milliseconds));
+    let x = Axis::over(all.points.iter().flat_map(|point| point.bar));
     let y = Axis::over(all.points.iter().map(|point| point.wrong_percent));
     let Some((x, y)) = x.zip(y) else { return Ok(None) };
     let words = Words {
         title: format!("Error against time: {}", file_name(&scene.path)),
         captions: &captions(scene, machine),
-        x: "time of a frame with its maps redrawn, median, in ms",
+        x: &format!("time of a frame with its maps redrawn, {} of its runs, in ms", all.times.name()),
         y: "wrong pixels, in % of those compared",
     };
-    let front: Vec<usize> = scene.pareto().iter().map(|row| row.index).collect();
+    let front: Vec<usize> = pareto(scene, &all.times).iter().map(|(row, _)| row.index).collect();
     let draw = |canvas: &mut Canvas<'_>| {
         if let Some(floor) = y.floor {
             canvas.floor(&x, floor)?;
         }
         for point in &all.points {
+            let marker = Marker { kind: point.technique, radius: 0, opacity: 0.5, is_outlined: false };
+            let [from, to] = point.bar.map(|time| canvas.place(time, y.place(point.wrong_percent)));
+            canvas.bar(from, to, marker)?;
+        }
+        for point in &all.points {
             let radius = all.radius(point.size);
             let at = canvas.place(point.milliseconds, y.place(point.wrong_percent));
             canvas.marker(at, Marker { kind: point.technique, radius, opacity: 0.6, is_outlined: false })?;
+            canvas.link(at, &links.to(point.row), &tip(point));
         }
         draw_front(canvas, &all, &front, &y)?;
         if let Some(point) = all.points.iter().find(|point| point.row.index == 0) {
@@ -110,6 +137,13 @@ pub fn error_against_time(scene: &SceneReport, machine: &Machine) -> Result<Opti
         draw_time_legend(canvas, &all)
     };
     canvas::draw(&words, [&x, &y], draw).map(Some)
+}
+
+fn tip(point: &Point<'_>) -> String {
+    let [least, greatest] = point.bar.map(plain);
+    let (row, technique, settings) = (point.row.index, &point.row.technique, point.row.settings_text());
+    let wrong = plain(point.wrong_percent);
+    format!("row {row}: {technique} {settings}: {wrong} % wrong, {least} to {greatest} ms")
 }
 
 /// A staircase, since nothing is known between two settings: right of and above it lies what a setting attains.
@@ -130,6 +164,8 @@ fn draw_front(canvas: &Canvas<'_>, all: &Points<'_>, front: &[usize], y: &Axis) 
     }
     let mut last_label: Option<(i32, i32)> = None;
     for (point, at) in places {
+        let [from, to] = point.bar.map(|time| canvas.place(time, y.place(point.wrong_percent)));
+        canvas.bar(from, to, Marker { kind: point.technique, radius: 0, opacity: 1.0, is_outlined: false })?;
         let marker = Marker { kind: point.technique, radius: all.radius(point.size), opacity: 1.0, is_outlined: true };
         canvas.marker(at, marker)?;
         if last_label.is_none_or(|last| at.0 - last.0 > 34 || at.1 - last.1 > 15) {
@@ -155,6 +191,8 @@ fn draw_time_legend(canvas: &mut Canvas<'_>, all: &Points<'_>) -> Result<(), Err
         canvas.line(vec![(at.0 - 12, at.1), (at.0 + 12, at.1)], None)?;
         canvas.marker(at, marker)
     })?;
+    let bar = Marker { opacity: 0.6, is_outlined: false, ..marker };
+    canvas.legend_row("least to greatest run", |canvas, at| canvas.bar((at.0 - 12, at.1), (at.0 + 12, at.1), bar))?;
     if all.points.iter().any(|point| point.row.index == 0) {
         canvas.legend_row("scene as written, #0", |canvas, at| canvas.ring(at, 8))?;
     }
@@ -166,7 +204,11 @@ fn draw_time_legend(canvas: &mut Canvas<'_>, all: &Points<'_>) -> Result<(), Err
 /// # Errors
 ///
 /// What the plotting library says.
-pub fn error_against_map_size(scene: &SceneReport, machine: &Machine) -> Result<Option<String>, Error> {
+pub fn error_against_map_size(
+    scene: &SceneReport,
+    machine: &Machine,
+    links: Links<'_>,
+) -> Result<Option<String>, Error> {
     let mut all = Points::of(scene);
     all.points.retain(|point| point.size.is_some());
     if all.sizes.len() < 2 {
@@ -187,6 +229,7 @@ pub fn error_against_map_size(scene: &SceneReport, machine: &Machine) -> Result<
         for point in &all.points {
             let at = canvas.place(point.size.unwrap_or_default(), y.place(point.wrong_percent));
             canvas.marker(at, Marker { kind: point.technique, radius: 4, opacity: 0.3, is_outlined: false })?;
+            canvas.link(at, &links.to(point.row), &tip(point));
         }
         for kind in 0..all.techniques.len() {
             draw_best(canvas, &all, kind, &y)?;

@@ -138,7 +138,7 @@ pub const AXES: &[Axis] = &[
     },
 ];
 
-/// Under the default offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what
+/// Under the scene's own offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what
 /// else there is against acne, mipmaps, fits; last, of spotlights alone, what guards against back projection.
 pub const MORE_AXES: &[&[Axis]] = &[
     &[
