@@ -291,7 +291,15 @@ fn wrong_uses_are_told() {
 #[test]
 fn help_teaches_the_keys() {
     let run = sample(&["--help"], None);
-    for part in ["space", "view all", "q Esc", "left drag", "polygon offset bias", "--headless"] {
+    for part in [
+        "space",
+        "with shadows, from the light, without shadows",
+        "view all",
+        "q Esc",
+        "left drag",
+        "polygon offset bias",
+        "--headless",
+    ] {
         assert!(run.stdout.contains(part), "no `{part}` in {}", run.stdout);
     }
 }
