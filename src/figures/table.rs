@@ -56,8 +56,10 @@ macro_rules! from_the_light {
 }
 
 /// A light over the eye's shoulder, and one against it.
-const BESIDE: [&str; 3] = ["light.position=[2.9, 3.9, 6.6]", "light.target=[0.1, 0.3, -0.1]", "light.cone=50"];
-const AGAINST: [&str; 3] = ["light.position=[-2.2, 2.6, -5.6]", "light.target=[0.1, 0.3, -0.1]", "light.cone=50"];
+const BESIDE: [&str; 4] =
+    ["light.position=[2.9, 3.9, 6.6]", "light.target=[0.1, 0.3, -0.1]", "light.cone=50", "light.shape=frustum"];
+const AGAINST: [&str; 4] =
+    ["light.position=[-0.4, 4.0, -5.0]", "light.target=[0.9, 0.0, 1.4]", "light.cone=50", "light.shape=frustum"];
 
 /// In the order of the documents.
 pub const FIGURES: &[Figure] = &[
@@ -130,26 +132,26 @@ pub const FIGURES: &[Figure] = &[
         panels: &[
             panel(
                 "the light over the eye's shoulder",
-                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2]],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
                 None,
             ),
             panel(
                 "texels of the map a pixel of the eye's view",
-                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2]],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
                 Some(View::TexelsPerPixel),
             ),
             from_the_light!("camera.eye=[2.9, 3.9, 6.6]", "camera.target=[0.1, 0.3, -0.1]"),
             panel(
                 "the light opposite the eye",
-                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2]],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
                 None,
             ),
             panel(
                 "texels of the map a pixel of the eye's view",
-                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2]],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
                 Some(View::TexelsPerPixel),
             ),
-            from_the_light!("camera.eye=[-2.2, 2.6, -5.6]", "camera.target=[0.1, 0.3, -0.1]"),
+            from_the_light!("camera.eye=[-0.4, 4.0, -5.0]", "camera.target=[0.9, 0.0, 1.4]"),
         ],
         caption: "A map of 300 x 300 texels, and as many pixels. Where eye and light look the same way, texels are spent evenly \
                   (b, c). Where they face each other, the floor that is nearest to the eye is farthest from the light: it has \

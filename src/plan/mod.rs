@@ -6,6 +6,8 @@ mod counted;
 mod lens;
 mod print;
 mod prune;
+#[cfg(test)]
+mod tests;
 
 use serde::Serialize;
 
