@@ -1,11 +1,13 @@
 //! The loop: plan a scene, run the passes on the device, read the pictures back.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
 use crate::context::{self, Context, ContextRequest};
 use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
+use crate::geometry::Texture;
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};
 use crate::scene::Scene;
@@ -103,7 +105,7 @@ impl Renderer {
     /// See [`plan::make`].
     pub fn plan(&mut self, scene: &Scene, request: &Request) -> Result<Plan, Error> {
         let mut plan = plan::make(scene, &Request { limits: self.limits, ..request.clone() })?;
-        self.warn_of_depth32(&mut plan)?;
+        self.warn_of_formats(&mut plan)?;
         Ok(plan)
     }
 
@@ -168,6 +170,15 @@ impl Renderer {
         Ok(self.device.present(&plan.list, plan.picture, window)?)
     }
 
+    /// Copies a sheet over that, `edge` pixels from the window's left and upper edge.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::present_sheet`].
+    pub fn present_sheet(&mut self, sheet: &Arc<Texture>, edge: u32, window: [u32; 2]) -> Result<(), Error> {
+        Ok(self.device.present_sheet(sheet, edge, window)?)
+    }
+
     /// Reads what [`Renderer::present`] put into the window.
     ///
     /// # Errors
@@ -182,13 +193,24 @@ impl Renderer {
         &mut self.device
     }
 
-    /// DEPTH_COMPONENT32 is optional: says what this driver makes of it.
-    fn warn_of_depth32(&mut self, plan: &mut Plan) -> Result<(), Error> {
+    /// Says what this driver makes of DEPTH_COMPONENT32, which is optional, and of the unsized DEPTH_COMPONENT, where that does
+    /// not follow the picture's depth buffer.
+    fn warn_of_formats(&mut self, plan: &mut Plan) -> Result<(), Error> {
         let depth32 = Format::Depth(DepthFormat::Depth32);
-        if plan.list.images.iter().any(|desc| desc.format == depth32) {
-            let facts = self.device.depth_facts(depth32)?;
+        for format in [depth32, Format::UnsizedDepth] {
+            if !plan.list.images.iter().any(|desc| desc.format == format) {
+                continue;
+            }
+            let facts = self.device.depth_facts(format)?;
+            let facts = facts.filter(|facts| format == depth32 || !follows_the_picture(facts));
             plan.warnings.extend(facts.map(|facts| facts.in_words()));
         }
         Ok(())
     }
+}
+
+/// Whether a format has the bits of the picture's depth buffer, which are of fixed point.
+fn follows_the_picture(facts: &probe::DepthFacts) -> bool {
+    let bits = DepthFormat::Depth24.bits();
+    facts.measured.as_ref().is_some_and(|measured| measured.depth_bits == bits && !measured.float)
 }

@@ -64,7 +64,9 @@ fn captions_are_true_of_points() {
     let long = on_floor(DVec3::new(-2.0, 2.9, 0.5), DVec3::new(-0.8, 2.1, 0.0));
     let out_of_shadow = DVec3::new(3.6, 0.0, 1.4);
     for (name, shades, point) in [
-        ("hsm-2-eye-view", &[1.0, 0.0][..], shadow_of_ball()),
+        ("hsm-title", &[1.0, 0.0][..], shadow_of_ball()),
+        ("hsm-2-light-view", &[0.0], shadow_of_ball()),
+        ("hsm-4-comparison", &[0.0], shadow_of_ball()),
         ("lec-dimming", &[0.0, 0.0, 0.0], shadow_of_ball()),
         ("gdc-volumes", &[0.0], overlap),
         ("gdc-truncated", &[1.0, 0.0], long),
@@ -125,7 +127,7 @@ fn texels_per_pixel_follow_the_projections() {
                     camera_clip.inverse().project_point3(ndc)
                 });
                 let floor = ends[0] + (ends[1] - ends[0]) * ends[0].y / (ends[0].y - ends[1].y);
-                256.0 * light_clip.project_point3(floor).truncate()
+                150.0 * light_clip.project_point3(floor).truncate()
             };
             let along = texel(pixel.x + 0.5, pixel.y) - texel(pixel.x - 0.5, pixel.y);
             let down = texel(pixel.x, pixel.y + 0.5) - texel(pixel.x, pixel.y - 0.5);
@@ -141,13 +143,108 @@ fn texels_per_pixel_follow_the_projections() {
     assert!(found[3] < 0.8 * found[5], "{found:?}");
 }
 
+/// The light's view has a pixel for each texel of the map: what it shows is how many pixels of the eye a texel covers. Of what
+/// the eye sees in it, the part that needs many more texels than it has is small where eye and light face each other, and can
+/// be seen.
+#[test]
+fn pixels_per_texel_follow_the_projections() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut needy = Vec::new();
+    for (eye, from_light) in [(0, 2), (3, 5)] {
+        let (eye, swapped) = (scene("hsm-6-dueling-frusta", eye), scene("hsm-6-dueling-frusta", from_light));
+        let eye_clip = eye.camera.clip_from_view(eye.aspect()) * eye.camera.view_from_world();
+        let map_clip = eye.lights[0].frustum().unwrap().clip_from_world();
+        assert_eq!(swapped.image.size, [300; 2], "texels of the map");
+        for point in [DVec3::new(1.0, 0.0, 2.6), DVec3::new(1.3, 0.0, 2.8), DVec3::new(0.9, 0.0, 3.0)] {
+            let texel = (150.0 * map_clip.project_point3(point).truncate()).floor() + 0.5;
+            let pixel = |x: f64, y: f64| {
+                let ends = [0.2, 0.8].map(|z| {
+                    map_clip.inverse().project_point3(DVec3::new((texel.x + x) / 150.0, (texel.y + y) / 150.0, z))
+                });
+                let floor = ends[0] + (ends[1] - ends[0]) * ends[0].y / (ends[0].y - ends[1].y);
+                150.0 * eye_clip.project_point3(floor).truncate()
+            };
+            let (along, up) = (pixel(0.5, 0.0) - pixel(-0.5, 0.0), pixel(0.0, 0.5) - pixel(0.0, -0.5));
+            let expected = along.perp_dot(up).abs().sqrt();
+            let density = f64::from(at(&swapped, View::TexelsPerPixel, point, &mut renderer)[0]);
+            assert!((density / expected - 1.0).abs() < 0.02, "panel {from_light} {point}: {density}, not {expected}");
+        }
+        let views = [View::TexelsPerPixel, View::Shade].map(|view| ViewRequest { view, light: 0 }).to_vec();
+        let plan = renderer.plan(&swapped, &Request { views, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        let frame = renderer.read(&plan).unwrap();
+        let [Pixels::RgbaF32 { data, .. }, Pixels::RgbaF32 { data: shade, .. }] = &frame.views[..] else { panic!() };
+        let seen: Vec<f32> =
+            data.chunks_exact(4).zip(shade.chunks_exact(4)).filter(|(_, s)| s[0] > 0.5).map(|(d, _)| d[0]).collect();
+        let many = seen.iter().filter(|density| **density > 1.5).count();
+        println!("panel {from_light}: {many} of {} texels are too few", seen.len());
+        needy.push(many as f64 / seen.len() as f64);
+    }
+    assert!(needy[0] < 0.02 && (0.02..0.2).contains(&needy[1]), "{needy:?}");
+}
+
+/// Every count is one too low with the eye in one volume: light and shadow change places exactly.
+#[test]
+fn with_the_eye_inside_light_and_shadow_change_places() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(context.as_ref());
+    let mut counts = |panel: usize| {
+        let views = vec![ViewRequest { view: View::StencilColors, light: 0 }];
+        let plan = renderer.plan(&scene("gdc-eye-inside", panel), &Request { views, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        let Pixels::Stencil { data, .. } = &renderer.read(&plan).unwrap().views[0] else { panic!() };
+        data.clone()
+    };
+    let [failed, capped, fail] = [counts(3), counts(4), counts(5)];
+    assert!(capped == fail);
+    let of = |count: u8| failed.iter().zip(&fail).filter(|pair| pair == &(&count.wrapping_sub(1), &count)).count();
+    let (lit, shadowed) = (of(0), of(1));
+    assert_eq!(lit + shadowed, failed.len(), "0 becomes -1 and 1 becomes 0, everywhere");
+    assert!(lit > 10_000 && shadowed > 10_000, "{lit} {shadowed}");
+}
+
+/// What the documents' own figures and headings are called.
+const HEADINGS: &[&str] = &[
+    "Hardware Shadow Mapping, title picture",
+    "Hardware Shadow Mapping, Figure 2",
+    "Hardware Shadow Mapping, Figure 4",
+    "Hardware Shadow Mapping, Figure 5",
+    "Hardware Shadow Mapping, Figure 6",
+    "Advantages and Limitations",
+    "Advice for Shadowed Illumination Model",
+    "Careful about Back Projecting Shadow Maps",
+    "Visualizing Shadow Volumes",
+    "Visualizing Stenciled Shadow Volume Tagging",
+    "Polygons Very Close to the Light Source Cause Problems",
+    "OpenGL Renders W=0 Polygons Correctly",
+    "Stencil Inverting of Shadow Volume",
+    "For Shadow Volumes With Intersecting Polygons",
+    "Shadow Volume Near Plane Clipping Artifacts",
+    "Alternative to Near Plane Capping: Carmack's Reverse",
+];
+
+#[test]
+fn figures_name_what_is_in_the_documents_and_fit_their_sheets() {
+    for figure in FIGURES {
+        let quoted: Vec<&str> = figure.source.split('"').skip(1).step_by(2).collect();
+        let named = if quoted.is_empty() { vec![figure.source] } else { quoted };
+        let is_ours = figure.source.starts_with("Ours: ");
+        assert!(is_ours || named.iter().all(|name| HEADINGS.contains(name)), "{}: {}", figure.name, figure.source);
+        let is_of = |prefix: &str| figure.name.starts_with(prefix);
+        assert!(!is_ours || !["hsm-", "lec-", "gdc-"].into_iter().any(is_of), "{}", figure.name);
+        let width = figure.columns as usize * 400 + (figure.columns as usize - 1) * 14;
+        assert!(figure.source.len() * 7 <= width, "{}: the source is cut off", figure.name);
+    }
+}
+
 /// Where eight bits that saturate call a point lit and eight that wrap call it shadowed, it is shadowed.
 #[test]
 fn saturating_counts_lose_shadows() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    let shades = [0, 1].map(|panel| draw_shade(&scene("gdc-stencil-width", panel), 0, &mut renderer).unwrap());
-    let truth = ray::trace(&scene("gdc-stencil-width", 0), 0, &ray::Options::default()).unwrap();
+    let shades = [0, 1].map(|panel| draw_shade(&scene("stencil-width", panel), 0, &mut renderer).unwrap());
+    let truth = ray::trace(&scene("stencil-width", 0), 0, &ray::Options::default()).unwrap();
     let (mut lost, mut wrapped) = (0, 0);
     let shadowed = truth.pixels.iter().enumerate().filter(|(_, pixel)| pixel.answer == Answer::Shadowed);
     for (index, _) in shadowed {

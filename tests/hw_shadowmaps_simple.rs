@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use assert_cmd::cargo::CommandCargoExt;
-use glam::{DVec3, dvec3};
+use glam::{DVec3, DVec4, dvec3};
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::math::frustum;
+use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::{self, Scene};
 use glumbra::techniques::views::View;
@@ -100,6 +101,36 @@ fn the_teapot_shadows_the_floor_and_the_dark_stays_dark() {
     assert_eq!([plain.pick(FLOOR_PAST_THE_LIGHT), shadowed.pick(FLOOR_PAST_THE_LIGHT)], [[0; 3]; 2]);
     // 0.5 is halfway between two codes.
     assert!([[127; 3], [128; 3]].contains(&plain.color(500, 10)), "{:?}", plain.color(500, 10));
+}
+
+/// What is known of the sample: the decal repeats 8 times over a quad of 8, the teapot has GL's default material, the map is
+/// copied.
+#[test]
+fn the_scene_is_the_sample_s() {
+    let scene = load();
+    let [floor, teapot] = [0, 1].map(|index| scene.objects[index].clone());
+    let decal = |x: f64, z: f64| {
+        let model = floor.world_from_model.inverse().transform_point3(dvec3(x, 0.0, z)).extend(1.0);
+        let texgen = floor.material.as_ref().unwrap().texgen.unwrap();
+        [texgen.s, texgen.t].map(|plane| f64::from(texgen.scale) * DVec4::from(plane.map(f64::from)).dot(model))
+    };
+    let [corner, opposite] = [decal(-4.0, 4.0), decal(4.0, -4.0)];
+    for axis in [0, 1] {
+        assert!((opposite[axis] - corner[axis] - 8.0).abs() < 1e-9, "{corner:?} {opposite:?}");
+    }
+    let material = teapot.material.as_ref().unwrap();
+    assert_eq!((material.ambient, material.diffuse, material.specular), ([0.2; 3], [0.8; 3], [0.0; 3]));
+    let plan = glumbra::plan::make(&scene, &Request::default()).unwrap();
+    assert!(plan.list.passes.iter().any(|pass| matches!(pass.work, Work::CopyDepth { .. })));
+}
+
+/// A count's scissor, which the last pass has, does not cut what is copied into the window.
+#[test]
+fn a_counted_shadow_fills_the_window() {
+    let server = Xvfb::start().expect("Xvfb does not start: `ci/setup --test` installs it");
+    let files = Files::new();
+    let set = ["--set", "light.shadow.technique=shadow-volume", "--set", "light.frustum=hidden"];
+    assert!(files.picture(&["--capture"], &set, Some(server.display())) == files.headless(&set));
 }
 
 #[test]
@@ -291,7 +322,15 @@ fn wrong_uses_are_told() {
 #[test]
 fn help_teaches_the_keys() {
     let run = sample(&["--help"], None);
-    for part in ["space", "view all", "q Esc", "left drag", "polygon offset bias", "--headless"] {
+    for part in [
+        "space",
+        "with shadows, from the light, without shadows",
+        "view all",
+        "q Esc",
+        "left drag",
+        "polygon offset bias",
+        "--headless",
+    ] {
         assert!(run.stdout.contains(part), "no `{part}` in {}", run.stdout);
     }
 }

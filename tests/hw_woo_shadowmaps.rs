@@ -161,8 +161,16 @@ fn keys_go_over_to_polygon_offset_and_back_and_end_it() {
         let line = running.hear(status);
         running.shows(picture, &line);
     }
+    // Help lies over the picture's upper left corner, and goes again.
     running.press(b'h');
-    running.hear("Woo's midpoint map, polygon offset");
+    let help = until("its help", || Some(running.screen()).filter(|screen| *screen != from_light));
+    let at = |x: usize, y: usize| 3 * (y * usize::from(WIDTH) + x);
+    assert_eq!(help[at(9, 9)..][..3], [24, 26, 30], "the sheet's paper");
+    assert_eq!(help[at(2, 100)..][..3], from_light[at(2, 100)..][..3], "beside it");
+    let letters = (0..help.len()).step_by(3).filter(|first| help[*first..][..3] == [230; 3]).count();
+    assert!(letters > 1000, "{letters} pixels of letters");
+    running.press(b'h');
+    running.shows(&from_light, "the picture without help");
     running.press(b'q');
     let ended = until("its end", || running.program.try_wait().unwrap());
     assert!(ended.success(), "{ended}");

@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
 use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::draw_shade;
+use glumbra::report::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
 
 #[path = "support/rims.rs"]
@@ -201,4 +201,25 @@ fn faces_that_are_left_out_change_no_pixel() {
         fewer += all - faces;
     }
     assert!(fewer > 26, "only {fewer} faces were left out");
+}
+
+/// All faces are copied from one depth buffer, which holds the last one's depths: where a cube is made anew, for other bits or
+/// other faces, each face is drawn again before it is copied.
+#[test]
+fn faces_are_drawn_again_before_they_are_copied_again() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let settings = |keys: &str| scene::shadow_settings(&format!("technique = \"shadow-map\", {keys}")).unwrap();
+    let room = load("room.toml", &[]);
+    let copied = with_shadow(&room, 0, &settings("size = 128, transfer = \"copy\""));
+    let unsized_map = with_shadow(&room, 0, &settings("size = 128, transfer = \"copy\", format = \"depth\""));
+    let mut elsewhere = copied.clone();
+    elsewhere.camera.target = DVec3::new(4.0, 0.0, 4.0);
+    for (first, second) in
+        [(&copied, &unsized_map), (&unsized_map, &copied), (&copied, &elsewhere), (&elsewhere, &copied)]
+    {
+        let expected = draw_shade(second, 0, &mut Renderer::new(context.as_ref())).unwrap().shade;
+        let mut renderer = Renderer::new(context.as_ref());
+        draw_shade(first, 0, &mut renderer).unwrap();
+        assert!(draw_shade(second, 0, &mut renderer).unwrap().shade == expected);
+    }
 }

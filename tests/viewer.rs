@@ -122,7 +122,8 @@ fn only_what_changed_is_drawn_again() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let mut state = state();
-    let (all, without_map) = (["light 0: depth", "lit", "guides"], ["lit", "guides"]);
+    let all = ["light 0: depth", "light 0: depth, copied", "lit", "guides"];
+    let without_map = ["lit", "guides"];
     let (labels, first) = drawn(&mut renderer, &state);
     assert_eq!(labels, all);
 
@@ -173,4 +174,24 @@ fn the_next_technique_is_that_of_every_light() {
     let mut alone = self::state();
     alone.apply(Command::NextTechnique);
     assert!(!alone.status().contains("shadow-map"), "{}", alone.status());
+}
+
+#[test]
+fn help_comes_into_the_window_and_goes() {
+    let mut state = state();
+    assert!(!state.helps());
+    assert_eq!((state.apply(Command::Help), state.helps()), (Reaction::Redraw, true));
+    assert_eq!((state.apply(Command::Help), state.helps()), (Reaction::Redraw, false));
+}
+
+/// `help` lists the modes as `space` goes through them.
+#[test]
+fn space_takes_the_order_that_help_tells() {
+    let mut state = state();
+    let mut modes = Vec::new();
+    for _ in Mode::ALL {
+        modes.push(state.status().split(" | ").next().unwrap().to_owned());
+        state.apply(Command::NextMode);
+    }
+    assert!(glumbra::viewer::help(&[]).contains(&format!("next picture: {}\n", modes.join(", "))));
 }

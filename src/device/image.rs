@@ -80,6 +80,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)
         }
+        Format::UnsizedDepth => (glow::DEPTH_COMPONENT, glow::DEPTH_COMPONENT, glow::FLOAT),
         Format::Depth24Stencil8 => (glow::DEPTH24_STENCIL8, glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8),
     }
 }

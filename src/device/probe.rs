@@ -11,7 +11,10 @@ pub use super::bench::Error;
 use super::bench::{Bench, Draw, Encoding, Format, Offset, State, Surface, full};
 
 /// The formats that are measured.
-pub const FORMATS: [Format; 6] = Format::DEPTHS;
+pub const FORMATS: [Format; 7] = {
+    let [a, b, c, d, e, f] = Format::DEPTHS;
+    [Format::Depth, a, b, c, d, e, f]
+};
 
 /// What a format is on this driver.
 #[derive(Clone, Debug, Serialize)]

@@ -63,7 +63,7 @@ impl Device {
                 flip_rows(&mut data, 4 * width as usize);
                 Pixels::RgbaF32 { size: desc.size, data }
             }
-            Format::Depth(_) | Format::Depth24Stencil8 => {
+            Format::Depth(_) | Format::UnsizedDepth | Format::Depth24Stencil8 => {
                 let mut data = vec![0.0_f32; count];
                 self.read_into(desc.size, glow::DEPTH_COMPONENT, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
                 flip_rows(&mut data, width as usize);

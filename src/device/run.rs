@@ -73,11 +73,16 @@ impl Device {
     }
 
     /// Whether the pass's target holds what it would draw: it is as it was, and so are all others that count in the same
-    /// stencil buffer, as counts cannot be told apart.
+    /// stencil buffer, as counts cannot be told apart, or that are copied through the same depth buffer, which holds the last
+    /// one's alone.
     fn is_held(&self, list: &PassList, pass: &Pass) -> bool {
         let is_as_it_was = |pass: &Pass| unchanged(self.done.get(&pass.label), pass, &self.objects(list, pass));
         let buffer = pass.counts_in();
-        let joins = |other: &&Pass| buffer.is_some() && other.counts_in() == buffer;
+        let copied = copied_through(list, pass);
+        let joins = |other: &&Pass| {
+            let counts = buffer.is_some() && other.counts_in() == buffer;
+            counts || (copied.is_some() && copied_through(list, other) == copied)
+        };
         is_as_it_was(pass) && list.passes.iter().filter(joins).all(is_as_it_was)
     }
 
@@ -335,4 +340,13 @@ fn check_feedback(list: &PassList, label: &str, pass: &DrawPass) -> Result<(), E
         Some(input) => Err(Error::Feedback { pass: label.to_owned(), image: list.desc(input.image).label.clone() }),
         None => Ok(()),
     }
+}
+
+/// The depth buffer that the pass copies, or draws for a copy.
+fn copied_through(list: &PassList, pass: &Pass) -> Option<ImageId> {
+    let source = |pass: &Pass| match pass.work {
+        Work::CopyDepth { from, .. } => Some(from),
+        Work::Draw(_) => None,
+    };
+    source(pass).or_else(|| list.passes.iter().filter_map(source).find(|image| pass.writes().contains(image)))
 }

@@ -5,6 +5,7 @@
 mod sheet;
 mod table;
 
+use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::output::{self, canvas::Canvas};
 use crate::plan::{Request, ViewRequest};
@@ -36,6 +37,9 @@ pub struct Panel {
     pub set: &'static [&'static str],
     /// Of the first light; `None`: the picture itself.
     pub view: Option<View>,
+    /// What texels a pixel are in truth, where a panel has the light's view of the eye in place of the eye's of the light: the
+    /// words of its legend for one. What the eye does not see is then left dark.
+    pub counts: Option<&'static str>,
 }
 
 /// Why a figure could not be drawn.
@@ -87,19 +91,32 @@ impl Figure {
     pub fn draw(&self, renderer: &mut Renderer, mut tick: impl FnMut()) -> Result<Canvas, Error> {
         let mut pictures = Vec::new();
         for panel in self.panels {
-            pictures.push(draw(&self.scene_of(panel)?, panel.view, renderer)?);
+            pictures.push(draw(&self.scene_of(panel)?, panel, renderer)?);
             tick();
         }
         Ok(sheet::compose(self, &pictures))
     }
 }
 
-fn draw(scene: &Scene, view: Option<View>, renderer: &mut Renderer) -> Result<Canvas, Error> {
-    let views = view.map(|view| ViewRequest { view, light: 0 }).into_iter().collect();
+fn draw(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas, Error> {
+    let shade = panel.counts.map(|_| View::Shade);
+    let views = panel.view.into_iter().chain(shade).map(|view| ViewRequest { view, light: 0 }).collect();
     let plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
     renderer.draw(&plan)?;
     let frame = renderer.read(&plan)?;
-    Ok(output::to_canvas(frame.views.first().unwrap_or(&frame.picture), view))
+    let shown = frame.views.first().unwrap_or(&frame.picture);
+    match (panel.counts, shown, frame.views.get(1)) {
+        (Some(one), Pixels::RgbaF32 { size, data }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
+            Ok(output::densities(*size, &where_lit(data, shade), one))
+        }
+        _ => Ok(output::to_canvas(shown, panel.view)),
+    }
+}
+
+/// `view` with nothing where the light does not reach.
+fn where_lit(view: &[f32], shade: &[f32]) -> Vec<f32> {
+    let pixels = view.as_chunks::<4>().0.iter().zip(shade.as_chunks::<4>().0);
+    pixels.flat_map(|(pixel, [shade, ..])| if *shade > 0.5 { *pixel } else { [0.0; 4] }).collect()
 }
 
 /// A page that lists the figures with their captions.

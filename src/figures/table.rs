@@ -23,42 +23,50 @@ const BOXES: Embedded = embedded!("boxes.toml");
 const NESTED: Embedded = embedded!("nested.toml");
 
 const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
-    Panel { title, set, view }
+    Panel { title, set, view, counts: None }
 }
 
 /// At the teapot's shadow on the floor.
 const CLOSE: [&str; 3] = ["camera.eye=[4.3, 3.4, 3.6]", "camera.target=[1.15, 0.2, -0.45]", "camera.fov_y=26"];
 
-/// The two roles swapped: a light in the eye's place, of its angle, and the eye in the light's, at `eye`.
+/// A picture as large as the map, both square: the roles of eye and light can be swapped.
+const SQUARE: [&str; 3] = ["image.size=[300, 300]", "camera.fov_y=48", "light.shadow.size=300"];
+
+/// The roles swapped: a light in the eye's place, of its angle and as many texels as the eye has pixels, and the eye in the
+/// light's, at `eye`, with a pixel for each texel of the map.
 macro_rules! from_the_light {
-    ($eye:literal) => {
-        panel(
-            "from the light: pixels of the eye a pixel here",
-            &[
+    ($eye:literal, $target:literal) => {
+        Panel {
+            title: "from the light: pixels of the eye a texel",
+            set: &[
+                SQUARE[0],
+                SQUARE[2],
                 $eye,
-                "camera.target=[0.1, 0.3, -0.1]",
+                $target,
                 "camera.fov_y=50",
                 "light.position=[2.3, 3.1, 6.2]",
                 "light.target=[0.1, 0.5, 0.0]",
-                "light.cone=46.8",
+                "light.cone=48",
                 "light.shape=frustum",
-                "light.shadow.size=400",
             ],
-            Some(View::TexelsPerPixel),
-        )
+            view: Some(View::TexelsPerPixel),
+            counts: Some("1 pixel a texel"),
+        }
     };
 }
 
-/// Over the light's shoulder, and against the light.
-const BESIDE: [&str; 2] = ["light.position=[2.9, 3.9, 6.6]", "light.cone=50"];
-const AGAINST: [&str; 2] = ["light.position=[-2.2, 2.6, -5.6]", "light.cone=50"];
+/// A light over the eye's shoulder, and one against it.
+const BESIDE: [&str; 4] =
+    ["light.position=[2.9, 3.9, 6.6]", "light.target=[0.1, 0.3, -0.1]", "light.cone=50", "light.shape=frustum"];
+const AGAINST: [&str; 4] =
+    ["light.position=[-0.4, 4.0, -5.0]", "light.target=[0.9, 0.0, 1.4]", "light.cone=50", "light.shape=frustum"];
 
 /// In the order of the documents.
 pub const FIGURES: &[Figure] = &[
     Figure {
-        name: "hsm-2-eye-view",
+        name: "hsm-title",
         title: "The eye's view without and with shadows",
-        source: "Hardware Shadow Mapping, Figure 2",
+        source: "Hardware Shadow Mapping, title picture",
         scene: WORKSHOP,
         columns: 2,
         panels: &[
@@ -69,20 +77,33 @@ pub const FIGURES: &[Figure] = &[
                   geometry: one more texture in the same lit pass.",
     },
     Figure {
-        name: "hsm-4-light-view",
+        name: "hsm-2-light-view",
         title: "How a shadow map comes about",
-        source: "Hardware Shadow Mapping, Figure 4",
+        source: "Hardware Shadow Mapping, Figure 2",
         scene: WORKSHOP,
-        columns: 2,
+        columns: 3,
         panels: &[
+            panel("the eye's view, shadowed", &[], None),
             panel("the scene as the light sees it", &[], Some(View::LightView)),
             panel("the shadow map: depth from the light", &[], Some(View::LightDepth)),
+        ],
+        caption: "What the light sees is lit: in its own view (b) no shadow is to be seen. The depth buffer of that view is the \
+                  shadow map (c). Depths are stretched, near dark and far bright.",
+    },
+    Figure {
+        name: "hsm-4-comparison",
+        title: "What is compared: a point's own distance and the map's",
+        source: "Hardware Shadow Mapping, Figure 4",
+        scene: WORKSHOP,
+        columns: 3,
+        panels: &[
+            panel("the eye's view, shadowed", &[], None),
             panel("each point's own distance from the light, r/q", &[], Some(View::LightDistance)),
             panel("the map projected onto the scene", &[], Some(View::ProjectedMap)),
         ],
-        caption: "What the light sees is lit. Its depths (b) projected back onto the scene (d) equal each point's own distance \
-                  (c) where the light reaches, and are less where something nearer stands in its way: those points are in \
-                  shadow. Depths and distances are stretched, near dark and far bright; blue: outside the light's cone.",
+        caption: "The map's depths projected onto the scene (c) equal each point's own distance (b) where the light reaches, and \
+                  are less where something nearer stands in its way: those points are in shadow (a). Depths and distances are \
+                  stretched, near dark and far bright; blue: outside the light's cone.",
     },
     Figure {
         name: "hsm-5-filtering",
@@ -109,30 +130,39 @@ pub const FIGURES: &[Figure] = &[
         scene: WORKSHOP,
         columns: 3,
         panels: &[
-            panel("the light over the eye's shoulder", &[BESIDE[0], BESIDE[1], "light.shadow.size=512"], None),
+            panel(
+                "the light over the eye's shoulder",
+                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
+                None,
+            ),
             panel(
                 "texels of the map a pixel of the eye's view",
-                &[BESIDE[0], BESIDE[1], "light.shadow.size=512"],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
                 Some(View::TexelsPerPixel),
             ),
-            from_the_light!("camera.eye=[2.9, 3.9, 6.6]"),
-            panel("the light opposite the eye", &[AGAINST[0], AGAINST[1], "light.shadow.size=512"], None),
+            from_the_light!("camera.eye=[2.9, 3.9, 6.6]", "camera.target=[0.1, 0.3, -0.1]"),
+            panel(
+                "the light opposite the eye",
+                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
+                None,
+            ),
             panel(
                 "texels of the map a pixel of the eye's view",
-                &[AGAINST[0], AGAINST[1], "light.shadow.size=512"],
+                &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
                 Some(View::TexelsPerPixel),
             ),
-            from_the_light!("camera.eye=[-2.2, 2.6, -5.6]"),
+            from_the_light!("camera.eye=[-0.4, 4.0, -5.0]", "camera.target=[0.9, 0.0, 1.4]"),
         ],
-        caption: "One map of 512 x 512. Where eye and light look the same way, texels are spent evenly (b, c). Where they face \
-                  each other, the floor that is nearest to the eye is farthest from the light: it has the fewest texels \
-                  where the most pixels look (e, warm), and far away texels crowd that no pixel needs (e, cold). The last \
-                  column swaps the two roles: there a warm colour is what the eye hardly uses.",
+        caption: "A map of 300 x 300 texels, and as many pixels. Where eye and light look the same way, texels are spent evenly \
+                  (b, c). Where they face each other, the floor that is nearest to the eye is farthest from the light: it has \
+                  the fewest texels where the most pixels look (e, warm), and far away texels crowd that no pixel needs (e, \
+                  cold). In the light's view (f) the part that needs many more texels than it has, cold there, is small; the \
+                  warm rest is what the eye hardly uses. Dark: what the eye does not see.",
     },
     Figure {
         name: "lec-dimming",
         title: "Dimming: how much diffuse light a shadow leaves",
-        source: "Projective Texturing and Shadow Maps, lecture: Advice for Shadowed Illumination Model",
+        source: "Projective texturing and shadow maps, lecture, \"Advice for Shadowed Illumination Model\"",
         scene: WORKSHOP,
         columns: 3,
         panels: &[
@@ -146,7 +176,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "lec-back-projection",
         title: "Back projection: q <= 0 must not be lit",
-        source: "Hardware Shadow Mapping, negative projection; lecture: Careful about Back Projecting Shadow Maps",
+        source: "Hardware Shadow Mapping, \"Advantages and Limitations\"; lecture, \"Careful about Back Projecting Shadow Maps\"",
         scene: LAMP,
         columns: 2,
         panels: &[
@@ -161,7 +191,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "gdc-volumes",
         title: "Stencil shadow volumes",
-        source: "GDC 2001, Shadow Volumes: the volume, its silhouette, the count",
+        source: "GDC 2001, \"Visualizing Shadow Volumes\", \"Visualizing Stenciled Shadow Volume Tagging\"",
         scene: BOXES,
         columns: 2,
         panels: &[
@@ -177,7 +207,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "gdc-truncated",
         title: "Volumes that end too early",
-        source: "GDC 2001, Shadow Volumes: no distance is large enough",
+        source: "GDC 2001, \"Polygons Very Close to the Light Source Cause Problems\", \"OpenGL Renders W=0 Polygons Correctly\"",
         scene: BOXES,
         columns: 2,
         panels: &[
@@ -195,7 +225,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "gdc-parity",
         title: "Parity counts modulo two",
-        source: "GDC 2001, Shadow Volumes: parity and counting",
+        source: "GDC 2001, \"Stencil Inverting of Shadow Volume\", \"For Shadow Volumes With Intersecting Polygons\"",
         scene: BOXES,
         columns: 2,
         panels: &[
@@ -208,7 +238,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "gdc-eye-inside",
         title: "The eye inside a shadow volume",
-        source: "GDC 2001, Shadow Volumes: z-pass, near-plane caps, z-fail",
+        source: "GDC 2001, \"Shadow Volume Near Plane Clipping Artifacts\", \"Alternative to Near Plane Capping: Carmack's Reverse\"",
         scene: BOXES,
         columns: 3,
         panels: &[
@@ -223,15 +253,30 @@ pub const FIGURES: &[Figure] = &[
                 None,
             ),
             panel("cure: z-fail", &["light.shadow.method=z-fail", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]], None),
+            panel(
+                "the count of (a)",
+                &["light.shadow.method=z-pass", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]],
+                Some(View::StencilColors),
+            ),
+            panel(
+                "the count of (b)",
+                &["light.shadow.method=z-pass-capped", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]],
+                Some(View::StencilColors),
+            ),
+            panel(
+                "the count of (c)",
+                &["light.shadow.method=z-fail", EYE_INSIDE[0], EYE_INSIDE[1], EYE_INSIDE[2]],
+                Some(View::StencilColors),
+            ),
         ],
-        caption: "With the eye in a shadow the way into the volume lies behind the near plane and is not counted: light and \
-                  shadow change places. Caps on the near plane count the way in; z-fail counts behind the visible surface, \
-                  where the eye's place does not matter.",
+        caption: "With the eye in one shadow volume the way into it lies behind the near plane and is not counted: every count is \
+                  one too low, -1 where 0 is right and 0 where 1 is, so that light and shadow change places. Caps on the near \
+                  plane count the way in; z-fail counts behind the visible surface, where the eye's place does not matter.",
     },
     Figure {
-        name: "gdc-stencil-width",
+        name: "stencil-width",
         title: "300 nested volumes in eight bits",
-        source: "GDC 2001, Shadow Volumes: how many bits of stencil",
+        source: "Ours: no document says how many bits of stencil a scene needs",
         scene: NESTED,
         columns: 2,
         panels: &[
@@ -247,5 +292,5 @@ pub const FIGURES: &[Figure] = &[
 /// A light that is hardly higher than the left box.
 const LOW: &str = "light.position=[-2.0, 2.9, 0.5]";
 
-/// Within the right box's shadow, looking out of it over the lit floor.
-const EYE_INSIDE: [&str; 3] = ["camera.eye=[1.25, 0.22, -0.35]", "camera.target=[3.6, 0.0, 1.4]", "camera.near=0.02"];
+/// Within the right box's shadow and no other, looking out of it over the lit floor.
+const EYE_INSIDE: [&str; 3] = ["camera.eye=[1.3, 0.1, -0.1]", "camera.target=[3.6, 0.0, 1.4]", "camera.near=0.02"];

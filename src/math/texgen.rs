@@ -94,10 +94,11 @@ pub fn scale_bias(r_scale: f64, r_bias: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(0.5, 0.5, r_bias)) * DMat4::from_scale(DVec3::new(0.5, 0.5, r_scale))
 }
 
-/// The Direct3D texture matrix [Hardware Shadow Mapping, "Direct3D API Details"]: half a texel for its addressing, y
-/// flipped, `r` in integer units of a map of `bits` bits, `bias` in the same units (negative: towards the light).
-pub fn direct3d_scale_bias(map_size: u32, bits: u32, bias: f64) -> DMat4 {
-    let offset = 0.5 + 0.5 / f64::from(map_size);
+/// The Direct3D texture matrix [Hardware Shadow Mapping, "Direct3D API Details"]: y flipped, `r` in integer units of a map of
+/// `bits` bits, `bias` in the same units (negative: towards the light). `half_texel`: half the width of a texel in [0, 1],
+/// for its addressing; 0 where the map was drawn with its viewport moved by as much.
+pub fn direct3d_scale_bias(half_texel: f64, bits: u32, bias: f64) -> DMat4 {
+    let offset = 0.5 + half_texel;
     let z_scale = 2.0_f64.powi(bits as i32) - 1.0;
     DMat4::from_cols(
         DVec4::new(0.5, 0.0, 0.0, 0.0),
@@ -168,7 +169,7 @@ mod tests {
 
     #[test]
     fn direct3d_addresses_texel_centres_and_counts_depth_in_codes() {
-        let s = direct3d_scale_bias(1024, 16, -4.0);
+        let s = direct3d_scale_bias(0.5 / 1024.0, 16, -4.0);
         let top_left = s * DVec4::new(-1.0, 1.0, 0.0, 1.0);
         assert_eq!(top_left.truncate(), DVec3::new(0.5 / 1024.0, 0.5 / 1024.0, -4.0));
         assert_eq!((s * DVec4::new(0.0, 0.0, 1.0, 1.0)).z, 65531.0);

@@ -11,6 +11,8 @@ use embedded_graphics::text::{Baseline, Text};
 use image::RgbImage;
 use image::imageops::{FilterType, resize};
 
+use crate::geometry::Texture;
+
 /// Width and height of a letter in pixels.
 pub const LETTER: [u32; 2] = [6, 10];
 
@@ -106,6 +108,14 @@ impl Canvas {
     /// Red, green and blue of each pixel.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
+    }
+
+    /// An opaque texture of it, rows from the bottom up.
+    pub fn to_texture(&self, name: &str) -> Texture {
+        let [width, height] = self.size;
+        let rows = self.bytes.chunks_exact((3 * width as usize).max(1)).rev();
+        let rgba = rows.flat_map(|row| row.as_chunks::<3>().0.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255])).collect();
+        Texture { name: name.to_owned(), width, height, rgba, has_alpha: false }
     }
 
     /// Sets one pixel; outside of the picture nothing.

@@ -1,18 +1,19 @@
 //! Stencil counts as colours with a legend [GDC 2001; techniques C11]: green lit, red shadowed, the deeper the darker;
-//! violet what a count below 0 left.
+//! violet what a count below 0 left, likewise.
 
 use super::canvas::{Canvas, Color, LETTER};
 
 const LIT: Color = [66, 148, 82];
 const SHADOWED: [Color; 6] = [[240, 120, 96], [222, 78, 62], [196, 44, 42], [160, 26, 36], [120, 16, 32], [84, 10, 28]];
-const BELOW_ZERO: Color = [150, 70, 200];
+/// From -1 down.
+const BELOW_ZERO: [Color; 4] = [[196, 140, 236], [150, 70, 200], [98, 44, 164], [56, 26, 112]];
 
 /// The colour of a count modulo 256; from 128 on it is read as negative.
 fn color(count: u8) -> Color {
     match count {
         0 => LIT,
         1..=127 => SHADOWED[usize::from(count - 1).min(SHADOWED.len() - 1)],
-        _ => BELOW_ZERO,
+        _ => BELOW_ZERO[usize::from(255 - count).min(BELOW_ZERO.len() - 1)],
     }
 }
 
@@ -22,7 +23,10 @@ fn rows(data: &[u8]) -> Vec<(Color, String, usize)> {
     let mut rows = vec![(LIT, String::from("0 lit"), count(0, 0))];
     rows.extend((1..6u8).map(|value| (color(value), format!("{value}"), count(value, value))));
     rows.push((color(6), String::from("6 and more"), count(6, 127)));
-    rows.push((BELOW_ZERO, String::from("below 0"), count(128, 255)));
+    rows.extend(
+        (253..=255u8).rev().map(|value| (color(value), format!("-{}", 256 - u16::from(value)), count(value, value))),
+    );
+    rows.push((color(252), String::from("-4 and less"), count(128, 252)));
     rows.retain(|(_, _, pixels)| *pixels > 0);
     rows
 }
@@ -60,13 +64,14 @@ mod tests {
         let size = [200, 100];
         let mut data = vec![0u8; 20_000];
         data[19_999] = 1;
-        data[19_998] = 200;
+        (data[19_998], data[19_997], data[19_996]) = (200, 255, 254);
         let canvas = colored(size, &data);
         let bytes = canvas.into_bytes();
         let pixel = |index: usize| [bytes[3 * index], bytes[3 * index + 1], bytes[3 * index + 2]];
-        assert_eq!([pixel(19_999), pixel(19_998), pixel(19_997)], [SHADOWED[0], BELOW_ZERO, LIT]);
+        assert_eq!([pixel(19_999), pixel(19_998), pixel(19_995)], [SHADOWED[0], BELOW_ZERO[3], LIT]);
+        assert_eq!([pixel(19_997), pixel(19_996)], [BELOW_ZERO[0], BELOW_ZERO[1]]);
         let names: Vec<String> = rows(&data).into_iter().map(|(_, name, pixels)| format!("{name} {pixels}")).collect();
-        assert_eq!(names, ["0 lit 19998", "1 1", "below 0 1"]);
+        assert_eq!(names, ["0 lit 19996", "1 1", "-1 1", "-2 1", "-4 and less 1"]);
     }
 
     #[test]

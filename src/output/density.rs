@@ -6,7 +6,8 @@ use super::canvas::{Canvas, Color, LETTER};
 /// Colours from 1/8 to 8 texels, one a factor of 2.
 const SCALE: [Color; 7] =
     [[128, 18, 32], [214, 62, 44], [246, 178, 66], [102, 178, 92], [56, 150, 186], [50, 84, 176], [76, 42, 130]];
-const NAMES: [&str; 7] = ["1/8 and less", "1/4", "1/2", "1 texel a pixel", "2", "4", "8 and more"];
+/// The legend's words for a density of 1.
+pub const ONE: &str = "1 texel a pixel";
 const OUTSIDE: Color = [30, 32, 38];
 
 /// Between the two nearest colours, by the logarithm.
@@ -17,22 +18,24 @@ fn color(texels: f32) -> Color {
     std::array::from_fn(|k| (f32::from(a[k]) + part * (f32::from(b[k]) - f32::from(a[k]))).round() as u8)
 }
 
-/// The picture of such a view, `size` pixels, rows from the top; small pictures go without a legend.
-pub fn colored(size: [u32; 2], data: &[f32]) -> Canvas {
+/// The picture of such a view, `size` pixels, rows from the top; `one` is what the legend calls a density of 1. Small pictures
+/// go without a legend.
+pub fn colored(size: [u32; 2], data: &[f32], one: &str) -> Canvas {
     const SWATCH: u32 = 10;
     const STEP: u32 = LETTER[1] + 4;
     let mut canvas = Canvas::new(size, OUTSIDE);
     for (index, pixel) in (0u32..).zip(data.chunks_exact(4)).filter(|(_, pixel)| pixel[3] > 0.0) {
         canvas.set([index % size[0], index / size[0]], color(pixel[0]));
     }
-    let longest = NAMES.iter().map(|name| name.len() as u32).max().unwrap_or(0);
-    let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * NAMES.len() as u32 + 8);
+    let names = ["1/8 and less", "1/4", "1/2", one, "2", "4", "8 and more"];
+    let longest = names.iter().map(|name| name.len() as u32).max().unwrap_or(0);
+    let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * names.len() as u32 + 8);
     if width + 8 > size[0] || height + 8 > size[1] {
         return canvas;
     }
     let [left, top] = emptiest_corner(size, data, [width, height]);
     canvas.fill([left, top], [width, height], [24, 26, 30]);
-    for (row, (swatch, name)) in (0u32..).zip(SCALE.iter().zip(NAMES)) {
+    for (row, (swatch, name)) in (0u32..).zip(SCALE.iter().zip(names)) {
         let top = top + 6 + STEP * row;
         canvas.fill([left + 6, top], [SWATCH, SWATCH], *swatch);
         canvas.write([left + 6 + SWATCH + 6, top], name, [230, 230, 230]);
@@ -74,7 +77,7 @@ mod tests {
             let seen = |x: u32, y: u32| [x / 200, y / 150] != empty;
             let pixel = |i: u32| [1.0, 0.0, 0.0, f32::from(u8::from(seen(i % SIZE[0], i / SIZE[0])))];
             let data: Vec<f32> = (0..SIZE[0] * SIZE[1]).flat_map(pixel).collect();
-            let shown = colored(SIZE, &data);
+            let shown = colored(SIZE, &data, ONE);
             let at = |x: u32, y: u32| &shown.bytes()[3 * (y * SIZE[0] + x) as usize..][..3];
             let kept = |(x, y): (u32, u32)| !seen(x, y) || at(x, y) == color(1.0);
             assert!((0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))).all(kept), "{empty:?}");

@@ -135,7 +135,7 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
             (gray.collect(), ExtendedColorType::L16)
         }
         (Pixels::RgbaF32 { size, data }, Some(View::TexelsPerPixel)) => {
-            (density::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
+            (density::colored(*size, data, density::ONE).into_bytes(), ExtendedColorType::Rgb8)
         }
         (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
             (counts::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
@@ -173,6 +173,12 @@ pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
         _ => bytes,
     };
     canvas::Canvas::of_bytes(pixels.size(), rgb)
+}
+
+/// Densities in the first of four channels, where the fourth is not 0, as [`to_canvas`] colours texels per pixel; `one` is what
+/// the legend calls a density of 1.
+pub fn densities(size: [u32; 2], data: &[f32], one: &str) -> canvas::Canvas {
+    density::colored(size, data, one)
 }
 
 /// Writes canvases as PNG, and texts; all of them, or none.

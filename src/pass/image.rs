@@ -97,6 +97,8 @@ pub enum Format {
     Rgba8,
     Rgba32F,
     Depth(DepthFormat),
+    /// Unsized: the driver chooses the bits [GL 4.6, 8.5.1].
+    UnsizedDepth,
     /// Packed: separate depth and stencil attachments are optional, and llvmpipe has none [GL 4.6, 9.4.2].
     Depth24Stencil8,
 }
@@ -104,16 +106,16 @@ pub enum Format {
 impl Format {
     /// Whether it is attached as depth.
     pub fn has_depth(self) -> bool {
-        matches!(self, Self::Depth(_) | Self::Depth24Stencil8)
+        matches!(self, Self::Depth(_) | Self::UnsizedDepth | Self::Depth24Stencil8)
     }
 
-    /// Bytes of a texel as commonly stored; 24-bit depth takes four.
+    /// Bytes of a texel as commonly stored; 24-bit depth takes four, and so does an unsized one.
     pub fn bytes(self) -> u64 {
         match self {
             Self::Rgba8 => 4,
             Self::Rgba32F => 16,
             Self::Depth(DepthFormat::Depth16) => 2,
-            Self::Depth(_) | Self::Depth24Stencil8 => 4,
+            Self::Depth(_) | Self::UnsizedDepth | Self::Depth24Stencil8 => 4,
         }
     }
 }
@@ -147,6 +149,7 @@ impl fmt::Display for Format {
             Self::Depth(DepthFormat::Depth24) => "DEPTH_COMPONENT24",
             Self::Depth(DepthFormat::Depth32) => "DEPTH_COMPONENT32",
             Self::Depth(DepthFormat::Depth32F) => "DEPTH_COMPONENT32F",
+            Self::UnsizedDepth => "DEPTH_COMPONENT",
             Self::Depth24Stencil8 => "DEPTH24_STENCIL8",
         })
     }

@@ -48,6 +48,7 @@ impl Builder<'_> {
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = Lens::for_counts(self.scene, counts.clone());
         check_cuts(&terms)?;
+        check_ledges(&terms)?;
         surface::explain_guards(self.scene, &self.cut_items(&lens), &lens.camera, &terms, self.notes);
         let target = self.picture_target(counts.clone().next().is_some());
         if counts.clone().next().is_some() {
@@ -238,6 +239,16 @@ impl<'a> Builder<'a> {
         let cutter = Cutter::for_eye(self.scene, &lens.camera, self.counted);
         cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items, &self.kept))
     }
+}
+
+/// Volumes of several lights are counted in one depth buffer, before one ledge.
+fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
+    let ledge =
+        |term: &&LightTerm| term.counting.as_ref().and_then(|counting| counting.ledge).map(|ledge| (term.index, ledge));
+    let mut ledges = terms.iter().filter_map(ledge);
+    let Some((first, depths)) = ledges.next() else { return Ok(()) };
+    let other = ledges.find(|(_, other)| *other != depths);
+    other.map_or(Ok(()), |(second, _)| Err(Error::TwoLedges { first, second }))
 }
 
 /// What clip planes at lights do not go with: more of them than a few, and passes that must meet the depths again.

@@ -1,6 +1,7 @@
 //! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
 //! light that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags
-//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL.
+//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL. Or, for one light, the talk's two
+//! passes: depth, its count, then the scene with that light where the count is 0 and without it where it is not.
 
 use super::Error;
 use super::builder::{Builder, Onto};
@@ -11,7 +12,7 @@ use crate::pass::{
 };
 use crate::scene::Scene;
 use crate::techniques::items::depth_batches;
-use crate::techniques::light::{Counted, Counting, Layer, VolumeDraw};
+use crate::techniques::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
 use crate::techniques::surface::Ending;
 use crate::techniques::surface::sides::shows_no_back_face;
 use crate::techniques::views::{self, View};
@@ -27,14 +28,20 @@ const LIT: Stencil = Stencil {
     back: StencilOps::KEEP,
 };
 
+/// Passes where the count is not 0, and leaves it.
+const UNLIT: Stencil = Stencil { test: Compare::NotEqual, ..LIT };
+
 impl Builder<'_> {
     /// The surfaces in all lights, of which some are counted.
     pub fn counted_picture(&mut self, target: Target, lens: &Lens, terms: &[&LightTerm]) -> Result<(), Error> {
         let counted: Vec<&LightTerm> = terms.iter().filter(|term| term.counting.is_some()).copied().collect();
         let keeps = self.keeps_count(&counted);
+        if let Some(chosen) = counted.iter().find(|term| lighting(term) == Lighting::LitAndUnlit) {
+            return self.lit_and_unlit(target, lens, terms, chosen, keeps);
+        }
         let mut uncounted = self.first("uncounted light", target, lens, self.background());
         if keeps {
-            self.depth_first(target, lens);
+            self.depth_first(target, lens, Redraw::WhenChanged);
             for term in &counted {
                 self.count_term(target, lens, term, Redraw::WhenChanged)?;
             }
@@ -53,6 +60,50 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// The surfaces in all lights: with `chosen` where its count is 0, without it where it is not. What else is counted is
+    /// added.
+    fn lit_and_unlit(
+        &mut self,
+        target: Target,
+        lens: &Lens,
+        terms: &[&LightTerm],
+        chosen: &LightTerm,
+        keeps: bool,
+    ) -> Result<(), Error> {
+        let redraw = if keeps { Redraw::WhenChanged } else { Redraw::Always };
+        self.depth_first(target, lens, redraw);
+        self.count_term(target, lens, chosen, redraw)?;
+        let index = chosen.index;
+        let others = |term: &&&LightTerm| term.counting.is_some() && term.index != index;
+        let others: Vec<&LightTerm> = terms.iter().filter(others).copied().collect();
+        for (stencil, is_lit) in [(LIT, true), (UNLIT, false)] {
+            let counted =
+                if is_lit { others.clone() } else { terms.iter().filter(|t| t.counting.is_some()).copied().collect() };
+            let scene = self.without_count(&counted);
+            let part = |term: &&LightTerm| match is_lit && term.index == index {
+                true => Some(once_counted(&scene, term)),
+                false => uncounted_part(&scene, term),
+            };
+            let parts: Vec<LightTerm> = terms.iter().filter_map(part).collect();
+            let label = format!("{} light {index}", if is_lit { "with" } else { "without" });
+            let state = lens.of_surfaces(DrawState { stencil: Some(stencil), ..DrawState::REPEAT });
+            let mut onto = Onto { state, ..self.first(&label, target, lens, self.background()) };
+            onto.clear.depth = None;
+            onto.clear.color = onto.clear.color.filter(|_| is_lit);
+            self.surfaces(&scene, &onto, &parts, &Ending::Lit)?;
+        }
+        for term in others {
+            if lighting(term) == Lighting::LitAndUnlit {
+                let why =
+                    format!("light {index} has the two passes of light and shadow: what they show is there already");
+                self.notes.chosen(format!("light {}", term.index), "added where its count is 0", why);
+            }
+            self.count_term(target, lens, term, Redraw::Always)?;
+            self.add_light(target, lens, term)?;
+        }
+        Ok(())
+    }
+
     /// Whether depth and count of a frame serve the next: one count, and frames that may use it again.
     fn keeps_count(&self, counted: &[&LightTerm]) -> bool {
         let [term] = counted else { return false };
@@ -60,8 +111,8 @@ impl Builder<'_> {
         may && self.request.frames > 1 && !self.request.keep_all
     }
 
-    /// Depth alone, kept from frame to frame.
-    fn depth_first(&mut self, target: Target, lens: &Lens) {
+    /// Depth alone; by [`Redraw::WhenChanged`] kept from frame to frame.
+    fn depth_first(&mut self, target: Target, lens: &Lens, redraw: Redraw) {
         let clip_from_world = lens.camera.clip_from_world();
         // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.
         let items = self.cut_items(lens);
@@ -78,7 +129,7 @@ impl Builder<'_> {
             state: lens.of_surfaces(DrawState::DEPTH_ONLY),
             batches,
         };
-        self.push("depth", Redraw::WhenChanged, pass);
+        self.push("depth", redraw, pass);
     }
 
     fn count_term(&mut self, target: Target, lens: &Lens, term: &LightTerm, redraw: Redraw) -> Result<(), Error> {
@@ -267,6 +318,11 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
         }
         Some(_) => None,
     }
+}
+
+/// In which passes the light joins the picture.
+fn lighting(term: &LightTerm) -> Lighting {
+    term.counting.as_ref().map_or(Lighting::Added, |counting| counting.lighting)
 }
 
 /// Whether the light's own shade finds what a shadow leaves.

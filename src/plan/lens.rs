@@ -6,7 +6,7 @@ use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
 use crate::pass::{Batch, DrawState};
 use crate::scene::Scene;
-use crate::techniques::light::{Counting, Layer};
+use crate::techniques::light::{Counting, Layer, LedgeDepths};
 use crate::techniques::surface::Viewer;
 
 /// The bits of the depth buffer that volumes are counted against.
@@ -45,8 +45,12 @@ impl Lens {
     pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a Counting> + Clone) -> Self {
         let mut lens = Self::of_scene(scene);
         let camera = &scene.camera;
-        if countings.clone().any(|counting| counting.ledge) {
-            let ledge = Ledge::new(camera.fov_y_radians, scene.aspect(), camera.near, camera.far, DEPTH_BITS);
+        if let Some(depths) = countings.clone().find_map(|counting| counting.ledge) {
+            let (fov, aspect) = (camera.fov_y_radians, scene.aspect());
+            let ledge = match depths {
+                LedgeDepths::Fewest => Ledge::new(fov, aspect, camera.near, camera.far, DEPTH_BITS),
+                LedgeDepths::Given(depths) => Ledge::with_ranges(fov, aspect, camera.near, camera.far, depths),
+            };
             lens.depth_range = ledge.scene_range.map(|depth| depth as f32);
             lens.ledge = Some(ledge);
         } else if countings.clone().any(|counting| counting.infinite) {

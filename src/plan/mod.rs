@@ -6,6 +6,8 @@ mod counted;
 mod lens;
 mod print;
 mod prune;
+#[cfg(test)]
+mod tests;
 
 use serde::Serialize;
 
@@ -122,6 +124,10 @@ pub enum Error {
         "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
     )]
     CutDepths { light: usize, counted: usize },
+    #[error(
+        "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
+    )]
+    TwoLedges { first: usize, second: usize },
     #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
     Singular { light: usize },
 }

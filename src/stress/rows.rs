@@ -51,6 +51,7 @@ const MAP: &[&str] = &[
     "format = \"depth16\"",
     "format = \"depth32f\"",
     "transfer = \"copy\"",
+    "format = \"depth\", transfer = \"copy\"",
     "compare = \"gequal\"",
     "casters = \"texel\"",
     "into = \"stencil\"",
@@ -69,6 +70,7 @@ const SQUARE: &[&str] = &[
     "fit = \"view\", kernel = \"3x3\"",
     "mipmaps = \"8-tap\"",
     "addressing = \"direct3d\", matrix_bias = 0.0",
+    "addressing = \"direct3d-viewport\"",
     "texgen = \"eye\"",
     "texgen = \"light\", texture_matrix = \"projection\"",
 ];
@@ -100,10 +102,12 @@ const VOLUMES: &[&str] = &[
     "method = \"z-pass\"",
     "method = \"z-pass-two-sided\"",
     "method = \"z-pass-capped\"",
+    "method = \"z-pass-capped\", ledge = [0.05, 0.1, 1.0]",
     "method = \"z-fail\"",
     "method = \"z-fail-clamped\"",
     "method = \"z-fail-truncated\"",
     "count = \"saturate\"",
+    "passes = \"lit-unlit\"",
 ];
 
 /// Rows of one light: all that matter, or with `defaults` each technique's own alone.
@@ -125,8 +129,8 @@ fn rows_of(technique: &dyn Technique, scene: &Scene, kind: &LightKind, defaults:
     let row = |keys: &str| {
         let comma = if prefix.is_empty() || keys.is_empty() { "" } else { ", " };
         let keys = format!("{prefix}{comma}{keys}");
-        // Guards act where light is added, not where shade is found.
-        let pictured = keys.starts_with("guard");
+        // Guards act where light is added, and passes are what adds it: neither is where shade is found.
+        let pictured = keys.starts_with("guard") || keys.starts_with("passes");
         RowSettings { technique: name.to_owned(), keys, pictured }
     };
     let mut rows = vec![row(""), RowSettings { pictured: true, ..row("") }];

@@ -144,8 +144,9 @@ pub struct Counting {
     pub infinite: bool,
     /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
     pub clamped: bool,
-    /// Volumes need depth before the near plane: surfaces leave it to them (C8).
-    pub ledge: bool,
+    /// Volumes need depth before the near plane, which surfaces leave to them (C8).
+    pub ledge: Option<LedgeDepths>,
+    pub lighting: Lighting,
     /// Objects whose surfaces must stay as they are, since volumes' caps meet them: into [`Scene::objects`].
     pub casters: Vec<usize>,
     /// The pixels that the light may reach, as [`DrawState::scissor`]; `None`: any.
@@ -154,6 +155,25 @@ pub struct Counting {
     pub volumes: Vec<VolumeDraw>,
     /// Their possible silhouettes, as lines (C1).
     pub silhouettes: Vec<VolumeDraw>,
+}
+
+/// Which depths the ledge before the near plane takes [techniques C8].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LedgeDepths {
+    /// From 0 on, and as few as keep caps and surfaces apart.
+    Fewest,
+    /// Window depths: where volumes begin, where the scene begins, where both end; `n'`, `n` and `f` of the talk.
+    Given([f64; 3]),
+}
+
+/// In which passes the light joins the picture [techniques C9].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lighting {
+    /// All other light first, over the whole picture; then this light is added where the count is 0.
+    Added,
+    /// The talk's two passes, each of which replaces what is there: the scene with the light where the count is 0, and the
+    /// scene without it where it is not.
+    LitAndUnlit,
 }
 
 /// What is counted under one draw state. The first pass clears the stencil buffer.

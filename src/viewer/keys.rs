@@ -1,6 +1,7 @@
 //! Which key does what: one table for the window and for the help.
 
-use super::Handle;
+use super::{Handle, Mode};
+use crate::output::canvas::{Canvas, Color, Font};
 
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +16,15 @@ pub enum Command {
     NextTweak,
     /// Of the current tweak.
     Step(f64),
+    /// Shown in the window, or no more.
     Help,
     Quit,
 }
 
 /// Keys by the names that the window gives them, what they do, and a line of help.
 const KEYS: &[(&[&str], Command, &str)] = &[
-    (&["space"], Command::NextMode, "next picture: with shadows, without, from the light"),
+    // The pictures' names follow.
+    (&["space"], Command::NextMode, "next picture"),
     (&["m"], Command::NextTechnique, "next shadow technique: Woo's midpoint map, polygon offset"),
     (&["v"], Command::ViewAll, "view all: the camera steps back until it sees everything"),
     (&["Home"], Command::Reset, "camera, light, object and tweaks as they were at first"),
@@ -33,7 +36,7 @@ const KEYS: &[(&[&str], Command, &str)] = &[
     (&["-", "Down"], Command::Step(-1.0), "the tweak one step down"),
     (&["PageUp"], Command::Step(10.0), "ten steps up"),
     (&["PageDown"], Command::Step(-10.0), "ten steps down"),
-    (&["h"], Command::Help, "this help"),
+    (&["h"], Command::Help, "this help in the window, or not"),
     (&["q", "Esc"], Command::Quit, "quit"),
 ];
 
@@ -42,20 +45,66 @@ pub fn command(name: &str) -> Option<Command> {
     KEYS.iter().find(|(names, ..)| names.iter().any(|known| known.eq_ignore_ascii_case(name))).map(|row| row.1)
 }
 
+/// What the mouse does.
+const MOUSE: [(&str, &str); 3] =
+    [("left drag", "turns what the mouse holds"), ("right drag", "moves it nearer or farther"), ("wheel", "the same")];
+
+const HEADING: &str = "Keys and mouse in the window:";
+
+/// Columns of the keys' names.
+const NAMES: usize = 14;
+
+/// Each key's and gesture's name, and what it does, where there are so many techniques to choose from.
+fn rows(techniques: &[&str]) -> Vec<(String, String)> {
+    let used = |row: &&(&[&str], Command, &str)| techniques.len() > 1 || row.1 != Command::NextTechnique;
+    let words = |command: &Command, what: &str| match command {
+        Command::NextMode => format!("{what}: {}", modes()),
+        _ => what.to_owned(),
+    };
+    let keys = KEYS.iter().filter(used).map(|(names, command, what)| (names.join(" "), words(command, what)));
+    keys.chain(MOUSE.map(|(name, what)| (name.to_owned(), what.to_owned()))).collect()
+}
+
+/// The modes in the order in which they come, from the one that a window begins with.
+fn modes() -> String {
+    let order = std::iter::successors(Some(Mode::default()), |mode| Some(mode.next()));
+    order.take(Mode::ALL.len()).map(Mode::in_words).collect::<Vec<_>>().join(", ")
+}
+
 /// Keys and mouse, for a person, where there are so many techniques to choose from.
 pub fn help(techniques: &[&str]) -> String {
-    let used = |row: &&(&[&str], Command, &str)| techniques.len() > 1 || row.1 != Command::NextTechnique;
-    let rows = KEYS.iter().filter(used).map(|(names, _, what)| format!("  {:<14}  {what}", names.join(" ")));
-    let mouse = [
-        ("left drag", "turns what the mouse holds"),
-        ("right drag", "moves it nearer or farther"),
-        ("wheel", "the same"),
-    ];
-    let mouse = mouse.iter().map(|(name, what)| format!("  {name:<14}  {what}"));
-    let lines: Vec<String> =
-        [String::from("Keys and mouse in the window:")].into_iter().chain(rows).chain(mouse).collect();
-    lines.join("\n")
+    let rows = rows(techniques).into_iter().map(|(name, what)| format!("  {name:<NAMES$}  {what}"));
+    [String::from(HEADING)].into_iter().chain(rows).collect::<Vec<_>>().join("\n")
 }
+
+/// The same as a sheet for a window of this width.
+pub fn help_sheet(techniques: &[&str], window_width: u32) -> Canvas {
+    const PAPER: Color = [24, 26, 30];
+    const INK: Color = [230, 230, 230];
+    const STRONG: Color = [255, 214, 90];
+    const MARGIN: u32 = 8;
+    let [letter, line] = [Font::Small.letter()[0], Font::Small.letter()[1] + 3];
+    let names = letter * (NAMES as u32 + 1);
+    let most = window_width.saturating_sub(2 * HELP_EDGE + 2 * MARGIN + names).max(20 * letter);
+    let rows = rows(techniques).into_iter().map(|(name, what)| (name, Font::Small.wrap(&what, most)));
+    let rows: Vec<(String, Vec<String>)> = rows.collect();
+    let longest = rows.iter().flat_map(|(_, lines)| lines).map(String::len).max().unwrap_or(0) as u32;
+    let count = 1 + rows.iter().map(|(_, lines)| lines.len() as u32).sum::<u32>();
+    let mut sheet = Canvas::new([2 * MARGIN + names + letter * longest, 2 * MARGIN + line * count], PAPER);
+    sheet.write([MARGIN, MARGIN], HEADING, INK);
+    let mut top = MARGIN + line;
+    for (name, lines) in rows {
+        sheet.write([MARGIN, top], &name, STRONG);
+        for text in lines {
+            sheet.write([MARGIN + names, top], &text, INK);
+            top += line;
+        }
+    }
+    sheet
+}
+
+/// Pixels between a window's edges and its help.
+pub const HELP_EDGE: u32 = 8;
 
 #[cfg(test)]
 mod tests {
@@ -68,6 +117,20 @@ mod tests {
         names.sort();
         names.dedup();
         assert_eq!(names.len(), count);
+    }
+
+    /// As [`super::super::State`] goes through them.
+    #[test]
+    fn the_help_lists_the_modes_in_the_order_that_space_takes() {
+        let help = help(&[]);
+        assert!(help.contains("next picture: with shadows, from the light, without shadows\n"), "{help}");
+    }
+
+    #[test]
+    fn a_sheet_is_as_wide_as_its_window_allows() {
+        let [wide, narrow] = [512, 300].map(|width| help_sheet(&["a", "b"], width).size());
+        assert!(wide[0] <= 512 - 2 * HELP_EDGE && narrow[0] <= 300 - 2 * HELP_EDGE, "{wide:?} {narrow:?}");
+        assert!(wide[0] > 400 && wide[1] < narrow[1] && wide[1] < 300, "{wide:?} {narrow:?}");
     }
 
     #[test]

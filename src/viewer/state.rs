@@ -30,6 +30,15 @@ impl Mode {
         Self::ALL.iter().position(|(_, mode)| *mode == self).unwrap_or(0)
     }
 
+    /// What it shows.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Camera => "without shadows",
+            Self::Shadowed => "with shadows",
+            Self::Light => "from the light",
+        }
+    }
+
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         Self::ALL[self.place()].0
@@ -72,7 +81,6 @@ pub enum Reaction {
     Redraw,
     /// Only what is said of the picture has changed.
     Retitle,
-    Help,
     Quit,
 }
 
@@ -85,6 +93,7 @@ pub struct State {
     held: Handle,
     tweak: usize,
     size: [u32; 2],
+    helps: bool,
     techniques: &'static [&'static str],
 }
 
@@ -92,7 +101,16 @@ impl State {
     /// A walk that begins with `scene` as it is.
     pub fn new(scene: Scene, mode: Mode) -> Self {
         let size = scene.image.size;
-        Self { first: scene.clone(), scene, mode, held: Handle::default(), tweak: 0, size, techniques: &[] }
+        Self {
+            first: scene.clone(),
+            scene,
+            mode,
+            held: Handle::default(),
+            tweak: 0,
+            size,
+            helps: false,
+            techniques: &[],
+        }
     }
 
     /// The same walk with shadow techniques to choose from, by their names in `[light.shadow]`.
@@ -103,6 +121,11 @@ impl State {
 
     pub fn techniques(&self) -> &'static [&'static str] {
         self.techniques
+    }
+
+    /// Whether keys and mouse are told in the window.
+    pub fn helps(&self) -> bool {
+        self.helps
     }
 
     /// As changed so far.
@@ -126,11 +149,7 @@ impl State {
 
     /// One line: mode, the technique where there is a choice, what the mouse holds, the current tweak.
     pub fn status(&self) -> String {
-        let mode = match self.mode {
-            Mode::Camera => "without shadows",
-            Mode::Shadowed => "with shadows",
-            Mode::Light => "from the light",
-        };
+        let mode = self.mode.in_words();
         let held = match self.held {
             Handle::Camera => "camera",
             Handle::Light => "light",
@@ -159,7 +178,7 @@ impl State {
                 let tweak = self.tweak();
                 self.scene.lights.iter_mut().for_each(|light| tweak.step(&mut light.shadow, steps));
             }
-            Command::Help => return Reaction::Help,
+            Command::Help => self.helps = !self.helps,
             Command::Quit => return Reaction::Quit,
         }
         Reaction::Redraw

@@ -2,6 +2,7 @@
 //! without a window and then copied, so both have the same pixels. Nothing is drawn but on an event.
 
 use std::io::Write;
+use std::sync::Arc;
 
 use glam::DVec2;
 use winit::application::ApplicationHandler;
@@ -11,6 +12,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
+use super::keys::{HELP_EDGE, help_sheet};
 use super::{Error, Reaction, State, help, keys};
 use crate::context::window::{self, WindowContext};
 use crate::context::{self, Choice, ContextRequest, Profile};
@@ -100,6 +102,10 @@ impl App {
         let plan = renderer.plan(&scene, &Request { sampled_warnings: false, ..request })?;
         renderer.draw(&plan)?;
         renderer.present(&plan, size)?;
+        if self.state.helps() {
+            let sheet = help_sheet(self.state.techniques(), size[0]).to_texture("help");
+            renderer.present_sheet(&Arc::new(sheet), HELP_EDGE, size)?;
+        }
         if self.shown.capture && self.captured.is_none() {
             self.captured = Some(renderer.read_window(size)?);
         }
@@ -128,7 +134,6 @@ impl App {
                 self.redraw();
             }
             Reaction::Retitle => self.tell(),
-            Reaction::Help => say(&help(self.state.techniques())),
             Reaction::Quit => event_loop.exit(),
         }
     }

@@ -129,7 +129,12 @@ fn mistakes_in_the_planes_are_seen() {
 const REFUSED: &[(&[&str], &str, &str, &str)] = &[
     (&["shading.lighting=per-fragment"], "lit", "teapot", "for each fragment"),
     (&["light.shadow.format=depth32f"], "lit", "floor", "beyond the light's far plane"),
-    (&["object.1.material.shininess=200"], "lit", "teapot", "GL_SHININESS ends at 128"),
+    (
+        &["object.1.material.specular=[0.4, 0.4, 0.4]", "object.1.material.shininess=200"],
+        "lit",
+        "teapot",
+        "GL_SHININESS ends at 128",
+    ),
     (&["light.shadow.technique=shadow-volume"], "light 0", "teapot", "stencil"),
     (&["light.shadow.into=stencil"], "light 0: tag", "floor, teapot", "tag in the stencil buffer"),
     (

@@ -12,9 +12,11 @@ pub const DEPTH_COMPONENT32: u32 = 0x81A7;
 /// GL_CLAMP, which only a compatibility context knows.
 const CLAMP: u32 = 0x2900;
 
-/// Sized internal formats.
+/// Internal formats: sized ones, and the unsized one of depth textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
+    /// Unsized: the driver chooses the bits [GL 4.6, 8.5.1].
+    Depth,
     Depth16,
     Depth24,
     Depth32,
@@ -27,13 +29,14 @@ pub enum Format {
 }
 
 impl Format {
-    /// The depth formats.
+    /// The sized depth formats.
     pub const DEPTHS: [Self; 6] =
         [Self::Depth16, Self::Depth24, Self::Depth32, Self::Depth32F, Self::Depth24Stencil8, Self::Depth32FStencil8];
 
     /// GL's name, without GL_.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Depth => "DEPTH_COMPONENT",
             Self::Depth16 => "DEPTH_COMPONENT16",
             Self::Depth24 => "DEPTH_COMPONENT24",
             Self::Depth32 => "DEPTH_COMPONENT32",
@@ -47,7 +50,7 @@ impl Format {
     }
 
     pub fn is_depth(self) -> bool {
-        Self::DEPTHS.contains(&self)
+        self == Self::Depth || Self::DEPTHS.contains(&self)
     }
 
     pub fn has_stencil(self) -> bool {
@@ -57,6 +60,7 @@ impl Format {
     /// The internal format, and format and type of an upload.
     pub(super) fn codes(self) -> (u32, u32, u32) {
         match self {
+            Self::Depth => (glow::DEPTH_COMPONENT, glow::DEPTH_COMPONENT, glow::FLOAT),
             Self::Depth16 => (glow::DEPTH_COMPONENT16, glow::DEPTH_COMPONENT, glow::FLOAT),
             Self::Depth24 => (glow::DEPTH_COMPONENT24, glow::DEPTH_COMPONENT, glow::FLOAT),
             Self::Depth32 => (DEPTH_COMPONENT32, glow::DEPTH_COMPONENT, glow::FLOAT),

@@ -10,7 +10,7 @@ use crate::math::frustum::{self, Overlap};
 use crate::pass::{Compare, DrawState, MeshRef, Primitive, Redraw, Stencil, StencilOp, StencilOps};
 use crate::scene::Frustum;
 use crate::techniques::guard::{Guard, LightPlane, Side};
-use crate::techniques::light::{CountPass, Counted, Counting, Layer, VolumeDraw, VolumeSpace};
+use crate::techniques::light::{CountPass, Counted, Counting, Layer, Lighting, VolumeDraw, VolumeSpace};
 use crate::techniques::surface::Viewer;
 use crate::techniques::{LightTerm, LightView, Notes};
 
@@ -66,7 +66,8 @@ fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
         infinite: true,
         clamped: false,
         casters: Vec::new(),
-        ledge: false,
+        ledge: None,
+        lighting: Lighting::Added,
         scissor: None,
         volumes: vec![volume],
         silhouettes: Vec::new(),

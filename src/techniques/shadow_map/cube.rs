@@ -40,7 +40,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
         (settings.mipmaps != Mipmaps::None, "mipmaps", "are of square maps"),
         (settings.fit != Fit::None, "fit", "moves the texels of a square map"),
         (settings.guard != Guard::Auto, "guard", "keeps a spotlight from lighting what lies behind it"),
-        (settings.addressing != Addressing::OpenGl, "addressing", "= \"direct3d\" is of square maps"),
+        (settings.addressing != Addressing::OpenGl, "addressing", "of Direct3D is of square maps"),
     ];
     match refused.iter().find(|(is_set, ..)| *is_set) {
         Some((_, key, why)) => Err(keys.error(key, format_args!("{why}; a point light's is a cube"))),

@@ -132,14 +132,11 @@ pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4
     raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
-/// An image of the map's size and format.
+/// An image of the map's size and format. A depth buffer that is copied is sized always: an unsized texture is to follow it.
 pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
-    ImageDesc {
-        label: format!("light {} {name}", view.index),
-        size: [settings.size; 2],
-        format: Format::Depth(settings.format),
-        storage,
-    }
+    let is_unsized = settings.is_unsized && storage != Storage::Renderbuffer;
+    let format = if is_unsized { Format::UnsizedDepth } else { Format::Depth(settings.format) };
+    ImageDesc { label: format!("light {} {name}", view.index), size: [settings.size; 2], format, storage }
 }
 
 /// Whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at

@@ -29,8 +29,18 @@ pub enum Order {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Addressing {
     OpenGl,
-    /// Pixel centres at integers, rows from the top, depth in integer units.
-    Direct3d,
+    /// Pixel centres at integers, rows from the top, depth in integer units. Texel centres lie at halves there, so that half
+    /// a texel must be made up for.
+    Direct3d(HalfTexel),
+}
+
+/// Where Direct3D's half texel is made up for: either of the document's two ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HalfTexel {
+    /// In the texture matrix, when the map is addressed.
+    Matrix,
+    /// In the viewport, when the map is drawn.
+    Viewport,
 }
 
 /// Which levels a map has, and how they are met [techniques A11].
@@ -92,6 +102,9 @@ pub struct Settings {
     /// Texels a side.
     pub size: u32,
     pub format: DepthFormat,
+    /// Whether the texture is unsized, so that the driver chooses its bits: `format` is then the one to expect, that of the
+    /// picture's depth buffer [lecture, "New Depth Texture Internal Texture Formats"].
+    pub is_unsized: bool,
     pub transfer: Transfer,
     pub filter: Filter,
     pub order: Order,
@@ -188,15 +201,21 @@ pub const MORE_AXES: &[&[Axis]] = &[
 /// A value of the wrong type or out of its range, with its place.
 pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     let formats = [
-        ("depth16", DepthFormat::Depth16),
-        ("depth24", DepthFormat::Depth24),
-        ("depth32", DepthFormat::Depth32),
-        ("depth32f", DepthFormat::Depth32F),
+        ("depth", (DepthFormat::Depth24, true)),
+        ("depth16", (DepthFormat::Depth16, false)),
+        ("depth24", (DepthFormat::Depth24, false)),
+        ("depth32", (DepthFormat::Depth32, false)),
+        ("depth32f", (DepthFormat::Depth32F, false)),
     ];
     let set_ups =
         [("eye", SetUp::Eye), ("world", SetUp::World), ("light", SetUp::Light), ("identity", SetUp::Identity)];
     let splits = [("identity", Split::Planes), ("scale-bias", Split::ScaleBias), ("projection", Split::Projection)];
     let orders = [("lequal", Order::LessEqual), ("gequal", Order::GreaterEqual)];
+    let addressings = [
+        ("opengl", Addressing::OpenGl),
+        ("direct3d", Addressing::Direct3d(HalfTexel::Matrix)),
+        ("direct3d-viewport", Addressing::Direct3d(HalfTexel::Viewport)),
+    ];
     let biases = [
         ("offset", Bias::Offset),
         ("receiver-plane", Bias::ReceiverPlane),
@@ -204,9 +223,11 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         ("adaptive", Bias::Adaptive),
     ];
     let (r_scale, r_bias) = read_r(keys)?;
+    let (format, is_unsized) = keys.choice("format", &formats)?.unwrap_or((DepthFormat::Depth24, false));
     let settings = Settings {
         size: keys.integer("size", 1..=16384)?.map_or(1024, |size| size as u32),
-        format: keys.choice("format", &formats)?.unwrap_or(DepthFormat::Depth24),
+        format,
+        is_unsized,
         transfer: keys
             .choice("transfer", &[("fbo", Transfer::Fbo), ("copy", Transfer::Copy)])?
             .unwrap_or(Transfer::Fbo),
@@ -230,9 +251,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         split: keys.choice("texture_matrix", &splits)?.unwrap_or(Split::Planes),
         r_scale,
         r_bias,
-        addressing: keys
-            .choice("addressing", &[("opengl", Addressing::OpenGl), ("direct3d", Addressing::Direct3d)])?
-            .unwrap_or(Addressing::OpenGl),
+        addressing: keys.choice("addressing", &addressings)?.unwrap_or(Addressing::OpenGl),
         matrix_bias: keys.number("matrix_bias", -1e10..=1e10)?.unwrap_or(0.0),
         dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
         redraw: keys
@@ -276,8 +295,8 @@ fn check_mipmaps(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsE
         "need filter = \"linear\""
     } else if settings.transfer != Transfer::Fbo {
         "need transfer = \"fbo\": each level is drawn into"
-    } else if settings.addressing != Addressing::OpenGl {
-        "need addressing = \"opengl\": half a texel is another length at every level"
+    } else if settings.addressing == Addressing::Direct3d(HalfTexel::Matrix) {
+        "need addressing = \"opengl\" or \"direct3d-viewport\": half a texel in the matrix is another length at every level"
     } else if settings.bias != Bias::Offset {
         "need bias = \"offset\": the others reckon with the texels of one level"
     } else if settings.mipmaps == Mipmaps::All && settings.fit != Fit::None {

@@ -6,7 +6,7 @@
 use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Counted, Counting, Layer};
+use crate::techniques::light::{CountPass, Counted, Counting, Layer, Lighting};
 use crate::techniques::seen;
 
 /// The pass that tags what the light's shade calls shadowed; `None`: the lit pass asks for the shade itself.
@@ -31,7 +31,8 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         infinite: false,
         clamped: false,
         casters: Vec::new(),
-        ledge: false,
+        ledge: None,
+        lighting: Lighting::Added,
         scissor: if view.keep_all { None } else { seen::scissor(view) },
         volumes: Vec::new(),
         silhouettes: Vec::new(),

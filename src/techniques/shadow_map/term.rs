@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec4};
 
 use super::bias;
 use super::fit::Crop;
-use super::settings::{Addressing, Bias, Mipmaps, Order, Settings};
+use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
 use super::tag;
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
@@ -50,8 +50,8 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
 fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
     let crop = settings.crop.frustum_from_map();
     match settings.addressing {
-        Addressing::Direct3d => {
-            let half_texel = 0.5 / settings.size as f32;
+        Addressing::Direct3d(way) => {
+            let half_texel = matrix_half_texel(way, settings) as f32;
             let [x, y] = [-half_texel, 1.0 + half_texel];
             Some(Vec4::new(crop.x, -crop.y, crop.x * x + crop.z, crop.y * y + crop.w))
         }
@@ -147,26 +147,35 @@ pub fn texture_from_light_clip(settings: &Settings) -> DMat4 {
     let ordinary = scale_bias(settings.r_scale, settings.r_bias);
     let texture = match settings.addressing {
         Addressing::OpenGl => DMat4::from_translation(DVec3::new(0.0, 0.0, settings.matrix_bias)) * ordinary,
-        Addressing::Direct3d => {
+        Addressing::Direct3d(way) => {
             // Direct3D's clip z is in [0, w]; its depth counts codes, GL's texture unit compares in [0, 1].
             let direct3d_from_gl = DMat4::from_translation(DVec3::new(0.0, 0.0, settings.r_bias))
                 * DMat4::from_scale(DVec3::new(1.0, 1.0, settings.r_scale));
-            let bits = settings.format.bits();
+            let (bits, half_texel) = (settings.format.bits(), matrix_half_texel(way, settings));
             let depth_from_codes = DMat4::from_scale(DVec3::new(1.0, 1.0, 1.0 / (2.0_f64.powi(bits as i32) - 1.0)));
-            depth_from_codes * direct3d_scale_bias(settings.size, bits, settings.matrix_bias) * direct3d_from_gl
+            depth_from_codes * direct3d_scale_bias(half_texel, bits, settings.matrix_bias) * direct3d_from_gl
         }
     };
     mirrored * texture
 }
 
-/// Direct3D's raster on GL's: half a pixel right and down, rows from the top. Identity for OpenGL addressing.
-pub fn raster_from_clip(settings: &Settings) -> DMat4 {
-    match settings.addressing {
-        Addressing::OpenGl => DMat4::IDENTITY,
-        Addressing::Direct3d => {
-            let half_pixel = 1.0 / f64::from(settings.size);
-            DMat4::from_translation(DVec3::new(half_pixel, half_pixel, 0.0))
-                * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0))
-        }
+/// The half texel of the texture matrix, of [0, 1].
+fn matrix_half_texel(way: HalfTexel, settings: &Settings) -> f64 {
+    match way {
+        HalfTexel::Matrix => 0.5 / f64::from(settings.size),
+        HalfTexel::Viewport => 0.0,
     }
+}
+
+/// Direct3D's raster on GL's: half a pixel right and down, rows from the top. A viewport that is moved by half a texel the other
+/// way takes that back. Identity for OpenGL addressing.
+pub fn raster_from_clip(settings: &Settings) -> DMat4 {
+    let Addressing::Direct3d(way) = settings.addressing else { return DMat4::IDENTITY };
+    let half_pixel = 1.0 / f64::from(settings.size);
+    let moved = match way {
+        HalfTexel::Matrix => 0.0,
+        HalfTexel::Viewport => -half_pixel,
+    };
+    let [x, y] = [half_pixel + moved; 2];
+    DMat4::from_translation(DVec3::new(x, y, 0.0)) * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0))
 }

@@ -1,8 +1,10 @@
 //! The keys of `[light.shadow]` that shadow volumes read.
 
+use crate::math::ledge::GUARD_CODES;
 use crate::pass::Redraw;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
+use crate::techniques::light::{LedgeDepths, Lighting};
 
 /// How volumes are counted [GDC 2001; techniques C2–C8].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +46,10 @@ pub struct Settings {
     pub wrap: bool,
     /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
     pub distance: Option<f64>,
+    /// Of volumes with caps on the near plane (C8).
+    pub ledge: LedgeDepths,
+    /// C9.
+    pub lighting: Lighting,
     pub dimming: f32,
     pub redraw: Redraw,
 }
@@ -69,9 +75,29 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         method: keys.choice("method", &METHODS)?.unwrap_or(Method::Auto),
         wrap: keys.choice("count", &[("wrap", true), ("saturate", false)])?.unwrap_or(true),
         distance: keys.number("distance", f64::MIN_POSITIVE..=crate::scene::LARGEST)?,
+        ledge: read_ledge(keys)?,
+        lighting: keys
+            .choice("passes", &[("added", Lighting::Added), ("lit-unlit", Lighting::LitAndUnlit)])?
+            .unwrap_or(Lighting::Added),
         dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
         redraw: keys
             .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
             .unwrap_or(Redraw::WhenChanged),
     })
+}
+
+/// `ledge = [volumes, scene, far]` in window depths.
+fn read_ledge(keys: &mut Reader<'_>) -> Result<LedgeDepths, SettingsError> {
+    let Some(depths) = keys.numbers::<3>("ledge", 0.0..=1.0)? else { return Ok(LedgeDepths::Fewest) };
+    let [volumes, scene, far] = depths;
+    // Of 24 bits. Less than half of the depths would cost the scene more than a bit.
+    let least = f64::from(GUARD_CODES + 1) / 16_777_215.0;
+    if scene - volumes < least || far - scene < 0.5 {
+        let message = format!(
+            "must be [volumes, scene, far]: the depths where volumes and scene begin, at least {least:.1e} apart, and \
+             where both end, at least 0.5 farther; not [{volumes}, {scene}, {far}]"
+        );
+        return Err(keys.error("ledge", message));
+    }
+    Ok(LedgeDepths::Given(depths))
 }
