@@ -6,7 +6,8 @@ use std::process::{Command, Output};
 
 use assert_cmd::cargo::CommandCargoExt;
 use glumbra::context::{self, ContextRequest, Profile};
-use glumbra::device::bench::Mutation;
+use glumbra::device::bench::{Format, Mutation};
+use glumbra::device::probe;
 use glumbra::oracle::semantics::{self, Outcome, Subject, Verdict, waivers};
 
 /// All rules on the default context of a profile, with one mistake or none; known deviations waived.
@@ -38,7 +39,8 @@ fn without_a_mistake_no_rule_fails() {
     }
 }
 
-/// Each mistake, and exactly the rules that it turns red.
+/// Each mistake, and exactly the rules that it turns red. Where a unit of polygon offset is one code, O2 cannot tell one
+/// unit less from a rounded code.
 const MUTATIONS: [(Mutation, &[&str]); 14] = [
     (Mutation::CompareSwapped, &["C1", "C2"]),
     (Mutation::IncrementForIncrementWrap, &["S1", "S3"]),
@@ -59,11 +61,19 @@ const MUTATIONS: [(Mutation, &[&str]); 14] = [
 #[test]
 fn every_mistake_turns_its_rules_red() {
     assert_eq!(MUTATIONS.map(|(mutation, _)| mutation), Mutation::ALL);
+    let context = context::open(&ContextRequest { profile: Profile::Compatibility, ..Default::default() }).unwrap();
+    let facts = probe::depth_format(context.gl(), Format::Depth24).unwrap();
+    let unit_is_a_code = facts.measured.is_some_and(|measured| measured.units[0].codes < 1.5);
+    drop(context);
     let wrong: Vec<String> = MUTATIONS
         .iter()
-        .map(|(mutation, due)| (mutation, due, outcomes(Profile::Compatibility, Some(*mutation))))
+        .map(|(mutation, due)| (mutation, due.to_vec(), outcomes(Profile::Compatibility, Some(*mutation))))
         .map(|(mutation, due, outcomes)| (mutation, due, with(&outcomes, Verdict::Fail)))
-        .filter(|(_, due, red)| red != *due)
+        .map(|(mutation, mut due, red)| {
+            due.retain(|id| !(unit_is_a_code && *mutation == Mutation::OneOffsetUnitLess && *id == "O2"));
+            (mutation, due, red)
+        })
+        .filter(|(_, due, red)| red != due)
         .map(|(mutation, due, red)| format!("{mutation:?} turns {red:?} red, and {due:?} is due"))
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
@@ -130,12 +140,12 @@ fn a_run_that_tests_nothing_ends_with_2() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
-/// A waiver of this driver that nothing needs, and on llvmpipe 22.3.6 a known deviation without its waiver.
+/// A waiver of this driver that nothing needs, and on llvmpipe a known deviation without its waiver.
 #[test]
 fn waivers_decide_the_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let stale =
-        "[[waiver]]\nrenderer = \"\"\nversion = \"\"\nrule = \"C1\"\nmessage = \"no: such\"\nreason = \"none\"\n";
+        "[[waiver]]\nrenderer = \"\"\nversion = \"\"\nrule = \"C1\"\nfinding = \"no such\"\nreason = \"none\"\n";
     std::fs::write(folder.path().join("stale.toml"), stale).unwrap();
     std::fs::write(folder.path().join("empty.toml"), "").unwrap();
     let output = check(folder.path(), &["--filter", "C1", "--waivers", "stale.toml", "--junit", "c.xml"]);
@@ -147,7 +157,7 @@ fn waivers_decide_the_exit_code() {
     assert_eq!(output.status.code(), Some(0));
     let output = check(folder.path(), &["--filter", "O1", "--waivers", "empty.toml"]);
     let said = text(&output.stdout);
-    if said.contains("llvmpipe") && said.contains("Mesa 22.3.6") {
+    if said.contains("llvmpipe") {
         assert_eq!(output.status.code(), Some(1));
         assert!(said.contains("FAIL: DEPTH_COMPONENT32: one"), "{said}");
     }

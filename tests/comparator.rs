@@ -124,6 +124,28 @@ fn blessing_writes_and_fails() {
     golden::check(&actual, bench.folder.path(), &wanted, false).unwrap();
 }
 
+/// On another driver the maximum is not asked for, and it is said.
+#[test]
+fn a_golden_of_another_driver_is_compared_by_its_mean_and_says_so() {
+    let bench = Bench::with_golden(&[]);
+    let mut other = Picture::read_png(&bench.path("golden.png")).unwrap();
+    let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
+    let said = golden::check(&other, bench.folder.path(), &wanted, false).unwrap();
+    assert!(
+        said.starts_with("compared with the golden of this driver, by 2/255 at most and 0.05/255 in the mean: 0 of"),
+        "{said}"
+    );
+    fs::write(bench.path("golden.driver"), "llvmpipe of another day\n").unwrap();
+    other.data[0] = 1.0 - other.data[0].round();
+    let said = golden::check(&other, bench.folder.path(), &wanted, false).unwrap();
+    let how =
+        "compared with the golden of another driver, llvmpipe of another day, by 0.75/255 in the mean alone: 1 of";
+    assert!(said.starts_with(how), "{said}");
+    other.data.fill(1.0);
+    let (error, _) = golden::check(&other, bench.folder.path(), &wanted, false).unwrap_err();
+    assert!(error.contains("of another driver, llvmpipe of another day"), "{error}");
+}
+
 #[test]
 fn an_empty_case_fails() {
     fails(Bench::new().run("empty", &[], ""), "the case has no checks");

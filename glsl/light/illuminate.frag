@@ -10,7 +10,7 @@ uniform float dimming_@;
 uniform float diffuse_weight_@;
 #endif
 
-void illuminate_@(Surface surface, inout Lit lit)
+void illuminate_@(Surface surface, EXACT inout Lit lit)
 {
     Lit own = lighting_@(surface);
     lit.ambient += own.ambient;

@@ -31,7 +31,7 @@ Lit lighting_@(Surface surface)
 #else
     const float strength = 1.0;
 #endif
-    Lit lit;
+    EXACT Lit lit;
 #ifdef LIGHT_AMBIENT_@
     lit.ambient = strength * light_ambient_@ * material_ambient;
 #else

@@ -1,17 +1,17 @@
 // Light @ per vertex, clamped as fixed-function lighting clamps its one colour: ambient first, then diffuse, then
 // specular in what is left below 1.
-out vec3 vertex_diffuse_@;
+EXACT out vec3 vertex_diffuse_@;
 #ifdef LIGHT_AMBIENT_@
-out vec3 vertex_ambient_@;
+EXACT out vec3 vertex_ambient_@;
 #endif
 #ifdef SPECULAR
-out vec3 vertex_specular_@;
+EXACT out vec3 vertex_specular_@;
 #endif
 
 void light_vertex_@(Surface surface)
 {
-    Lit lit = lighting_@(surface);
-    vec3 room = max(vec3(1.0) - scene_ambient, 0.0);
+    EXACT Lit lit = lighting_@(surface);
+    EXACT vec3 room = max(vec3(1.0) - scene_ambient, 0.0);
 #ifdef LIGHT_AMBIENT_@
     vertex_ambient_@ = min(lit.ambient, room);
     room -= vertex_ambient_@;

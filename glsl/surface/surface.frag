@@ -11,7 +11,7 @@ in vec2 st;
 uniform sampler2D decal_map;
 #endif
 
-out vec4 fragment;
+EXACT out vec4 fragment;
 
 Surface surface_here()
 {
@@ -43,15 +43,15 @@ void main()
 #ifdef ALPHA_TEST
     alpha_test();
 #endif
-    Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
+    EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
 #ifdef ANY_LIGHT
     Surface surface = surface_here();
     ILLUMINATE(surface, lit)
 #endif
 #ifdef ADDED
-    vec3 color = lit.diffuse; // ambient light is there
+    EXACT vec3 color = lit.diffuse; // ambient light is there
 #else
-    vec3 color = lit.ambient + lit.diffuse;
+    EXACT vec3 color = lit.ambient + lit.diffuse;
 #endif
 #ifdef DECAL
     color *= texture(decal_map, st).rgb;

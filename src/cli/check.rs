@@ -50,12 +50,14 @@ tested here. Verdicts come from bounds on what the specification allows, never f
 Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
 F framebuffers.
 
-A waiver names a deviation that is known, by driver and version and to the letter:
+A waiver names a deviation that is known, by driver, versions, rule and check:
   [[waiver]]
   renderer = \"llvmpipe\"         # a part of GL_RENDERER
-  version = \"Mesa 22.3.6\"       # a part of GL_VERSION
+  version = \"Mesa \"            # a part of GL_VERSION
+  from = \"22.3\"               # the first such version, by the number behind it; may be absent
+  until = \"27\"                # the first that is sound again; may be absent
   rule = \"O1\"
-  message = \"DEPTH_COMPONENT32: one unit: leaves the stored depth as it is\"
+  finding = \"DEPTH_COMPONENT32: one unit\"
   reason = \"f32 has 24 bits\"
 One that no longer applies is a failure.
 

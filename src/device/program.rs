@@ -68,9 +68,20 @@ pub fn create(gl: &Rc<glow::Context>, program: &Program) -> Result<GpuProgram, E
     Ok(linked)
 }
 
+/// `EXACT`: what is computed as it is written, where the driver has the word for it [GLSL 4.60, 4.9.1]. Without it Mesa
+/// 24.1 and later move arithmetic across interpolation, from the fragments to the vertices, in one program and not in another.
+const HEAD: &str = "#version 330 core
+#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : enable
+#define EXACT precise
+#else
+#define EXACT
+#endif
+";
+
 /// `#version`, the defines, then each chunk under a `#line` that numbers its file.
 fn assemble(program: &Program, chunks: &[Chunk]) -> String {
-    let mut source = String::from("#version 330 core\n");
+    let mut source = String::from(HEAD);
     for (name, value) in &program.defines {
         source.push_str(&format!("#define {name} {value}\n"));
     }

@@ -158,43 +158,67 @@ fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Units of O2's offset.
+/// Units of O2's offset, and of the one that the size of a unit is found by.
 const UNITS: f32 = 64.0;
+const MANY_UNITS: f32 = 1024.0;
 
-/// O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode.
+/// O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode. Each
+/// pair of modes has the unit that is measured there; whether all have the same is one question of its own.
 pub fn modes(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     use Mode::{Fill, Line};
     let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
+    let mut units = Vec::new();
     for mode in [[Fill, Fill], [Line, Line], [Fill, Line], [Line, Fill]] {
         let name = format!("front {:?}, back {:?}", mode[0], mode[1]);
         if mode[0] != mode[1] && !subject.bench.is_compatible() {
             findings.untestable(name, "a core context has one mode for both sides");
             continue;
         }
-        for offset_modes in [[true, true], [true, false], [false, true]] {
-            for side in [0, 1] {
-                let due = if offset_modes[usize::from(mode[side] == Line)] { UNITS } else { 0.0 };
+        for side in [0, 1] {
+            let moved = |units, offset_modes| {
                 let state = State { mode, offset_modes, ..State::WRITE };
-                let moved = moved_units(subject, &surface, state, side == 1, encoding)?;
+                moved(subject, &surface, Offset { factor: 0.0, units, clamp: 0.0 }, state, side == 1, encoding)
+            };
+            let unit = moved(MANY_UNITS, [true; 2])? / f64::from(MANY_UNITS);
+            units.push((name.clone(), unit / encoding.step(0.75)));
+            for offset_modes in [[true, true], [true, false], [false, true]] {
+                let due = if offset_modes[usize::from(mode[side] == Line)] { UNITS } else { 0.0 };
                 let on = match offset_modes {
                     [true, true] => "fill and line",
                     [true, false] => "fill",
                     _ => "line",
                 };
                 let what = format!("{name}: the {} with an offset for {on}", ["front", "back"][side]);
-                let grade = verify::within(moved - f64::from(due), 0.5, 0.5);
+                let moved = moved(UNITS, offset_modes)? / unit;
+                let grade = verify::offset_moves(moved, f64::from(due), encoding.step(0.75) / unit);
                 findings.grade(what, grade, format!("moved by {moved:.1} units; {due} is due"));
             }
         }
     }
+    one_unit(findings, &units);
     Ok(())
 }
 
-/// By how many units a side's depths are moved; where they disagree, the least.
-fn moved_units(
+/// r is a constant of the depth buffer, whatever is drawn: `units` in steps, the first of filled polygons.
+fn one_unit(findings: &mut Findings, units: &[(String, f64)]) {
+    let Some((_, filled)) = units.first() else { return };
+    let most = units.iter().max_by(|a, b| (a.1 - filled).abs().total_cmp(&(b.1 - filled).abs()));
+    let Some((name, most)) = most else { return };
+    // Each is a difference of codes over so many units.
+    let same = (most - filled).abs() <= 4.0 / f64::from(MANY_UNITS);
+    let measured = match same {
+        true => format!("{filled:.2} steps everywhere"),
+        false => format!("{most:.2} steps with {name}, {filled:.2} where both sides are filled"),
+    };
+    findings.must_hold("one unit of outlined polygons is one of filled ones", same, measured);
+}
+
+/// By how much an offset moves a side's depths; where they disagree, the least.
+fn moved(
     subject: &Subject,
     surface: &Surface,
+    offset: Offset,
     state: State,
     turned: bool,
     encoding: Encoding,
@@ -204,13 +228,9 @@ fn moved_units(
     if turned {
         quad.reverse();
     }
-    let at = |units| probe::stored(&subject.bench, surface, f64::from(Z + 1.0) / 2.0, units);
-    let flat = at(0.0)?;
-    let unit = (at(1024.0)? - flat) / 1024.0;
+    let flat = probe::stored(&subject.bench, surface, f64::from(Z + 1.0) / 2.0, 0.0)?;
     surface.clear_depth(0.0);
-    let offset = Some(Offset { factor: 0.0, units: UNITS, clamp: 0.0 });
-    subject.bench.draw(&Draw::plain(surface, State { offset, ..state }, &quad))?;
+    subject.bench.draw(&Draw::plain(surface, State { offset: Some(offset), ..state }, &quad))?;
     let drawn = surface.depths().into_iter().filter(|depth| *depth > encoding.step(0.75));
-    let least = drawn.fold(f64::INFINITY, f64::min);
-    Ok((least - flat) / unit)
+    Ok(drawn.fold(f64::INFINITY, f64::min) - flat)
 }

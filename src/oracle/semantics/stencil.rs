@@ -10,14 +10,41 @@ use crate::device::bench::{
 const OLD: [u8; 8] = [0, 1, 0x0F, 0x7F, 0x80, 0xAB, 254, 255];
 const FORMAT: Format = Format::Depth24Stencil8;
 
-/// A surface of `rows`, each with all of [`OLD`].
+/// A surface of `rows`, each with all of [`OLD`]. Depth is cleared first: what comes of another order is [`clears`]' question.
 fn prepared(subject: &Subject, rows: usize) -> Result<Surface, Error> {
     let surface = subject.bench.surface([OLD.len() as u32, rows as u32], None, Some(FORMAT))?;
+    surface.clear_depth(0.5);
+    clear_columns(&surface, rows);
+    Ok(surface)
+}
+
+fn clear_columns(surface: &Surface, rows: usize) {
     for (column, old) in OLD.into_iter().enumerate() {
         surface.clear_stencil_in(Some([column as i32, 0, 1, rows as i32]), old);
     }
-    surface.clear_depth(0.5);
-    Ok(surface)
+}
+
+/// Clears of stencil within scissors, before and after one of depth without: neither reaches beyond its own buffer and
+/// scissor [GL 4.6, 17.4.3]. Zink, which puts clears off, lets the last stencil value fill the whole buffer in the first
+/// order.
+fn clears(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+    const ROWS: usize = 4;
+    for depth_last in [true, false] {
+        let surface = subject.bench.surface([OLD.len() as u32, ROWS as u32], None, Some(FORMAT))?;
+        if !depth_last {
+            surface.clear_depth(0.5);
+        }
+        clear_columns(&surface, ROWS);
+        if depth_last {
+            surface.clear_depth(0.5);
+        }
+        let values = surface.stencils();
+        let wrong = values.chunks(OLD.len()).flat_map(|row| row.iter().zip(OLD)).filter(|(new, old)| *new != old);
+        let order = if depth_last { "before" } else { "after" };
+        let what = format!("stencil cleared within scissors, {order} depth without");
+        findings.none_wrong(what, wrong.count(), values.len());
+    }
+    Ok(())
 }
 
 /// Draws each of `sides` into its own row; wrong values against `due`, which gets the row and the old value.
@@ -42,6 +69,7 @@ fn rows(
 
 /// S1: operations, masks, tests, and which of the three operations is taken.
 pub fn operations(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+    clears(subject, findings)?;
     let no_depth = State { depth: None, ..State::WRITE };
     for op in StencilOp::ALL {
         let mut sides = Vec::new();

@@ -136,8 +136,8 @@ pub const TABLE: &[Rule] = &[
         id: "O2",
         title: "polygon offset of lines and fills",
         section: "14.6.4, 14.6.5",
-        says: "POLYGON_OFFSET_FILL and _LINE hold for the sides that are drawn in that mode.",
-        tolerance: "half a unit of 64: r is measured by 1024",
+        says: "POLYGON_OFFSET_FILL and _LINE hold for the sides that are drawn in that mode, by the same r.",
+        tolerance: "half a unit of 64, or a code: r is measured by 1024",
         check: offset::modes,
     },
     Rule {

@@ -165,6 +165,13 @@ pub fn offset_unit(steps: f64) -> Grade {
     }
 }
 
+/// An offset of `due` units that moved a flat surface by so many: to half a unit, or to a code, of which a unit has
+/// 1 / `step`. That units add up to a code is O1's question.
+pub fn offset_moves(units: f64, due: f64, step: f64) -> Grade {
+    let bound = (step * (1.0 + 1e-6)).clamp(0.5, 1.01);
+    within(units - due, bound, bound)
+}
+
 /// The 8-bit code of a float: strictly the nearest, else one of the two nearest [GL 4.6, 2.3.5.2].
 pub fn unorm8(code: u8, value: f64) -> Grade {
     within(f64::from(code) - value.clamp(0.0, 1.0) * 255.0, 0.5 + 1e-4, 1.0 + 1e-4)

@@ -113,6 +113,22 @@ fn offsets() {
 }
 
 #[test]
+fn offsets_are_told_to_half_a_unit_or_a_code() {
+    // A unit of two codes, of one, and one that moves nothing.
+    for (units, due, step, grade) in [
+        (64.4, 64.0, 0.5, Good),
+        (64.6, 64.0, 0.5, Wrong),
+        (64.9, 64.0, 1.0, Good),
+        (66.0, 64.0, 1.0, Wrong),
+        (64.0, 0.0, 1.0, Wrong),
+        (f64::INFINITY, 64.0, f64::INFINITY, Wrong),
+        (f64::NAN, 64.0, f64::INFINITY, Wrong),
+    ] {
+        assert_eq!(offset_moves(units, due, step), grade, "{units} for {due}");
+    }
+}
+
+#[test]
 fn eight_bit_codes() {
     let cases =
         [(128, 127.6, Good), (127, 127.6, Allowed), (126, 127.6, Wrong), (129, 127.9, Wrong), (255, 400.0, Good)];

@@ -1,5 +1,5 @@
-//! Known deviations: a failure of one driver and version, quoted to the letter, does not fail a run; a waiver that no
-//! longer applies does.
+//! Known deviations: a failing check that a waiver names, of its driver and range of versions, does not fail a run; a
+//! waiver that no longer applies does.
 
 use std::path::{Path, PathBuf};
 
@@ -17,14 +17,52 @@ const SHIPPED: &str = include_str!("../../../data/waivers.toml");
 pub struct Waiver {
     /// A part of GL_RENDERER.
     pub renderer: String,
-    /// A part of GL_VERSION.
+    /// A part of GL_VERSION. `from` and `until` are compared with the number that follows it.
     pub version: String,
+    /// The first version that deviates: "22.3" is 22.3.0 too.
+    pub from: Option<Number>,
+    /// The first version after it that does not.
+    pub until: Option<Number>,
     /// The rule's id.
     pub rule: String,
-    /// The finding, to the letter: `what: measured`.
-    pub message: String,
+    /// What the rule checks, to the letter; whatever was measured there is waived.
+    pub finding: String,
     /// Why it is let pass.
     pub reason: String,
+}
+
+/// A version's number, by its parts: 22.3.6.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Number(Vec<u32>);
+
+impl TryFrom<String> for Number {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let parts: Result<Vec<u32>, _> = text.split('.').map(str::parse).collect();
+        parts.map(Self).map_err(|_| format!("\"{text}\" is no version: write numbers with dots between, like 22.3"))
+    }
+}
+
+impl Number {
+    /// The number that `text` starts with, if it does.
+    fn leading(text: &str) -> Option<Self> {
+        let text = text.trim_start();
+        let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+        Self::try_from(text[..end].trim_end_matches('.').to_owned()).ok()
+    }
+}
+
+impl Waiver {
+    /// Whether it is of this driver and one of its versions.
+    fn is_of(&self, context: &ContextInfo) -> bool {
+        let Some((_, after)) = context.version.split_once(&self.version) else { return false };
+        let number = Number::leading(after);
+        let since = self.from.as_ref().is_none_or(|from| number.as_ref().is_some_and(|number| number >= from));
+        let still = self.until.as_ref().is_none_or(|until| number.as_ref().is_some_and(|number| number < until));
+        context.renderer.contains(&self.renderer) && since && still
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -76,14 +114,11 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Waiver>, Error> {
 /// Marks waived failures, and returns what is wrong with waivers for this driver that nothing needed.
 pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]) -> Vec<String> {
     let mut stale = Vec::new();
-    let here =
-        |waiver: &&Waiver| context.renderer.contains(&waiver.renderer) && context.version.contains(&waiver.version);
-    for waiver in waivers.iter().filter(here) {
+    for waiver in waivers.iter().filter(|waiver| waiver.is_of(context)) {
         let Some(outcome) = outcomes.iter_mut().find(|outcome| outcome.id == waiver.rule) else { continue };
-        let matching = |verdict: Verdict, message: &str| verdict == Verdict::Fail && message == waiver.message;
         let mut used = false;
         for finding in &mut outcome.findings {
-            if matching(finding.verdict, &finding.message()) {
+            if finding.verdict == Verdict::Fail && finding.what == waiver.finding {
                 finding.verdict = Verdict::Waived;
                 used = true;
             }
@@ -91,8 +126,8 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]
         outcome.verdict = outcome.findings.iter().map(|finding| finding.verdict).max().unwrap_or(outcome.verdict);
         if !used && !may_be_untested(outcome, waiver) {
             stale.push(format!(
-                "the waiver of {} for {} {} no longer applies, remove it: \"{}\"",
-                waiver.rule, waiver.renderer, waiver.version, waiver.message
+                "a waiver of {} no longer applies to {} {}: remove it, or end it with `until`: \"{}\"",
+                waiver.rule, context.renderer, context.version, waiver.finding
             ));
         }
     }
@@ -101,10 +136,9 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]
 
 /// Whether this context could not ask what the waiver is about.
 fn may_be_untested(outcome: &Outcome, waiver: &Waiver) -> bool {
-    let about = |what: &str| waiver.message.strip_prefix(what).is_some_and(|rest| rest.starts_with(':'));
     let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Untestable);
-    let asked = outcome.findings.iter().any(|finding| finding.verdict != Verdict::Untestable && about(&finding.what));
-    !asked && untestable().next().is_some()
+    let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != Verdict::Untestable);
+    !asked.any(|finding| finding.what == waiver.finding) && untestable().next().is_some()
 }
 
 #[cfg(test)]

@@ -46,8 +46,9 @@ fn all_checks(case: &Case) -> Result<(), String> {
     checks.sum.iter().try_for_each(|each| sum(case, each))?;
     if let Some(wanted) = &checks.golden {
         let actual = draw(case, &[], Wanted::Picture)?.picture;
-        golden::check(&actual, &case.folder, wanted, golden::blessing())
+        let how = golden::check(&actual, &case.folder, wanted, golden::blessing())
             .map_err(|(error, expected)| failure(case, error, &actual, expected.as_ref()))?;
+        println!("{}: {how}", case.name);
     }
     Ok(())
 }

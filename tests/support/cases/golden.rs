@@ -12,18 +12,26 @@ use super::picture::Picture;
 /// The driver that drew the golden beside it, one line.
 const DRIVER_FILE: &str = "golden.driver";
 
+/// The mean, in 255ths, by which another driver may differ.
+const OTHER_MEAN: f64 = 0.75;
+
 /// Whether `ci/bless` asks for goldens.
 pub fn blessing() -> bool {
     std::env::var_os("GLUMBRA_BLESS").is_some_and(|value| value == "1")
 }
 
-/// Holds `actual` against `golden.png` in `folder`.
+/// Holds `actual` against `golden.png` in `folder`; how it was compared, and what was found.
 ///
 /// # Errors
 ///
 /// A golden that is missing, unreadable, of another size or too different, and with `bless` every golden: it is drawn
 /// anew.
-pub fn check(actual: &Picture, folder: &Path, golden: &Golden, bless: bool) -> Result<(), (String, Option<Picture>)> {
+pub fn check(
+    actual: &Picture,
+    folder: &Path,
+    golden: &Golden,
+    bless: bool,
+) -> Result<String, (String, Option<Picture>)> {
     let path = folder.join("golden.png");
     if bless {
         return Err((write(actual, folder, &path), None));
@@ -36,19 +44,26 @@ pub fn check(actual: &Picture, folder: &Path, golden: &Golden, bless: bool) -> R
         ));
     }
     let expected = Picture::read_png(&path).map_err(|error| (error, None))?;
-    compare::compare(actual, &expected, &tolerance(folder, golden))
-        .map(drop)
-        .map_err(|error| (format!("{}: {error} ({})", path.display(), golden.why), Some(expected)))
+    let recorded = fs::read_to_string(folder.join(DRIVER_FILE)).unwrap_or_default();
+    let (tolerance, how) = tolerance(recorded.trim(), &draw::driver(), golden);
+    compare::compare(actual, &expected, &tolerance)
+        .map(|found| format!("{how}: {found}"))
+        .map_err(|error| (format!("{}: {how}: {error} ({})", path.display(), golden.why), Some(expected)))
 }
 
-/// On the driver of the goldens, the case's own. On another one edges of triangles and shadows fall differently in a
-/// few pixels, so the maximum cannot hold there, and the mean and the share are what a pixel-wide rim amounts to.
-fn tolerance(folder: &Path, golden: &Golden) -> Tolerance {
-    let recorded = fs::read_to_string(folder.join(DRIVER_FILE)).unwrap_or_default();
-    if recorded.trim() == draw::driver() {
-        return Tolerance { max: golden.max / 255.0, mean: golden.mean / 255.0, share: 1.0 };
+/// On the driver of the golden, the case's own tolerance. On another one edges of triangles and shadows fall differently
+/// in a few pixels, so the maximum cannot hold there, and the mean is what a pixel-wide rim amounts to. With it, what the
+/// golden was compared with, in words.
+fn tolerance(recorded: &str, here: &str, golden: &Golden) -> (Tolerance, String) {
+    let Golden { max, mean, .. } = golden;
+    if recorded == here {
+        let how = format!("compared with the golden of this driver, by {max}/255 at most and {mean}/255 in the mean");
+        return (Tolerance { max: max / 255.0, mean: mean / 255.0, share: 1.0 }, how);
     }
-    Tolerance { max: 1.0, mean: golden.mean.max(0.75) / 255.0, share: 1.0 }
+    let mean = mean.max(OTHER_MEAN);
+    let from = if recorded.is_empty() { "a driver that is not recorded" } else { recorded };
+    let how = format!("compared with the golden of another driver, {from}, by {mean}/255 in the mean alone");
+    (Tolerance { max: 1.0, mean: mean / 255.0, share: 1.0 }, how)
 }
 
 fn write(actual: &Picture, folder: &Path, path: &Path) -> String {
