@@ -117,12 +117,15 @@ fn setup_does_without_osmesa_where_there_is_none() {
     machine.stand_in("bin/apt-cache", "exit 100");
     machine.stand_in("bin/apt-get", "echo \"$@\" >>\"$0.log\"");
     machine.stand_in("cargo/bin/cargo", "exit 0");
-    // Of what libraries there are, ldconfig tells; setup looks into /usr/lib besides.
+    // ldconfig tells what libraries there are; setup looks into /usr/lib besides.
+    let script = fs::read_to_string(machine.path("ci/setup")).unwrap();
+    fs::write(machine.path("ci/setup"), script.replace("/usr/lib", "/nonexistent")).unwrap();
     machine.stand_in("bin/ldconfig", "echo libEGL.so.1 libEGL_mesa.so.0 libgallium-24");
     let output = machine.setup().env("XDG_CACHE_HOME", machine.path("cache")).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let log = fs::read_to_string(machine.path("bin/apt-get.log")).unwrap();
-    assert!(!log.contains("libosmesa6"), "{log}");
+    assert!(log.contains("g++") && !log.contains("libosmesa6"), "{log}");
+    assert!(text(&output).contains("there is no libosmesa6 here"), "{}", text(&output));
 }
 
 #[test]

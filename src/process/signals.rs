@@ -28,7 +28,7 @@ const TICK_SECONDS: u32 = 5;
 /// Looks in a row that find none used, after which a driver at work is given up.
 const MOST_IDLE_TICKS: u32 = 6;
 /// Processor time between two looks that counts as none, in microseconds; the look itself takes some.
-const IDLE_MICROSECONDS: i64 = 5_000;
+const IDLE_MICROSECONDS: i64 = 1_000;
 
 /// Whether SIGALRM has a handler of ours.
 static WATCHES: AtomicBool = AtomicBool::new(false);
