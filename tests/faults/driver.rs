@@ -98,7 +98,7 @@ fn a_driver_that_stops_in_the_child_process_is_given_up() {
     assert_eq!(refusal(&output, 1, "does not answer in 20 s, tried in a child process"), None);
 }
 
-/// Without each platform of EGL in turn, and without all of them.
+/// Each of the three platforms of EGL answers for itself.
 #[test]
 fn no_egl_is_told_by_platform() {
     let folder = work();
