@@ -10,6 +10,7 @@ use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
 use crate::geometry::Texture;
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};
+use crate::process::doing;
 use crate::scene::Scene;
 
 /// Why a frame could not be drawn.
@@ -22,6 +23,9 @@ pub enum Error {
     #[error(transparent)]
     Probe(#[from] probe::Error),
 }
+
+/// What a crash of the driver is said to have come in.
+const DRAWING: &str = "drawing";
 
 /// Draws scenes on one context.
 pub struct Renderer {
@@ -115,6 +119,7 @@ impl Renderer {
     ///
     /// See [`Device::run`].
     pub fn draw(&mut self, plan: &Plan) -> Result<(), Error> {
+        let _doing = doing(DRAWING);
         self.device.run(&plan.list, Measure::No)?;
         Ok(())
     }
@@ -131,6 +136,7 @@ impl Renderer {
         passes: bool,
         mut tick: impl FnMut(),
     ) -> Result<Times, Error> {
+        let _doing = doing(DRAWING);
         let mut times = Times::default();
         for _ in 0..count {
             let start = Instant::now();
@@ -152,6 +158,7 @@ impl Renderer {
     ///
     /// See [`Device::read`].
     pub fn read(&mut self, plan: &Plan) -> Result<Frame, Error> {
+        let _doing = doing("reading pictures");
         let picture = self.device.read(&plan.list, plan.picture)?;
         let views = plan.views.iter().map(|(wanted, image)| match wanted.view.is_stencil() {
             true => self.device.read_stencil(&plan.list, *image),

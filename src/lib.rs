@@ -26,6 +26,9 @@
 //! # }
 //! ```
 
+// Where standard output or standard error is closed or full, these panic.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 pub mod cli;
 pub mod context;
 pub mod device;
@@ -37,6 +40,7 @@ pub mod oracle;
 pub mod output;
 pub mod pass;
 pub mod plan;
+pub mod process;
 pub mod report;
 pub mod scene;
 pub mod stress;

@@ -2,6 +2,8 @@
 //! compares. A port of the sample program of that name (NVSDK, 2000) by the facts in techniques E; the scene itself is
 //! `data/scenes/hw_shadowmaps_simple.toml`, compiled in.
 
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 use std::process::ExitCode;
 
 use glumbra::cli::sample::{self, Sample};
@@ -20,6 +22,9 @@ const SAMPLE: Sample = Sample {
     },
     techniques: &[],
 };
+
+#[global_allocator]
+static MEMORY: glumbra::process::Memory = glumbra::process::Memory;
 
 fn main() -> ExitCode {
     sample::run(&SAMPLE)

@@ -2,6 +2,8 @@
 //! key goes over to polygon offset and back. After the sample program of that name (NVSDK), of which the white paper
 //! tells the idea alone [Hardware Shadow Mapping, "Advantages and Limitations"; techniques A14, E].
 
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 use std::process::ExitCode;
 
 use glumbra::cli::sample::{self, Sample};
@@ -20,6 +22,9 @@ const SAMPLE: Sample = Sample {
     },
     techniques: &["midpoint", "shadow-map"],
 };
+
+#[global_allocator]
+static MEMORY: glumbra::process::Memory = glumbra::process::Memory;
 
 fn main() -> ExitCode {
     sample::run(&SAMPLE)

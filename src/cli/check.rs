@@ -74,16 +74,12 @@ pub fn run(arguments: &CheckArgs) -> ExitCode {
     match check(arguments) {
         Ok(checked) if checked.is_empty() => ExitCode::from(2),
         Ok(checked) => ExitCode::from(u8::from(checked.fails())),
-        // A reader that has seen enough (`glumbra check | head`) is no error.
-        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => {
-            super::say(format_args!("error: {error}"));
-            ExitCode::from(2)
-        }
+        Err(error) => super::failure(error, 2),
     }
 }
 
 fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
+    refuse_one_file_for_two(arguments)?;
     let rules = semantics::choose(&arguments.filter)?;
     let waivers = waivers::load(arguments.waivers.as_deref())?;
     let context = open(arguments)?;
@@ -115,11 +111,21 @@ fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
 }
 
 fn print(checked: &Checked, verbose: bool) -> Result<(), Error> {
-    use std::io::Write;
     const UNKNOWN_WIDTH: u16 = 160;
     let width = terminal_size::terminal_size().map_or(UNKNOWN_WIDTH, |(width, _)| width.0);
-    let mut out = std::io::stdout().lock();
-    Ok(out.write_all(semantics::print(checked, width, verbose).as_bytes())?)
+    super::print(&semantics::print(checked, width, verbose))
+}
+
+fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
+    let files = [("--json", &arguments.json), ("--junit", &arguments.junit), ("--waivers", &arguments.waivers)];
+    let files: Vec<(&'static str, &PathBuf)> =
+        files.into_iter().filter_map(|(name, path)| path.as_ref().map(|path| (name, path))).collect();
+    for (index, (first, path)) in files.iter().enumerate() {
+        if let Some((second, _)) = files[index + 1..].iter().find(|(_, other)| output::is_same_file(path, other)) {
+            return Err(Error::SameFile { path: (*path).clone(), first, second });
+        }
+    }
+    Ok(())
 }
 
 /// The files that were asked for, or none of them.

@@ -1,7 +1,6 @@
 //! `glumbra info`: what draws here, within which limits, and how exactly.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 use clap::Args;
 use serde::Serialize;
@@ -9,6 +8,7 @@ use serde::Serialize;
 use super::{ContextArgs, Error};
 use crate::context::{self, ContextInfo, Profile, egl};
 use crate::device::probe::{self, DepthFacts, Measured, OffsetUnit};
+use crate::process;
 
 #[derive(Clone, Debug, Args)]
 pub(super) struct InfoArgs {
@@ -35,7 +35,10 @@ struct Info {
 pub(super) fn run(arguments: &InfoArgs) -> Result<(), Error> {
     let profile = if arguments.compatibility { Profile::Compatibility } else { Profile::Core33 };
     let context = context::open(&arguments.context.request(profile))?;
-    let depth_formats = probe::depth_formats(context.gl())?;
+    let depth_formats = {
+        let _doing = process::doing(format!("measuring depth formats ({})", context.road()));
+        probe::depth_formats(context.gl())?
+    };
     let (egl_devices, egl_devices_error) = match egl::devices() {
         Ok(devices) => (devices, None),
         Err(error) => (Vec::new(), Some(error)),
@@ -45,8 +48,7 @@ pub(super) fn run(arguments: &InfoArgs) -> Result<(), Error> {
     if !text.ends_with('\n') {
         text.push('\n');
     }
-    std::io::stdout().write_all(text.as_bytes())?;
-    Ok(())
+    super::print(&text)
 }
 
 fn describe(info: &Info) -> String {

@@ -4,6 +4,7 @@ mod check;
 mod context_args;
 mod figures;
 mod info;
+mod path_text;
 mod plan;
 mod render;
 mod report;
@@ -100,15 +101,28 @@ pub enum Error {
     Waivers(#[from] crate::oracle::semantics::waivers::Error),
     #[error("JUnit: {0}")]
     JUnit(#[from] quick_junit::SerializeError),
-    #[error("{path}: {error}", path = .path.display())]
+    #[error("{path}: cannot be written: {error}", path = .path.display())]
     WriteFile { path: std::path::PathBuf, error: std::io::Error },
+    #[error("{path}: the scene reads this file; name another for the {what}", path = .path.display())]
+    Overwrites { path: std::path::PathBuf, what: &'static str },
+    #[error("{path}: {first} and {second} name the same file", path = .path.display())]
+    SameFile { path: std::path::PathBuf, first: &'static str, second: &'static str },
+    #[error("{path}: is not UTF-8, and a scene file cannot name it; rename the model", path = .path.display())]
+    PathInScene { path: std::path::PathBuf },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
 
 /// Runs the command with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
 pub fn run() -> ExitCode {
-    let result = match Arguments::parse().command {
+    if let Err(code) = begin() {
+        return code;
+    }
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(&error),
+    };
+    let result = match arguments.command {
         Command::Check(arguments) => return check::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
@@ -121,14 +135,40 @@ pub fn run() -> ExitCode {
     exit_code(result)
 }
 
+/// What every command does first. The error is its exit status, and has been told.
+fn begin() -> Result<(), ExitCode> {
+    crate::process::guard();
+    // rayon would do so at its first use, and panic where no thread can be had.
+    rayon::ThreadPoolBuilder::new().build_global().map_err(|error| {
+        say(format_args!("error: threads cannot be started: {error}; is their number limited (ulimit -u, ulimit -v)?"));
+        ExitCode::FAILURE
+    })
+}
+
+/// Help and version, which are no errors, and errors of usage.
+fn usage(error: &clap::Error) -> ExitCode {
+    match error.print() {
+        // What cannot be said on standard error cannot be said at all.
+        Err(lost) if !error.use_stderr() => exit_code(Err(lost.into())),
+        _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
+    }
+}
+
 fn exit_code(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) => failure(error, 1),
+    }
+}
+
+/// Says what is wrong, and answers with `status`.
+fn failure(error: Error, status: u8) -> ExitCode {
+    match error {
         // A reader that has seen enough (`glumbra info | head`) is no error.
-        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => {
+        Error::Output(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        error => {
             say(format_args!("error: {error}"));
-            ExitCode::FAILURE
+            ExitCode::from(status)
         }
     }
 }
@@ -141,11 +181,15 @@ fn say(line: impl std::fmt::Display) {
 
 /// Pretty JSON and a line's end on standard output.
 fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
+    print(&(serde_json::to_string_pretty(value)? + "\n"))
+}
+
+/// Writes on standard output, to the last byte.
+fn print(text: &str) -> Result<(), Error> {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
-    serde_json::to_writer_pretty(&mut out, value)?;
-    writeln!(out)?;
-    Ok(())
+    out.write_all(text.as_bytes())?;
+    Ok(out.flush()?)
 }
 
 /// A spinner with a message, for work without a known length.

@@ -33,20 +33,19 @@ pub struct PlanArgs {
 
 /// Plans and prints.
 pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
-    use std::io::Write;
-    let mut out = std::io::stdout().lock();
     if arguments.print_scene {
+        let path = &arguments.scene.scene;
+        if path.to_str().is_none() && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
+            return Err(Error::PathInScene { path: path.clone() });
+        }
         let settings = scene::settings(&arguments.scene.scene, &arguments.scene.overrides())?;
-        out.write_all(settings.to_toml().as_bytes())?;
-        return Ok(());
+        return super::print(&settings.to_toml());
     }
     let loaded = arguments.scene.load()?;
     let request = Request { views: arguments.aov.clone(), frames: arguments.frames, ..Request::default() };
     let summary = plan::make(&loaded.scene, &request)?.summary();
     if arguments.json {
-        drop(out);
         return super::print_json(&summary);
     }
-    write!(out, "{summary}")?;
-    Ok(())
+    super::print(&summary.to_string())
 }

@@ -7,12 +7,14 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
+use super::path_text::{PathBytes, path_text};
 use super::road::Road;
 use super::scene_args::{SceneArgs, parse_view};
 use super::{ContextArgs, Error};
 use crate::frame::{Renderer, Times};
 use crate::output::{self, Output};
 use crate::plan::{Request, Summary, ViewRequest};
+use crate::scene::Scene;
 
 /// Renders a scene or a model to a picture.
 #[derive(Debug, Args)]
@@ -71,8 +73,11 @@ Examples:
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Report {
-    scene: PathBuf,
-    files: Vec<PathBuf>,
+    scene: String,
+    files: Vec<String>,
+    /// Of the paths above that are not UTF-8.
+    #[serde(skip_serializing_if = "PathBytes::is_empty")]
+    path_bytes: PathBytes,
     context: String,
     renderer: String,
     #[serde(flatten)]
@@ -103,11 +108,15 @@ struct PassReport {
 pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let path = arguments.output.clone().unwrap_or_else(|| default_output(&arguments.scene.scene));
     let format = output::check_path(&path)?;
+    let views = each_once(&arguments.aov);
+    let names = views.iter().map(|wanted| output::beside(&path, &view_name(wanted)));
+    let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
     let start = Instant::now();
     let loaded = arguments.scene.load()?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
+    refuse_to_overwrite(&files, &arguments.scene.scene, &loaded.scene)?;
     let request = Request {
-        views: arguments.aov.clone(),
+        views: views.clone(),
         float_picture: format.is_exact(),
         frames: arguments.frames,
         ..Request::default()
@@ -125,24 +134,51 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let drawn = arguments.road.draw(context.as_ref(), &mut renderer, &plan, frames, passes, || progress.inc(1));
     progress.finish_and_clear();
     let (times, frame) = drawn?;
-    let names = arguments.aov.iter().map(|wanted| output::beside(&path, &view_name(wanted)));
-    let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
-    let views = arguments.aov.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
+    let views = views.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
     let pictures = [(&frame.picture, None)].into_iter().chain(views);
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
     output::write_all(&outputs)?;
     if arguments.json {
         let info = context.describe();
+        let mut path_bytes = PathBytes::new();
         let report = Report {
-            scene: arguments.scene.scene.clone(),
-            files,
+            scene: path_text(&arguments.scene.scene, &mut path_bytes),
+            files: files.iter().map(|path| path_text(path, &mut path_bytes)).collect(),
+            path_bytes,
             context: context.road().to_owned(),
             renderer: format!("{}, {}", info.renderer, info.version),
             plan: plan.summary(),
             times: report_times(load_ms, times),
         };
         super::print_json(&report)?;
+    }
+    Ok(())
+}
+
+/// The views in the order in which they were asked for. One that is asked for twice is one file.
+fn each_once(wanted: &[ViewRequest]) -> Vec<ViewRequest> {
+    let mut views: Vec<ViewRequest> = Vec::new();
+    for view in wanted {
+        if views.contains(view) {
+            let name = output::beside(Path::new("PICTURE"), &view_name(view));
+            super::say(format_args!("warning: --aov asks for {} twice; it is written once", name.display()));
+        } else {
+            views.push(*view);
+        }
+    }
+    views
+}
+
+/// Refuses a picture that would take the place of the scene or of a texture.
+fn refuse_to_overwrite(files: &[PathBuf], path: &Path, scene: &Scene) -> Result<(), Error> {
+    let textures = scene.textures().map(|texture| Path::new(&texture.name));
+    let read: Vec<&Path> = [path].into_iter().chain(textures).collect();
+    for (index, file) in files.iter().enumerate() {
+        if read.iter().any(|read| output::is_same_file(file, read)) {
+            let what = if index == 0 { "picture" } else { "picture, after which views are named" };
+            return Err(Error::Overwrites { path: file.clone(), what });
+        }
     }
     Ok(())
 }

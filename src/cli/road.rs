@@ -9,6 +9,7 @@ use crate::context::{self, Context, Profile};
 use crate::frame::{Frame, Renderer, Times};
 use crate::oracle::fixed_function::FixedFunction;
 use crate::plan::Plan;
+use crate::process;
 
 /// How the passes are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -55,6 +56,7 @@ impl Road {
             let times = renderer.draw_timed(plan, count, passes, tick)?;
             return Ok((times, renderer.read(plan)?));
         }
+        let _doing = process::doing("drawing by the fixed-function pipeline");
         let mut fixed = FixedFunction::new(context)?;
         let mut times = Times::default();
         for _ in 0..count {

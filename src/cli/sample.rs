@@ -108,12 +108,18 @@ impl From<ModeName> for Mode {
 pub fn run(sample: &Sample) -> ExitCode {
     let mut command =
         Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help(sample.techniques));
-    let matches = command.get_matches_mut();
-    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    if let Err(code) = super::begin() {
+        return code;
+    }
+    let matches = command.try_get_matches_from_mut(std::env::args_os());
+    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
+        Ok(arguments) => arguments,
+        Err(error) => return super::usage(&error),
+    };
     let chosen = arguments.context.request(Profile::Core33);
     if !arguments.headless && (chosen.device.is_some() || !matches!(chosen.choice, Choice::Auto | Choice::Window)) {
         let message = "a window has its display's context: --context and --device go with --headless -o FILE";
-        command.error(ErrorKind::ArgumentConflict, message).exit();
+        return super::usage(&command.error(ErrorKind::ArgumentConflict, message));
     }
     super::exit_code(show(sample, &arguments))
 }

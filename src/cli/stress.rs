@@ -10,7 +10,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::report::{parse_shard, stop_on_interrupt};
-use super::{ContextArgs, Error, say, spinner};
+use super::{ContextArgs, Error, spinner};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
 use crate::output::whole;
@@ -96,12 +96,7 @@ fn parse_technique(text: &str) -> Result<String, String> {
 pub fn run(arguments: &StressArgs) -> ExitCode {
     match stress(arguments) {
         Ok(fails) => ExitCode::from(u8::from(fails)),
-        // A reader that has seen enough (`glumbra stress | head`) is no error.
-        Err(Error::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => {
-            say(format_args!("error: {error}"));
-            ExitCode::from(2)
-        }
+        Err(error) => super::failure(error, 2),
     }
 }
 

@@ -8,6 +8,7 @@ use super::{Choice, Road};
 #[derive(Clone, Debug)]
 pub struct Attempt {
     pub road: Road,
+    pub reached: Reached,
     pub answer: String,
 }
 
@@ -34,14 +35,92 @@ fn choice_name(choice: &Choice) -> &'static str {
     }
 }
 
-/// What to install, by distribution.
+/// What to install, by distribution. OSMesa is left out: newer distributions have no such package.
 const INSTALL: &[(&str, &str)] = &[
-    ("Debian, Ubuntu", "apt-get install libegl1 libgl1-mesa-dri libosmesa6"),
+    ("Debian, Ubuntu", "apt-get install libegl1 libgl1-mesa-dri"),
     ("Fedora", "dnf install mesa-libEGL mesa-dri-drivers"),
     ("Arch", "pacman -S mesa libglvnd"),
     ("openSUSE", "zypper install Mesa-libEGL1 Mesa-dri"),
     ("Alpine", "apk add mesa-egl mesa-gl mesa-dri-gallium"),
 ];
+
+/// Environment variables that choose a driver, or change what it offers (Mesa's envvars.rst; libglvnd's README).
+const VARIABLES: &[&str] = &[
+    "GALLIUM_DRIVER",
+    "MESA_LOADER_DRIVER_OVERRIDE",
+    "MESA_GL_VERSION_OVERRIDE",
+    "MESA_GLSL_VERSION_OVERRIDE",
+    "MESA_EXTENSION_OVERRIDE",
+    "LIBGL_ALWAYS_SOFTWARE",
+    "LIBGL_DRIVERS_PATH",
+    "GBM_BACKENDS_PATH",
+    "DRI_PRIME",
+    "EGL_PLATFORM",
+    "VK_DRIVER_FILES",
+    "VK_ICD_FILENAMES",
+    "__EGL_VENDOR_LIBRARY_DIRS",
+    "__EGL_VENDOR_LIBRARY_FILENAMES",
+    "__GLX_VENDOR_LIBRARY_NAME",
+];
+
+/// Those of [`VARIABLES`] that are set, with their values.
+fn variables() -> Vec<String> {
+    let set = VARIABLES.iter().filter_map(|name| std::env::var_os(name).map(|value| (name, value)));
+    set.map(|(name, value)| format!("{name}={}", value.to_string_lossy())).collect()
+}
+
+/// How far a road went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reached {
+    /// The library cannot be loaded.
+    Nothing,
+    /// The library is there; no driver answers.
+    Library,
+    /// A driver answers, and gives no context that will do.
+    Driver,
+}
+
+/// Why a road ends.
+#[derive(Clone, Debug)]
+pub(super) struct Refusal {
+    pub reached: Reached,
+    pub answer: String,
+}
+
+impl Refusal {
+    pub fn nothing(answer: String) -> Self {
+        Self { reached: Reached::Nothing, answer }
+    }
+
+    pub fn driver(answer: String) -> Self {
+        Self { reached: Reached::Driver, answer }
+    }
+}
+
+impl From<String> for Refusal {
+    fn from(answer: String) -> Self {
+        Self { reached: Reached::Library, answer }
+    }
+}
+
+impl From<&str> for Refusal {
+    fn from(answer: &str) -> Self {
+        answer.to_owned().into()
+    }
+}
+
+/// What was tried before `road`, for the message of a crash on it: a line each, and the variables that may be why.
+pub(super) fn tried_before(road: Road, attempts: &[Attempt]) -> String {
+    let mut text = format!("opening a context by {road}");
+    for Attempt { road, answer, .. } in attempts {
+        text.push_str(&format!("\n  before that      {road}: {answer}"));
+    }
+    let set = variables();
+    if !set.is_empty() {
+        text.push_str(&format!("\n  the driver reads {}: try without", set.join(" ")));
+    }
+    text
+}
 
 /// The attempts as one message.
 struct Report<'a>(&'a [Attempt]);
@@ -49,8 +128,21 @@ struct Report<'a>(&'a [Attempt]);
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "no OpenGL context can be had. What was tried, and what it answered:")?;
-        for Attempt { road, answer } in self.0 {
+        for Attempt { road, answer, .. } in self.0 {
             writeln!(f, "  {road:<16} {answer}")?;
+        }
+        let farthest = self.0.iter().map(|attempt| attempt.reached).max().unwrap_or(Reached::Nothing);
+        let set = variables();
+        if self.0.iter().all(|attempt| attempt.road == Road::Window) {
+            return write!(f, "A picture needs no window: try --context egl.");
+        }
+        if farthest > Reached::Nothing && !set.is_empty() {
+            let these =
+                if set.len() == 1 { "This variable chooses or changes" } else { "These variables choose or change" };
+            return write!(f, "{these} the driver: {}. Try without.", set.join(" "));
+        }
+        if farthest == Reached::Driver {
+            return write!(f, "A driver is there, but not for this. A newer Mesa draws OpenGL 3.3 on any machine.");
         }
         writeln!(f, "Mesa draws without a graphics card and without a display. To install it:")?;
         for (system, command) in INSTALL {

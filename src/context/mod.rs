@@ -5,6 +5,7 @@
 //!
 //! The roads are tried in the order of [`Road`]; each that fails says why, and the first that answers is taken.
 
+mod child;
 mod debug_log;
 pub mod egl;
 mod error;
@@ -19,9 +20,12 @@ use std::fmt;
 use std::rc::Rc;
 
 pub use debug_log::{DebugLog, DebugMessage};
-pub use error::{Attempt, Error};
+pub use error::{Attempt, Error, Reached};
 pub use info::{ContextInfo, Limits};
 pub use load::Loaded;
+
+use crate::process;
+use error::Refusal;
 
 /// What kind of context is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -151,9 +155,9 @@ pub trait Context {
 pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     let mut attempts = Vec::new();
     for road in request.roads()? {
-        match try_road(road, request) {
+        match try_road(road, request, &attempts) {
             Ok(context) => return Ok(context),
-            Err(answer) => attempts.push(Attempt { road, answer }),
+            Err(Refusal { reached, answer }) => attempts.push(Attempt { road, reached, answer }),
         }
     }
     match (request.device, attempts.pop()) {
@@ -170,12 +174,14 @@ pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
 
 /// Opens a context by this road and no other; `request.choice` is not looked at.
 pub fn open_road(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
-    try_road(road, request).map_err(|answer| Error::NoContext(vec![Attempt { road, answer }]))
+    let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { road, reached, answer }]);
+    try_road(road, request, &[]).map_err(refused)
 }
 
-/// The road's answer is one line, for a person to read beside the road's name.
-fn try_road(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, String> {
+/// The road's answer is one line, for a person to read beside the road's name. `before`: what was tried already.
+fn try_road(road: Road, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
     heap::keep();
+    let _doing = process::doing(error::tried_before(road, before));
     match road {
         Road::EglSurfaceless | Road::EglDevice | Road::EglPbuffer => egl::open(road, request),
         Road::OsMesa => osmesa::open(request),

@@ -7,8 +7,9 @@ use std::sync::OnceLock;
 
 use libloading::Library;
 
+use super::error::Refusal;
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road};
+use super::{Context, ContextRequest, Error, Profile, Road, child};
 
 /// By the version that Mesa has had since 2013, the one before, and the name of the development package.
 const NAMES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
@@ -54,8 +55,21 @@ struct Handle {
 }
 
 /// Opens an OSMesa context. The error is the road's answer.
-pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, String> {
-    let api = library()?;
+///
+/// OSMesa crashes where EGL refuses: with a driver that is not there, or without GLSL 1.30. So it is tried in a child process
+/// first, once for each profile.
+pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+    static TRIED: [OnceLock<Result<(), String>>; 2] = [OnceLock::new(), OnceLock::new()];
+    let tried = TRIED[usize::from(request.profile == Profile::Compatibility)].get_or_init(|| {
+        let request = ContextRequest { debug: false, ..*request };
+        child::survives(move || drop(open_here(&request)))
+    });
+    tried.clone().map_err(Refusal::driver)?;
+    open_here(request)
+}
+
+fn open_here(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+    let api = library().map_err(Refusal::nothing)?;
     let (profile, name) = match request.profile {
         Profile::Core33 => (CORE_PROFILE, "core"),
         Profile::Compatibility => (COMPAT_PROFILE, "compatibility"),
@@ -73,14 +87,14 @@ pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, String>
     // SAFETY: pairs of name and value that end with 0.
     let context = unsafe { (api.create)(attributes.as_flattened().as_ptr(), null_mut()) };
     if context.is_null() {
-        return Err(format!("OSMesaCreateContextAttribs refuses OpenGL 3.3 {name}"));
+        return Err(Refusal::driver(format!("OSMesaCreateContextAttribs refuses OpenGL 3.3 {name}")));
     }
     let pixels: Pixels = Box::new([0; (SIDE * SIDE * 4) as usize]);
     let handle = Handle { api, context, pixels: Box::into_raw(pixels).cast() };
-    handle.make_current()?;
+    handle.make_current().map_err(Refusal::driver)?;
     // SAFETY: the context is current; OSMesaGetProcAddress answers with its functions or null.
     let address_of = move |name: &CStr| unsafe { (api.get_proc_address)(name.as_ptr()) };
-    let loaded = unsafe { load::load(Road::OsMesa.to_string(), request, address_of) }?;
+    let loaded = unsafe { load::load(Road::OsMesa.to_string(), request, address_of) }.map_err(Refusal::driver)?;
     Ok(Box::new(OsMesaContext { handle, loaded }))
 }
 

@@ -22,6 +22,7 @@ use winit::platform::x11::register_xlib_error_hook;
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes, WindowId};
 
+use super::error::Refusal;
 use super::load::{self, Loaded};
 use super::{Context, ContextRequest, Error, Profile, Road};
 
@@ -107,25 +108,26 @@ impl Drop for WindowContext {
 }
 
 /// A context on a hidden window. The error is the road's answer.
-pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, String> {
+pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     thread_local! {
         /// winit allows one event loop a process. It is kept to the end: tearing it down takes the display along.
         static EVENTS: RefCell<Option<&'static mut EventLoop<()>>> = const { RefCell::new(None) };
     }
     if !display_is_named() {
-        return Err("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
+        return Err("there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set".into());
     }
-    check_libraries()?;
+    check_libraries().map_err(Refusal::nothing)?;
     EVENTS.with_borrow_mut(|kept| {
         if kept.is_none() {
             *kept = Some(Box::leak(Box::new(start_events()?)));
         }
-        let Some(events) = kept else { return Err("no event loop".to_owned()) };
+        let Some(events) = kept else { return Err("no event loop".into()) };
         let mut opening = Opening { request, opened: None };
         events.pump_app_events(Some(Duration::ZERO), &mut opening);
         match opening.opened {
-            Some(opened) => opened.map(|context| Box::new(context) as Box<dyn Context>),
-            None => Err("the window system does not answer".to_owned()),
+            Some(Ok(context)) => Ok(Box::new(context) as Box<dyn Context>),
+            Some(Err(answer)) => Err(answer.into()),
+            None => Err("the window system does not answer".into()),
         }
     })
 }

@@ -74,7 +74,9 @@ fn attach(gl: &glow::Context, point: u32, image: ImageName, target: Target) {
 fn status_name(status: u32) -> String {
     match status {
         glow::FRAMEBUFFER_UNSUPPORTED => String::from("GL_FRAMEBUFFER_UNSUPPORTED"),
-        glow::FRAMEBUFFER_INCOMPLETE_ATTACHMENT => String::from("GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT"),
+        glow::FRAMEBUFFER_INCOMPLETE_ATTACHMENT => {
+            String::from("GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT; it may have no memory for images of this size")
+        }
         glow::FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER => String::from("GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER"),
         other => format!("status 0x{other:04X}"),
     }

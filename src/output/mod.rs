@@ -68,6 +68,12 @@ pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     }
 }
 
+/// Whether both lead to one file that exists.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    one == other || place(one).is_some_and(|one| place(other).is_some_and(|other| one == other))
+}
+
 /// `a/x.png` and `shade` make `a/x.shade.png`.
 pub fn beside(path: &Path, name: &str) -> PathBuf {
     let mut file = path.file_stem().unwrap_or_default().to_owned();

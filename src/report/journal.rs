@@ -1,7 +1,7 @@
 //! What a running report has done so far, a line a row, so that a run that was cut short goes on where it stopped.
 
 use std::collections::HashSet;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
@@ -105,6 +105,18 @@ pub enum Known {
     NoSuchRow,
 }
 
+/// Keeps a second report out of the folder while this one runs, and empties a journal that is not gone on with.
+fn lock(file: &File, resume: bool) -> io::Result<()> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            return Err(io::Error::other("another report is being written into this folder"));
+        }
+        // Where files cannot be locked, the user has to see to it.
+        Ok(()) | Err(TryLockError::Error(_)) => {}
+    }
+    if resume { Ok(()) } else { file.set_len(0) }
+}
+
 impl Journal {
     /// Opens the journal of a folder; `resume` keeps what it holds.
     ///
@@ -114,9 +126,10 @@ impl Journal {
     pub fn open(folder: &Path, resume: bool, stamp: &str) -> Result<Self, Error> {
         let path = path_in(folder);
         let mut options = OpenOptions::new();
-        let options = if resume { options.append(true) } else { options.write(true).truncate(true) };
+        let options = if resume { options.append(true) } else { options.write(true).truncate(false) };
         match options.create(true).open(&path) {
             Ok(mut file) => {
+                lock(&file, resume).map_err(|reason| Error { path: path.clone(), reason })?;
                 // A line that was cut off ends here.
                 let ended = if resume { file.write_all(b"\n") } else { Ok(()) };
                 ended.map_err(|reason| Error { path: path.clone(), reason })?;

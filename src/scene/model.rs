@@ -17,6 +17,21 @@ pub struct Scene {
     pub objects: Vec<Object>,
 }
 
+impl Scene {
+    /// The textures of lights, objects and meshes; one that is used twice comes twice.
+    pub fn textures(&self) -> impl Iterator<Item = &Texture> {
+        let of_lights = self.lights.iter().filter_map(|light| match &light.kind {
+            LightKind::Spot(spot) => spot.image.as_deref(),
+            LightKind::Point(_) | LightKind::Directional { .. } => None,
+        });
+        let materials =
+            self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
+        let of_materials =
+            materials.flat_map(|material| material.decal.as_deref().into_iter().chain(material.alpha.as_deref()));
+        of_lights.chain(of_materials)
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Width and height in pixels, each in 1..=16384.

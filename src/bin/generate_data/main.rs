@@ -2,12 +2,15 @@
 //! and `textures/spot.png` into FOLDER (`data` if not given). Uses no function whose last bit differs between
 //! platforms: sums, products, quotients and square roots only. A test makes them anew and compares.
 
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 mod noise;
 mod statue;
 mod tetrahedra;
 mod textures;
 
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -18,7 +21,8 @@ fn main() -> ExitCode {
     match write_all(&folder) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{}: {error}", folder.display());
+            // Where standard error is closed there is nowhere left to say it.
+            let _ = writeln!(std::io::stderr(), "{}: {error}", folder.display());
             ExitCode::FAILURE
         }
     }

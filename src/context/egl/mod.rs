@@ -13,6 +13,7 @@ use khronos_egl::api::{EGL1_0, EGL1_2, EGL1_4};
 
 use self::api::Egl;
 pub use self::devices::{Device, devices};
+use super::error::{Reached, Refusal};
 use super::load::{self, Loaded};
 use super::{Context, ContextRequest, Error, Profile, Road};
 
@@ -44,8 +45,8 @@ struct Handles {
 }
 
 /// Opens a context by one of EGL's three roads. The error is the road's answer.
-pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, String> {
-    let egl = api::library()?;
+pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+    let egl = api::library().map_err(Refusal::nothing)?;
     match road {
         Road::EglDevice => open_device(egl, request),
         Road::EglPbuffer => {
@@ -55,7 +56,7 @@ pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Conte
         }
         _ => {
             if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_MESA_platform_surfaceless") {
-                return Err("EGL has no EGL_MESA_platform_surfaceless".to_owned());
+                return Err("EGL has no EGL_MESA_platform_surfaceless".into());
             }
             let display = platform_display(egl, api::PLATFORM_SURFACELESS_MESA, null_mut())?;
             open_on(egl, display, "eglGetPlatformDisplay", road.to_string(), request, false)
@@ -64,29 +65,34 @@ pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Conte
 }
 
 /// On the device that was asked for, or on the first that answers.
-fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Context>, String> {
+fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let devices = devices::enumerate(egl)?;
     if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_EXT_platform_device") {
-        return Err("EGL has no EGL_EXT_platform_device".to_owned());
+        return Err("EGL has no EGL_EXT_platform_device".into());
     }
     let chosen = match request.device {
         Some(index) if index < devices.len() => index..index + 1,
-        Some(index) => return Err(no_such_device(index, devices.len())),
-        None if devices.is_empty() => return Err("EGL finds no device".to_owned()),
+        Some(index) => return Err(no_such_device(index, devices.len()).into()),
+        None if devices.is_empty() => return Err("EGL finds no device".into()),
         None => 0..devices.len(),
     };
     let mut answers = Vec::new();
+    let mut farthest = Reached::Library;
     for index in chosen {
-        let opened = platform_display(egl, api::PLATFORM_DEVICE_EXT, devices[index]).and_then(|display| {
+        let display = platform_display(egl, api::PLATFORM_DEVICE_EXT, devices[index]).map_err(Refusal::from);
+        let opened = display.and_then(|display| {
             let name = format!("{} {index}", Road::EglDevice);
             open_on(egl, display, "eglGetPlatformDisplay", name, request, false)
         });
         match opened {
             Ok(context) => return Ok(context),
-            Err(answer) => answers.push(format!("device {index}: {answer}")),
+            Err(Refusal { reached, answer }) => {
+                farthest = farthest.max(reached);
+                answers.push(format!("device {index}: {answer}"));
+            }
         }
     }
-    Err(answers.join("; "))
+    Err(Refusal { reached: farthest, answer: answers.join("; ") })
 }
 
 fn no_such_device(index: usize, count: usize) -> String {
@@ -119,34 +125,36 @@ fn open_on(
     road: String,
     request: &ContextRequest,
     want_surface: bool,
-) -> Result<Box<dyn Context>, String> {
+) -> Result<Box<dyn Context>, Refusal> {
     if display == egl::NO_DISPLAY {
-        return Err(format!("{origin} answers EGL_NO_DISPLAY"));
+        return Err(format!("{origin} answers EGL_NO_DISPLAY").into());
     }
     // SAFETY: the display is one that EGL gave; eglInitialize may be called again on it.
     unsafe {
         if egl.eglInitialize(display, null_mut(), null_mut()) != egl::TRUE {
-            return Err(api::failure(egl, "eglInitialize"));
+            return Err(api::failure(egl, "eglInitialize").into());
         }
         if egl.eglBindAPI(egl::OPENGL_API) != egl::TRUE {
-            return Err(api::failure(egl, "eglBindAPI(EGL_OPENGL_API)"));
+            return Err(api::failure(egl, "eglBindAPI(EGL_OPENGL_API)").into());
         }
     }
     let extensions = api::query_string(egl, display, egl::EXTENSIONS);
     let has = |name: &str| extensions.split_ascii_whitespace().any(|word| word == name);
     let needs_surface = want_surface || !has("EGL_KHR_surfaceless_context");
     let configless = has("EGL_KHR_no_config_context") || has("EGL_MESA_configless_context");
-    let config = if needs_surface || !configless { choose_config(egl, display)? } else { null_mut() };
+    let needs_config = needs_surface || !configless;
+    let config = if needs_config { choose_config(egl, display).map_err(Refusal::driver)? } else { null_mut() };
 
     let debug = request.debug && has("EGL_KHR_create_context");
     let mut handles = Handles { egl, display, context: egl::NO_CONTEXT, surface: egl::NO_SURFACE };
-    handles.context = create_context(egl, display, config, request.profile, debug)?;
+    handles.context = create_context(egl, display, config, request.profile, debug).map_err(Refusal::driver)?;
     if needs_surface {
-        handles.surface = create_pbuffer(egl, display, config)?;
+        handles.surface = create_pbuffer(egl, display, config).map_err(Refusal::driver)?;
     }
-    handles.make_current()?;
+    handles.make_current().map_err(Refusal::driver)?;
     // SAFETY: the context is current; eglGetProcAddress answers with its functions.
-    let loaded = unsafe { load::load(road, request, move |name| api::address_of(egl, name)) }?;
+    let loaded = unsafe { load::load(road, request, move |name| api::address_of(egl, name)) };
+    let loaded = loaded.map_err(Refusal::driver)?;
     Ok(Box::new(EglContext { handles, loaded }))
 }
 

@@ -117,6 +117,7 @@ impl Checked {
 pub fn run(subject: &Subject, rules: &[&'static Rule], mut seen: impl FnMut(&Outcome)) -> Vec<Outcome> {
     let one = |rule: &&'static Rule| {
         let start = std::time::Instant::now();
+        let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));
         let mut findings = Findings::default();
         if let Err(error) = (rule.check)(subject, &mut findings) {
             findings.error(&error);

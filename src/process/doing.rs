@@ -1,0 +1,64 @@
+//! What the driver is at work on, for the message of a crash. Several threads may be at work.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Each with a number that no other has.
+static STEPS: Mutex<Vec<(u64, String)>> = Mutex::new(Vec::new());
+
+/// A step that lasts until this is dropped.
+#[must_use]
+pub(crate) struct Doing(u64);
+
+/// Notes that the driver is at work on `what`: "opening a context". It may have lines of its own for what was tried before.
+pub(crate) fn doing(what: impl Into<String>) -> Doing {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let number = NEXT.fetch_add(1, Ordering::Relaxed);
+    let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
+    steps.push((number, what.into()));
+    if steps.len() == 1 {
+        #[cfg(unix)]
+        super::signals::watch(true);
+    }
+    Doing(number)
+}
+
+impl Drop for Doing {
+    fn drop(&mut self) {
+        let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
+        steps.retain(|(number, _)| *number != self.0);
+        if steps.is_empty() {
+            #[cfg(unix)]
+            super::signals::watch(false);
+        }
+    }
+}
+
+/// Gives the steps to `tell`, latest last; none where another thread is just changing them. Waits for no lock, so that
+/// a signal's handler may call it.
+pub(super) fn steps(mut tell: impl FnMut(&str)) {
+    if let Ok(steps) = STEPS.try_lock() {
+        steps.iter().for_each(|(_, what)| tell(what));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_ends_with_its_guard() {
+        let told = |text: &str| {
+            let mut found = false;
+            steps(|what| found |= what == text);
+            found
+        };
+        let outer = doing("a test's outer step");
+        let inner = doing("a test's inner step");
+        assert!(told("a test's outer step") && told("a test's inner step"));
+        drop(outer);
+        assert!(!told("a test's outer step") && told("a test's inner step"));
+        drop(inner);
+        assert!(!told("a test's inner step"));
+    }
+}

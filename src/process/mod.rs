@@ -1,0 +1,70 @@
+//! What a command still says and removes when its process cannot go on: a driver that crashes or stops, memory that
+//! runs out, a signal that ends it.
+//!
+//! The library keeps note of what the driver is at work on ([`doing`]) and of its unfinished files ([`unfinished`]).
+//! Nothing comes of that until a command asks for it: by [`guard`] for signals, and by [`Memory`] as its allocator.
+
+mod doing;
+mod memory;
+#[cfg(unix)]
+mod signals;
+mod unfinished;
+
+pub(crate) use doing::doing;
+pub use memory::Memory;
+#[cfg(unix)]
+pub(crate) use signals::uninstall;
+pub(crate) use unfinished::{Unfinished, unfinished};
+
+/// Has signals that end this process say what it was doing, and remove its unfinished files. A limit on the size of files
+/// (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
+#[cfg(unix)]
+pub fn guard() {
+    signals::install();
+}
+
+/// Does nothing: this system has no signals.
+#[cfg(not(unix))]
+pub fn guard() {}
+
+/// Writes on standard error without taking memory or a lock.
+fn say(parts: &[&[u8]]) {
+    for part in parts {
+        #[cfg(unix)]
+        // SAFETY: the pointer and length are of one slice. What cannot be written is lost: there is nowhere else to say it.
+        unsafe {
+            libc::write(libc::STDERR_FILENO, part.as_ptr().cast(), part.len());
+        }
+        #[cfg(not(unix))]
+        {
+            use std::io::Write;
+            let _ = std::io::stderr().write_all(part);
+        }
+    }
+}
+
+/// Writes `number` in decimal digits at the end of `buffer`, and gives these digits. Takes no memory.
+fn digits(mut number: usize, buffer: &mut [u8; 20]) -> &[u8] {
+    let mut start = buffer.len();
+    while start > 0 {
+        start -= 1;
+        buffer[start] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    &buffer[start..]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn numbers_have_their_digits() {
+        for number in [0, 7, 10, 64_000_000, usize::MAX] {
+            assert_eq!(digits(number, &mut [0; 20]), number.to_string().as_bytes());
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Signals that end the process, and an alarm that notices a driver which waits for ever.
+//!
+//! Mesa's llvmpipe waits without end for threads that could not be started (seen under a limit on memory). Such a process
+//! uses no processor time at all, which a driver that draws, however slowly, does.
+
+use std::mem::MaybeUninit;
+use std::ptr::null_mut;
+use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+
+use libc::{c_int, c_void, siginfo_t};
+
+use super::{doing, say, unfinished};
+
+/// Faults of the process itself, by name.
+const CRASHES: [(c_int, &str); 5] = [
+    (libc::SIGSEGV, "SIGSEGV"),
+    (libc::SIGBUS, "SIGBUS"),
+    (libc::SIGILL, "SIGILL"),
+    (libc::SIGFPE, "SIGFPE"),
+    (libc::SIGABRT, "SIGABRT"),
+];
+
+/// Requests to end.
+const ENDS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
+
+/// Seconds between two looks at the processor time.
+const TICK_SECONDS: u32 = 5;
+/// Looks in a row that find none used, after which a driver at work is given up.
+const MOST_IDLE_TICKS: u32 = 6;
+/// Processor time between two looks that counts as none, in microseconds; the look itself takes some.
+const IDLE_MICROSECONDS: i64 = 1_000;
+
+/// Whether SIGALRM has a handler of ours.
+static WATCHES: AtomicBool = AtomicBool::new(false);
+/// Looks in a row that found no processor time used.
+static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
+
+pub(super) fn install() {
+    for signal in CRASHES.iter().map(|(signal, _)| *signal).chain(ENDS) {
+        handle(signal, on_end);
+    }
+    handle(libc::SIGALRM, on_alarm);
+    WATCHES.store(true, Ordering::Relaxed);
+    // SAFETY: an ignored SIGXFSZ makes a write beyond the limit fail with EFBIG.
+    unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
+}
+
+/// Begins or ends to look at the processor time. Alarms come only while the driver is at work.
+pub(super) fn watch(begins: bool) {
+    if WATCHES.load(Ordering::Relaxed) {
+        IDLE_TICKS.store(0, Ordering::Relaxed);
+        // SAFETY: takes a number; 0 takes the alarm back.
+        unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
+    }
+}
+
+/// In a child made by fork: a crash is the parent's to tell.
+pub(crate) fn uninstall() {
+    for signal in CRASHES.iter().map(|(signal, _)| *signal).chain(ENDS).chain([libc::SIGALRM]) {
+        // SAFETY: the default action is always allowed.
+        unsafe { libc::signal(signal, libc::SIG_DFL) };
+    }
+}
+
+type Handler = extern "C" fn(c_int, *mut siginfo_t, *mut c_void);
+
+/// What a signal did before, by its number; the standard library finds overflowing stacks by SIGSEGV.
+static mut BEFORE: [MaybeUninit<libc::sigaction>; 32] = [const { MaybeUninit::uninit() }; 32];
+
+fn before(signal: c_int) -> *mut libc::sigaction {
+    // SAFETY: the numbers of CRASHES, ENDS and SIGALRM are below 32 on every Unix.
+    unsafe { (&raw mut BEFORE).cast::<libc::sigaction>().add(signal as usize) }
+}
+
+fn handle(signal: c_int, handler: Handler) {
+    // SAFETY: the structures are filled before they are used; BEFORE is written only here, before there are threads.
+    unsafe {
+        let mut old = MaybeUninit::<libc::sigaction>::zeroed();
+        if libc::sigaction(signal, null_mut(), old.as_mut_ptr()) != 0 {
+            return;
+        }
+        // nohup and shells have programs ignore signals; that stays.
+        if (*old.as_ptr()).sa_sigaction == libc::SIG_IGN {
+            return;
+        }
+        before(signal).write(old.assume_init());
+        let mut new = MaybeUninit::<libc::sigaction>::zeroed();
+        let action = &mut *new.as_mut_ptr();
+        action.sa_sigaction = handler as usize;
+        action.sa_flags = libc::SA_SIGINFO | libc::SA_ONSTACK | libc::SA_RESTART;
+        libc::sigemptyset(&mut action.sa_mask);
+        libc::sigaction(signal, action, null_mut());
+    }
+}
+
+/// Says what was being done, removes unfinished files, and lets the signal take its former course.
+extern "C" fn on_end(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
+    if let Some((_, name)) = CRASHES.iter().find(|(known, _)| *known == signal) {
+        doing::steps(|what| {
+            let crashed = b"error: the OpenGL driver crashed (";
+            say(&[crashed, name.as_bytes(), b") while ", what.as_bytes(), b"\n"]);
+        });
+    }
+    unfinished::remove_all();
+    // SAFETY: BEFORE was filled for every signal that comes here. A fault comes again when its instruction is repeated; a
+    // signal that was sent has to be sent again, and waits until this handler has returned.
+    unsafe {
+        libc::sigaction(signal, before(signal), null_mut());
+        let was_sent = ENDS.contains(&signal) || info.is_null() || (*info).si_code <= 0;
+        if was_sent {
+            libc::raise(signal);
+        }
+    }
+}
+
+/// Ends a process whose driver is at work and has used no processor time for a while.
+extern "C" fn on_alarm(_: c_int, _: *mut siginfo_t, _: *mut c_void) {
+    static USED: AtomicI64 = AtomicI64::new(0);
+    let used = processor_microseconds();
+    let is_idle = used - USED.swap(used, Ordering::Relaxed) < IDLE_MICROSECONDS;
+    let mut at_work = false;
+    doing::steps(|_| at_work = true);
+    let ticks = if is_idle && at_work { IDLE_TICKS.fetch_add(1, Ordering::Relaxed) + 1 } else { 0 };
+    IDLE_TICKS.store(ticks, Ordering::Relaxed);
+    if ticks >= MOST_IDLE_TICKS {
+        doing::steps(|what| {
+            let stopped = b"error: the OpenGL driver has done nothing for half a minute while ";
+            say(&[stopped, what.as_bytes(), b"\n"]);
+        });
+        say(&[b"Too little memory or too few threads (ulimit -v, ulimit -u) may be why.\n"]);
+        unfinished::remove_all();
+        // SAFETY: ends the process; a regular exit would wait for the driver's threads.
+        unsafe { libc::_exit(1) };
+    }
+    if at_work {
+        // SAFETY: takes a number.
+        unsafe { libc::alarm(TICK_SECONDS) };
+    }
+}
+
+/// Of all threads of this process.
+#[allow(clippy::unnecessary_cast)] // both parts have 32 bits on some systems
+fn processor_microseconds() -> i64 {
+    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: the structure is this function's own.
+    unsafe { libc::clock_gettime(libc::CLOCK_PROCESS_CPUTIME_ID, &mut time) };
+    time.tv_sec as i64 * 1_000_000 + time.tv_nsec as i64 / 1_000
+}

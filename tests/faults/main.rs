@@ -1,0 +1,130 @@
+//! Faults of the machine, brought about on purpose: each is told by one clear error, and nothing is lost, half written or
+//! mixed. Needs Unix: limits are set by the shell, drivers are chosen by Mesa's variables.
+#![cfg(unix)]
+
+mod disk;
+mod driver;
+mod memory;
+mod paths;
+mod reports;
+mod streams;
+
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
+
+/// A box on a floor in a spotlight, 96 × 96 pixels.
+const SCENE: &str = r#"
+[image]
+size = [96, 96]
+[camera]
+eye = [3.0, 2.5, 4.0]
+target = [0.0, 0.6, 0.0]
+[[light]]
+kind = "spot"
+position = [2.0, 4.0, 3.0]
+target = [0.0, 0.5, 0.0]
+cone = 60.0
+near = 0.5
+far = 20.0
+[light.shadow]
+technique = "shadow-map"
+size = 256
+[[object]]
+mesh = "quad"
+scale = [4.0, 1.0, 4.0]
+[[object]]
+mesh = "box"
+scale = 0.5
+translate = [0.0, 0.7, 0.0]
+"#;
+
+/// A folder with `scene.toml` in it.
+fn work() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    folder
+}
+
+/// `script` by the shell in `folder`; in it `glumbra` is the command. No display, no variables of a driver.
+fn shell(folder: &Path, script: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.arg("-c").arg(format!("ulimit -c 0; glumbra() {{ \"{GLUMBRA}\" \"$@\"; }}\n{script}"));
+    command.current_dir(folder);
+    for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "GALLIUM_DRIVER"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+fn run(folder: &Path, script: &str) -> Output {
+    shell(folder, script).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The exit status as a shell counts it: 128 and the signal's number for a process that was ended by one.
+fn code(output: &Output) -> i32 {
+    output.status.code().or_else(|| output.status.signal().map(|signal| 128 + signal)).unwrap()
+}
+
+/// The names in a folder, hidden ones too, sorted.
+fn names(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
+}
+
+/// What is wrong with a failure, if anything: one error that says `expected`, and `code`.
+fn refusal(output: &Output, expected_code: i32, expected: &str) -> Option<String> {
+    let error = text(&output.stderr);
+    let errors = error.lines().filter(|line| line.starts_with("error: ")).count();
+    if code(output) == expected_code && errors == 1 && error.contains(expected) && !error.contains("panicked") {
+        return None;
+    }
+    Some(format!("exit {}, {errors} errors, not {expected_code} and \"{expected}\": {error}", code(output)))
+}
+
+/// Runs a table of scripts, each with a name, in a folder of its own, and what each must say.
+fn refused(table: &[(&str, &str, i32, &str)]) {
+    let mut wrong = Vec::new();
+    for (name, script, code, expected) in table {
+        let folder = work();
+        let output = run(folder.path(), script);
+        wrong.extend(refusal(&output, *code, expected).map(|how| format!("{name}: {how}")));
+        let left: Vec<String> = names(folder.path()).into_iter().filter(|name| name.contains(".tmp")).collect();
+        if !left.is_empty() {
+            wrong.push(format!("{name}: leaves {left:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A file system of its own below `folder`, of `options`; `None` where this machine does not let tests mount.
+struct Mount(std::path::PathBuf);
+
+impl Mount {
+    fn new(folder: &Path, options: &str) -> Option<Self> {
+        let place = folder.join("mounted");
+        fs::create_dir(&place).unwrap();
+        let mut command = Command::new("mount");
+        let mounted = command.args(["-t", "tmpfs", "-o", options, "none"]).arg(&place).output();
+        mounted.is_ok_and(|output| output.status.success()).then_some(Self(place))
+    }
+
+    fn options(&self, options: &str) {
+        assert!(Command::new("mount").args(["-o", options]).arg(&self.0).status().unwrap().success());
+    }
+}
+
+impl Drop for Mount {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg("-l").arg(&self.0).status();
+    }
+}

@@ -1,0 +1,16 @@
+//! report.json: what is read back is merged with itself and shown.
+#![no_main]
+
+use glumbra::report::html::{Goals, Pictures, to_html};
+use glumbra::report::{csv, merge};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let path = glumbra_fuzz::file("report.json", bytes);
+    let Ok(report) = merge::load(&path) else { return };
+    let parts = vec![(path.clone(), report.clone()), (path, report)];
+    if let Ok(report) = merge::merge(parts) {
+        let _ = csv::to_csv(&report);
+        let _ = to_html(&report, &Pictures::default(), &Goals::default());
+    }
+});
