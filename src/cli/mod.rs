@@ -90,6 +90,8 @@ pub enum Error {
     StressCases(#[from] crate::stress::named::Error),
     #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
     Interrupted { folder: std::path::PathBuf },
+    #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
+    NoFloor { scene: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]

@@ -26,7 +26,8 @@ pub struct PlanArgs {
     #[arg(long)]
     json: bool,
 
-    /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from
+    /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from;
+    /// it names files by absolute paths, so that it may be saved in any folder
     #[arg(long, conflicts_with = "json")]
     print_scene: bool,
 }
@@ -34,15 +35,21 @@ pub struct PlanArgs {
 /// Plans and prints.
 pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
     use std::io::Write;
+    let loaded = arguments.scene.load()?;
+    let request = Request {
+        views: arguments.aov.clone(),
+        frames: arguments.frames,
+        sampled_warnings: !arguments.print_scene,
+        ..Request::default()
+    };
+    // A scene that cannot be drawn is not printed either.
+    let summary = plan::make(&loaded.scene, &request)?.summary();
     let mut out = std::io::stdout().lock();
     if arguments.print_scene {
-        let settings = scene::settings(&arguments.scene.scene, &arguments.scene.overrides())?;
+        let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.overrides())?;
         out.write_all(settings.to_toml().as_bytes())?;
         return Ok(());
     }
-    let loaded = arguments.scene.load()?;
-    let request = Request { views: arguments.aov.clone(), frames: arguments.frames, ..Request::default() };
-    let summary = plan::make(&loaded.scene, &request)?.summary();
     if arguments.json {
         drop(out);
         return super::print_json(&summary);
