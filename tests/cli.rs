@@ -541,6 +541,65 @@ fn a_printed_scene_is_the_scene() {
     assert!(read("a.npy") == read("b.npy"));
 }
 
+/// Scenes and models that name files, printed into another folder than their own.
+#[test]
+fn a_printed_scene_is_the_same_from_any_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    fs::copy(root().join("data/meshes/concave.obj"), folder.path().join("model.obj")).unwrap();
+    fs::copy(root().join("data/textures/floor.png"), folder.path().join("floor.png")).unwrap();
+    let scene = format!("{QUAD}material = {{ decal = \"floor.png\" }}\n[[object]]\nmesh = \"model.obj\"\n{LIGHT}");
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    for from in ["model.obj", "scene.toml"] {
+        let printed = glumbra(folder.path(), &["plan", from, "--print-scene", "--size", "64x48"]);
+        assert!(printed.status.success(), "{}", text(&printed.stderr));
+        fs::write(folder.path().join("sub/printed.toml"), printed.stdout).unwrap();
+        for (scene, output) in [(from, "a.npy"), ("sub/printed.toml", "b.npy")] {
+            let done = glumbra(folder.path(), &["render", scene, "--size", "64x48", "-o", output]);
+            assert!(done.status.success(), "{}", text(&done.stderr));
+        }
+        let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+        assert!(read("a.npy") == read("b.npy"), "{from}");
+    }
+}
+
+#[test]
+fn a_scene_that_cannot_be_drawn_is_not_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = data("data/meshes/concave.obj");
+    let print = |set: &str| glumbra(folder.path(), &["plan", &model, "--print-scene", "--set", set]);
+    refusal(&print("light.0.kind=directional"), 1, "`light.cone` is no key of a directional light").unwrap();
+    refusal(&print("light.0={position=[0, 9, 0], target=[0, 0, 0]}"), 1, "`light.cone` is missing").unwrap();
+    refusal(&print("light.shadow.siez=64"), 1, "did you mean `size`?").unwrap();
+}
+
+/// TOML is UTF-8: it has no words for such a path.
+#[cfg(unix)]
+#[test]
+fn a_scene_with_a_path_that_is_no_text_is_not_printed() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let odd = folder.path().join(std::ffi::OsStr::from_bytes(b"odd\xff.obj"));
+    fs::copy(root().join("data/meshes/concave.obj"), &odd).unwrap();
+    let run = |arguments: &[&str]| {
+        Command::cargo_bin("glumbra").unwrap().arg("plan").arg(&odd).args(arguments).output().unwrap()
+    };
+    assert!(run(&[]).status.success());
+    refusal(&run(&["--print-scene"]), 1, ".obj: is not UTF-8").unwrap();
+}
+
+#[test]
+fn a_floor_is_supplied_unless_it_is_not_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = data("data/meshes/courtyard.obj");
+    let with = glumbra(folder.path(), &["plan", &model]);
+    assert!(text(&with.stderr).contains("has a floor of its own") && text(&with.stdout).contains("of quad"));
+    let without = glumbra(folder.path(), &["plan", &model, "--no-floor"]);
+    assert!(without.stderr.is_empty() && !text(&without.stdout).contains("of quad"), "{}", text(&without.stderr));
+    let scene = glumbra(folder.path(), &["plan", &boxes(), "--no-floor"]);
+    refusal(&scene, 1, "only a model (.obj) is supplied with a floor").unwrap();
+}
+
 #[test]
 fn a_model_alone_becomes_a_scene() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,7 +7,10 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, dvec3};
 use glumbra::scene::{self, Error, Frustum, LightKind, LightShape, Loaded, Origin, Point, Scene, Value};
 
-const EXAMPLE: &str = include_str!("../data/scenes/example.toml");
+/// The example scene with the model of [`folder`].
+fn example() -> String {
+    include_str!("../data/scenes/example.toml").replace("../meshes/dense.obj", "model.obj")
+}
 
 /// A tetrahedron from (0, 0, 0) to (1, 2, 1).
 const MODEL: &str = "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 2 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
@@ -36,7 +39,7 @@ fn scene_of(text: &str, overrides: &[&str]) -> Scene {
 
 #[test]
 fn the_example_has_every_value_as_written() {
-    let loaded = load(EXAMPLE, &[]).unwrap();
+    let loaded = load(&example(), &[]).unwrap();
     assert_eq!(loaded.warnings, [""; 0]);
     let scene = loaded.scene;
     assert_eq!(scene.image.size, [512, 512]);
@@ -73,7 +76,8 @@ fn the_example_has_every_value_as_written() {
 
 #[test]
 fn overrides_reach_file_and_missing_tables() {
-    let scene = scene_of(EXAMPLE, &["light.shadow.transfer=copy", "shading.lighting=per-vertex", "object.1.scale=-2"]);
+    let scene =
+        scene_of(&example(), &["light.shadow.transfer=copy", "shading.lighting=per-vertex", "object.1.scale=-2"]);
     assert!(scene.shading.per_vertex);
     let transfer = scene.lights[0].shadow.get("transfer").unwrap();
     assert!(matches!(&transfer.value, Value::String(text) if text == "copy"));
@@ -86,7 +90,7 @@ fn overrides_reach_file_and_missing_tables() {
         ("imag.size=5", "--set imag.size=5: unknown key `imag` in the scene: did you mean `image`?"),
         ("object.material.decal=none.png", "--set object.material.decal=none.png: none.png: "),
     ] {
-        let error = load(EXAMPLE, &[text]).unwrap_err().to_string();
+        let error = load(&example(), &[text]).unwrap_err().to_string();
         assert!(error.starts_with(expected), "{error}");
     }
 }
@@ -159,7 +163,7 @@ fn a_scene_without_camera_is_framed() {
 
 #[test]
 fn lights_and_cameras_look_where_they_should() {
-    let scene = scene_of(EXAMPLE, &["image.size=[200, 100]"]);
+    let scene = scene_of(&example(), &["image.size=[200, 100]"]);
     assert_eq!(scene.aspect(), 2.0);
     let near = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-9, "{a} is not {b}");
     let light = scene.lights[0].frustum().unwrap();
@@ -196,7 +200,7 @@ fn a_bare_model_gets_floor_light_and_camera() {
 fn models_of_any_size_anywhere() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.obj");
-    for (size, at) in [(1e-12, 0.0), (1e-3, 0.0), (1.0, 1e4), (1e3, -1e6), (1e12, 0.0)] {
+    for (size, at) in [(1e-13, 0.0), (1e-12, 0.0), (1e-3, 0.0), (1.0, 1e4), (1e3, -1e6), (1e12, 0.0), (1e14, 0.0)] {
         let vertex = |x: f64, y: f64, z: f64| format!("v {} {} {}\n", x * size + at, y * size + at, z * size + at);
         let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.5, 1.0, 0.5]];
         let vertices: String = vertices.map(|[x, y, z]| vertex(x, y, z)).concat();
@@ -207,6 +211,14 @@ fn models_of_any_size_anywhere() {
             let seen = clip_from_world.project_point3(corner);
             assert!(seen.abs().max_element() < 1.0, "{size} at {at}: {corner} is seen at {seen}");
         }
+    }
+    for (size, scale) in [(1e-30, "1e18"), (9e17, "1e-18")] {
+        fs::write(&path, format!("v 0 0 0\nv {size} 0 0\nv 0 0 {size}\nv 0 {size} 0\nf 1 2 3\nf 1 4 2\n")).unwrap();
+        let error = load_file(&path, &[]).unwrap_err().to_string();
+        assert!(error.contains("model.obj: is ") && error.contains("across"), "{error}");
+        let remedy = format!("object.0.scale={scale}");
+        assert!(error.ends_with(&format!("--set {remedy}")), "{error}");
+        load_file(&path, &[&remedy]).unwrap_or_else(|error| panic!("{size}: {error}"));
     }
     fs::write(&path, "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n").unwrap();
     let error = load_file(&path, &[]).unwrap_err().to_string();
@@ -281,7 +293,7 @@ fn each_kind_of_light_prints_and_reads_back_the_same() {
 fn what_is_in_the_data_folder_loads() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes");
     let mut paths: Vec<PathBuf> = fs::read_dir(scenes).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| !path.ends_with("example.toml") && !path.ends_with("README.md"));
+    paths.retain(|path| !path.ends_with("README.md"));
     paths.sort();
     assert!(!paths.is_empty());
     for path in paths {
@@ -299,4 +311,67 @@ fn the_scenes_of_the_readmes_can_be_planned() {
         glumbra::plan::make(&scene, &Default::default()).unwrap();
         assert!(!scene.lights.is_empty() && !scene.objects.is_empty());
     }
+}
+
+/// A floor of 4 by 4 at y = 1 with a wall on it; seen from above, from below, and as the bottom of a closed box.
+#[test]
+fn a_supplied_floor_lies_below_a_models_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.obj");
+    let vertices = "v -2 1 2\nv 2 1 2\nv 2 1 -2\nv -2 1 -2\nv -1 1 0\nv 1 1 0\nv 0 2 0\n";
+    let floor_of = |text: &str, overrides: &[&str]| {
+        fs::write(&path, text).unwrap();
+        let loaded = load_file(&path, overrides).unwrap();
+        let floor = loaded.scene.objects.get(1).map(|floor| floor.world_bounds().max.y);
+        (floor, loaded.warnings.iter().any(|warning| warning.contains("model.obj: has a floor of its own")))
+    };
+    for face in ["1 2 3 4", "4 3 2 1"] {
+        let (floor, said) = floor_of(&format!("{vertices}f {face}\nf 5 6 7\n"), &[]);
+        let below = 1.0 - floor.unwrap();
+        assert!(said && (1e-3..2e-2).contains(&below), "{face}: {below}");
+    }
+    let with_floor = format!("{vertices}f 1 2 3 4\nf 5 6 7\n");
+    assert_eq!(floor_of(&with_floor, &["floor=false"]), (None, false));
+    // Upside down the wall's tip is lowest.
+    let turned = floor_of(&with_floor, &["object.0.scale=[1, -1, 1]"]);
+    assert_eq!(turned, (Some(-2.0), false));
+    // A wall alone, and a closed body with a flat bottom, stand on it.
+    assert_eq!(floor_of(&format!("{vertices}f 5 6 7\n"), &[]), (Some(1.0), false));
+    assert_eq!(
+        floor_of("v 0 1 0\nv 1 1 0\nv 0 1 1\nv 0 2 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", &[]),
+        (Some(1.0), false)
+    );
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, "[[object]]\nmesh = \"box\"\n").unwrap();
+    let error = load_file(&scene, &["floor=false"]).unwrap_err().to_string();
+    assert!(error.contains("unknown key `floor`"), "{error}");
+}
+
+/// What the alpha test discards whole is neither drawn nor forgotten.
+#[test]
+fn clear_materials_are_warned_of_and_named_as_left_out() {
+    let folder = folder();
+    let model = MODEL.replacen("f 1 2 3", "mtllib m.mtl\nusemtl glass\nf 1 2 3", 1);
+    fs::write(folder.path().join("model.obj"), model).unwrap();
+    fs::write(folder.path().join("m.mtl"), "newmtl glass\nKd 1 1 1\nTr 1\nnewmtl unused\nd 0\n").unwrap();
+    let path = folder.path().join("scene.toml");
+    let object = "[[object]]\nmesh = \"model.obj\"\n[[object]]\nmesh = \"box\"\n[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n";
+    let loaded = |text: &str| {
+        fs::write(&path, text).unwrap();
+        let loaded = load_file(&path, &[]).unwrap();
+        let plan = glumbra::plan::make(&loaded.scene, &Default::default()).unwrap();
+        let named = plan.left_out.into_iter().find(|left_out| left_out.why.contains("below 0.5"));
+        (loaded.warnings, named.map(|left_out| left_out.what))
+    };
+    let (warnings, named) = loaded(object);
+    let [warning] = &warnings[..] else { panic!("{warnings:?}") };
+    assert!(warning.contains("m.mtl:3: Tr 1: material \"glass\" leaves an alpha of 0 at most"), "{warning}");
+    assert!(warning.contains("4 triangles of object \"model.obj\"; if Tr was meant"), "{warning}");
+    assert_eq!(named.as_deref(), Some("model.obj where it has material \"glass\""));
+    let (warnings, named) = loaded(&object.replacen("obj\"\n", "obj\"\nmaterial = { opacity = 0.4 }\n", 1));
+    let [warning] = &warnings[..] else { panic!("{warnings:?}") };
+    assert!(warning.contains("scene.toml:3: `object.material` leaves an alpha of 0.4 at most"), "{warning}");
+    assert!(named.is_some());
+    let (warnings, named) = loaded(&object.replacen("obj\"\n", "obj\"\nmaterial = { opacity = 0.6 }\n", 1));
+    assert_eq!((warnings, named), (Vec::new(), None));
 }

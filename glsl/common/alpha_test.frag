@@ -14,10 +14,10 @@ void alpha_test()
 {
     float alpha = opacity;
 #ifdef DECAL_ALPHA
-    alpha *= texture(decal_alpha_map, st).a;
+    alpha *= texture(decal_alpha_map, DECAL_ST).a;
 #endif
 #ifdef ALPHA_MAP
-    alpha *= texture(alpha_map, st).ALPHA_MAP;
+    alpha *= texture(alpha_map, ALPHA_ST).ALPHA_MAP;
 #endif
     if (alpha < 0.5)
         discard;

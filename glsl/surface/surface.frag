@@ -54,7 +54,7 @@ void main()
     EXACT vec3 color = lit.ambient + lit.diffuse;
 #endif
 #ifdef DECAL
-    color *= texture(decal_map, st).rgb;
+    color *= texture(decal_map, DECAL_ST).rgb;
 #endif
 #ifdef SPECULAR
     color += lit.specular;

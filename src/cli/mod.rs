@@ -93,6 +93,8 @@ pub enum Error {
     Interrupted { folder: std::path::PathBuf },
     #[error("{failed} of {rows} settings could not be measured, row {row} for example: {why}; {folder} holds the others", folder = .folder.display())]
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
+    #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
+    NoFloor { scene: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]
@@ -107,8 +109,6 @@ pub enum Error {
     Overwrites { path: std::path::PathBuf, what: &'static str },
     #[error("{path}: {first} and {second} name the same file", path = .path.display())]
     SameFile { path: std::path::PathBuf, first: &'static str, second: &'static str },
-    #[error("{path}: is not UTF-8, and a scene file cannot name it; rename the model", path = .path.display())]
-    PathInScene { path: std::path::PathBuf },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
 }

@@ -26,24 +26,27 @@ pub struct PlanArgs {
     #[arg(long)]
     json: bool,
 
-    /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from
+    /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from;
+    /// it names files by absolute paths, so that it may be saved in any folder
     #[arg(long, conflicts_with = "json")]
     print_scene: bool,
 }
 
 /// Plans and prints.
 pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
+    let loaded = arguments.scene.load()?;
+    let request = Request {
+        views: arguments.aov.clone(),
+        frames: arguments.frames,
+        sampled_warnings: !arguments.print_scene,
+        ..Request::default()
+    };
+    // A scene that cannot be drawn is not printed either.
+    let summary = plan::make(&loaded.scene, &request)?.summary();
     if arguments.print_scene {
-        let path = &arguments.scene.scene;
-        if path.to_str().is_none() && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
-            return Err(Error::PathInScene { path: path.clone() });
-        }
-        let settings = scene::settings(&arguments.scene.scene, &arguments.scene.overrides())?;
+        let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.overrides())?;
         return super::print(&settings.to_toml());
     }
-    let loaded = arguments.scene.load()?;
-    let request = Request { views: arguments.aov.clone(), frames: arguments.frames, ..Request::default() };
-    let summary = plan::make(&loaded.scene, &request)?.summary();
     if arguments.json {
         return super::print_json(&summary);
     }

@@ -22,17 +22,29 @@ pub struct SceneArgs {
     /// Changes a key of the scene, e.g. light.shadow.size=2048 (every light) or light.0.cone=45 (the first)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+
+    /// Supplies no floor under a model
+    #[arg(long)]
+    pub no_floor: bool,
 }
 
 impl SceneArgs {
-    /// The overrides in order, `--size` first.
+    /// The overrides in order, those of options of their own first.
     pub fn overrides(&self) -> Vec<String> {
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
-        size.into_iter().chain(self.set.iter().cloned()).collect()
+        let floor = self.no_floor.then(|| String::from("floor=false"));
+        size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
+    }
+
+    /// Refuses options that the scene has no use for.
+    pub fn check(&self) -> Result<(), Error> {
+        let is_scene = self.scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        if self.no_floor && is_scene { Err(Error::NoFloor { scene: self.scene.clone() }) } else { Ok(()) }
     }
 
     /// Loads the scene and prints its warnings.
     pub fn load(&self) -> Result<Loaded, Error> {
+        self.check()?;
         let loaded = scene::load(&self.scene, &self.overrides())?;
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));

@@ -14,7 +14,7 @@ pub enum Error {
     NotText { path: PathBuf, line: usize, byte: u8 },
     #[error("{}:{line}: {what}", path.display())]
     Malformed { path: PathBuf, line: usize, what: String },
-    #[error("{}: has no faces", path.display())]
+    #[error("{}: has no faces of three vertices or more", path.display())]
     NoFaces { path: PathBuf },
     #[error("{}: has more than {} {what}", path.display(), u32::MAX)]
     TooLarge { path: PathBuf, what: &'static str },
@@ -22,8 +22,6 @@ pub enum Error {
     Picture { path: PathBuf, source: image::ImageError },
     #[error("{}: is {width}x{height}; a texture has 1 to {limit} texels a side", path.display())]
     PictureSize { path: PathBuf, width: u32, height: u32, limit: u32 },
-    #[error("{}:{line}: {statement}: {source}", path.display())]
-    Map { path: PathBuf, line: usize, statement: &'static str, source: Box<Error> },
 }
 
 impl Error {

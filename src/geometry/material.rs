@@ -24,6 +24,54 @@ pub struct Material {
     pub alpha: Option<Arc<Texture>>,
     /// Generates the decal's coordinates in place of the mesh's own.
     pub texgen: Option<ObjectLinear>,
+    /// Where the decal lies on its coordinates.
+    pub decal_placement: Placement,
+    /// Where map_d lies on the same coordinates.
+    pub alpha_placement: Placement,
+    /// Where `opacity` is written, for messages: `file:line: statement`; empty: nowhere.
+    pub opacity_origin: String,
+}
+
+impl Material {
+    /// The greatest alpha that the alpha test may meet; below 0.5 it discards all.
+    pub fn most_alpha(&self, has_texcoords: bool) -> f32 {
+        let most = |texture: &Option<Arc<Texture>>, channel: usize| match texture {
+            Some(texture) if has_texcoords || self.texgen.is_some() => texture.most(channel),
+            _ => 1.0,
+        };
+        let map_channel = self.alpha.as_ref().map_or(0, |alpha| alpha.alpha_channel());
+        self.opacity * most(&self.decal, 3) * most(&self.alpha, map_channel)
+    }
+}
+
+/// Where a texture lies on a surface, and whether it repeats (MTL's -s, -o and -clamp).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Multiplies (s, t).
+    pub scale: [f32; 2],
+    /// Added to what that comes to.
+    pub offset: [f32; 2],
+    /// Whether the texture's edge goes on beyond [0, 1], in place of more copies of it.
+    pub clamped: bool,
+}
+
+impl Default for Placement {
+    fn default() -> Self {
+        Self { scale: [1.0; 2], offset: [0.0; 2], clamped: false }
+    }
+}
+
+impl Placement {
+    /// Whether the coordinates are looked up as they are.
+    pub fn is_plain(&self) -> bool {
+        self.scale == [1.0; 2] && self.offset == [0.0; 2]
+    }
+
+    /// Scale and offset, as shaders take them.
+    pub fn scale_and_offset(&self) -> [f32; 4] {
+        let ([sx, sy], [ox, oy]) = (self.scale, self.offset);
+        [sx, sy, ox, oy]
+    }
 }
 
 /// glTexGen GL_OBJECT_LINEAR for s and t, and a texture matrix that scales both.
@@ -63,6 +111,9 @@ impl Default for Material {
             decal: None,
             alpha: None,
             texgen: None,
+            decal_placement: Placement::default(),
+            alpha_placement: Placement::default(),
+            opacity_origin: String::new(),
         }
     }
 }
@@ -78,4 +129,17 @@ pub struct Texture {
     pub rgba: Vec<u8>,
     /// Whether any texel's alpha is below 255.
     pub has_alpha: bool,
+}
+
+impl Texture {
+    /// The channel of a map_d that the alpha test asks for: alpha, or red where all is opaque.
+    pub fn alpha_channel(&self) -> usize {
+        if self.has_alpha { 3 } else { 0 }
+    }
+
+    /// The greatest value of a channel, in [0, 1].
+    fn most(&self, channel: usize) -> f32 {
+        let most = self.rgba.iter().skip(channel).step_by(4).copied().max();
+        most.map_or(1.0, |most| f32::from(most) / 255.0)
+    }
 }

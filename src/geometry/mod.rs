@@ -2,6 +2,7 @@
 
 mod cache;
 mod error;
+mod map_options;
 mod material;
 mod mesh;
 mod mtl;
@@ -11,6 +12,7 @@ mod primitives;
 pub mod rays;
 pub mod sampled;
 mod simplify;
+mod tally;
 mod text;
 mod texture;
 pub mod topology;
@@ -18,7 +20,7 @@ pub mod volume;
 mod wave;
 
 pub use error::{Error, Warning};
-pub use material::{Material, ObjectLinear, Texture};
+pub use material::{Material, ObjectLinear, Placement, Texture};
 pub use mesh::{Mesh, Part};
 pub use obj::{CREASE_DEGREES, load_obj};
 pub use primitives::{PRIMITIVES, primitive};

@@ -1,13 +1,16 @@
-//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and written anew, then parsed by tobj; other
-//! statements are left out. Format: Wavefront's "MTL material format", version 4.2.
+//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and written anew, then parsed by tobj. Other
+//! statements are left out, with a warning where that changes the picture. Format: Wavefront's "MTL material format",
+//! version 4.2.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::map_options::{MapOptions, Values};
 use super::obj::scan::shorten;
-use super::{Error, Material, Texture, text, texture};
+use super::tally::Tally;
+use super::{Error, Material, Placement, Texture, Warning, text, texture};
 
 /// The materials of one or more library files.
 #[derive(Debug, Default)]
@@ -15,7 +18,21 @@ pub(super) struct Library {
     /// All files as one, in the spelling that tobj takes.
     text: String,
     names: Vec<String>,
+    /// Of each material.
+    opacities: Vec<Option<Opacity>>,
     maps: Vec<Map>,
+    oddities: Tally,
+}
+
+/// What d or Tr says.
+#[derive(Clone, Debug)]
+struct Opacity {
+    value: f32,
+    /// Said by d, which counts where Tr says something else.
+    by_d: bool,
+    /// The statement, and that with file and line.
+    statement: String,
+    origin: String,
 }
 
 /// A texture that a material asks for.
@@ -26,7 +43,9 @@ struct Map {
     /// The library's file and line.
     path: PathBuf,
     line: usize,
-    /// The file as written, without options.
+    placement: Placement,
+    values: Values,
+    /// The file as written.
     written: String,
 }
 
@@ -34,6 +53,8 @@ struct Map {
 enum Statement {
     Decal,
     Alpha,
+    /// Not applied: most files name map_Kd's picture here too, and the decal modulates ambient light.
+    Ambient,
 }
 
 impl Statement {
@@ -41,8 +62,24 @@ impl Statement {
         match self {
             Self::Decal => "map_Kd",
             Self::Alpha => "map_d",
+            Self::Ambient => "map_Ka",
         }
     }
+
+    /// What is drawn without its texture.
+    fn without(self) -> &'static str {
+        match self {
+            Self::Alpha => "the surface has no holes",
+            Self::Decal | Self::Ambient => "the plain colour is drawn",
+        }
+    }
+}
+
+/// Where a statement stands.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    path: &'a Path,
+    line: usize,
 }
 
 /// The files that `mtllib written` in the OBJ file `obj` names: one whose name may hold spaces, else several.
@@ -73,14 +110,14 @@ impl Library {
         let decoded = text::decode(&bytes, path)?;
         let first = self.names.len();
         for line in text::logical_lines(&decoded) {
-            self.read_line(&line.text, line.number, path, first)
+            self.read_line(&line.text, Place { path, line: line.number }, first)
                 .map_err(|what| Error::malformed(path, line.number, what))?;
         }
         Ok(())
     }
 
     /// Reads a statement; `first`: how many materials the files before this have.
-    fn read_line(&mut self, line: &str, number: usize, path: &Path, first: usize) -> Result<(), String> {
+    fn read_line(&mut self, line: &str, place: Place<'_>, first: usize) -> Result<(), String> {
         let line = line.trim();
         let keyword = line.split_ascii_whitespace().next().unwrap_or_default();
         let value = line[keyword.len()..].trim();
@@ -93,31 +130,73 @@ impl Library {
             "newmtl" => {
                 let name = if value.is_empty() { "unnamed" } else { value };
                 self.names.push(name.to_owned());
+                self.opacities.push(None);
                 self.write(format_args!("newmtl {name}"));
             }
-            "ka" => self.write_color("Ka", value)?,
-            "kd" => self.write_color("Kd", value)?,
-            "ks" => self.write_color("Ks", value)?,
+            "ka" => self.write_color("Ka", value, place)?,
+            "kd" => self.write_color("Kd", value, place)?,
+            "ks" => self.write_color("Ks", value, place)?,
             "ns" => {
-                let exponent = read_number("Ns", value.split_ascii_whitespace().next().unwrap_or_default())?;
-                self.write(format_args!("Ns {}", exponent.clamp(0.0, 1000.0)));
+                let exponent = read_number("Ns", first_word(value))?;
+                let exponent = self.clamped("Ns", exponent, 1000.0, place);
+                self.write(format_args!("Ns {exponent}"));
             }
-            "d" => {
-                let opacity = read_number(
-                    "d",
-                    value.trim_start_matches("-halo").split_ascii_whitespace().next().unwrap_or_default(),
-                )?;
-                self.write(format_args!("d {}", opacity.clamp(0.0, 1.0)));
-            }
-            "tr" => {
-                let transparency = read_number("Tr", value.split_ascii_whitespace().next().unwrap_or_default())?;
-                self.write(format_args!("d {}", (1.0 - transparency).clamp(0.0, 1.0)));
-            }
-            "map_kd" => self.add_map(Statement::Decal, value, number, path)?,
-            "map_d" => self.add_map(Statement::Alpha, value, number, path)?,
-            _ => {}
+            "d" | "tr" => self.read_opacity(lower == "d", value, place)?,
+            "map_kd" => self.add_map(Statement::Decal, value, place)?,
+            "map_d" => self.add_map(Statement::Alpha, value, place)?,
+            "map_ka" if self.names.len() > first => self.add_map(Statement::Ambient, value, place)?,
+            _ => self.leave_out(keyword, &lower, value, place),
         }
         Ok(())
+    }
+
+    /// Warns of a statement that is not applied, where that may change the picture.
+    fn leave_out(&mut self, keyword: &str, lower: &str, value: &str, place: Place<'_>) {
+        let numbers = || value.split_ascii_whitespace().filter_map(|word| word.parse::<f32>().ok());
+        let why = match lower {
+            "" | "ni" | "sharpness" => return,
+            _ if keyword.starts_with('#') => return,
+            "illum" if numbers().all(|model| matches!(model as i32, 1 | 2)) => return,
+            "ke" if numbers().all(|channel| channel == 0.0) => return,
+            "tf" if numbers().all(|channel| channel == 1.0) => return,
+            "illum" => "all surfaces are lit as by illum 2",
+            "ke" | "map_ke" => "nothing shines by itself",
+            "tf" => "nothing is transparent: the alpha test keeps or discards",
+            "bump" | "map_bump" | "norm" | "map_kn" => "surfaces are lit by their meshes' normals",
+            "disp" | "map_disp" => "vertices stay in their places",
+            "refl" | "map_refl" => "nothing mirrors",
+            "map_ka" | "map_ks" | "map_ns" | "map_tr" | "map_aat" | "decal" => {
+                "of textures, map_Kd and map_d are drawn"
+            }
+            "pr" | "pm" | "ps" | "pc" | "pcr" | "aniso" | "anisor" | "map_pr" | "map_pm" | "map_ps" | "map_pc"
+            | "map_pcr" | "map_rma" | "map_orm" => {
+                self.note("physically based", place, || {
+                    format!("{keyword} is left out, as all of physically based materials: Ka, Kd, Ks and Ns are drawn")
+                });
+                return;
+            }
+            _ => {
+                self.note("unknown", place, || {
+                    format!("'{}' is no statement of MTL; it is left out", shorten(keyword))
+                });
+                return;
+            }
+        };
+        self.note(lower, place, || format!("{keyword} is left out: {why}"));
+    }
+
+    fn note(&mut self, kind: &str, place: Place<'_>, message: impl FnOnce() -> String) {
+        self.oddities.note(kind, place.path, place.line, message);
+    }
+
+    /// `value` within [0, `most`], with a warning where it lies elsewhere.
+    fn clamped(&mut self, statement: &str, value: f32, most: f32, place: Place<'_>) -> f32 {
+        let clamped = value.clamp(0.0, most);
+        if clamped != value {
+            let kind = format!("{statement} clamped");
+            self.note(&kind, place, || format!("{statement}: {value} is not in [0, {most}]; {clamped} is drawn"));
+        }
+        clamped
     }
 
     fn write(&mut self, line: std::fmt::Arguments<'_>) {
@@ -126,32 +205,81 @@ impl Library {
     }
 
     /// One number stands for all three; colours by spectral curve are left out.
-    fn write_color(&mut self, statement: &str, value: &str) -> Result<(), String> {
+    fn write_color(&mut self, statement: &str, value: &str, place: Place<'_>) -> Result<(), String> {
         let words: Vec<_> = value.split_ascii_whitespace().take(4).collect();
         if words.first() == Some(&"spectral") {
+            self.note("spectral", place, || {
+                format!("{statement} spectral is left out: colours are red, green and blue")
+            });
             return Ok(());
         }
-        let words = if words.first() == Some(&"xyz") { &words[1..] } else { &words[..] };
+        let is_xyz = words.first() == Some(&"xyz");
+        if is_xyz {
+            self.note("xyz", place, || format!("{statement} xyz: its numbers are taken for red, green and blue"));
+        }
+        let words = if is_xyz { &words[1..] } else { &words[..] };
         let [r, g, b] = match words {
             [gray] => [*gray; 3],
             [r, g, b, ..] => [*r, *g, *b],
             _ => return Err(format!("{statement} has {} of 3 numbers", words.len())),
         };
-        let read = |word| read_number(statement, word).map(|value| value.clamp(0.0, 1.0));
+        let mut read = |word| read_number(statement, word).map(|value| self.clamped(statement, value, 1.0, place));
         let (r, g, b) = (read(r)?, read(g)?, read(b)?);
         self.write(format_args!("{statement} {r} {g} {b}"));
         Ok(())
     }
 
-    fn add_map(&mut self, statement: Statement, value: &str, line: usize, path: &Path) -> Result<(), String> {
-        let written = skip_options(value);
-        if written.is_empty() {
+    /// d, or Tr, which is 1 less d. Exporters do not agree on Tr: d counts where both stand.
+    fn read_opacity(&mut self, by_d: bool, value: &str, place: Place<'_>) -> Result<(), String> {
+        let name = if by_d { "d" } else { "Tr" };
+        let without_halo = value.trim_start_matches("-halo");
+        if by_d && without_halo.len() < value.len() {
+            self.note("halo", place, || String::from("d -halo is drawn as d: the angle of view does not count"));
+        }
+        let number = read_number(name, first_word(without_halo))?;
+        let number = self.clamped(name, number, 1.0, place);
+        let value = if by_d { number } else { 1.0 - number };
+        let statement = format!("{name} {number}");
+        let origin = format!("{}:{}: {statement}", place.path.display(), place.line);
+        let new = Opacity { value, by_d, statement, origin };
+        let Some(known) = self.opacities.last_mut() else { return Ok(()) };
+        let said = known.clone().filter(|known| known.by_d != by_d && (known.value - value).abs() > 1e-3);
+        if by_d || known.as_ref().is_none_or(|known| !known.by_d) {
+            *known = Some(new.clone());
+        }
+        if let Some(known) = said {
+            let Opacity { statement, .. } = &new;
+            self.note("d against Tr", place, || {
+                format!("{statement} contradicts {} of the same material: d counts", known.statement)
+            });
+        }
+        Ok(())
+    }
+
+    fn add_map(&mut self, statement: Statement, value: &str, place: Place<'_>) -> Result<(), String> {
+        let mut options = MapOptions::read(statement.name(), value)?;
+        if options.file.is_empty() {
             return Err(format!("{} names no file", statement.name()));
+        }
+        if statement != Statement::Alpha && options.values.channel.take().is_some() {
+            options.left_out.push("-imfchan");
+        }
+        for option in options.left_out.iter().filter(|_| statement != Statement::Ambient) {
+            let kind = format!("{} {option}", statement.name());
+            self.note(&kind, place, || format!("{kind} is left out"));
         }
         let material = self.names.len().saturating_sub(1);
         // A material's last statement of a kind is the one that counts.
         self.maps.retain(|map| map.material != material || map.statement != statement);
-        self.maps.push(Map { material, statement, path: path.to_owned(), line, written: written.to_owned() });
+        self.maps.push(Map {
+            material,
+            statement,
+            path: place.path.to_owned(),
+            line: place.line,
+            placement: options.placement,
+            values: options.values,
+            written: options.file.to_owned(),
+        });
         Ok(())
     }
 
@@ -160,41 +288,78 @@ impl Library {
         tobj::load_mtl_buf(&mut self.text.as_bytes())
     }
 
-    /// The materials, in the order of the files, with their textures; a file used twice is loaded once.
-    pub(super) fn load_materials(&self) -> Result<Vec<Material>, Error> {
+    /// The materials, in the order of the files, with their textures; a file used twice is loaded once. What is odd is
+    /// added to `warnings`.
+    pub(super) fn load_materials(mut self, warnings: &mut Vec<Warning>) -> Vec<Material> {
         let parsed = self.parse().map(|(materials, _)| materials).unwrap_or_default();
         let mut materials: Vec<_> = parsed.into_iter().map(convert).collect();
-        let mut loaded = HashMap::new();
-        for map in &self.maps {
-            let texture = map.load(&mut loaded)?;
-            if let Some(material) = materials.get_mut(map.material) {
-                match map.statement {
-                    Statement::Decal => material.decal = Some(texture),
-                    Statement::Alpha => material.alpha = Some(texture),
+        for (material, opacity) in materials.iter_mut().zip(&self.opacities) {
+            if let Some(Opacity { value, origin, .. }) = opacity {
+                (material.opacity, material.opacity_origin) = (*value, origin.clone());
+            }
+        }
+        let mut loaded = Loaded::default();
+        for map in std::mem::take(&mut self.maps).iter() {
+            let place = Place { path: &map.path, line: map.line };
+            let Some(material) = materials.get_mut(map.material) else { continue };
+            if map.statement == Statement::Ambient {
+                let decal = material.decal.as_ref().map(|decal| &decal.name);
+                if map.find().is_some_and(|found| decal != Some(&found.display().to_string())) {
+                    self.leave_out("map_Ka", "map_ka", &map.written, place);
+                }
+                continue;
+            }
+            match loaded.texture(map) {
+                Ok(texture) if map.statement == Statement::Decal => {
+                    (material.decal, material.decal_placement) = (Some(texture), map.placement);
+                }
+                Ok(texture) => (material.alpha, material.alpha_placement) = (Some(texture), map.placement),
+                Err(why) => {
+                    let (name, without) = (map.statement.name(), map.statement.without());
+                    let message = || format!("{name}: {why}: {without}");
+                    self.note(&format!("{name} {why}"), place, message);
                 }
             }
         }
-        Ok(materials)
+        warnings.extend(self.oddities.warnings());
+        materials
+    }
+}
+
+/// The textures of a library, each loaded once for all that is done to its values.
+#[derive(Default)]
+struct Loaded {
+    pictures: HashMap<PathBuf, Result<Arc<Texture>, String>>,
+    changed: Vec<(PathBuf, Statement, Values, Arc<Texture>)>,
+}
+
+impl Loaded {
+    /// The texture of a map, or why there is none.
+    fn texture(&mut self, map: &Map) -> Result<Arc<Texture>, String> {
+        let found = map.find().ok_or_else(|| format!("there is no file '{}'", map.written))?;
+        let load = || texture::load_texture(&found).map(Arc::new).map_err(|error| error.to_string());
+        let picture = self.pictures.entry(found.clone()).or_insert_with(load).clone()?;
+        if map.values == Values::default() {
+            return Ok(picture);
+        }
+        let is_known = |known: &&(PathBuf, Statement, Values, Arc<Texture>)| {
+            (&known.0, known.1, known.2) == (&found, map.statement, map.values)
+        };
+        if let Some((.., texture)) = self.changed.iter().find(is_known) {
+            return Ok(texture.clone());
+        }
+        let texture = Arc::new(match map.statement {
+            Statement::Alpha => map.values.of_scalar(&picture),
+            Statement::Decal | Statement::Ambient => map.values.of_color(&picture),
+        });
+        self.changed.push((found, map.statement, map.values, texture.clone()));
+        Ok(texture)
     }
 }
 
 impl Map {
-    fn load(&self, loaded: &mut HashMap<PathBuf, Arc<Texture>>) -> Result<Arc<Texture>, Error> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let Some(found) = texture::find_file(folder, &self.written) else {
-            let what = format!("{}: there is no file '{}'", self.statement.name(), self.written);
-            return Err(Error::malformed(&self.path, self.line, what));
-        };
-        if let Some(texture) = loaded.get(&found) {
-            return Ok(Arc::clone(texture));
-        }
-        let texture = texture::load_texture(&found).map_err(|source| Error::Map {
-            path: self.path.clone(),
-            line: self.line,
-            statement: self.statement.name(),
-            source: Box::new(source),
-        })?;
-        Ok(Arc::clone(loaded.entry(found).or_insert_with(|| Arc::new(texture))))
+    fn find(&self) -> Option<PathBuf> {
+        texture::find_file(self.path.parent().unwrap_or(Path::new("")), &self.written)
     }
 }
 
@@ -208,11 +373,12 @@ fn convert(material: tobj::Material) -> Material {
         diffuse,
         specular: material.specular.unwrap_or(default.specular),
         shininess: material.shininess.unwrap_or(default.shininess),
-        opacity: material.dissolve.unwrap_or(default.opacity),
-        decal: None,
-        alpha: None,
-        texgen: None,
+        ..default
     }
+}
+
+fn first_word(text: &str) -> &str {
+    text.split_ascii_whitespace().next().unwrap_or_default()
 }
 
 fn read_number(statement: &str, word: &str) -> Result<f32, String> {
@@ -221,60 +387,5 @@ fn read_number(statement: &str, word: &str) -> Result<f32, String> {
         Ok(_) => Err(format!("{statement}: '{}' is not finite as a 32-bit float", shorten(word))),
         Err(_) if word.is_empty() => Err(format!("{statement} has no number")),
         Err(_) => Err(format!("{statement}: '{}' is not a number", shorten(word))),
-    }
-}
-
-/// `value` without the options in front of a map's file, which may hold spaces.
-fn skip_options(value: &str) -> &str {
-    let mut rest = value;
-    while rest.starts_with('-') {
-        let (option, after) = split_word(rest);
-        // How many words the option takes at least, and how many more numbers it may take.
-        let (words, numbers) = match option.to_ascii_lowercase().as_str() {
-            "-blendu" | "-blendv" | "-cc" | "-clamp" | "-imfchan" | "-type" | "-texres" | "-bm" | "-boost" => (1, 0),
-            "-mm" => (2, 0),
-            "-o" | "-s" | "-t" => (1, 2),
-            // A file whose name begins with a dash.
-            _ => return rest,
-        };
-        rest = after;
-        for _ in 0..words {
-            rest = split_word(rest).1;
-        }
-        for _ in 0..numbers {
-            let (word, after) = split_word(rest);
-            if word.parse::<f32>().is_err() {
-                break;
-            }
-            rest = after;
-        }
-    }
-    rest
-}
-
-/// The first word and what follows the space behind it.
-fn split_word(text: &str) -> (&str, &str) {
-    let end = text.find(|c: char| c.is_ascii_whitespace()).unwrap_or(text.len());
-    (&text[..end], text[end..].trim_start())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn options_in_front_of_a_map_are_skipped() {
-        for (value, file) in [
-            ("wood.png", "wood.png"),
-            ("my wood.png", "my wood.png"),
-            ("-s 1 1 1 wood.png", "wood.png"),
-            ("-s 2 wood.png", "wood.png"),
-            ("-clamp on -o 0.5 0 -mm 0 1 my wood.png", "my wood.png"),
-            ("-imfchan r -bm 0.5 a.png", "a.png"),
-            ("-odd.png", "-odd.png"),
-            ("-s 1 1 1", ""),
-        ] {
-            assert_eq!(skip_options(value), file, "{value}");
-        }
     }
 }

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use glam::{DMat4, Vec4};
 
-use crate::geometry::ObjectLinear;
+use crate::geometry::{ObjectLinear, Placement};
 use crate::math::texgen::Texgen;
 
 /// What a batch draws.
@@ -35,6 +35,10 @@ pub struct Texturing {
     pub alpha_test: Option<AlphaTest>,
     /// Whether the decal's RGB modulates diffuse and ambient light.
     pub decal: bool,
+    /// Where the decal lies on the coordinates.
+    pub decal_placement: Placement,
+    /// Where the alpha map does.
+    pub alpha_placement: Placement,
 }
 
 /// What alpha is made of.

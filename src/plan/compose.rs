@@ -9,7 +9,7 @@ use crate::math::frustum::{self, Overlap};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{Light, Scene};
 use crate::techniques::guard::Guard;
-use crate::techniques::items::items;
+use crate::techniques::items::{items, note_clear};
 use crate::techniques::surface::Viewer;
 use crate::techniques::{self, Item, LightTerm, LightView, Notes};
 
@@ -19,6 +19,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let items = items(scene, moved);
     let mut list = PassList::default();
     let mut notes = Notes::default();
+    note_clear(scene, &mut notes);
     for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);

@@ -40,6 +40,13 @@ impl Assets {
         self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
+    /// Keeps a warning, once however often it is given.
+    pub fn warn(&mut self, warning: String) {
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
+    }
+
     /// An OBJ file.
     pub fn model(&mut self, path: &Path) -> Result<Arc<Mesh>, geometry::Error> {
         let key = canonical(path);
@@ -90,7 +97,7 @@ impl Assets {
 }
 
 /// A file's name is relative to the scene file that names it; on the command line, to the current folder.
-fn file(name: &str, origin: &Origin) -> PathBuf {
+pub(super) fn file(name: &str, origin: &Origin) -> PathBuf {
     match origin {
         Origin::File { path, .. } => path.parent().unwrap_or(Path::new("")).join(name),
         Origin::CommandLine(_) | Origin::BuiltIn => PathBuf::from(name),

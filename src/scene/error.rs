@@ -37,6 +37,16 @@ pub enum Error {
     #[error("{origin}: {source}")]
     Asset { origin: Origin, source: geometry::Error },
 
+    #[error(
+        "{path}: is {size:.3e} across; a scene is supplied around models that are {least:e} to {most:e} across: \
+         scale it, e.g. --set object.0.scale={scale:e}",
+        path = .path.display()
+    )]
+    Size { path: PathBuf, size: f64, least: f64, most: f64, scale: f64 },
+
+    #[error("{path}: is not UTF-8, which a scene's text must be: the file cannot be named in one", path = .path.display())]
+    NoText { path: PathBuf },
+
     /// The model that stands for a whole scene.
     #[error(transparent)]
     Model(#[from] geometry::Error),

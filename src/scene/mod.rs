@@ -3,6 +3,7 @@
 
 mod assets;
 mod error;
+mod files;
 mod frame;
 mod model;
 mod overrides;
@@ -23,10 +24,11 @@ pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Po
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
-pub use supply::framing;
+pub use supply::{Floor, framing};
 
 use crate::math::Aabb;
 use assets::{Assets, has_extension};
+use settings::Plain;
 
 /// No scene file is longer, in bytes.
 const LONGEST_FILE: u64 = 4 << 20;
@@ -81,6 +83,13 @@ pub fn table(path: &Path) -> Result<Settings, Error> {
     parse::document(path, &read_text(path)?)
 }
 
+/// The scene as [`settings`] has it, but with absolute paths to its files: to be saved in any folder.
+pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
+    let mut root = settings(path, overrides)?;
+    files::make_absolute(&mut root, has_extension(path, "obj").then_some(path))?;
+    Ok(root)
+}
+
 /// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
 pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
@@ -107,6 +116,9 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
     Ok(root)
 }
 
+/// The key that leaves out the floor of a supplied scene.
+const FLOOR: &str = "floor";
+
 /// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is done
 /// again for what they make of it.
 fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
@@ -114,18 +126,41 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
     let bounds = Aabb { min: model.bounds.min + model.origin, max: model.bounds.max + model.origin };
-    let mut first = framing(&name, &bounds, 1.0);
+    let mut first = framing(&name, &bounds, 1.0, Floor::Touching);
     overrides::apply(&mut first, overrides)?;
 
     let mut reader = first.read();
+    let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
-    let bounds = match reader.tables("object")?.first() {
-        Some(object) => resolve::object::read(object, assets)?.world_bounds(),
-        None => bounds,
+    let object = reader.tables("object")?.first().map(|object| resolve::object::read(object, assets)).transpose()?;
+    let bounds = object.as_ref().map_or(bounds, Object::world_bounds);
+    check_size(path, &bounds)?;
+    let floor = match &object {
+        _ if !is_floor_wanted => Floor::Absent,
+        Some(object) if supply::has_floor(object) => {
+            let hair = supply::hair(&bounds);
+            let below = Plain(format!("{hair:.1e}").parse().unwrap_or(hair));
+            let what = "has a floor of its own: the supplied one lies";
+            assets.warn(format!("{}: {what} {below} below it; --no-floor leaves it out", path.display()));
+            Floor::Below
+        }
+        _ => Floor::Touching,
     };
-    let mut root = framing(&name, &bounds, aspect);
+    let mut root = framing(&name, &bounds, aspect, floor);
     overrides::apply(&mut root, overrides)?;
+    root.entries.retain(|(key, _)| key != FLOOR);
     Ok(root)
+}
+
+/// Refuses a model around which no camera and light can stand.
+fn check_size(path: &Path, bounds: &Aabb) -> Result<(), Error> {
+    let radius = frame::working_radius(bounds);
+    let [least, most] = supply::RADII;
+    if (least..=most).contains(&radius) {
+        return Ok(());
+    }
+    let scale = 10_f64.powf(-radius.log10().round()).clamp(1.0 / LARGEST, LARGEST);
+    Err(Error::Size { path: path.to_owned(), size: 2.0 * radius, least: 2.0 * least, most: 2.0 * most, scale })
 }
 
 fn read_text(path: &Path) -> Result<String, Error> {

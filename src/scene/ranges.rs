@@ -23,12 +23,15 @@ impl<'a> Reader<'a> {
 
     /// A length above zero.
     pub fn length(&mut self, key: &'static str) -> Result<Option<f64>> {
-        let Some(value) = self.number(key, -f64::MAX..=LARGEST)? else {
+        let Some(value) = self.number(key, f64::MIN..=f64::MAX)? else {
             return Ok(None);
         };
         if value < SMALLEST {
             let least = if value > 0.0 { Plain(SMALLEST) } else { Plain(0.0) };
             return Err(self.error(key, format_args!("must be above {least}, not {}", Plain(value))));
+        }
+        if value > LARGEST {
+            return Err(self.error(key, format_args!("must be at most {}, not {}", Plain(LARGEST), Plain(value))));
         }
         Ok(Some(value))
     }

@@ -288,15 +288,21 @@ impl<'a> Reader<'a> {
         if range.contains(&value) {
             return Ok(value);
         }
-        let (low, high) = (*range.start(), *range.end());
-        Err(match (low.is_finite(), high.is_finite()) {
-            (true, true) => {
-                self.error(key, format_args!("must be in [{}, {}], not {}", Plain(low), Plain(high), Plain(value)))
-            }
-            (true, false) => self.error(key, format_args!("must be at least {}, not {}", Plain(low), Plain(value))),
-            _ => self.error(key, format_args!("must be at most {}, not {}", Plain(high), Plain(value))),
-        })
+        Err(self.error(key, format_args!("must be {}, not {}", words(range), Plain(value))))
     }
+}
+
+/// A range as a person would write it; f64's own ends are none.
+fn words(range: &RangeInclusive<f64>) -> String {
+    let (low, high) = (*range.start(), *range.end());
+    let least = match low {
+        low if low <= f64::MIN => None,
+        low if low > 0.0 && low <= f64::MIN_POSITIVE => Some(String::from("above 0")),
+        low if high < f64::MAX => return format!("in [{}, {}]", Plain(low), Plain(high)),
+        low => Some(format!("at least {}", Plain(low))),
+    };
+    let most = (high < f64::MAX).then(|| format!("at most {}", Plain(high)));
+    [least, most].into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
 
 /// A number as a person would write it: 1e18, not eighteen zeros.
@@ -325,5 +331,25 @@ pub fn suggest<'n>(wrong: &str, names: impl Iterator<Item = &'n str>) -> String 
     match nearest {
         Some((_, name)) => format!("did you mean `{name}`? (known: {all})"),
         None => format!("known: {all}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_told_without_the_ends_of_f64() {
+        for (range, expected) in [
+            (-1e18..=1e18, "in [-1e18, 1e18]"),
+            (0.0..=1.0, "in [0, 1]"),
+            (f64::MIN..=1e18, "at most 1e18"),
+            (f64::NEG_INFINITY..=2.0, "at most 2"),
+            (1.0..=f64::MAX, "at least 1"),
+            (f64::MIN_POSITIVE..=1e18, "above 0 and at most 1e18"),
+            (f64::MIN_POSITIVE..=f64::INFINITY, "above 0"),
+        ] {
+            assert_eq!(words(&range), expected);
+        }
     }
 }

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::Object;
 use super::frame;
 use super::resolve::{DEFAULT_BACKGROUND, DEFAULT_SIZE};
 use super::settings::{Entry, Origin, Settings, Value};
@@ -21,18 +22,67 @@ const FLOOR_RADII: f64 = 4.0;
 const FLAT_RADII: f64 = 0.01;
 const LIFT_RADII: f64 = 0.25;
 
+/// A model's own floor is no higher over its lowest point, in radii; the supplied one then lies so far below that, which
+/// any depth buffer tells apart.
+const HAIR_RADII: f64 = 2e-3;
+
+/// A model's own floor fills this part of its extent from above, at least.
+const LEAST_FLOOR: f64 = 1e-3;
+
+/// A scene is supplied around models of these radii: camera, light and planes then have coordinates that a scene may have.
+pub(super) const RADII: [f64; 2] = [1e-14, 1e14];
+
+/// Where the supplied floor is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Floor {
+    /// At the model's lowest point.
+    Touching,
+    /// A hair below it, for the model has a floor of its own.
+    Below,
+    Absent,
+}
+
 /// The scene around a model named `mesh` that fills `bounds`; `aspect` is the picture's width over its height.
 ///
 /// y is up: it is not guessed.
-pub fn framing(mesh: &str, bounds: &Aabb, aspect: f64) -> Settings {
+pub fn framing(mesh: &str, bounds: &Aabb, aspect: f64, floor: Floor) -> Settings {
     let bounds = if bounds.is_empty() { Aabb { min: DVec3::ZERO, max: DVec3::ZERO } } else { *bounds };
-    let stage = Stage::new(&bounds);
+    let stage = Stage::new(&bounds, floor);
+    let model = table("object", vec![("mesh", text(mesh))]);
     root(vec![
         ("image", image()),
         ("camera", stage.camera(aspect)),
         ("light", array(vec![stage.light()])),
-        ("object", array(vec![table("object", vec![("mesh", text(mesh))]), stage.floor()])),
+        ("object", array(if floor == Floor::Absent { vec![model] } else { vec![model, stage.floor()] })),
     ])
+}
+
+/// How far below a model's own floor the supplied one lies.
+pub(super) fn hair(bounds: &Aabb) -> f64 {
+    HAIR_RADII * frame::working_radius(bounds)
+}
+
+/// Whether a model has faces in the plane of its lowest point that are seen from above: a floor there would show through
+/// them. The bottom of a closed mesh is not seen.
+pub(super) fn has_floor(object: &Object) -> bool {
+    let mesh = object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh));
+    let place = |index: &u32| {
+        let position = mesh.positions.get(*index as usize).copied().unwrap_or_default();
+        object.world_from_model.transform_point3(DVec3::from_array(position.map(f64::from)))
+    };
+    let bounds = object.world_bounds();
+    let (size, top) = (bounds.max - bounds.min, bounds.min.y + hair(&bounds));
+    let turned = object.world_from_model.determinant().signum();
+    let (mut above, mut below) = (0.0, 0.0);
+    for triangle in mesh.indices.as_chunks::<3>().0 {
+        let [a, b, c] = [0, 1, 2].map(|k| place(&triangle[k]));
+        if a.y.max(b.y).max(c.y) <= top {
+            let area = 0.5 * turned * (b - a).cross(c - a).y;
+            (above, below) = (above + area.max(0.0), below + (-area).max(0.0));
+        }
+    }
+    let least = LEAST_FLOOR * size.x * size.z;
+    above > least || (below > least && !mesh.is_closed())
 }
 
 /// The lengths that everything else follows from, rounded to what a person would write.
@@ -41,18 +91,22 @@ struct Stage {
     radius: f64,
     center: DVec3,
     floor_y: f64,
+    has_floor: bool,
     light: DVec3,
 }
 
 impl Stage {
-    fn new(bounds: &Aabb) -> Self {
+    fn new(bounds: &Aabb, floor: Floor) -> Self {
         let radius = frame::working_radius(bounds);
         let flat = bounds.max.y - bounds.min.y < FLAT_RADII * radius;
-        let lowest =
-            if flat { rounded(bounds.min.y - LIFT_RADII * radius, radius) } else { lowest(bounds.min.y, radius) };
+        let floor_y = match floor {
+            _ if flat => rounded(bounds.min.y - LIFT_RADII * radius, radius),
+            Floor::Below => rounded(bounds.min.y - hair(bounds), 1e-2 * radius),
+            Floor::Touching | Floor::Absent => lowest(bounds.min.y, radius),
+        };
         let center = rounded_vector(bounds.center(), radius);
         let light = rounded_vector(center + TOWARD_LIGHT.normalize() * LIGHT_RADII * radius, radius);
-        Self { bounds: *bounds, radius, center, floor_y: lowest, light }
+        Self { bounds: *bounds, radius, center, floor_y, has_floor: floor != Floor::Absent, light }
     }
 
     /// Half the floor's side.
@@ -70,7 +124,9 @@ impl Stage {
 
     fn camera(&self, aspect: f64) -> Entry {
         let mut points = self.bounds.corners().to_vec();
-        points.extend(self.shadow_corners());
+        if self.has_floor {
+            points.extend(self.shadow_corners());
+        }
         let fov_y_radians = frame::FOV_Y_DEGREES.to_radians();
         let (eye, target) = frame::fit(&points, frame::THREE_QUARTER, fov_y_radians, aspect, self.radius);
         let (eye, target) = (rounded_vector(eye, self.radius), rounded_vector(target, self.radius));
@@ -192,7 +248,7 @@ mod tests {
     /// The supplied scene, with a box in the place of the model that has the same bounds.
     fn scene(min: DVec3, max: DVec3, aspect: f64) -> Scene {
         let bounds = Aabb { min, max };
-        let mut root = framing("box", &bounds, aspect);
+        let mut root = framing("box", &bounds, aspect, Floor::Touching);
         let half = (0.5 * (max - min)).max(DVec3::splat(1e-15));
         if let Some((_, Entry { value: Value::Array(objects), .. })) =
             root.entries.iter_mut().find(|(key, _)| key == "object")
@@ -267,7 +323,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let bounds = Aabb { min: DVec3::new(-0.3, f64::from(0.1_f32), -0.4), max: DVec3::new(0.7, 1.9, 0.6) };
-        let toml = framing("a \"b\".obj", &bounds, 1.0).to_toml();
+        let toml = framing("a \"b\".obj", &bounds, 1.0, Floor::Touching).to_toml();
         assert!(toml.contains("translate = [0.2, 0.1, 0.1]"), "{toml}");
         assert!(toml.contains(r#"mesh = "a \"b\".obj""#), "{toml}");
         let long = |word: &&str| {

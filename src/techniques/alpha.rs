@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Item;
-use crate::geometry::Texture;
+use crate::geometry::{Placement, Texture};
 
 /// Whether the alpha test passes at `point` of a triangle, counted from the item's first; `corners` are of the space that
 /// the point is in.
@@ -17,10 +17,12 @@ pub fn passes(item: &Item, triangle: u32, corners: &[DVec3; 3], point: DVec3) ->
     let (v, w) = (share((point - a).cross(c - a)), share((b - a).cross(point - a)));
     let [ta, tb, tc] = vertices(item, triangle).map(|vertex| texcoord(item, vertex));
     let at = ta + v * (tb - ta) + w * (tc - ta);
-    let decal = item.decal().filter(|decal| decal.has_alpha).map_or(1.0, |decal| lookup(decal, 3, at));
-    let alpha = item.material.alpha.as_ref();
-    let alpha = alpha.map_or(1.0, |map| lookup(map, if map.has_alpha { 3 } else { 0 }, at));
-    f64::from(item.material.opacity) * decal * alpha >= 0.5
+    let material = &item.material;
+    let decal = item.decal().filter(|decal| decal.has_alpha);
+    let decal = decal.map_or(1.0, |decal| lookup(decal, 3, &material.decal_placement, at));
+    let alpha = material.alpha.as_ref();
+    let alpha = alpha.map_or(1.0, |map| lookup(map, map.alpha_channel(), &material.alpha_placement, at));
+    f64::from(material.opacity) * decal * alpha >= 0.5
 }
 
 /// The three of an item's triangle, into its mesh's arrays.
@@ -39,16 +41,43 @@ fn texcoord(item: &Item, vertex: usize) -> DVec2 {
     f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t))
 }
 
-/// LINEAR and REPEAT, as in [`super::items::ALPHA_SAMPLER`]; in [0, 1].
-fn lookup(texture: &Texture, channel: usize, at: DVec2) -> f64 {
+/// LINEAR, as in [`super::items::ALPHA_SAMPLER`], and REPEAT or CLAMP_TO_EDGE; in [0, 1].
+fn lookup(texture: &Texture, channel: usize, placement: &Placement, at: DVec2) -> f64 {
+    let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
+    let at = scale * at + offset;
     let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
     let texel = at * size - 0.5;
     let (corner, weight) = (texel.floor(), texel - texel.floor());
     let fetch = |dx: f64, dy: f64| {
-        let wrapped = (corner + DVec2::new(dx, dy)).rem_euclid(size);
+        let place = corner + DVec2::new(dx, dy);
+        let wrapped = if placement.clamped { place.clamp(DVec2::ZERO, size - 1.0) } else { place.rem_euclid(size) };
         let index = wrapped.y as usize * texture.width as usize + wrapped.x as usize;
         texture.rgba.get(4 * index + channel).map_or(0.0, |byte| f64::from(*byte) / 255.0)
     };
     let row = |dy| fetch(0.0, dy) * (1.0 - weight.x) + fetch(1.0, dy) * weight.x;
     row(0.0) * (1.0 - weight.y) + row(1.0) * weight.y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_is_looked_up_where_it_is_placed() {
+        let rgba = [0_u8, 255, 255, 0].iter().flat_map(|alpha| [9, 9, 9, *alpha]).collect();
+        let checker = Texture { name: String::from("checker"), width: 2, height: 2, rgba, has_alpha: true };
+        let placed = Placement { scale: [2.0, -1.0], offset: [0.5, 1.0], clamped: false };
+        let clamped = Placement { clamped: true, ..placed };
+        for (s, placement, expected) in [
+            (0.25, Placement::default(), 0.0),
+            (0.75, Placement::default(), 1.0),
+            (-0.125, placed, 0.0),
+            (0.125, placed, 1.0),
+            (1.0, placed, 0.5),
+            (9.0, clamped, 1.0),
+        ] {
+            let t = if placement == Placement::default() { 0.25 } else { 0.75 };
+            assert_eq!(lookup(&checker, 3, &placement, DVec2::new(s, t)), expected, "{s} {placement:?}");
+        }
+    }
 }

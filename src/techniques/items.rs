@@ -3,15 +3,16 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::DMat4;
+use glam::{DMat4, Vec4};
 
-use crate::geometry::{Material, Texture, Wave};
+use crate::geometry::{Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Draw, Filter, Format, ImageDesc, ImageId, IndexOrder, Input, Meaning, MeshRef,
     PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
+use crate::techniques::Notes;
 
 /// A range of triangles with one material and one transform.
 #[derive(Clone, Debug)]
@@ -72,8 +73,30 @@ pub fn items(scene: &Scene, moved: bool) -> Vec<Item> {
             });
         }
     }
-    items.retain(|item| item.material.opacity >= 0.5);
+    items.retain(|item| item.material.opacity >= OPAQUE);
     items
+}
+
+/// The alpha test discards what is less opaque.
+const OPAQUE: f32 = 0.5;
+
+/// Notes what [`items`] leaves out because the alpha test would discard all of it.
+pub fn note_clear(scene: &Scene, notes: &mut Notes) {
+    for object in &scene.objects {
+        let mut names: Vec<(&str, f32)> = Vec::new();
+        for part in object.mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
+            let own = || object.mesh.materials.get(part.material?);
+            let Some(material) = object.material.as_deref().or_else(own) else { continue };
+            let named = (material.name.as_str(), material.opacity);
+            if material.opacity < OPAQUE && !names.contains(&named) {
+                names.push(named);
+            }
+        }
+        for (name, opacity) in names {
+            let why = format!("its opacity, {opacity}, is below {OPAQUE}: the alpha test discards all of it");
+            notes.left_out(format!("{} where it has material \"{name}\"", object.name), why);
+        }
+    }
 }
 
 /// A mesh's materials, each shared by all its items.
@@ -162,6 +185,10 @@ pub const DECAL_SAMPLER: Sampler =
 pub const ALPHA_SAMPLER: Sampler =
     Sampler { filter: Filter::Linear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
 
+fn placed_by(placement: &Placement, sampler: Sampler) -> Sampler {
+    if placement.clamped { Sampler { wrap: Wrap::ClampToEdge, ..sampler } } else { sampler }
+}
+
 /// The alpha test of `item`, and texture coordinates where it or (with `decal`) the lit pass needs them.
 pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
     let material = &item.material;
@@ -181,7 +208,19 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
             map_in_red: alpha_map.is_some_and(|texture| !texture.has_alpha),
         }),
         decal: decal.is_some(),
+        decal_placement: material.decal_placement,
+        alpha_placement: material.alpha_placement,
     };
+    out.fragment.push(glsl!("common/placement.frag"));
+    let decal_alpha = item.decal().filter(|_| tested && item.decal_alpha());
+    let placed = [
+        ("DECAL_PLACED", "decal_placement", material.decal_placement, decal.is_some() || decal_alpha.is_some()),
+        ("ALPHA_PLACED", "alpha_placement", material.alpha_placement, alpha_map.is_some()),
+    ];
+    for (define, uniform, placement, _) in placed.into_iter().filter(|placed| placed.3 && !placed.2.is_plain()) {
+        out.defines.push((define.into(), String::new()));
+        out.uniforms.push(Uniform::new(uniform, Vec4::from(placement.scale_and_offset())));
+    }
     if let Some(texgen) = &material.texgen {
         out.defines.push(("OBJECT_LINEAR".into(), String::new()));
         out.uniforms.push(Uniform::new("object_planes", vec![texgen.s.into(), texgen.t.into()]));
@@ -195,15 +234,16 @@ pub fn cutout(item: &Item, decal: bool, list: &mut PassList) -> Cutout {
         out.uniforms.push(Uniform::new("opacity", material.opacity));
     }
     if let Some(texture) = decal {
-        out.inputs.push(upload("decal_map", texture, DECAL_SAMPLER, list));
+        out.inputs.push(upload("decal_map", texture, placed_by(&material.decal_placement, DECAL_SAMPLER), list));
     }
-    if let Some(texture) = item.decal().filter(|_| item.decal_alpha()) {
+    if let Some(texture) = decal_alpha {
         out.defines.push(("DECAL_ALPHA".into(), String::new()));
-        out.inputs.push(upload("decal_alpha_map", texture, ALPHA_SAMPLER, list));
+        let sampler = placed_by(&material.decal_placement, ALPHA_SAMPLER);
+        out.inputs.push(upload("decal_alpha_map", texture, sampler, list));
     }
     if let Some(texture) = alpha_map {
         out.defines.push(("ALPHA_MAP".into(), String::from(if texture.has_alpha { "a" } else { "r" })));
-        out.inputs.push(upload("alpha_map", texture, ALPHA_SAMPLER, list));
+        out.inputs.push(upload("alpha_map", texture, placed_by(&material.alpha_placement, ALPHA_SAMPLER), list));
     }
     out
 }

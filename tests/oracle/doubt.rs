@@ -72,3 +72,21 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
     let refused = ray::trace(&scene, 0, &Options::default());
     assert!(matches!(refused, Err(ray::Error::TooAmbiguous { .. })), "{refused:?}");
 }
+
+/// Where f32 may move every surface by more than a mesh is large, a few pixels tell that there is no truth; and no pixel
+/// looks at all of the mesh.
+#[test]
+fn a_light_so_far_away_that_nothing_is_sure_is_found_out_early() {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/dense.obj");
+    let scene = load(&format!(
+        "{CAMERA}[[light]]\nkind = \"point\"\nposition = [4e9, 4, 3]\n[[object]]\nmesh = \"quad\"\nscale = 4.0\n\
+         [[object]]\nmesh = {model:?}\n"
+    ));
+    let Err(ray::Error::TooAmbiguous { reasons, .. }) = ray::trace(&scene, 0, &Options::default()) else {
+        panic!("there is no truth")
+    };
+    assert!(reasons.contains("; stopped after "), "{reasons}");
+    let all = Options { most_ambiguous: 1.0, ..Options::default() };
+    let truth = ray::trace(&scene, 0, &all).unwrap();
+    assert_eq!(truth.ambiguous_share(), 1.0);
+}

@@ -22,8 +22,9 @@ pub const CREASE_DEGREES: f64 = 60.0;
 /// Reads the OBJ file at `path`, its material libraries and their textures.
 ///
 /// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
-/// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. A library that does not exist and a material
-/// that no library has are warnings; a texture that cannot be had is an error. Positions that are far away from the
+/// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. Warnings are: a library that does not exist, a
+/// material that no library has, a texture that cannot be had, faces of fewer than three vertices, and what is not drawn
+/// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the
 /// file's origin, for their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let bytes = text::read(path)?;
@@ -32,7 +33,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     if u32::try_from(scan.places.count().max(text.len())).is_err() {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
     }
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<Warning> = scan.oddities.warnings().collect();
     if let Some((line, message)) = place::warning(&scan, &text) {
         warnings.push(Warning { path: path.to_owned(), line, message });
     }
@@ -47,7 +48,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         let message = format!("{repaired} normals have no length or are not finite; made from the triangles");
         warnings.push(Warning { path: path.to_owned(), line: 0, message });
     }
-    mesh.materials = library.load_materials()?;
+    mesh.materials = library.load_materials(&mut warnings);
     mesh.origin = scan.origin;
     mesh.update_bounds();
     Ok((mesh, warnings))

@@ -92,6 +92,9 @@ impl Places {
                 Some("f") => {
                     let corners = words.map_while(|word| read_corner(word, counts).ok());
                     let corners: Vec<usize> = corners.map(|corner| corner.v).collect();
+                    if corners.len() < 3 {
+                        continue;
+                    }
                     let Some([length, off]) = self.longest(&corners, origin) else { continue };
                     if off > MOST_OFF * length {
                         lost += 1;

@@ -93,12 +93,13 @@ impl Rewriter<'_> {
     }
 
     fn add_face<'a>(&mut self, words: impl Iterator<Item = &'a str>) {
-        self.faces.push('f');
-        for word in words.take_while(|word| !word.starts_with('#')) {
-            if let Ok(corner) = read_corner(word, self.counts) {
-                self.add_corner(corner);
-            }
+        let corners = words.take_while(|word| !word.starts_with('#'));
+        let corners: Vec<Corner> = corners.filter_map(|word| read_corner(word, self.counts).ok()).collect();
+        if corners.len() < 3 {
+            return;
         }
+        self.faces.push('f');
+        corners.into_iter().for_each(|corner| self.add_corner(corner));
         self.faces.push('\n');
     }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::super::Error;
+use super::super::tally::Tally;
 use super::super::text::logical_lines;
 use super::place::Places;
 
@@ -25,6 +26,8 @@ pub(super) struct Scan {
     /// Some corners name a texture coordinate (a normal), others do not.
     pub mixed_texcoords: bool,
     pub mixed_normals: bool,
+    /// What is left out.
+    pub oddities: Tally,
 }
 
 /// Numbers of a kind so far, or in all.
@@ -49,7 +52,8 @@ struct Forward {
     corner: Corner,
 }
 
-struct Scanner {
+struct Scanner<'a> {
+    path: &'a Path,
     scan: Scan,
     counts: Counts,
     forward: Vec<Forward>,
@@ -66,6 +70,7 @@ type Wrong = String;
 /// Reads `text`, the file at `path`.
 pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
     let mut scanner = Scanner {
+        path,
         scan: Scan::default(),
         counts: Counts::default(),
         forward: Vec::new(),
@@ -78,20 +83,22 @@ pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
         scanner.scan.needs_rewrite |= matches!(line.text, std::borrow::Cow::Owned(_));
         scanner.read_line(line.number, &line.text).map_err(|what| Error::malformed(path, line.number, what))?;
     }
-    scanner.finish(path)
+    scanner.finish()
 }
 
-impl Scanner {
+impl Scanner<'_> {
     fn read_line(&mut self, number: usize, line: &str) -> Result<(), Wrong> {
         let mut words = line.split_ascii_whitespace();
         match words.next() {
-            Some("v") => self.read_position(words),
+            Some("v") => self.read_position(number, words),
             Some("f") => self.read_face(number, words),
             Some("vt") => self.read_texcoord(words),
             Some("vn") => self.read_normal(words),
             // tobj takes a line of three points for a triangle.
-            Some("l") => {
+            Some(keyword @ ("l" | "p")) => {
                 self.scan.needs_rewrite = true;
+                let what = if keyword == "l" { "lines" } else { "points" };
+                self.note(keyword, number, || format!("{keyword}: {what} are not drawn"));
                 Ok(())
             }
             Some(keyword @ ("o" | "g")) => {
@@ -110,8 +117,33 @@ impl Scanner {
                 self.scan.libraries.push((number, statement_value(line, "mtllib").to_owned()));
                 Ok(())
             }
-            _ => Ok(()),
+            Some(keyword) => {
+                self.leave_out(number, keyword);
+                Ok(())
+            }
+            None => Ok(()),
         }
+    }
+
+    /// Warns of a statement that is not drawn, but for what changes no picture of polygons.
+    fn leave_out(&mut self, number: usize, keyword: &str) {
+        match keyword {
+            _ if keyword.starts_with('#') => {}
+            // Groups that are smooth, parameters of curves and of surfaces, hints for display.
+            "s" | "mg" | "lod" | "bevel" | "c_interp" | "d_interp" | "ctech" | "stech" | "vp" | "cstype" | "deg"
+            | "bmat" | "step" | "parm" | "trim" | "hole" | "scrv" | "sp" | "end" | "con" | "\u{1a}" => {}
+            "curv" | "curv2" | "surf" => {
+                self.note("curves", number, || format!("{keyword}: curves and curved surfaces are not drawn"));
+            }
+            _ => {
+                let what = || format!("'{}' is no statement of OBJ that is drawn; it is left out", shorten(keyword));
+                self.note("unknown", number, what);
+            }
+        }
+    }
+
+    fn note(&mut self, kind: &str, number: usize, message: impl FnOnce() -> String) {
+        self.scan.oddities.note(kind, self.path, number, message);
     }
 
     /// tobj takes a name from behind the first space of the line.
@@ -127,7 +159,7 @@ impl Scanner {
         }
     }
 
-    fn read_position<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
+    fn read_position<'a>(&mut self, number: usize, words: impl Iterator<Item = &'a str>) -> Result<(), Wrong> {
         let (mut count, mut xyz, mut weight) = (0, [""; 3], "");
         for word in words {
             match count {
@@ -145,7 +177,10 @@ impl Scanner {
             4 => check_weight(weight, xyz)?,
             3 => {}
             // Colours, which tobj takes only as exactly three numbers.
-            _ => self.scan.needs_rewrite = true,
+            _ => {
+                self.scan.needs_rewrite = true;
+                self.note("colours", number, || String::from("v: colours of vertices are not drawn"));
+            }
         }
         self.scan.places.add(xyz, if count == 4 { weight } else { "" });
         self.counts.v += 1;
@@ -195,7 +230,11 @@ impl Scanner {
             self.face.push(corner.v);
         }
         if self.face.len() < 3 {
-            return Err(format!("a face of {} vertices; it takes 3", self.face.len()));
+            self.scan.needs_rewrite = true;
+            let count = self.face.len();
+            let vertices = if count == 1 { "vertex" } else { "vertices" };
+            self.note("short", line, || format!("f: a face of {count} {vertices} is left out; it takes 3"));
+            return Ok(());
         }
         self.scan.places.add_face(&self.face);
         self.scan.faces += 1;
@@ -215,8 +254,8 @@ impl Scanner {
     }
 
     /// Judges the faces that named vertices before they were read, now that all are.
-    fn finish(self, path: &Path) -> Result<Scan, Error> {
-        let Self { mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal, .. } = self;
+    fn finish(self) -> Result<Scan, Error> {
+        let Self { path, mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal, .. } = self;
         for Forward { line, corner } in &forward {
             let named = [
                 ("vertex", Some(corner.v), counts.v),

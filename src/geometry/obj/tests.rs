@@ -96,7 +96,11 @@ fn odd_spellings_are_read() {
     let text = "\u{feff}# a\r\no\tbox one\r\n  v 0 0 0 1 0 0 1\r\nv 1 0 0 2\r\n\tv 0 1. +0e0\r\nvt 0.5\r\n\
         l 1 2 3\r\np 1\r\nusemtl\r\ng\r\nf 4/1 5/1 6/1\r\nv 0 0 1\nv 1 0 1\nv 0 1 1\ncstype bezier\nf 1 2 3 # end";
     let (mesh, warnings) = load(text);
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let said: Vec<_> = warnings.iter().map(ToString::to_string).collect();
+    let tail = |line: usize, what: &str| said.iter().any(|said| said.ends_with(&format!("a.obj:{line}: {what}")));
+    let left_out =
+        [(3, "v: colours of vertices are not drawn"), (7, "l: lines are not drawn"), (8, "p: points are not drawn")];
+    assert!(said.len() == 3 && left_out.iter().all(|(line, what)| tail(*line, what)), "{said:?}");
     assert_eq!((mesh.triangle_count(), mesh.positions.len()), (2, 6));
     assert_eq!((mesh.positions[0], mesh.positions[4]), ([0.0, 0.0, 1.0], [0.5, 0.0, 0.0]));
     assert_eq!(mesh.texcoords.unwrap(), [[0.5, 0.0], [0.5, 0.0], [0.5, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]);
@@ -121,11 +125,78 @@ fn material_statements_are_read_in_odd_spellings() {
     let text = "usemtl c\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl a b\nf 1 2 3\n";
     let (_folder, path) = written("a.obj", &[("a.obj", text), ("a.mtl", library)]);
     let (mesh, warnings) = load_obj(&path).unwrap();
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let said: Vec<_> = warnings.iter().map(|warning| (warning.line, warning.message.as_str())).collect();
+    let expected = [
+        (3, "Ka: 2 is not in [0, 1]; 1 is drawn"),
+        (4, "Ks spectral is left out: colours are red, green and blue"),
+        (5, "Ns: 5000 is not in [0, 1000]; 1000 is drawn"),
+        (6, "d -halo is drawn as d: the angle of view does not count"),
+        (7, "illum is left out: all surfaces are lit as by illum 2"),
+        (8, "Ke is left out: nothing shines by itself"),
+    ];
+    assert_eq!(said, expected);
     assert_eq!(mesh.parts.iter().map(|part| part.material).collect::<Vec<_>>(), [Some(2), Some(0)]);
     let [ab, first_c, c] = &mesh.materials[..] else { panic!("{:?}", mesh.materials) };
     assert_eq!((ab.ambient, ab.diffuse, ab.specular), ([0.0, 0.25, 1.0], [0.5; 3], [0.0; 3]));
     assert_eq!((ab.shininess, ab.opacity, first_c.opacity, c.diffuse), (1000.0, 0.25, 0.25, [0.0, 1.0, 0.0]));
+}
+
+/// The warnings of a triangle with the statements `material`, as line and message, and its material.
+fn material(material: &str) -> (Vec<(usize, String)>, super::super::Material) {
+    let picture = image::RgbaImage::from_pixel(2, 2, image::Rgba([10, 200, 30, 255]));
+    let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+    let (folder, path) = written("a.obj", &[("a.obj", text), ("a.mtl", &format!("newmtl m\n{material}"))]);
+    picture.save(folder.path().join("a.png")).unwrap();
+    let (mesh, warnings) = load_obj(&path).unwrap();
+    let said = warnings.into_iter().map(|warning| (warning.line, warning.message)).collect();
+    (said, mesh.materials[0].clone())
+}
+
+#[test]
+fn options_of_maps_are_applied() {
+    let (said, found) = material("map_Kd -s 2 3 -o 0.5 -clamp on a.png\nmap_d -imfchan g -mm 0.1 0.5 a.png\n");
+    assert!(said.is_empty(), "{said:?}");
+    let placed = found.decal_placement;
+    assert_eq!((placed.scale, placed.offset, placed.clamped), ([2.0, 3.0], [0.5, 0.0], true));
+    assert_eq!((found.decal.unwrap().rgba[0], found.alpha_placement), (10, Default::default()));
+    let alpha = found.alpha.unwrap();
+    assert_eq!((alpha.rgba[0], alpha.has_alpha), ((0.1_f32 * 255.0 + 100.0).round() as u8, false));
+}
+
+#[test]
+fn what_no_picture_shows_is_warned_of_once() {
+    let (said, _) = material(
+        "map_Kd -bm 2 -imfchan r a.png\nmap_Bump -bm 1 a.png\nnorm a.png\nPr 0.5\nPm 1\nmap_Pr a.png\nKe 0 0 0\n\
+         Ni 1.5\nillum 2\n# a note\nKdd 1 1 1\nmap_Ka a.png\n",
+    );
+    let expected = [
+        (2, "map_Kd -bm is left out"),
+        (2, "map_Kd -imfchan is left out"),
+        (3, "map_Bump is left out: surfaces are lit by their meshes' normals"),
+        (4, "norm is left out: surfaces are lit by their meshes' normals"),
+        (5, "Pr is left out, as all of physically based materials: Ka, Kd, Ks and Ns are drawn (3 times)"),
+        (12, "'Kdd' is no statement of MTL; it is left out"),
+    ];
+    assert_eq!(said, expected.map(|(line, what)| (line, what.to_owned())));
+    // Another picture for ambient light than for diffuse light.
+    let (said, _) = material("map_Ka a.png\n");
+    assert_eq!(said, [(2, String::from("map_Ka is left out: of textures, map_Kd and map_d are drawn"))]);
+}
+
+#[test]
+fn d_counts_where_a_tr_contradicts_it() {
+    for (text, opacity, warned) in [
+        ("d 1\nTr 1\n", 1.0, true),
+        ("Tr 1\nd 1\n", 1.0, true),
+        ("d 0.25\nTr 0.75\n", 0.25, false),
+        ("Tr 0.75\nTr 0.25\n", 0.75, false),
+        ("d 0.5\nd 1\nTr 0\n", 1.0, false),
+    ] {
+        let (said, found) = material(text);
+        assert_eq!((found.opacity, said.len()), (opacity, usize::from(warned)), "{text}: {said:?}");
+        assert!(said.iter().all(|(line, what)| *line == 3 && what.contains("d counts")), "{said:?}");
+        assert!(found.opacity_origin.contains("a.mtl:"), "{}", found.opacity_origin);
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use glam::DMat4;
 
-use crate::geometry::ObjectLinear;
+use crate::geometry::{ObjectLinear, Placement};
 use crate::pass::Compare;
 
 /// One drawing of all the draws of a batch.
@@ -70,6 +70,8 @@ pub struct Source {
 pub struct Unit {
     pub image: UnitImage,
     pub coordinates: Coordinates,
+    /// What the texture matrix does to coordinates of the surface's own textures.
+    pub placement: Placement,
     pub rgb: Combine,
     pub alpha: Combine,
     /// 1, 2 or 4; what it makes of alpha is clamped to [0, 1].

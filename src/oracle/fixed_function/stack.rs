@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec4};
 
 use super::layer::{Combine, Coordinates, EyeLinear, Mask, Operand, Unit, UnitImage};
+use crate::geometry::Placement;
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
 /// What the unit before came to.
@@ -41,7 +42,15 @@ impl<'a> Stack<'a> {
 
     fn push(&mut self, image: UnitImage, coordinates: Coordinates, rgb: Combine, alpha: Combine) {
         let alpha_scale = if self.cone { STEEPER } else { 1.0 };
-        self.units.push(Unit { image, coordinates, rgb, alpha, alpha_scale, constant: [1.0; 4] });
+        let placement = Placement::default();
+        self.units.push(Unit { image, coordinates, placement, rgb, alpha, alpha_scale, constant: [1.0; 4] });
+    }
+
+    /// Places the texture of the unit that was pushed last.
+    fn place(&mut self, placement: Placement) {
+        if let Some(unit) = self.units.last_mut() {
+            unit.placement = placement;
+        }
     }
 
     fn input(&self, name: &str) -> Result<UnitImage, String> {
@@ -56,13 +65,16 @@ impl<'a> Stack<'a> {
         let test = texturing.alpha_test.as_ref().filter(|_| tested);
         if decal {
             self.push(self.input("decal_map")?, coordinates.clone(), BY_TEXTURE, KEPT);
+            self.place(texturing.decal_placement);
         }
         if test.is_some_and(|test| test.decal) {
             self.push(self.input("decal_alpha_map")?, coordinates.clone(), KEPT, BY_TEXTURE);
+            self.place(texturing.decal_placement);
         }
         if let (Some(test), Ok(UnitImage::Input { index, .. })) = (test, self.input("alpha_map")) {
             let image = UnitImage::Input { index, red_as_alpha: test.map_in_red };
             self.push(image, coordinates, KEPT, BY_TEXTURE);
+            self.place(texturing.alpha_placement);
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use glow::HasContext;
 use super::layer::{Combine, Coordinates, Operand, Unit};
 use super::{Binding, raw};
 use crate::device::compare_code;
+use crate::geometry::Placement;
 use crate::pass::{Filter, Sampler, Wrap};
 
 /// The four coordinates: their names, and what switches their generation on.
@@ -39,7 +40,7 @@ pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, boun
     if let Some(sampler) = bound.sampler {
         set_sampler(gl, sampler, bound.red_as_alpha);
     }
-    set_coordinates(gl, fixed, &unit.coordinates);
+    set_coordinates(gl, fixed, &unit.coordinates, &unit.placement);
     set_combiners(fixed, unit);
 }
 
@@ -92,12 +93,15 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
     }
 }
 
-fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinates) {
+fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinates, placement: &Placement) {
     // SAFETY: as above.
     unsafe {
         COORDINATES.iter().for_each(|(_, switch)| gl.disable(*switch));
         fixed.MatrixMode(glow::TEXTURE);
         fixed.LoadIdentity();
+        let [scale_s, scale_t, offset_s, offset_t] = placement.scale_and_offset();
+        fixed.Translatef(offset_s, offset_t, 0.0);
+        fixed.Scalef(scale_s, scale_t, 1.0);
         match coordinates {
             Coordinates::Constant | Coordinates::Mesh => {}
             Coordinates::ObjectLinear(generated) => {

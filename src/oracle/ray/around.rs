@@ -125,7 +125,7 @@ impl<'a> Surroundings<'a> {
         let axis = beam.axis();
         let end = 1.0 + behind / axis.length();
         let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
-        self.tracer.world.visit(&segment, beam.radius(self.tracer.largest_error), look);
+        self.tracer.visit(beam, &segment, look);
     }
 
     /// The slope of a surface near the visible point, as [`Around::slope`].

@@ -10,6 +10,8 @@
 
 use glam::DVec3;
 
+use super::world::Tube;
+
 /// Where a line crosses a triangle, if it does.
 ///
 /// Watertight after Woop, Benthin and Wald (JCGT 2013), in f64: corners relative to the origin are sheared so that the
@@ -118,6 +120,11 @@ impl Beam {
     pub fn radius(&self, error: f64) -> f64 {
         let moves = self.spread.iter().chain(&self.slip).map(|way| way.length());
         moves.sum::<f64>() + self.error + error
+    }
+
+    /// What the beam fills, where all corners are in their places.
+    pub fn tube(&self) -> Tube {
+        Tube { radius: self.radius(0.0), tapers: matches!(self.apex, Apex::At(_)) }
     }
 
     /// Where the centre segment begins.

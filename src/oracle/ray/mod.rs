@@ -37,6 +37,8 @@ mod volumes;
 mod wave;
 mod world;
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -49,7 +51,7 @@ use light::Lamp;
 use primary::Seen;
 pub use truth::{Answer, Hit, Pixel, Reason, Truth};
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
-use world::{Placed, Triangle, World};
+use world::{Placed, Segment, Triangle, World};
 
 /// How much doubt is granted.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,20 +102,66 @@ pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Er
     Tracer::new(scene, light, options)?.trace(scene, options)
 }
 
-/// Ambiguous over drawn pixels, without those that are dark by shading alone.
-fn doubtful_share(truth: &Truth, scene: &Scene) -> f64 {
-    let is_dark = |hit: &Hit| {
-        let is_lit = scene.objects.get(hit.object as usize).is_none_or(|object| object.lit);
-        is_lit && hit.cos_light.abs() < FAINT
-    };
-    let grazing = |pixel: &&Pixel| pixel.answer == Answer::Ambiguous(Reason::GrazingLight);
-    let dark = truth.pixels.iter().filter(grazing).filter(|pixel| pixel.hit.as_ref().is_some_and(is_dark)).count();
-    let doubtful = truth.count(|answer| matches!(answer, Answer::Ambiguous(_))) - dark;
-    doubtful as f64 / (truth.drawn() - dark).max(1) as f64
+/// A picture's pixels are answered in so many portions, each spread over all of it: after each it is asked whether too many
+/// are ambiguous already. Where all are, the rest of a slow answer is not waited for.
+const PORTIONS: usize = 64;
+
+/// What is undecided of the pixels that are answered so far.
+#[derive(Default)]
+struct Doubts {
+    answered: usize,
+    drawn: usize,
+    /// Ambiguous ones that are dark by shading alone: they count neither as drawn nor as ambiguous.
+    dark: usize,
+    by_reason: [usize; Reason::ALL.len()],
+}
+
+impl Doubts {
+    fn add(&mut self, pixel: &Pixel, scene: &Scene) {
+        self.answered += 1;
+        self.drawn += usize::from(pixel.answer != Answer::Background);
+        let Answer::Ambiguous(reason) = pixel.answer else { return };
+        let is_dark = |hit: &Hit| {
+            let is_lit = scene.objects.get(hit.object as usize).is_none_or(|object| object.lit);
+            is_lit && hit.cos_light.abs() < FAINT
+        };
+        self.dark += usize::from(reason == Reason::GrazingLight && pixel.hit.as_ref().is_some_and(is_dark));
+        for (known, count) in Reason::ALL.iter().zip(&mut self.by_reason) {
+            *count += usize::from(*known == reason);
+        }
+    }
+
+    fn ambiguous(&self) -> usize {
+        self.by_reason.iter().sum::<usize>() - self.dark
+    }
+
+    /// The least share of ambiguous pixels that `left` more can leave.
+    fn share_of(&self, left: usize) -> f64 {
+        self.ambiguous() as f64 / (self.drawn - self.dark + left).max(1) as f64
+    }
+
+    /// The picture has `count` pixels.
+    fn error(&self, options: &Options, count: usize) -> Error {
+        let reasons = Reason::ALL.iter().zip(self.by_reason).filter(|(_, count)| *count > 0);
+        let reasons: Vec<String> = reasons.map(|(reason, count)| format!("{count} {}", reason.name())).collect();
+        let stopped = match self.answered {
+            all if all == count => String::new(),
+            answered => format!("; stopped after {answered} of {count} pixels"),
+        };
+        Error::TooAmbiguous {
+            percent: 100.0 * self.share_of(0),
+            most_percent: 100.0 * options.most_ambiguous,
+            reasons: format!("{}{stopped}", reasons.join(", ")),
+        }
+    }
 }
 
 /// A cosine below which diffuse light is less than a code of eight bits.
 const FAINT: f64 = 1.0 / 256.0;
+
+/// Once one point of a beam is doubtful, its other triangles are looked at up to this many: where f32 may move surfaces by
+/// more than a mesh is large, each beam meets all of its triangles.
+const ENOUGH: u32 = 1024;
 
 /// All that a pixel's question needs.
 struct Tracer<'a> {
@@ -155,25 +203,27 @@ impl<'a> Tracer<'a> {
     /// The answers for every pixel of the scene's picture.
     fn trace(&self, scene: &Scene, options: &Options) -> Result<Truth, Error> {
         let [width, height] = scene.image.size;
-        let rows = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
         let counting = options.depth_buffer_bits.map(|_| volumes::Counting::new(scene, self));
         let answer = |(x, y)| {
             let pixel = self.answer(x, y);
             let reason = counting.as_ref().and_then(|counting| counting.doubt(x, y, pixel.answer));
             Pixel { answer: reason.map_or(pixel.answer, Answer::Ambiguous), ..pixel }
         };
-        let pixels = rows.map(answer).collect();
-        let truth = Truth { width, height, pixels };
-        let share = doubtful_share(&truth, scene);
-        if share > options.most_ambiguous {
-            let reasons = truth.reasons().into_iter().map(|(reason, count)| format!("{count} {}", reason.name()));
-            return Err(Error::TooAmbiguous {
-                percent: 100.0 * share,
-                most_percent: 100.0 * options.most_ambiguous,
-                reasons: reasons.collect::<Vec<_>>().join(", "),
-            });
+        let count = width as usize * height as usize;
+        let mut tally = Doubts::default();
+        let mut found: Vec<Option<Pixel>> = vec![None; count];
+        for first in 0..PORTIONS {
+            let places: Vec<usize> = (first..count).step_by(PORTIONS).collect();
+            let at = |index: &usize| answer(((index % width as usize) as u32, (index / width as usize) as u32));
+            let pixels: Vec<Pixel> = places.par_iter().map(at).collect();
+            pixels.iter().for_each(|pixel| tally.add(pixel, scene));
+            places.into_iter().zip(pixels).for_each(|(index, pixel)| found[index] = Some(pixel));
+            let left = count - tally.answered;
+            if tally.share_of(left) > options.most_ambiguous {
+                return Err(tally.error(options, count));
+            }
         }
-        Ok(truth)
+        Ok(Truth { width, height, pixels: found.into_iter().flatten().collect() })
     }
 
     /// The error of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in
@@ -227,7 +277,8 @@ impl<'a> Tracer<'a> {
         };
         let is_held = self.lamp.holds(seen.position, &seen.spread, seen.error);
         let is_held_at_center = self.lamp.holds_exactly(seen.position);
-        let (lit, doubtful_light) = if is_held_at_center { self.light_reaches(&seen) } else { (false, None) };
+        let is_sure = doubtful_view.is_none() && is_held.is_ok();
+        let (lit, doubtful_light) = if is_held_at_center { self.light_reaches(&seen, is_sure) } else { (false, None) };
         let answer = match (doubtful_view, is_held, doubtful_light) {
             (Some(reason), _, _) | (None, Err(reason), _) => Answer::Ambiguous(reason),
             (None, Ok(false), _) => Answer::OutsideCone,
@@ -250,6 +301,11 @@ impl<'a> Tracer<'a> {
             pixel_size: (seen.spread[0].length() + seen.spread[1].length()) / self.subpixel,
             in_map: self.lamp.in_map(seen.position),
         }
+    }
+
+    /// Calls `look` with each triangle that the beam may meet along `segment`, a piece of its middle.
+    fn visit(&self, beam: &Beam, segment: &Segment, look: impl FnMut(&Triangle<'_>) -> ControlFlow<()>) {
+        self.world.visit(segment, beam.tube(), self.largest_error, |object| self.errors[object as usize], look);
     }
 
     fn passes_any_edge(&self, beam: &Beam, triangle: &Triangle<'_>, error: f64) -> bool {

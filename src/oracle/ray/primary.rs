@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::beam::{Apex, Beam, Side};
 use super::truth::Reason;
 use super::world::{Segment, Triangle};
-use super::{Tracer, doubt};
+use super::{ENOUGH, Tracer, doubt};
 
 /// The surface point behind a pixel.
 pub(super) struct Seen<'w> {
@@ -72,17 +72,17 @@ impl Tracer<'_> {
     /// Looks for what a small move would change: reasons for doubt, and how much farther the point may move because
     /// connected triangles with other slopes lie within the beam.
     fn search(&self, beam: &Beam, hit: Option<&Triangle<'_>>) -> (Option<Reason>, f64) {
-        let (mut reason, mut widened) = (None, 0.0f64);
+        let (mut reason, mut widened, mut looked_at) = (None, 0.0f64, 0);
         let axis = beam.axis();
         // The longest way that anything may lie behind the base and still matter.
         let behind = beam.surface_spread.iter().map(|way| way.length()).sum::<f64>() + beam.depth_error;
         let end = 1.0 + (behind + self.largest_error) / axis.length();
         let segment = Segment { origin: beam.origin(), direction: axis, start: beam.start, end };
-        let pads = |object: u32| beam.radius(self.errors[object as usize]);
-        self.world.visit_within(&segment, beam.radius(self.largest_error), pads, |triangle| {
+        self.visit(beam, &segment, |triangle| {
             let found = self.judge_view(beam, hit, triangle, &mut widened);
             doubt(&mut reason, found);
-            ControlFlow::Continue(())
+            looked_at += 1;
+            if reason.is_some() && looked_at > ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         (reason, widened)
     }

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::beam::{Beam, Meeting, Side};
 use super::primary::Seen;
 use super::truth::Reason;
-use super::world::{Segment, Triangle};
-use super::{Tracer, doubt};
+use super::world::{Segment, Triangle, Tube};
+use super::{ENOUGH, Tracer, doubt};
 
 /// What one triangle does to a shadow ray.
 enum Verdict {
@@ -23,11 +23,14 @@ enum Verdict {
 }
 
 impl Tracer<'_> {
-    /// Whether the light reaches the centre point, and what makes that doubtful.
-    pub fn light_reaches(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
+    /// Whether the light reaches the centre point, and what makes that doubtful. Of a point that `is_sure` denies, for the
+    /// answer is doubtful anyway, only the first.
+    pub fn light_reaches(&self, seen: &Seen<'_>, is_sure: bool) -> (bool, Option<Reason>) {
         let (height, tilt) = self.height_of_light(seen);
         let mut reason = (height.abs() <= tilt).then_some(Reason::GrazingLight);
-        let (is_clear, found) = self.trace_to_light(seen);
+        let beam = self.shadow_beam(seen);
+        let (is_clear, found) =
+            if is_sure { self.trace_to_light(&beam, seen) } else { (self.is_clear_at_center(&beam, seen), None) };
         // Where the light stands behind the visible side, the surface itself is in the way.
         let lit = is_clear && !(height < 0.0 && seen.triangle.placed.casts_shadow);
         doubt(&mut reason, found);
@@ -47,8 +50,8 @@ impl Tracer<'_> {
         (seen.normal.dot(to_light), tilt)
     }
 
-    fn trace_to_light(&self, seen: &Seen<'_>) -> (bool, Option<Reason>) {
-        let beam = Beam {
+    fn shadow_beam(&self, seen: &Seen<'_>) -> Beam {
+        Beam {
             apex: self.lamp.apex(seen.position),
             base: seen.position,
             spread: seen.spread,
@@ -58,26 +61,52 @@ impl Tracer<'_> {
             depth_error: seen.error,
             start: 0.0,
             levers: true,
-        };
+        }
+    }
+
+    fn trace_to_light(&self, beam: &Beam, seen: &Seen<'_>) -> (bool, Option<Reason>) {
         let direction = beam.axis();
         let radius = beam.radius(self.largest_error);
         let segment =
             Segment { origin: beam.origin(), direction, start: beam.start, end: 1.0 + radius / direction.length() };
-        let (mut lit, mut reason) = (true, None);
-        let pads = |object: u32| beam.radius(self.errors[object as usize]);
-        self.world.visit_within(&segment, radius, pads, |triangle| match self.judge_shadow(&beam, seen, triangle) {
-            Verdict::Blocks => {
-                (lit, reason) = (false, None);
-                ControlFlow::Break(())
+        let (mut lit, mut reason, mut looked_at) = (true, None, 0);
+        self.visit(beam, &segment, |triangle| {
+            match self.judge_shadow(beam, seen, triangle) {
+                Verdict::Blocks => {
+                    (lit, reason) = (false, None);
+                    return ControlFlow::Break(());
+                }
+                Verdict::Perhaps { center, reason: found } => {
+                    lit &= !center;
+                    doubt(&mut reason, found);
+                }
+                Verdict::Passes => {}
             }
-            Verdict::Perhaps { center, reason: found } => {
-                lit &= !center;
-                doubt(&mut reason, found);
-                ControlFlow::Continue(())
-            }
-            Verdict::Passes => ControlFlow::Continue(()),
+            looked_at += 1;
+            if reason.is_some() && looked_at > ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        (lit, reason)
+        let is_cut_short = reason.is_some() && looked_at > ENOUGH;
+        if is_cut_short { (self.is_clear_at_center(beam, seen), reason) } else { (lit, reason) }
+    }
+
+    /// Whether nothing stands in the way of the beam's middle.
+    fn is_clear_at_center(&self, beam: &Beam, seen: &Seen<'_>) -> bool {
+        let segment = Segment { origin: beam.origin(), direction: beam.axis(), start: beam.start, end: 1.0 };
+        let mut is_clear = true;
+        self.world.visit(
+            &segment,
+            Tube::LINE,
+            0.0,
+            |_| 0.0,
+            |triangle| {
+                is_clear = matches!(
+                    self.judge_shadow(beam, seen, triangle),
+                    Verdict::Passes | Verdict::Perhaps { center: false, .. }
+                );
+                if is_clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        );
+        is_clear
     }
 
     fn judge_shadow(&self, beam: &Beam, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Verdict {

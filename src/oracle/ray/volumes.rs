@@ -240,7 +240,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         let radius = beam.radius(self.tracer.largest_error);
         let segment = Segment { origin: beam.origin(), direction, start: 0.0, end: 1.0 + radius / direction.length() };
         let mut tally = Tally { center: 0, doubtful: 0, reason: None };
-        self.tracer.world.visit(&segment, radius, |triangle| {
+        self.tracer.visit(beam, &segment, |triangle| {
             if self.rule(triangle) != Rule::Never && !triangle.is_degenerate() {
                 let share = self.share(beam, seen, triangle);
                 tally.center += share.center;

@@ -22,7 +22,8 @@ pub(super) fn read(table: &Settings, owner: &str, assets: &mut Assets) -> Result
     let mut load = |file: Option<(&str, &_)>| file.map(|(name, origin)| assets.texture(name, origin)).transpose();
     let (decal, alpha) = (load(decal)?, load(alpha)?);
     let name = format!("material of {owner}");
-    Ok(Arc::new(Material { name, ambient, diffuse, specular, shininess, opacity, decal, alpha, texgen }))
+    let material = Material { name, ambient, diffuse, specular, shininess, opacity, decal, alpha, texgen, ..fallback };
+    Ok(Arc::new(material))
 }
 
 /// `texgen = { s, t, scale }`: GL_OBJECT_LINEAR planes in the mesh's own space and a texture matrix that scales.

@@ -34,7 +34,36 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let material = material.map(|material| relative_to(material, mesh.origin));
     let object = Object { name, mesh, world_from_model, wave, material, lit, casts_shadow, closed };
     check_reach(&object, table)?;
+    warn_of_clear(&object, table, assets);
     Ok(object)
+}
+
+/// Warns of parts that the alpha test discards whole.
+fn warn_of_clear(object: &Object, table: &Settings, assets: &mut Assets) {
+    let has_texcoords = object.mesh.texcoords.is_some();
+    let gone = "at most: below 0.5 the alpha test discards all";
+    if let Some(material) = &object.material {
+        let most = material.most_alpha(has_texcoords);
+        if most < 0.5 {
+            let what = format!("leaves an alpha of {most} {gone} of object \"{}\", and its shadow", object.name);
+            assets.warn(table.read().error("material", what).to_string());
+        }
+        return;
+    }
+    for (index, material) in object.mesh.materials.iter().enumerate() {
+        let parts = object.mesh.parts.iter().filter(|part| part.material == Some(index));
+        let triangles = parts.map(|part| part.indices.len() / 3).sum::<usize>();
+        let most = if triangles > 0 { material.most_alpha(has_texcoords) } else { 1.0 };
+        if most < 0.5 {
+            let origin = if material.opacity_origin.is_empty() { &object.mesh.name } else { &material.opacity_origin };
+            let hint = if origin.contains(": Tr ") { "; if Tr was meant as an opacity, write d" } else { "" };
+            assets.warn(format!(
+                "{origin}: material \"{}\" leaves an alpha of {most} {gone} that has it, and its shadow: {triangles} triangles of \
+                 object \"{}\"{hint}",
+                material.name, object.name
+            ));
+        }
+    }
 }
 
 /// A material whose generated coordinates are those of the file's space.
