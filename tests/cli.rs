@@ -573,21 +573,6 @@ fn a_scene_that_cannot_be_drawn_is_not_printed() {
     refusal(&print("light.shadow.siez=64"), 1, "did you mean `size`?").unwrap();
 }
 
-/// TOML is UTF-8: it has no words for such a path.
-#[cfg(unix)]
-#[test]
-fn a_scene_with_a_path_that_is_no_text_is_not_printed() {
-    use std::os::unix::ffi::OsStrExt;
-    let folder = tempfile::tempdir().unwrap();
-    let odd = folder.path().join(std::ffi::OsStr::from_bytes(b"odd\xff.obj"));
-    fs::copy(root().join("data/meshes/concave.obj"), &odd).unwrap();
-    let run = |arguments: &[&str]| {
-        Command::cargo_bin("glumbra").unwrap().arg("plan").arg(&odd).args(arguments).output().unwrap()
-    };
-    assert!(run(&[]).status.success());
-    refusal(&run(&["--print-scene"]), 1, ".obj: is not UTF-8").unwrap();
-}
-
 #[test]
 fn a_floor_is_supplied_unless_it_is_not_wanted() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,7 @@
 //! Disks that are full or read-only, limits on files, and what a killed process leaves.
 
 use std::fs;
+use std::os::unix::process::CommandExt;
 use std::process::Stdio;
 use std::time::Duration;
 
@@ -103,12 +104,17 @@ fn what_a_killed_process_leaves_is_removed() {
         // A pipe that nobody reads holds the process at its last write, with that file unfinished.
         let script =
             "export TMPDIR=.; mkfifo x.shade.png; exec \"$0\" render scene.toml -o x.png --aov depth --aov shade";
-        let mut child = Command::new("sh")
-            .args(["-c", script, GLUMBRA])
-            .current_dir(folder.path())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
+        let mut command = Command::new("sh");
+        command.args(["-c", script, GLUMBRA]).current_dir(folder.path()).stderr(Stdio::null());
+        // Who runs the tests by nohup has SIGHUP ignored, and what they start inherits that.
+        // SAFETY: signal may be called between fork and exec.
+        unsafe {
+            command.pre_exec(|| {
+                libc::signal(libc::SIGHUP, libc::SIG_DFL);
+                Ok(())
+            });
+        }
+        let mut child = command.spawn().unwrap();
         let is_beside = |name: &String| name.contains(".glumbra-");
         let deadline = std::time::Instant::now() + Duration::from_secs(60);
         // All renames but the pipe's are done when the process waits for a reader.

@@ -31,7 +31,7 @@ fn a_scene_that_could_not_name_its_model_is_not_printed() {
     fs::write(folder.path().join(name), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let mut command = Command::new(GLUMBRA);
     let output = command.current_dir(folder.path()).arg("plan").arg(name).arg("--print-scene").output().unwrap();
-    assert_eq!(refusal(&output, 1, "is not UTF-8, and a scene file cannot name it"), None);
+    assert_eq!(refusal(&output, 1, "is not UTF-8, which a scene's text must be"), None);
     assert!(output.stdout.is_empty());
 }
 
