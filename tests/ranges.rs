@@ -243,9 +243,9 @@ fn a_written_plane_that_cuts_is_said_and_one_that_does_not_is_not() {
         // Behind the box, which fills the picture.
         (&["camera.far=7", "camera.fov_y=2"], ""),
         (&["camera.far=4.8", "object.1.scale=0.01"], "`camera.far` = 4.8 cuts off part of `box`, which ends at "),
-        // What is wholly behind the camera, or clear.
+        // What is wholly behind the camera, or clear: no word of planes.
         (&["camera.near=4", "object.1.translate=[0.0, 9.0, 0.0]"], ""),
-        (&["camera.near=4", "object.1.material.opacity=0.1"], ""),
+        (&["camera.near=4", "object.1.material.opacity=0.1"], "below 0.5 the alpha test discards all of object"),
         (
             &["camera.near=6e-6", "camera.far=100", "object.1.scale=2"],
             "tells apart no less than 0.2059 at `box`, 4.552 away",

@@ -1,7 +1,7 @@
 //! What a command still says and removes when its process cannot go on: a driver that crashes or stops, memory that
 //! runs out, a signal that ends it.
 //!
-//! The library keeps note of what the driver is at work on ([`doing`]) and of its unfinished files ([`unfinished`]).
+//! The library keeps note of what the driver is at work on (`doing`) and of its unfinished files (`unfinished`).
 //! Nothing comes of that until a command asks for it: by [`guard`] for signals, and by [`Memory`] as its allocator.
 
 mod doing;
