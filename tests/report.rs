@@ -1,5 +1,8 @@
 //! `glumbra report` and `glumbra tune` as a user runs them: files, shards, GNU parallel, merging, Ctrl-C, going on.
 
+#[path = "support/lit_box.rs"]
+mod lit_box;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -15,33 +18,9 @@ use glumbra::report::metrics::{Band, compare};
 use glumbra::report::results::{Report, Row, SceneReport};
 use glumbra::report::run::{self, Options, draw_shade};
 use glumbra::scene;
+use lit_box::SCENE;
 
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
-
-const SCENE: &str = r#"
-[image]
-size = [96, 96]
-[camera]
-eye = [3.0, 2.5, 4.0]
-target = [0.0, 0.6, 0.0]
-[[light]]
-kind = "spot"
-position = [2.0, 4.0, 3.0]
-target = [0.0, 0.5, 0.0]
-cone = 60.0
-near = 0.5
-far = 20.0
-[light.shadow]
-technique = "shadow-map"
-size = 256
-[[object]]
-mesh = "quad"
-scale = [4.0, 1.0, 4.0]
-[[object]]
-mesh = "box"
-scale = 0.5
-translate = [0.0, 0.7, 0.0]
-"#;
 
 const GRID: &str = r#"
 [[sweep]]

@@ -75,7 +75,7 @@ Examples:
 struct Report {
     scene: String,
     files: Vec<String>,
-    /// Of the paths above that are not UTF-8.
+    /// The paths above that are not UTF-8.
     #[serde(skip_serializing_if = "PathBytes::is_empty")]
     path_bytes: PathBytes,
     context: String,

@@ -10,7 +10,7 @@ use super::run::Options;
 use crate::geometry::{Material, Mesh, Texture};
 use crate::scene::{LightKind, Scene, Settings};
 
-/// Of everything that decides what the rows are, but not of the machine. Files' names are not in it: the same scene in
+/// Marks everything that decides what the rows are, but not the machine. Files' names are not in it: the same scene in
 /// another folder has the same.
 pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: &Options) -> String {
     let mut mark = Mark::new();
@@ -22,7 +22,7 @@ pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: 
     mark.finish()
 }
 
-/// Of what the rows of one folder's runs share besides: whether they may stand in one report without a word.
+/// Marks what the rows of one folder's runs share besides: whether they may stand in one report without a word.
 pub fn stamp(machine: &Machine, options: &Options) -> String {
     let mut mark = Mark::new();
     mark.debug(&(machine, options.runs));
@@ -32,7 +32,7 @@ pub fn stamp(machine: &Machine, options: &Options) -> String {
     mark.finish()
 }
 
-/// Of a text.
+/// Marks a text.
 pub fn of_text(text: &str) -> String {
     let mut mark = Mark::new();
     mark.bytes(text.as_bytes());
@@ -51,7 +51,7 @@ impl Mark {
         self.0 = bytes.iter().fold(self.0, step);
     }
 
-    /// Of a value's fields, all of them.
+    /// Adds all fields of a value.
     fn debug(&mut self, value: &dyn fmt::Debug) {
         // A mark takes whatever is written.
         let _ = writeln!(self, "{value:?}");

@@ -26,9 +26,9 @@ pub struct Journal {
 
 #[derive(Serialize, Deserialize)]
 struct Line {
-    /// Of the scene and its grid.
+    /// Fingerprint of the scene and its grid.
     fingerprint: String,
-    /// Of the driver, the machine and the program: see [`super::fingerprint::stamp`].
+    /// Mark of the driver, the machine and the program: see [`super::fingerprint::stamp`].
     #[serde(default)]
     stamp: String,
     row: Row,
@@ -99,9 +99,9 @@ pub fn done(folder: &Path, stamp: &str, is_known: impl Fn(&str, &Row) -> Known) 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
     Row,
-    /// Of a scene, or a grid, that the run does not have.
+    /// Row of a scene, or a grid, that the run does not have.
     OtherScene,
-    /// Of one that it has, but with another index or other settings than any row.
+    /// Row of a scene that it has, but with another index or other settings than any.
     NoSuchRow,
 }
 

@@ -50,7 +50,7 @@ pub struct SceneReport {
     /// The path's bytes in hexadecimal, where it is no UTF-8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path_bytes: Option<String>,
-    /// Of the scene, the files that it names, the grid, the light and the layout: parts with the same one can be merged.
+    /// Fingerprint of the scene, the files that it names, the grid, the light and the layout: parts with the same one can be merged.
     pub fingerprint: String,
     /// Into the scene's lights.
     pub light: usize,
@@ -139,7 +139,7 @@ pub struct Measured {
     /// Draws and triangles of a frame with everything drawn.
     pub draw_calls: usize,
     pub triangles: u64,
-    /// Of what its passes do: rows with the same one should take the same time. Empty in older reports.
+    /// Mark of what its passes do: rows with the same one should take the same time. Empty in older reports.
     #[serde(default)]
     pub work: String,
     pub left_out: Vec<crate::techniques::LeftOut>,

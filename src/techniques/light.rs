@@ -144,7 +144,7 @@ pub struct Counting {
     pub infinite: bool,
     /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
     pub clamped: bool,
-    /// Volumes need depth before the near plane, which surfaces leave to them (C8).
+    /// Volumes need depth before the near plane, which surfaces leave to them.
     pub ledge: Option<LedgeDepths>,
     pub lighting: Lighting,
     /// Objects whose surfaces must stay as they are, since volumes' caps meet them: into [`Scene::objects`].
@@ -157,7 +157,7 @@ pub struct Counting {
     pub silhouettes: Vec<VolumeDraw>,
 }
 
-/// Which depths the ledge before the near plane takes [techniques C8].
+/// Depths that the ledge before the near plane takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LedgeDepths {
     /// From 0 on, and as few as keep caps and surfaces apart.
@@ -166,7 +166,7 @@ pub enum LedgeDepths {
     Given([f64; 3]),
 }
 
-/// In which passes the light joins the picture [techniques C9].
+/// Passes in which the light joins the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lighting {
     /// All other light first, over the whole picture; then this light is added where the count is 0.

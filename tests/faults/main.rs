@@ -4,6 +4,8 @@
 
 mod disk;
 mod driver;
+#[path = "../support/lit_box.rs"]
+mod lit_box;
 mod memory;
 mod paths;
 mod reports;
@@ -14,33 +16,9 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
+use lit_box::SCENE;
 
-/// A box on a floor in a spotlight, 96 × 96 pixels.
-const SCENE: &str = r#"
-[image]
-size = [96, 96]
-[camera]
-eye = [3.0, 2.5, 4.0]
-target = [0.0, 0.6, 0.0]
-[[light]]
-kind = "spot"
-position = [2.0, 4.0, 3.0]
-target = [0.0, 0.5, 0.0]
-cone = 60.0
-near = 0.5
-far = 20.0
-[light.shadow]
-technique = "shadow-map"
-size = 256
-[[object]]
-mesh = "quad"
-scale = [4.0, 1.0, 4.0]
-[[object]]
-mesh = "box"
-scale = 0.5
-translate = [0.0, 0.7, 0.0]
-"#;
+const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
 
 /// A folder with `scene.toml` in it.
 fn work() -> tempfile::TempDir {

@@ -45,7 +45,7 @@ impl Plane {
 }
 
 impl Slivers {
-    /// Of all triangles that count by `rules`, of each object.
+    /// Finds them among all triangles that count by `rules`, of each object.
     pub fn new(tracer: &Tracer<'_>, rules: &[Vec<Rule>]) -> Self {
         let eye = &tracer.eye;
         let (center, radius) = tracer.world.ball();

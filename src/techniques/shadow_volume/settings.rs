@@ -46,7 +46,7 @@ pub struct Settings {
     pub wrap: bool,
     /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
     pub distance: Option<f64>,
-    /// Of volumes with caps on the near plane (C8).
+    /// Volumes with caps on the near plane [GDC 2001, "Stenciled Shadow Volumes"].
     pub ledge: LedgeDepths,
     /// C9.
     pub lighting: Lighting,

@@ -1,3 +1,5 @@
+//! Tests of beams against triangles.
+
 use super::*;
 
 #[test]
