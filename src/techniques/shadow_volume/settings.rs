@@ -42,13 +42,13 @@ pub const METHODS: [(&str, Method); 8] = [
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub method: Method,
-    /// Whether counts wrap modulo 256 or stop at 0 and 255 (C12).
+    /// Whether counts wrap modulo 256 or stop at 0 and 255.
     pub wrap: bool,
     /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
     pub distance: Option<f64>,
-    /// Volumes with caps on the near plane [GDC 2001, "Stenciled Shadow Volumes"].
+    /// Depths of the ledge for volumes with caps on the near plane.
     pub ledge: LedgeDepths,
-    /// C9.
+    /// Passes in which the light joins the picture.
     pub lighting: Lighting,
     pub dimming: f32,
     pub redraw: Redraw,
