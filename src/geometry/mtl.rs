@@ -18,7 +18,7 @@ pub(super) struct Library {
     /// All files as one, in the spelling that tobj takes.
     text: String,
     names: Vec<String>,
-    /// Of each material.
+    /// One for each material.
     opacities: Vec<Option<Opacity>>,
     maps: Vec<Map>,
     oddities: Tally,

@@ -138,7 +138,7 @@ extern "C" fn on_alarm(_: c_int, _: *mut siginfo_t, _: *mut c_void) {
     }
 }
 
-/// Of all threads of this process.
+/// Processor time of all threads of this process.
 #[allow(clippy::unnecessary_cast)] // both parts have 32 bits on some systems
 fn processor_microseconds() -> i64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };

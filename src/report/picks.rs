@@ -231,7 +231,7 @@ pub fn to_text(scene: &SceneReport, goals: &Goals) -> String {
     text
 }
 
-/// Of both answers.
+/// Titles of both answers.
 pub fn titles(goals: &Goals) -> [String; 2] {
     [
         format!("Cheapest with at most {} % wrong", plain(goals.wrong_percent)),
