@@ -23,6 +23,8 @@ pub struct MapInfo {
     /// The width of a texel along its longer side. Of a parallel map, anywhere. Of a perspective map, at a distance of 1
     /// along its axis: at a distance d along that axis (of a cube, along the axis of the face) it is d times as wide.
     pub texel: f64,
+    /// The same along its shorter side.
+    pub texel_short: f64,
     /// How far one lookup reaches from its point along each axis of the map, in texels: the kernel's taps, of each tap the
     /// texels that its filter weighs, and the move of the point by a normal offset. Of several levels, in texels of the
     /// first one under "8-tap", and of the finer one of the two that are met under `mipmaps = true`.
@@ -59,6 +61,7 @@ impl MapInfo {
             levels: bias::levels(settings),
             format: settings.format,
             texel: bias::texel_at_one(&view.projector, settings),
+            texel_short: bias::texel_sides_at_one(&view.projector, settings).min_element(),
             reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
             bias: settings.bias,
             cull: settings.cull,
