@@ -13,7 +13,7 @@ use crate::plan::{self, Limits, Plan, Request};
 use crate::process::doing;
 use crate::scene::Scene;
 
-/// Why a frame could not be drawn.
+/// Reason why a frame could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -24,7 +24,7 @@ pub enum Error {
     Probe(#[from] probe::Error),
 }
 
-/// What a crash of the driver is said to have come in.
+/// Name of this work in the message of a crash.
 const DRAWING: &str = "drawing";
 
 /// Draws scenes on one context.
@@ -81,16 +81,16 @@ pub fn on_contexts<T: Send>(
 #[derive(Clone, Debug)]
 pub struct Frame {
     pub picture: Pixels,
-    /// In the request's order.
+    /// Views in the request's order.
     pub views: Vec<Pixels>,
 }
 
-/// How long frames took.
+/// Times of frames.
 #[derive(Clone, Debug, Default)]
 pub struct Times {
     /// Each frame from its first call to the return of glFinish, in milliseconds. The first one uploads and compiles.
     pub frames_ms: Vec<f64>,
-    /// The passes of one more frame, drawn anew and each waited for.
+    /// The passes of one more frame, redrawn, each waited for.
     pub passes: Vec<PassTime>,
 }
 
@@ -216,7 +216,7 @@ impl Renderer {
     }
 }
 
-/// Whether a format has the bits of the picture's depth buffer, which are of fixed point.
+/// Tests whether a format has the bits of the picture's depth buffer, which is fixed-point.
 fn follows_the_picture(facts: &probe::DepthFacts) -> bool {
     let bits = DepthFormat::Depth24.bits();
     facts.measured.as_ref().is_some_and(|measured| measured.depth_bits == bits && !measured.float)

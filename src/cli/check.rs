@@ -128,7 +128,7 @@ fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The files that were asked for, or none of them.
+/// Writes all requested files, or none.
 fn write(arguments: &CheckArgs, checked: &Checked) -> Result<(), Error> {
     let mut files: Vec<(&Path, String)> = Vec::new();
     if let Some(path) = &arguments.json {

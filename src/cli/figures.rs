@@ -1,4 +1,4 @@
-//! `glumbra figures`: the documents' figures from our own scenes.
+//! `glumbra figures`: figures of the documents in data/documents.md, from our own scenes.
 
 use std::path::PathBuf;
 

@@ -28,7 +28,7 @@ struct Info {
     context: ContextInfo,
     depth_formats: Vec<DepthFacts>,
     egl_devices: Vec<egl::Device>,
-    /// Why there are no devices to list.
+    /// Reason why there are no devices to list.
     egl_devices_error: Option<String>,
 }
 

@@ -44,7 +44,7 @@ enum Command {
     Tune(tune::TuneArgs),
 }
 
-/// Why a subcommand failed.
+/// Error of a subcommand.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -135,7 +135,7 @@ pub fn run() -> ExitCode {
     exit_code(result)
 }
 
-/// What every command does first. The error is its exit status, and has been told.
+/// Set-up of every command. The error is its exit status, and has been printed.
 fn begin() -> Result<(), ExitCode> {
     crate::process::guard();
     // rayon would do so at its first use, and panic where no thread can be had.

@@ -39,7 +39,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
-    /// Who draws the passes
+    /// Pipeline that draws the passes
     #[arg(long, value_enum, default_value_t)]
     road: Road,
 
@@ -70,7 +70,7 @@ Examples:
   glumbra render data/scenes/hw_shadowmaps_simple.toml --road fixed-function -o by-the-driver.png
   glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Report {
     scene: String,
@@ -93,7 +93,7 @@ struct TimesReport {
     frames_ms: Vec<f64>,
     /// The median of the frames after the first, or the only one.
     frame_median_ms: f64,
-    /// One more frame with every pass drawn anew and waited for; none by fixed function.
+    /// One more frame with every pass redrawn and waited for; absent for fixed function.
     passes: Vec<PassReport>,
 }
 
@@ -156,7 +156,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The views in the order in which they were asked for. One that is asked for twice is one file.
+/// Views in the order of the arguments. A repeated one is one file.
 fn each_once(wanted: &[ViewRequest]) -> Vec<ViewRequest> {
     let mut views: Vec<ViewRequest> = Vec::new();
     for view in wanted {

@@ -186,7 +186,7 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     check_failures(&report, folder)
 }
 
-/// What of the standard grid was left out, once.
+/// Parts of the standard grid that were left out, each once.
 fn notes_of(sweeps: &[Sweep]) -> Vec<String> {
     sweeps.iter().flat_map(|sweep| sweep.notes.iter().cloned()).collect()
 }
@@ -199,7 +199,7 @@ fn print_answers(report: &Report, goals: &Goals, folder: &Path, out: &mut impl W
     Ok(writeln!(out, "# {}", folder.join("report.html").display())?)
 }
 
-/// Rows that could not be measured are told at the end, when the others are safe.
+/// Reports rows that could not be measured, at the end, when the others are safe.
 fn check_failures(report: &Report, folder: PathBuf) -> Result<(), Error> {
     let failed: Vec<&Row> = report.scenes.iter().flat_map(SceneReport::failed).collect();
     let rows = report.scenes.iter().map(|scene| scene.rows.len()).sum();
@@ -303,7 +303,7 @@ fn measure(
     Ok(())
 }
 
-/// Holds what the documents claim against each scene.
+/// Measures the documents' claims on each scene.
 fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());

@@ -1,4 +1,4 @@
-//! `--road`: who turns a plan's passes into pictures.
+//! `--pipeline`: shaders, or the driver's fixed functions.
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use crate::oracle::fixed_function::FixedFunction;
 use crate::plan::Plan;
 use crate::process;
 
-/// How the passes are drawn.
+/// Pipeline that draws the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Road {
     /// By shaders, the product
@@ -23,7 +23,7 @@ pub enum Road {
 }
 
 impl Road {
-    /// A context that the road can be gone on.
+    /// Opens a context that this pipeline can use.
     ///
     /// # Errors
     ///
@@ -42,7 +42,7 @@ impl Road {
     ///
     /// # Errors
     ///
-    /// What the road cannot draw.
+    /// Passes that this pipeline cannot draw.
     pub fn draw(
         self,
         context: &dyn Context,

@@ -17,7 +17,7 @@ use crate::plan::Request;
 use crate::scene::{self, Embedded, Scene};
 use crate::viewer::{self, Mode, Shown, State};
 
-/// What a sample program is.
+/// A sample program.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     pub name: &'static str,
@@ -58,7 +58,7 @@ struct Arguments {
     #[command(flatten)]
     tweaks: TweakArgs,
 
-    /// Who draws
+    /// Pipeline that draws
     #[arg(long, value_enum, default_value_t, requires = "headless")]
     road: Road,
 
@@ -131,7 +131,7 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     for warning in &loaded.warnings {
         super::say(format_args!("warning: {warning}"));
     }
-    // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
+    // Errors are reported in every mode, and before there is a context: the scene's own keys, then the mode's frame.
     crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..Request::default() })?;
     let mode = Mode::from(arguments.mode);
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
@@ -162,7 +162,7 @@ fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {
 }
 
 impl Arguments {
-    /// In order: the sample's technique, size and tweaks, then `--set`.
+    /// Overrides in order: the sample's technique, size and tweaks, then `--set`.
     fn overrides(&self, sample: &Sample) -> Vec<String> {
         let technique = sample.techniques.first().map(|name| format!("light.shadow.technique={name}"));
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));

@@ -1,4 +1,4 @@
-//! What every subcommand that draws takes: a scene and what to change in it.
+//! Arguments of every subcommand that draws: a scene and changes of it.
 
 use std::path::PathBuf;
 

@@ -25,7 +25,7 @@ pub struct StressArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// How many random scenes, beside the named cases
+    /// Number of random scenes, in addition to the named cases
     #[arg(long, value_name = "N", default_value_t = 100)]
     count: u64,
 

@@ -75,7 +75,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     if arguments.json { super::print_json(&tuned) } else { print(&tuned, &options) }
 }
 
-/// With fewer pixels in shadow there is little that could leak.
+/// Fewest pixels in shadow; with fewer there is little that could leak.
 const FEWEST_SHADOWED: usize = 100;
 
 fn line(point: &Point) -> String {

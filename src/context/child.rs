@@ -1,6 +1,6 @@
-//! What may crash, tried in a child process first.
+//! Runs work that may crash in a child process first.
 
-/// Does `work` in a copy of this process, and tells whether the copy was still there afterwards.
+/// Does `work` in a copy of this process, and returns whether the copy survived.
 ///
 /// # Errors
 ///

@@ -1,10 +1,10 @@
-//! What can go wrong on the way to a context, said once and with what to do about it.
+//! Errors of opening a context, each with its remedy.
 
 use std::fmt;
 
 use super::{Choice, Road};
 
-/// A road that was tried, and what it answered.
+/// A backend that was tried, and its answer.
 #[derive(Clone, Debug)]
 pub struct Attempt {
     pub road: Road,
@@ -35,7 +35,7 @@ fn choice_name(choice: &Choice) -> &'static str {
     }
 }
 
-/// What to install, by distribution. OSMesa is left out: newer distributions have no such package.
+/// Packages to install, by distribution. OSMesa is left out: newer distributions have no such package.
 const INSTALL: &[(&str, &str)] = &[
     ("Debian, Ubuntu", "apt-get install libegl1 libgl1-mesa-dri"),
     ("Fedora", "dnf install mesa-libEGL mesa-dri-drivers"),
@@ -69,7 +69,7 @@ fn variables() -> Vec<String> {
     set.map(|(name, value)| format!("{name}={}", value.to_string_lossy())).collect()
 }
 
-/// How far a road went.
+/// Stage that a backend reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reached {
     /// The library cannot be loaded.
@@ -80,7 +80,7 @@ pub enum Reached {
     Driver,
 }
 
-/// Why a road ends.
+/// Reason why a backend failed.
 #[derive(Clone, Debug)]
 pub(super) struct Refusal {
     pub reached: Reached,
@@ -109,7 +109,8 @@ impl From<&str> for Refusal {
     }
 }
 
-/// What was tried before `road`, for the message of a crash on it: a line each, and the variables that may be why.
+/// Attempts before `backend`, for the message of a crash in it: a line each, and the environment variables that may be the
+/// cause.
 pub(super) fn tried_before(road: Road, attempts: &[Attempt]) -> String {
     let mut text = format!("opening a context by {road}");
     for Attempt { road, answer, .. } in attempts {

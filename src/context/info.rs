@@ -1,11 +1,11 @@
-//! What a context says of itself: names, versions and limits, for `glumbra info` and for reports.
+//! Names, versions and limits of a context, for `glumbra info` and for reports.
 
 use glow::HasContext;
 use serde::Serialize;
 
 use super::load::Loaded;
 
-/// Who draws, and within which limits.
+/// The driver of a context, and its limits.
 #[derive(Clone, Debug, Serialize)]
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
@@ -17,7 +17,7 @@ pub struct ContextInfo {
     /// `core` or `compatibility`, by GL_CONTEXT_PROFILE_MASK; `none` before OpenGL 3.2.
     pub profile: &'static str,
     pub khr_debug: bool,
-    /// Whether errors are reported with their text, at the call that made them.
+    /// True if errors are reported with their text, at the call that made them.
     pub debug_output: bool,
     /// Bits of the counter of GL_TIME_ELAPSED queries; 0: passes cannot be timed on the device.
     pub timer_bits: u32,

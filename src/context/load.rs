@@ -21,7 +21,7 @@ pub struct Loaded {
 /// Answers with a function of the context that it came with, or null.
 pub(super) type AddressOf = dyn Fn(&CStr) -> *const c_void;
 
-/// Loads the functions of the context that is current, and refuses one that is older than what was asked for.
+/// Loads the functions of the context that is current, and refuses one that is older than requested.
 ///
 /// # Safety
 /// A context is current on this thread, and `address_of` answers with that context's functions or null.

@@ -3,7 +3,7 @@
 //! Owns how a context is found, kept and given up, and what it says of itself. Knows nothing of what is drawn with it.
 //! Loading the driver's libraries happens here and nowhere else; none is linked to.
 //!
-//! The roads are tried in the order of [`Road`]; each that fails says why, and the first that answers is taken.
+//! The backends are tried in the order of [`Backend`]. Each that fails says why; the first that works is taken.
 
 mod child;
 mod debug_log;
@@ -27,18 +27,18 @@ pub use load::Loaded;
 use crate::process;
 use error::Refusal;
 
-/// What kind of context is wanted.
+/// Kind of context that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct ContextRequest {
     pub choice: Choice,
-    /// An EGL device by its index in [`egl::devices`]; then only [`Road::EglDevice`] is tried.
+    /// An EGL device by its index in [`egl::devices`]; then only [`Backend::EglDevice`] is tried.
     pub device: Option<usize>,
     pub profile: Profile,
     /// Asks for a debug context, whose errors are collected with their text (KHR_debug).
     pub debug: bool,
 }
 
-/// Who makes the context.
+/// Maker of the context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Choice {
     /// EGL, then OSMesa, then a hidden window where there is a display.
@@ -49,7 +49,7 @@ pub enum Choice {
     Window,
 }
 
-/// Which half of OpenGL is wanted.
+/// OpenGL profile that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Profile {
     /// OpenGL 3.3 core or later: for rendering.
@@ -87,7 +87,7 @@ impl fmt::Display for Road {
 }
 
 impl ContextRequest {
-    /// The roads to try, in order.
+    /// Backends to try, in order.
     fn roads(&self) -> Result<Vec<Road>, Error> {
         let egl = [Road::EglSurfaceless, Road::EglDevice, Road::EglPbuffer];
         match (self.device, self.choice) {
@@ -108,7 +108,7 @@ impl ContextRequest {
 ///
 /// GL objects made with [`gl`](Self::gl) must be gone before the context is: their names mean nothing without it.
 pub trait Context {
-    /// What every kind of context holds.
+    /// Data that every kind of context has.
     fn loaded(&self) -> &Loaded;
 
     /// Makes it current on this thread again, after another was.
@@ -124,18 +124,18 @@ pub trait Context {
         &self.loaded().road
     }
 
-    /// Which profile was asked for.
+    /// Profile that was requested.
     fn profile(&self) -> Profile {
         self.loaded().profile
     }
 
-    /// What the driver reports, where it was asked to and can.
+    /// Messages of the driver, in a debug context.
     fn debug_log(&self) -> Option<&DebugLog> {
         self.loaded().debug_log.as_ref()
     }
 
-    /// A GL function by its name, for bindings beside [`gl`](Self::gl); null where the driver has none. Some drivers answer
-    /// with a stub for any name: what the context's version and profile promise is to be asked for, and no more.
+    /// A GL function by its name, for bindings beside [`gl`](Self::gl); null where the driver has none. Some drivers return
+    /// a stub for any name, so look up only functions that the context's version and profile have.
     fn address_of(&self, name: &CStr) -> *const c_void {
         (self.loaded().address_of)(name)
     }
@@ -145,13 +145,13 @@ pub trait Context {
         self.loaded().timer_bits
     }
 
-    /// What the driver says of itself. Costs some GL queries; the context must be current.
+    /// Driver, version and limits. Makes some GL queries; the context must be current.
     fn describe(&self) -> ContextInfo {
         info::describe(self.loaded())
     }
 }
 
-/// Opens a context by the first road that can be had, and makes it current.
+/// Opens a context by the first backend that works, and makes it current.
 pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     let mut attempts = Vec::new();
     for road in request.roads()? {
@@ -172,13 +172,13 @@ pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     }
 }
 
-/// Opens a context by this road and no other; `request.choice` is not looked at.
+/// Opens a context by this backend only; `request.choice` is ignored.
 pub fn open_road(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { road, reached, answer }]);
     try_road(road, request, &[]).map_err(refused)
 }
 
-/// The road's answer is one line, for a person to read beside the road's name. `before`: what was tried already.
+/// Tries one backend. The error is one line, to be read beside the backend's name. `before`: earlier attempts.
 fn try_road(road: Road, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
     heap::keep();
     let _doing = process::doing(error::tried_before(road, before));

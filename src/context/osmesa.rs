@@ -1,5 +1,5 @@
-//! Contexts by OSMesa, Mesa's off-screen library (GL/osmesa.h), loaded at run time. Mesa 25.1 dropped it, so it is
-//! only ever one road of several.
+//! Contexts by OSMesa, Mesa's off-screen library (GL/osmesa.h), loaded at run time. Mesa 25.1 dropped it, so it is only one
+//! backend of several.
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::null_mut;
@@ -54,7 +54,7 @@ struct Handle {
     pixels: *mut u8,
 }
 
-/// Opens an OSMesa context. The error is the road's answer.
+/// Opens an OSMesa context. The error is this backend's answer.
 ///
 /// OSMesa crashes where EGL refuses: with a driver that is not there, or without GLSL 1.30. So it is tried in a child process
 /// first, once for each profile.

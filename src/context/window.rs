@@ -1,5 +1,5 @@
-//! Contexts of a window on X11 or Wayland, by winit and glutin: a visible one for the sample program, and a hidden one
-//! as the last road. Sizes are physical pixels; the display's scale factor is not looked at.
+//! Contexts of a window on X11 or Wayland, by winit and glutin: a visible one for the sample program, and a hidden one as
+//! the last backend. Sizes are physical pixels; the display's scale factor is not looked at.
 
 use std::cell::RefCell;
 use std::num::NonZeroU32;
@@ -36,7 +36,7 @@ pub struct WindowContext {
     window: Window,
 }
 
-/// Whether the environment names a display to open windows on.
+/// Tests whether the environment names a display to open windows on.
 pub fn display_is_named() -> bool {
     let named = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(not(target_os = "linux")) || named("DISPLAY") || named("WAYLAND_DISPLAY") || named("WAYLAND_SOCKET")
@@ -107,7 +107,7 @@ impl Drop for WindowContext {
     }
 }
 
-/// A context on a hidden window. The error is the road's answer.
+/// A context on a hidden window. The error is this backend's answer.
 pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     thread_local! {
         /// winit allows one event loop a process. It is kept to the end: tearing it down takes the display along.

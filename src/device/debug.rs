@@ -7,7 +7,7 @@ use glow::HasContext;
 
 use crate::context::{Context, DebugLog};
 
-/// What GL found wrong with the calls since the last check.
+/// GL's errors since the last check.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{label}: {}", messages.join("; "))]
 pub struct GlError {
@@ -32,7 +32,7 @@ impl Debug {
         Self { gl: context.gl().clone(), log: context.debug_log().cloned() }
     }
 
-    /// Whether errors come with the driver's words, and at the call that made them.
+    /// Tests whether errors have the driver's text and the call that made them.
     pub fn is_verbose(&self) -> bool {
         self.log.is_some()
     }

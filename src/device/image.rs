@@ -32,7 +32,7 @@ impl ImageName {
         }
     }
 
-    /// What it is bound to as a texture.
+    /// Texture target that it is bound to.
     pub fn binding(self) -> u32 {
         match self {
             Self::Cube(_) => glow::TEXTURE_CUBE_MAP,
@@ -85,7 +85,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
     }
 }
 
-/// Makes the image that `desc` asks for.
+/// Makes the image that `desc` describes.
 pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Error> {
     let name = match &desc.storage {
         Storage::Renderbuffer => create_renderbuffer(gl, desc)?,

@@ -1,4 +1,4 @@
-//! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
+//! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan.
 //!
 //! GL objects are made when a list first needs them and kept while later lists do; programs longer, up to a number. A pass that would draw again what
 //! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
@@ -85,12 +85,12 @@ impl Device {
         (sides.into_iter().min().unwrap_or(0), get(glow::MAX_TEXTURE_IMAGE_UNITS))
     }
 
-    /// Waits until all that was asked of GL is done.
+    /// Waits until GL has finished.
     pub fn finish(&self) {
         unsafe { self.gl.finish() };
     }
 
-    /// What the driver makes of a depth format, measured; `None` for a format that is not measured.
+    /// Measurements of a depth format; `None` for a format that is not measured.
     ///
     /// # Errors
     ///
@@ -115,7 +115,7 @@ impl Device {
     }
 }
 
-/// What a vertex array of a mesh binds.
+/// Attributes and index order of a mesh's vertex array.
 type MeshUse = (Vec<Attribute>, IndexOrder);
 
 /// The key of a mesh's GL objects; the mesh is kept alive beside it.
@@ -123,7 +123,7 @@ fn mesh_key(mesh: &Arc<Mesh>) -> *const Mesh {
     Arc::as_ptr(mesh)
 }
 
-/// Whether `pass` with the same objects was the last to draw into its target.
+/// Tests whether `pass` with the same objects was the last to draw into its target.
 fn unchanged(done: Option<&run::Done>, pass: &Pass, objects: &[u32]) -> bool {
     done.is_some_and(|done| done.pass == *pass && done.objects == objects)
 }

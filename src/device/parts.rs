@@ -7,7 +7,7 @@ use super::state::{apply, set_mirrored};
 use super::{Device, Error, mesh, mesh_key};
 use crate::pass::{Attribute, Draw, DrawPass, DrawState, ImageId, Pass, PassList, Work};
 
-/// GL's buffers of a mesh: attributes in the order in which they were asked for, then the indices.
+/// GL's buffers of a mesh: attributes in the requested order, then the indices.
 pub(crate) struct Buffers {
     pub attributes: Vec<glow::Buffer>,
     pub indices: glow::Buffer,

@@ -1,5 +1,5 @@
-//! Measured facts of the driver's depth formats: what a specification leaves open, and what drivers do otherwise than
-//! it says. Polygon offset by OpenGL 4.6, 14.6.5: one unit is `r`, at least the least difference that can be told.
+//! Measured facts of the driver's depth formats: what a specification leaves open, and what drivers do otherwise than it
+//! says. Polygon offset by OpenGL 4.6, 14.6.5: one unit is `r`, at least the least resolvable difference.
 //!
 //! Knows nothing of techniques; draws flat quads on the [`bench`](super::bench), and leaves the context's bindings changed.
 
@@ -16,10 +16,10 @@ pub const FORMATS: [Format; 7] = {
     [Format::Depth, a, b, c, d, e, f]
 };
 
-/// What a format is on this driver.
+/// Measurements of a format on this driver.
 #[derive(Clone, Debug, Serialize)]
 pub struct DepthFacts {
-    /// The format asked for, e.g. `DEPTH_COMPONENT24`.
+    /// The requested format, e.g. `DEPTH_COMPONENT24`.
     pub format: &'static str,
     /// `None` where it cannot be drawn to, with `refusal` saying why.
     pub measured: Option<Measured>,
@@ -28,13 +28,13 @@ pub struct DepthFacts {
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Measured {
-    /// True bits of depth, which may differ from those asked for.
+    /// True bits of depth, which may differ from those requested.
     pub depth_bits: u32,
     pub stencil_bits: u32,
     pub float: bool,
     /// The offset unit near the far plane and nearer; equal in a fixed-point format.
     pub units: [OffsetUnit; 2],
-    /// Whether glPolygonOffset(0, 1) changes the stored depth at all, as it must.
+    /// True if glPolygonOffset(0, 1) changes the stored depth at all, as it must.
     pub one_unit_shows: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What the driver is at work on, for the message of a crash. Several threads may be at work.
+//! The driver's current work, for the message of a crash. Several threads may work at once.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -34,8 +34,8 @@ impl Drop for Doing {
     }
 }
 
-/// Gives the steps to `tell`, latest last; none where another thread is just changing them. Waits for no lock, so that
-/// a signal's handler may call it.
+/// Gives the steps to `report`, latest last; none where another thread is just changing them. Waits for no lock, so that a
+/// signal's handler may call it.
 pub(super) fn steps(mut tell: impl FnMut(&str)) {
     if let Ok(steps) = STEPS.try_lock() {
         steps.iter().for_each(|(_, what)| tell(what));

@@ -11,7 +11,7 @@ use libc::{c_int, c_void, siginfo_t};
 
 use super::{doing, say, unfinished};
 
-/// Faults of the process itself, by name.
+/// Faults of the process itself, with their names.
 const CRASHES: [(c_int, &str); 5] = [
     (libc::SIGSEGV, "SIGSEGV"),
     (libc::SIGBUS, "SIGBUS"),
@@ -30,7 +30,7 @@ const MOST_IDLE_TICKS: u32 = 6;
 /// Processor time between two looks that counts as none, in microseconds; the look itself takes some.
 const IDLE_MICROSECONDS: i64 = 1_000;
 
-/// Whether SIGALRM has a handler of ours.
+/// True if SIGALRM has our handler.
 static WATCHES: AtomicBool = AtomicBool::new(false);
 /// Looks in a row that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
@@ -54,7 +54,7 @@ pub(super) fn watch(begins: bool) {
     }
 }
 
-/// In a child made by fork: a crash is the parent's to tell.
+/// In a child made by fork: the parent reports a crash.
 pub(crate) fn uninstall() {
     for signal in CRASHES.iter().map(|(signal, _)| *signal).chain(ENDS).chain([libc::SIGALRM]) {
         // SAFETY: the default action is always allowed.
@@ -64,7 +64,7 @@ pub(crate) fn uninstall() {
 
 type Handler = extern "C" fn(c_int, *mut siginfo_t, *mut c_void);
 
-/// What a signal did before, by its number; the standard library finds overflowing stacks by SIGSEGV.
+/// Former handler of each signal, by its number; the standard library finds overflowing stacks by SIGSEGV.
 static mut BEFORE: [MaybeUninit<libc::sigaction>; 32] = [const { MaybeUninit::uninit() }; 32];
 
 fn before(signal: c_int) -> *mut libc::sigaction {

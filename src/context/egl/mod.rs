@@ -35,7 +35,7 @@ impl Context for EglContext {
     }
 }
 
-/// What is given back when the context is dropped.
+/// Handles that are released when the context is dropped.
 struct Handles {
     egl: &'static Egl,
     display: egl::EGLDisplay,
@@ -44,7 +44,7 @@ struct Handles {
     surface: egl::EGLSurface,
 }
 
-/// Opens a context by one of EGL's three roads. The error is the road's answer.
+/// Opens a context by one of EGL's three platforms. The error is the platform's answer.
 pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let egl = api::library().map_err(Refusal::nothing)?;
     match road {
@@ -64,7 +64,7 @@ pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Conte
     }
 }
 
-/// On the device that was asked for, or on the first that answers.
+/// Opens a context on the requested device, or on the first that works.
 fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let devices = devices::enumerate(egl)?;
     if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_EXT_platform_device") {

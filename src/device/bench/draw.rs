@@ -14,7 +14,7 @@ use super::{Bench, Error};
 /// A corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// In clip space, unless the shader says otherwise.
+    /// Position in clip space, unless the shader says otherwise.
     pub position: [f32; 4],
     pub value: [f32; 4],
 }
@@ -36,12 +36,12 @@ pub struct Draw<'a> {
     /// Three for each triangle.
     pub vertices: &'a [Vertex],
     pub uniforms: &'a [(&'a str, Uniform)],
-    /// By the sampler's name; what is compared is called `shadow`.
+    /// Images by sampler name; one that is compared is called `shadow`.
     pub images: &'a [(&'a str, &'a Image, Sampling)],
 }
 
 impl<'a> Draw<'a> {
-    /// Without uniforms or images.
+    /// A draw without uniforms or images.
     pub fn plain(surface: &'a Surface, state: State, vertices: &'a [Vertex]) -> Self {
         Self { surface, state, shader: Shader::PLAIN, vertices, uniforms: &[], images: &[] }
     }
@@ -117,7 +117,7 @@ impl Bench {
         apply(&self.gl, self.offset_clamp, &state, surface.size);
     }
 
-    /// What `fragment` makes of each of `inputs`: its body reads `at`, a vec4, and sets `result`, of float precision.
+    /// Maps each of `inputs` by `fragment`: its body reads `at`, a vec4, and sets `result`, of float precision.
     ///
     /// # Errors
     ///
@@ -136,7 +136,7 @@ impl Bench {
         Ok(results)
     }
 
-    /// The same into a surface and under a state of one's own, an input a pixel, rows from below.
+    /// The same as [`map`](Self::map) into a given surface and state: an input for each pixel, rows from below.
     ///
     /// # Errors
     ///
@@ -158,7 +158,7 @@ impl Bench {
     }
 }
 
-/// For which orders the function holds: less 1, equal 2, greater 4.
+/// Bits of the orders for which the function holds: less 1, equal 2, greater 4.
 fn function_bits(compare: Compare) -> i32 {
     let orders = [Ordering::Less, Ordering::Equal, Ordering::Greater];
     orders.into_iter().enumerate().map(|(bit, order)| i32::from(compare.holds(order)) << bit).sum()

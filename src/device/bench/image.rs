@@ -76,10 +76,10 @@ impl Format {
     }
 }
 
-/// What the driver makes of a depth format.
+/// The driver's choice for a depth format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Encoding {
-    /// True bits of depth, which may differ from those asked for.
+    /// True bits of depth, which may differ from those requested.
     pub bits: u32,
     pub stencil_bits: u32,
     pub float: bool,
@@ -105,7 +105,7 @@ pub struct Image {
     /// Width and height in texels.
     pub size: [u32; 2],
     pub levels: u32,
-    /// Of a depth format.
+    /// Encoding of a depth format.
     pub encoding: Encoding,
 }
 
@@ -116,7 +116,7 @@ impl Drop for Image {
     }
 }
 
-/// How texels outside [0, 1] are found.
+/// Wrap mode for coordinates outside [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     Repeat,
@@ -209,7 +209,7 @@ impl Bench {
         }
     }
 
-    /// Of the bound texture.
+    /// Reads the encoding of the bound texture.
     fn encoding(&self, format: Format) -> Encoding {
         if !format.is_depth() {
             return Encoding { bits: 0, stencil_bits: 0, float: false };

@@ -29,7 +29,7 @@ pub use surface::Surface;
 use super::debug::error_name;
 use crate::context::{Context, Profile};
 
-/// What the driver refuses.
+/// An error of the driver.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     #[error("the driver makes no {what}: {reason}")]
@@ -124,12 +124,12 @@ impl Bench {
         self.mutation
     }
 
-    /// Whether glPolygonOffsetClamp is there.
+    /// Tests whether glPolygonOffsetClamp exists.
     pub fn has_offset_clamp(&self) -> bool {
         self.offset_clamp.is_some()
     }
 
-    /// Whether the context has what the core profile took away.
+    /// Tests whether the context has the functions that the core profile removed.
     pub fn is_compatible(&self) -> bool {
         self.compatibility
     }
@@ -156,7 +156,7 @@ impl Bench {
         self.take_errors().map_or(Ok(()), |codes| Err(Error::Gl { what, codes }))
     }
 
-    /// The errors that GL has noted, by name.
+    /// Names of the errors that GL has recorded.
     fn take_errors(&self) -> Option<String> {
         // SAFETY: reads and clears the context's error flags.
         let next = || match unsafe { self.gl.get_error() } {

@@ -1,4 +1,4 @@
-//! The complete draw state of one bench draw, and how GL is told. Nothing relies on state left behind.
+//! The complete draw state of one bench draw, and the GL calls that set it. Nothing relies on earlier state.
 
 use std::cmp::Ordering;
 
@@ -30,7 +30,7 @@ impl Compare {
         Self::Always,
     ];
 
-    /// Whether `left OP right` holds when `left` is so ordered against `right`.
+    /// Tests whether `left OP right` holds when `left` is so ordered against `right`.
     pub fn holds(self, left_to_right: Ordering) -> bool {
         match self {
             Self::Never => false,
@@ -58,7 +58,7 @@ pub struct Offset {
     pub clamp: f32,
 }
 
-/// What becomes of a stencil value [GL 4.6, 17.3.3].
+/// Operation on a stencil value [GL 4.6, 17.3.3].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StencilOp {
     Keep,
@@ -155,11 +155,11 @@ pub struct State {
     pub offset: Option<Offset>,
     /// The polygon modes that the offset is for: POLYGON_OFFSET_FILL and POLYGON_OFFSET_LINE.
     pub offset_modes: [bool; 2],
-    /// Of front and back faces.
+    /// Stencil states of front and back faces.
     pub stencil: Option<[Stencil; 2]>,
     /// Faces that are not drawn.
     pub cull: Option<Face>,
-    /// Whether front faces wind clockwise in window space.
+    /// True if front faces wind clockwise in window space.
     pub clockwise: bool,
     /// Polygon modes of front and back faces; a core context knows only equal ones.
     pub mode: [Mode; 2],
@@ -167,9 +167,9 @@ pub struct State {
     pub color_write: bool,
     /// x, y, width, height in pixels from the lower left.
     pub scissor: Option<[i32; 4]>,
-    /// As the scissor; `None`: all of the surface.
+    /// Rectangle like the scissor; `None`: all of the surface.
     pub viewport: Option<[i32; 4]>,
-    /// How many of gl_ClipDistance clip.
+    /// Number of gl_ClipDistance values that clip.
     pub clip_distances: u32,
     pub encode_srgb: bool,
 }
@@ -206,7 +206,7 @@ impl State {
     }
 }
 
-/// What the bench asks for once: functions that glow lacks.
+/// Functions that glow lacks, looked up once.
 pub(super) type OffsetClamp = unsafe extern "system" fn(f32, f32, f32);
 
 /// Sets all of `state`; `size` is the surface's.

@@ -1,4 +1,4 @@
-//! What the bench draws into: a framebuffer with its own images; clears, exact read-back, copies.
+//! Render target of the bench: a framebuffer with its own images; clears, exact read-back, copies.
 
 use std::rc::Rc;
 
@@ -59,7 +59,7 @@ impl Bench {
         }
     }
 
-    /// Whether a depth texture and a stencil renderbuffer of their own make a complete framebuffer.
+    /// Tests whether a separate depth texture and stencil renderbuffer make a complete framebuffer.
     ///
     /// # Errors
     ///
@@ -201,7 +201,7 @@ impl Surface {
         self.depths_in(self.whole())
     }
 
-    /// The same of a rectangle: x, y, width, height.
+    /// Reads depths of a rectangle: x, y, width, height.
     pub fn depths_in(&self, area: [i32; 4]) -> Vec<f64> {
         let Some(image) = &self.depth else { return Vec::new() };
         // SAFETY: the context is current, and the framebuffer has the image.
