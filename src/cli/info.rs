@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &InfoArgs) -> Result<(), Error> {
     let profile = if arguments.compatibility { Profile::Compatibility } else { Profile::Core33 };
     let context = context::open(&arguments.context.request(profile))?;
     let depth_formats = {
-        let _doing = process::doing(format!("measuring depth formats ({})", context.road()));
+        let _doing = process::doing(format!("measuring depth formats ({})", context.backend()));
         probe::depth_formats(context.gl())?
     };
     let (egl_devices, egl_devices_error) = match egl::devices() {
@@ -71,7 +71,7 @@ fn context_rows(context: &ContextInfo) -> Vec<(String, String)> {
         (true, true) => "yes, in use",
     };
     rows(&[
-        ("context", &context.road),
+        ("context", &context.backend),
         ("vendor", &context.vendor),
         ("renderer", &context.renderer),
         ("version", &context.version),

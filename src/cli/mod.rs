@@ -5,10 +5,10 @@ mod context_args;
 mod figures;
 mod info;
 mod path_text;
+mod pipeline;
 mod plan;
 mod render;
 mod report;
-mod road;
 pub mod sample;
 mod scene_args;
 mod stress;
@@ -49,7 +49,7 @@ enum Command {
 pub enum Error {
     #[error(transparent)]
     Context(#[from] context::Error),
-    #[error("--road fixed-function needs OpenGL's compatibility profile. {0}")]
+    #[error("--pipeline fixed-function needs OpenGL's compatibility profile. {0}")]
     NoFixedFunction(context::Error),
     #[error(transparent)]
     FixedFunction(#[from] crate::oracle::fixed_function::Error),

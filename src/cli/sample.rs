@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, ValueEnum};
 
-use super::road::Road;
+use super::pipeline::Pipeline;
 use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{Choice, Profile};
@@ -60,7 +60,7 @@ struct Arguments {
 
     /// Pipeline that draws
     #[arg(long, value_enum, default_value_t, requires = "headless")]
-    road: Road,
+    pipeline: Pipeline,
 
     #[command(flatten)]
     context: ContextArgs,
@@ -150,10 +150,10 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
 /// One picture without a window.
 fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
     request.float_picture = output::check_path(path)?.is_exact();
-    let context = arguments.road.open(&arguments.context)?;
+    let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(scene, &request)?;
-    let (_, frame) = arguments.road.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
+    let (_, frame) = arguments.pipeline.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
     Ok(frame.picture)
 }
 

@@ -9,7 +9,7 @@ use super::load::Loaded;
 #[derive(Clone, Debug, Serialize)]
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
-    pub road: String,
+    pub backend: String,
     pub vendor: String,
     pub renderer: String,
     pub version: String,
@@ -54,7 +54,7 @@ pub(super) fn describe(loaded: &Loaded) -> ContextInfo {
     // SAFETY: queries of strings that every context has since OpenGL 2.0.
     let text = |name| unsafe { gl.get_parameter_string(name) };
     ContextInfo {
-        road: loaded.road.clone(),
+        backend: loaded.backend.clone(),
         vendor: text(glow::VENDOR),
         renderer: text(glow::RENDERER),
         version: text(glow::VERSION),

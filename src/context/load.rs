@@ -11,7 +11,7 @@ use super::{ContextRequest, Profile};
 /// The functions of a context, and what was found out as they were loaded.
 pub struct Loaded {
     pub(super) gl: Rc<glow::Context>,
-    pub(super) road: String,
+    pub(super) backend: String,
     pub(super) profile: Profile,
     pub(super) debug_log: Option<DebugLog>,
     pub(super) timer_bits: u32,
@@ -26,7 +26,7 @@ pub(super) type AddressOf = dyn Fn(&CStr) -> *const c_void;
 /// # Safety
 /// A context is current on this thread, and `address_of` answers with that context's functions or null.
 pub(super) unsafe fn load(
-    road: String,
+    backend: String,
     request: &ContextRequest,
     address_of: impl Fn(&CStr) -> *const c_void + 'static,
 ) -> Result<Loaded, String> {
@@ -47,7 +47,7 @@ pub(super) unsafe fn load(
     let timer_bits = if has_timer { unsafe { timer_bits(&address_of) } } else { 0 };
     let debug_log = request.debug.then(|| debug_log::attach(&mut gl)).flatten();
     let (gl, profile) = (Rc::new(gl), request.profile);
-    Ok(Loaded { gl, road, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
+    Ok(Loaded { gl, backend, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
 }
 
 /// glGetQueryiv, which glow leaves out.

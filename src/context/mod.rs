@@ -61,7 +61,7 @@ pub enum Profile {
 
 /// One way to a context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Road {
+pub enum Backend {
     /// EGL_MESA_platform_surfaceless: no display, no surface.
     EglSurfaceless,
     /// EGL_EXT_platform_device: one of the machine's devices, by index.
@@ -74,7 +74,7 @@ pub enum Road {
     Window,
 }
 
-impl fmt::Display for Road {
+impl fmt::Display for Backend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::EglSurfaceless => "EGL surfaceless",
@@ -88,17 +88,17 @@ impl fmt::Display for Road {
 
 impl ContextRequest {
     /// Backends to try, in order.
-    fn roads(&self) -> Result<Vec<Road>, Error> {
-        let egl = [Road::EglSurfaceless, Road::EglDevice, Road::EglPbuffer];
+    fn backends(&self) -> Result<Vec<Backend>, Error> {
+        let egl = [Backend::EglSurfaceless, Backend::EglDevice, Backend::EglPbuffer];
         match (self.device, self.choice) {
-            (Some(_), Choice::Auto | Choice::Egl) => Ok(vec![Road::EglDevice]),
+            (Some(_), Choice::Auto | Choice::Egl) => Ok(vec![Backend::EglDevice]),
             (Some(index), choice) => Err(Error::DeviceWithoutEgl { index, choice }),
             (None, Choice::Egl) => Ok(egl.to_vec()),
-            (None, Choice::OsMesa) => Ok(vec![Road::OsMesa]),
-            (None, Choice::Window) => Ok(vec![Road::Window]),
+            (None, Choice::OsMesa) => Ok(vec![Backend::OsMesa]),
+            (None, Choice::Window) => Ok(vec![Backend::Window]),
             (None, Choice::Auto) => {
-                let window = window::display_is_named().then_some(Road::Window);
-                Ok(egl.into_iter().chain([Road::OsMesa]).chain(window).collect())
+                let window = window::display_is_named().then_some(Backend::Window);
+                Ok(egl.into_iter().chain([Backend::OsMesa]).chain(window).collect())
             }
         }
     }
@@ -120,8 +120,8 @@ pub trait Context {
     }
 
     /// The way it was made, as a person reads it: `EGL surfaceless`, `EGL device 1`.
-    fn road(&self) -> &str {
-        &self.loaded().road
+    fn backend(&self) -> &str {
+        &self.loaded().backend
     }
 
     /// Profile that was requested.
@@ -154,10 +154,10 @@ pub trait Context {
 /// Opens a context by the first backend that works, and makes it current.
 pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     let mut attempts = Vec::new();
-    for road in request.roads()? {
-        match try_road(road, request, &attempts) {
+    for backend in request.backends()? {
+        match try_backend(backend, request, &attempts) {
             Ok(context) => return Ok(context),
-            Err(Refusal { reached, answer }) => attempts.push(Attempt { road, reached, answer }),
+            Err(Refusal { reached, answer }) => attempts.push(Attempt { backend, reached, answer }),
         }
     }
     match (request.device, attempts.pop()) {
@@ -173,18 +173,18 @@ pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
 }
 
 /// Opens a context by this backend only; `request.choice` is ignored.
-pub fn open_road(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
-    let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { road, reached, answer }]);
-    try_road(road, request, &[]).map_err(refused)
+pub fn open_backend(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
+    let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { backend, reached, answer }]);
+    try_backend(backend, request, &[]).map_err(refused)
 }
 
 /// Tries one backend. The error is one line, to be read beside the backend's name. `before`: earlier attempts.
-fn try_road(road: Road, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
+fn try_backend(backend: Backend, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
     heap::keep();
-    let _doing = process::doing(error::tried_before(road, before));
-    match road {
-        Road::EglSurfaceless | Road::EglDevice | Road::EglPbuffer => egl::open(road, request),
-        Road::OsMesa => osmesa::open(request),
-        Road::Window => window::open_hidden(request),
+    let _doing = process::doing(error::tried_before(backend, before));
+    match backend {
+        Backend::EglSurfaceless | Backend::EglDevice | Backend::EglPbuffer => egl::open(backend, request),
+        Backend::OsMesa => osmesa::open(request),
+        Backend::Window => window::open_hidden(request),
     }
 }

@@ -24,7 +24,7 @@ use winit::window::{Window, WindowAttributes, WindowId};
 
 use super::error::Refusal;
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road};
+use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A window and its context.
 ///
@@ -94,7 +94,7 @@ impl Context for WindowContext {
     fn make_current(&self) -> Result<(), Error> {
         self.context
             .make_current(&self.surface)
-            .map_err(|error| Error::NotCurrent { road: self.loaded.road.clone(), answer: error.to_string() })
+            .map_err(|error| Error::NotCurrent { backend: self.loaded.backend.clone(), answer: error.to_string() })
     }
 }
 
@@ -199,7 +199,8 @@ fn create(
     let context = create_context(&display, &config, &window, request)?;
     let context = context.make_current(&surface).map_err(|error| error.to_string())?;
     // SAFETY: the context is current; the display answers with its functions or null.
-    let loaded = unsafe { load::load(Road::Window.to_string(), request, move |name| display.get_proc_address(name)) }?;
+    let loaded =
+        unsafe { load::load(Backend::Window.to_string(), request, move |name| display.get_proc_address(name)) }?;
     Ok(WindowContext { surface, context, loaded, window })
 }
 

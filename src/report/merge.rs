@@ -130,7 +130,7 @@ fn check_driver(paths: [&PathBuf; 2], first: &Machine, second: &Machine) -> Resu
     let fields = [
         ("renderer", &first.renderer, &second.renderer),
         ("GL version", &first.gl_version, &second.gl_version),
-        ("kind of context", &first.road, &second.road),
+        ("kind of context", &first.backend, &second.backend),
         ("glumbra", &first.glumbra, &second.glumbra),
     ];
     match fields.into_iter().find(|(_, first, second)| first != second) {

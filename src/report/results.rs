@@ -35,7 +35,7 @@ pub struct Machine {
     /// GL_RENDERER and GL_VERSION, and the way the context was made.
     pub renderer: String,
     pub gl_version: String,
-    pub road: String,
+    pub backend: String,
     pub glumbra: String,
     /// Rows measured at once; above 1 the times disturb each other.
     pub jobs: usize,

@@ -431,7 +431,7 @@ pub fn machine(options: &Options) -> Result<Machine, Error> {
         cores: std::thread::available_parallelism().map_or(1, usize::from),
         renderer: info.renderer,
         gl_version: info.version,
-        road: context.road().to_owned(),
+        backend: context.backend().to_owned(),
         glumbra: env!("CARGO_PKG_VERSION").to_owned(),
         jobs: options.jobs,
     })

@@ -14,7 +14,7 @@ pub fn report() -> Report {
             cores: 2,
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".to_owned(),
             gl_version: "4.5 (Core Profile) Mesa 22.3.6".to_owned(),
-            road: "egl surfaceless".to_owned(),
+            backend: "egl surfaceless".to_owned(),
             glumbra: "0.1.0".to_owned(),
             jobs: 1,
         },

@@ -15,7 +15,7 @@ use self::api::Egl;
 pub use self::devices::{Device, devices};
 use super::error::{Reached, Refusal};
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road};
+use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A context that owns its surface, if it needs one.
 ///
@@ -31,7 +31,7 @@ impl Context for EglContext {
     }
 
     fn make_current(&self) -> Result<(), Error> {
-        self.handles.make_current().map_err(|answer| Error::NotCurrent { road: self.loaded.road.clone(), answer })
+        self.handles.make_current().map_err(|answer| Error::NotCurrent { backend: self.loaded.backend.clone(), answer })
     }
 }
 
@@ -45,21 +45,21 @@ struct Handles {
 }
 
 /// Opens a context by one of EGL's three platforms. The error is the platform's answer.
-pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+pub(super) fn open(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let egl = api::library().map_err(Refusal::nothing)?;
-    match road {
-        Road::EglDevice => open_device(egl, request),
-        Road::EglPbuffer => {
+    match backend {
+        Backend::EglDevice => open_device(egl, request),
+        Backend::EglPbuffer => {
             // SAFETY: EGL_DEFAULT_DISPLAY is null.
             let display = unsafe { egl.eglGetDisplay(null_mut()) };
-            open_on(egl, display, "eglGetDisplay", road.to_string(), request, true)
+            open_on(egl, display, "eglGetDisplay", backend.to_string(), request, true)
         }
         _ => {
             if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_MESA_platform_surfaceless") {
                 return Err("EGL has no EGL_MESA_platform_surfaceless".into());
             }
             let display = platform_display(egl, api::PLATFORM_SURFACELESS_MESA, null_mut())?;
-            open_on(egl, display, "eglGetPlatformDisplay", road.to_string(), request, false)
+            open_on(egl, display, "eglGetPlatformDisplay", backend.to_string(), request, false)
         }
     }
 }
@@ -81,7 +81,7 @@ fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Co
     for index in chosen {
         let display = platform_display(egl, api::PLATFORM_DEVICE_EXT, devices[index]).map_err(Refusal::from);
         let opened = display.and_then(|display| {
-            let name = format!("{} {index}", Road::EglDevice);
+            let name = format!("{} {index}", Backend::EglDevice);
             open_on(egl, display, "eglGetPlatformDisplay", name, request, false)
         });
         match opened {
@@ -122,7 +122,7 @@ fn open_on(
     egl: &'static Egl,
     display: egl::EGLDisplay,
     origin: &str,
-    road: String,
+    backend: String,
     request: &ContextRequest,
     want_surface: bool,
 ) -> Result<Box<dyn Context>, Refusal> {
@@ -153,7 +153,7 @@ fn open_on(
     }
     handles.make_current().map_err(Refusal::driver)?;
     // SAFETY: the context is current; eglGetProcAddress answers with its functions.
-    let loaded = unsafe { load::load(road, request, move |name| api::address_of(egl, name)) };
+    let loaded = unsafe { load::load(backend, request, move |name| api::address_of(egl, name)) };
     let loaded = loaded.map_err(Refusal::driver)?;
     Ok(Box::new(EglContext { handles, loaded }))
 }

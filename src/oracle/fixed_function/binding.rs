@@ -22,12 +22,14 @@ pub struct Binding {
 /// Why a context cannot draw by the fixed-function pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BindingError {
-    #[error("the {road} context was asked for in the core profile, which has no fixed-function pipeline")]
-    Core { road: String },
-    #[error("the {road} context says that it is of the core profile: the driver has no fixed-function pipeline for it")]
-    Refused { road: String },
-    #[error("the {road} context lacks {} of the fixed-function pipeline's functions, {first} among them", .count)]
-    Missing { road: String, first: &'static str, count: usize },
+    #[error("the {backend} context was asked for in the core profile, which has no fixed-function pipeline")]
+    Core { backend: String },
+    #[error(
+        "the {backend} context says that it is of the core profile: the driver has no fixed-function pipeline for it"
+    )]
+    Refused { backend: String },
+    #[error("the {backend} context lacks {} of the fixed-function pipeline's functions, {first} among them", .count)]
+    Missing { backend: String, first: &'static str, count: usize },
 }
 
 impl Binding {
@@ -37,9 +39,9 @@ impl Binding {
     ///
     /// A context that has no fixed-function pipeline.
     pub fn load(context: &dyn Context) -> Result<Self, BindingError> {
-        let road = context.road().to_owned();
+        let backend = context.backend().to_owned();
         if context.profile() != Profile::Compatibility {
-            return Err(BindingError::Core { road });
+            return Err(BindingError::Core { backend });
         }
         // SAFETY: the context is current. Below 3.2 there are no profiles, and all of it is there.
         let core = unsafe {
@@ -49,7 +51,7 @@ impl Binding {
                 && gl.get_parameter_i32(glow::CONTEXT_PROFILE_MASK) as u32 & glow::CONTEXT_CORE_PROFILE_BIT != 0
         };
         if core {
-            return Err(BindingError::Refused { road });
+            return Err(BindingError::Refused { backend });
         }
         let mut missing = Vec::new();
         let functions = raw::Gl::load_with(|name| {
@@ -60,7 +62,7 @@ impl Binding {
             address
         });
         match missing.first() {
-            Some(first) => Err(BindingError::Missing { road, first, count: missing.len() }),
+            Some(first) => Err(BindingError::Missing { backend, first, count: missing.len() }),
             None => Ok(Self { functions }),
         }
     }

@@ -101,7 +101,7 @@ fn summary(checked: &Checked) -> String {
         parts.join(", "),
         context.renderer,
         context.version,
-        context.road,
+        context.backend,
         context.profile
     )
 }

@@ -24,7 +24,7 @@ fn context(renderer: &str) -> ContextInfo {
         uniform_block_bytes: 0,
     };
     ContextInfo {
-        road: String::new(),
+        backend: String::new(),
         vendor: String::new(),
         renderer: renderer.to_owned(),
         version: "4.5 Mesa 22.3.6".to_owned(),

@@ -82,7 +82,7 @@ fn head(machine: &Machine) -> String {
         ("Processor", format!("{}, {} cores", machine.processor, machine.cores)),
         ("Driver", machine.renderer.clone()),
         ("OpenGL", machine.gl_version.clone()),
-        ("Context", machine.road.clone()),
+        ("Context", machine.backend.clone()),
         ("glumbra", machine.glumbra.clone()),
     ];
     let rows = rows.iter().map(|(name, value)| format!("<dt>{name}</dt><dd>{}</dd>\n", escape(value)));

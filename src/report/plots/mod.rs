@@ -268,7 +268,7 @@ fn captions(scene: &SceneReport, machine: &Machine) -> [String; 2] {
     let [width, height] = scene.size;
     let jobs = if machine.jobs > 1 { format!(" · {} jobs at once", machine.jobs) } else { String::new() };
     [
-        format!("{} · OpenGL {} · {}", machine.renderer, machine.gl_version, machine.road),
+        format!("{} · OpenGL {} · {}", machine.renderer, machine.gl_version, machine.backend),
         format!(
             "{}, {} cores{jobs} · {width} × {height} pixels · {} triangles · light {}",
             machine.processor,

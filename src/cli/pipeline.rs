@@ -13,7 +13,7 @@ use crate::process;
 
 /// Pipeline that draws the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Road {
+pub enum Pipeline {
     /// By shaders, the product
     #[default]
     Shaders,
@@ -22,7 +22,7 @@ pub enum Road {
     FixedFunction,
 }
 
-impl Road {
+impl Pipeline {
     /// Opens a context that this pipeline can use.
     ///
     /// # Errors
