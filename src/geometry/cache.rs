@@ -9,7 +9,7 @@ const WINDOW: usize = 1024;
 const WELL_ORDERED: f64 = 0.8;
 
 impl Mesh {
-    /// Whether triangles that follow one another share so few vertices that sorting them pays. A shadow volume, whose
+    /// Tests whether triangles that follow one another share so few vertices that sorting them pays. A shadow volume, whose
     /// parts are ranges of its indices, is never sorted.
     pub fn is_scattered(&self) -> bool {
         if self.parts.is_empty() {

@@ -51,7 +51,7 @@ pub struct Placement {
     pub scale: [f32; 2],
     /// Added to what that comes to.
     pub offset: [f32; 2],
-    /// Whether the texture's edge goes on beyond [0, 1], in place of more copies of it.
+    /// True if the texture's edge goes on beyond [0, 1], in place of more copies of it.
     pub clamped: bool,
 }
 
@@ -62,7 +62,7 @@ impl Default for Placement {
 }
 
 impl Placement {
-    /// Whether the coordinates are looked up as they are.
+    /// Tests whether the coordinates are looked up as they are.
     pub fn is_plain(&self) -> bool {
         self.scale == [1.0; 2] && self.offset == [0.0; 2]
     }
@@ -127,7 +127,7 @@ pub struct Texture {
     pub height: u32,
     /// `4 * width * height` bytes.
     pub rgba: Vec<u8>,
-    /// Whether any texel's alpha is below 255.
+    /// True if any texel's alpha is below 255.
     pub has_alpha: bool,
 }
 

@@ -20,7 +20,7 @@ pub struct Crossing {
     pub t: f64,
     /// Counted from the range's first.
     pub triangle: u32,
-    /// Whether the ray comes from behind the front face.
+    /// True if the ray comes from behind the front face.
     pub from_behind: bool,
 }
 

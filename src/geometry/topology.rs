@@ -59,7 +59,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Whether every edge has two triangles, which run through it in opposite directions.
+    /// Tests whether every edge has two triangles, which run through it in opposite directions.
     pub fn is_closed(&self) -> bool {
         self.triangles > 0 && self.open_edges == 0 && self.turned_edges == 0 && self.crowded_edges == 0
     }
@@ -103,7 +103,7 @@ pub fn inspect(mesh: &Mesh) -> Topology {
 }
 
 impl Mesh {
-    /// Whether the mesh bounds a solid: see [`Topology::is_closed`].
+    /// Tests whether the mesh bounds a solid: see [`Topology::is_closed`].
     pub fn is_closed(&self) -> bool {
         inspect(self).is_closed()
     }

@@ -41,7 +41,7 @@ impl Wave {
         Self { phase: (self.phase + self.vector.dot(origin)).rem_euclid(1.0), ..*self }
     }
 
-    /// Whether it is so steep along its own way that the surface may fold over and turn inside out: the Jacobian
+    /// Tests whether it is so steep along its own way that the surface may fold over and turn inside out: the Jacobian
     /// `I + 2 pi cos(...) reach vector^T` then has a determinant that is not above zero everywhere.
     pub fn folds(&self) -> bool {
         TAU * self.vector.dot(self.reach).abs() >= 1.0

@@ -28,7 +28,7 @@ pub fn side_of_direction(corners: &[DVec3; 3], direction: DVec3) -> i8 {
     sum.sign()
 }
 
-/// Whether the three corners lie on one line, exactly. The corners are f32 values.
+/// Tests whether the three corners lie on one line, exactly. The corners are f32 values.
 pub fn are_collinear(corners: &[DVec3; 3]) -> bool {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().all(|axis| side_of_direction(corners, axis) == 0)
 }

@@ -54,7 +54,7 @@ pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
         && (0..4).all(|plane| corners.iter().any(|corner| signed_distance(corner, plane) >= -slack(corner)))
 }
 
-/// Whether something of the box may lie within the sides of a perspective volume before its near plane: what
+/// Tests whether something of the box may lie within the sides of a perspective volume before its near plane: what
 /// GL_DEPTH_CLAMP draws at the near plane's depth, and clipping would leave out.
 pub fn may_be_before_near(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
     let before = |corner: DVec3| {
@@ -75,7 +75,7 @@ fn volume_of(clip_from_box: &DMat4) -> Aabb {
     Aabb::from_points(corners(&clip_from_box.inverse()))
 }
 
-/// Whether all of a clip volume, of which `volume` is the box in the box's own space, lies beyond one face of the box:
+/// Tests whether all of a clip volume, of which `volume` is the box in the box's own space, lies beyond one face of the box:
 /// what the clip planes alone do not see of large boxes.
 fn beyond_a_face(volume: &Aabb, bounds: &Aabb) -> bool {
     if !(volume.min.is_finite() && volume.max.is_finite()) {
@@ -132,7 +132,7 @@ pub fn clip_polygon(polygon: &[DVec3], plane: &DVec4) -> Vec<DVec3> {
     clipped
 }
 
-/// Whether two convex volumes, each given by its `clip_from_world` and world-space corners, may meet: false only where
+/// Tests whether two convex volumes, each given by its `clip_from_world` and world-space corners, may meet: false only where
 /// a clip plane of one has all corners of the other beyond it.
 pub fn may_meet(a_clip: &DMat4, a_corners: &[DVec3; 8], b_clip: &DMat4, b_corners: &[DVec3; 8]) -> bool {
     let beyond = |clip: &DMat4, corners: &[DVec3; 8]| {

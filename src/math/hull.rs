@@ -113,7 +113,7 @@ const PARALLEL: f64 = 1e-12;
 /// What f32 transforms may be off by, relative to the coordinates that meet.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whether a plane parts the two; conservative: `false` where none is found among the likely ones, and where the gap is
+/// Tests whether a plane parts the two; conservative: `false` where none is found among the likely ones, and where the gap is
 /// below 2⁻²⁰ of the sizes that meet, which covers f32 transforms. Two cones (no points) are apart if they share no
 /// direction.
 pub fn are_apart(a: &Hull, b: &Hull) -> bool {

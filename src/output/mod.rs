@@ -38,7 +38,7 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// Whether the format holds exact 32-bit values.
+    /// Tests whether the format holds exact 32-bit values.
     pub fn is_exact(self) -> bool {
         self != Self::Png
     }
@@ -68,7 +68,7 @@ pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     }
 }
 
-/// Whether both lead to one file that exists.
+/// Tests whether both lead to one file that exists.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| fs::canonicalize(path).ok();
     one == other || place(one).is_some_and(|one| place(other).is_some_and(|other| one == other))

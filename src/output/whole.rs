@@ -159,7 +159,7 @@ fn remove_stale(folder: &Path) {
     }
 }
 
-/// Whether a file of this name is one of [`Beside`].
+/// Tests whether a file of this name is one of [`Beside`].
 fn is_unfinished(name: &str) -> bool {
     let random = name.strip_suffix(ENDING).and_then(|rest| rest.rsplit_once(MARK)).map(|(_, random)| random);
     name.starts_with('.')

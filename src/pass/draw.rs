@@ -71,7 +71,7 @@ pub struct Draw {
     pub bounds: Aabb,
     /// `clip_from_model`: every program of ours has this uniform, and the plan culls by it.
     pub clip_from_model: DMat4,
-    /// Whether the transform mirrors, so that front faces wind clockwise.
+    /// True if the transform mirrors, so that front faces wind clockwise.
     pub mirrored: bool,
     /// Beside `clip_from_model`.
     pub uniforms: Vec<Uniform>,

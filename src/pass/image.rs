@@ -43,7 +43,7 @@ impl Storage {
         if let Self::Cube(_) = self { 6 } else { 1 }
     }
 
-    /// Whether there are texels of smaller levels beside those of the image's size.
+    /// Tests whether there are texels of smaller levels beside those of the image's size.
     pub fn is_mipmapped(&self) -> bool {
         matches!(self, Self::Uploaded(_) | Self::Mipmapped(2..))
     }
@@ -104,7 +104,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Whether it is attached as depth.
+    /// Tests whether it is attached as depth.
     pub fn has_depth(self) -> bool {
         matches!(self, Self::Depth(_) | Self::UnsizedDepth | Self::Depth24Stencil8)
     }

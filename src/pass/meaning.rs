@@ -33,7 +33,7 @@ pub struct Texturing {
     pub object_linear: Option<ObjectLinear>,
     /// The alpha test, GEQUAL 0.5.
     pub alpha_test: Option<AlphaTest>,
-    /// Whether the decal's RGB modulates diffuse and ambient light.
+    /// True if the decal's RGB modulates diffuse and ambient light.
     pub decal: bool,
     /// Where the decal lies on the coordinates.
     pub decal_placement: Placement,
@@ -45,9 +45,9 @@ pub struct Texturing {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlphaTest {
     pub opacity: f32,
-    /// Whether the decal's alpha is a factor.
+    /// True if the decal's alpha is a factor.
     pub decal: bool,
-    /// Whether the alpha map stands in its red channel, not in its alpha.
+    /// True if the alpha map stands in its red channel, not in its alpha.
     pub map_in_red: bool,
 }
 
@@ -57,7 +57,7 @@ pub struct Lit {
     pub clip_from_eye: DMat4,
     /// GL's lighting per vertex; else Phong's, per fragment.
     pub per_vertex: bool,
-    /// Whether normals count; `false`: the diffuse colour as it is.
+    /// True if normals count; `false`: the diffuse colour as it is.
     pub lit: bool,
     /// The scene's ambient light times the material's.
     pub scene_ambient: [f32; 3],
@@ -109,9 +109,9 @@ pub struct Projection {
     pub texgen: Texgen,
     /// Scale and offset from (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
-    /// Whether the light ends at the frustum's sides.
+    /// True if the light ends at the frustum's sides.
     pub bounded: bool,
-    /// Whether it reaches only into the circle inscribed in the square.
+    /// True if it reaches only into the circle inscribed in the square.
     pub cone: bool,
 }
 
@@ -125,7 +125,7 @@ pub enum Shade {
     /// The input of this name at (s/q, t/q, r/q), by its sampler; compared where that compares.
     Texture {
         input: Cow<'static, str>,
-        /// Whether r/q is clamped to [0, 1] although the format does not clamp it.
+        /// True if r/q is clamped to [0, 1] although the format does not clamp it.
         clamped: bool,
     },
     /// Something that fixed function has no words for: what that is.

@@ -49,7 +49,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 pub struct PlannedLight {
     pub term: LightTerm,
     pub contributes: bool,
-    /// Whether the picture or a view needs it.
+    /// True if the picture or a view needs it.
     pub is_drawn: bool,
 }
 

@@ -104,7 +104,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Whether depth and count of a frame serve the next: one count, and frames that may use it again.
+    /// Tests whether depth and count of a frame serve the next: one count, and frames that may use it again.
     fn keeps_count(&self, counted: &[&LightTerm]) -> bool {
         let [term] = counted else { return false };
         let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
@@ -325,7 +325,7 @@ fn lighting(term: &LightTerm) -> Lighting {
     term.counting.as_ref().map_or(Lighting::Added, |counting| counting.lighting)
 }
 
-/// Whether the light's own shade finds what a shadow leaves.
+/// Tests whether the light's own shade finds what a shadow leaves.
 fn of_all(term: &LightTerm) -> bool {
     term.counting.as_ref().is_some_and(|counting| counting.of_all)
 }

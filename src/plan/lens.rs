@@ -72,7 +72,7 @@ impl Lens {
         }
     }
 
-    /// Whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
+    /// Tests whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
     pub fn has_no_far_plane(&self) -> bool {
         self.infinite || self.clamped
     }

@@ -29,7 +29,7 @@ pub struct Request {
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
     /// objects out of sight, colour buffers of depth passes, maps that are there already.
     pub keep_all: bool,
-    /// Whether points that the camera sees are sampled to find what the picture will show wrong, for [`Plan::warnings`].
+    /// True if points that the camera sees are sampled to find what the picture will show wrong, for [`Plan::warnings`].
     /// That costs some 10 to 100 ms a light: what is planned for every frame of a window goes without.
     pub sampled_warnings: bool,
     /// What the driver can do.

@@ -37,7 +37,7 @@ pub(super) fn files(folder: &Path, report: &Report, pictures: &Pictures) -> Vec<
     files
 }
 
-/// Whether a file of this name is a picture that [`files`] may have named.
+/// Tests whether a file of this name is a picture that [`files`] may have named.
 pub(super) fn is_picture(name: &str) -> bool {
     let Some((fingerprint, what)) = name.strip_suffix(".png").and_then(|stem| stem.split_once('-')) else {
         return false;

@@ -223,7 +223,7 @@ fn check_scene(first: &Path, known: &SceneReport, second: &Path, other: &SceneRe
     }
 }
 
-/// Whether two rows say the same, however long they took.
+/// Tests whether two rows say the same, however long they took.
 pub fn equal_but_for_times(a: &Row, b: &Row) -> bool {
     let outcome = match (&a.outcome, &b.outcome) {
         (Outcome::Measured(a), Outcome::Measured(b)) => without_times(a) == without_times(b),

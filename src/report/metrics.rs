@@ -22,7 +22,7 @@ pub struct ShadeImage {
     pub height: u32,
     /// `width * height` values, 0: shadow, 1: full light. Looked at only where something is drawn.
     pub shade: Vec<f32>,
-    /// Whether the picture shows a surface there that lies in the light's cone or frustum.
+    /// True if the picture shows a surface there that lies in the light's cone or frustum.
     pub covered: Vec<bool>,
 }
 

@@ -53,7 +53,7 @@ impl<'r> Times<'r> {
         times
     }
 
-    /// Whether the machine did much else meanwhile.
+    /// Tests whether the machine did much else meanwhile.
     pub fn is_loaded(&self) -> bool {
         self.unsteady * LOADED_FROM > self.rows || self.unlike * LOADED_FROM > self.twins
     }
@@ -99,7 +99,7 @@ pub struct Pick<'r> {
     pub bar: [f64; 2],
     /// Rows that the times cannot rule out in its place.
     pub rivals: Vec<&'r Row>,
-    /// Whether its bar reaches beyond the time asked for.
+    /// True if its bar reaches beyond the time asked for.
     pub may_be_late: bool,
 }
 

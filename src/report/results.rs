@@ -12,7 +12,7 @@ use super::metrics::{FEWEST_COMPARED, Metrics};
 pub struct Report {
     /// Of this layout.
     pub version: u32,
-    /// Whether every row of the grid is there.
+    /// True if every row of the grid is there.
     pub complete: bool,
     pub machine: Machine,
     /// What a reader should know besides: what was joined, what went wrong.
@@ -73,7 +73,7 @@ pub struct SceneReport {
 /// The scene as written, with everything drawn against what its plan leaves out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Saved {
-    /// Whether both drew the same picture, to the bit. If not, nothing here counts.
+    /// True if both drew the same picture, to the bit. If not, nothing here counts.
     pub same_pixels: bool,
     pub whole: Cost,
     /// A frame that keeps what a static scene's first frame drew.
@@ -180,7 +180,7 @@ pub struct PassCost {
 }
 
 impl Report {
-    /// Whether every row of every scene asked for is there.
+    /// Tests whether every row of every scene asked for is there.
     pub fn has_all_rows(&self) -> bool {
         self.scenes.len() == self.asked_scenes && self.scenes.iter().all(|scene| scene.rows.len() == scene.grid_rows)
     }
@@ -227,7 +227,7 @@ impl SceneReport {
 }
 
 impl Measured {
-    /// Whether enough pixels could be compared to say how wrong it is. A picture that could not is not right, only unjudged.
+    /// Tests whether enough pixels could be compared to say how wrong it is. A picture that could not is not right, only unjudged.
     pub fn is_judged(&self) -> bool {
         self.metrics.all.compared >= FEWEST_COMPARED
     }

@@ -181,7 +181,7 @@ fn readable(settings: &Settings) -> Settings {
     kept
 }
 
-/// Whether a scene without objects can be planned with `settings`: whatever is wrong with them alone is found here, by the
+/// Tests whether a scene without objects can be planned with `settings`: whatever is wrong with them alone is found here, by the
 /// reader that a frame's plan has.
 fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<(), plan::Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
@@ -208,7 +208,7 @@ impl Sweep {
         (0..self.rows.len()).filter(|row| row % count == index - 1 && !done.contains(row)).collect()
     }
 
-    /// Whether `row` is one of this sweep's, measured or not.
+    /// Tests whether `row` is one of this sweep's, measured or not.
     pub fn has(&self, row: &Row) -> bool {
         let known = self.rows.get(row.index).map(|(known, _)| known);
         known.is_some_and(|known| known.technique == row.technique && known.settings == row.settings)

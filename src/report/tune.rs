@@ -61,7 +61,7 @@ pub struct Point {
     /// On surfaces that face the light, in percent of those compared: what shading does not hide.
     pub leak_facing_percent: f64,
     pub wrong_percent: f64,
-    /// Whether the false shadow is within [`Options::false_per_100_000`].
+    /// True if the false shadow is within [`Options::false_per_100_000`].
     pub clean: bool,
     /// Pixels that the percentages are of: all, and those on surfaces that face the light.
     pub compared: usize,
@@ -82,7 +82,7 @@ pub struct Tuned {
     pub compared: usize,
     pub compared_facing: usize,
     pub compared_shadowed: usize,
-    /// Whether `chosen` is within the leak that was asked for.
+    /// True if `chosen` is within the leak that was asked for.
     pub within_leak: bool,
     /// Techniques that have no offset to tune, as they are by default.
     pub rivals: Vec<Rival>,

@@ -109,7 +109,7 @@ fn canonical(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| Path::new("/").join(path))
 }
 
-/// Whether `path` ends in `.extension`, in whatever case.
+/// Tests whether `path` ends in `.extension`, in whatever case.
 pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }

@@ -95,7 +95,7 @@ pub struct Spot {
     pub attenuation: [f32; 3],
     /// The spot image, projected through the frustum; modulates diffuse and specular.
     pub image: Option<Arc<Texture>>,
-    /// Whether the frustum is drawn as a wire cube in the camera's picture.
+    /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
 }
 
@@ -146,9 +146,9 @@ pub struct Object {
     pub wave: Option<Wave>,
     /// Stands in for every material of the mesh.
     pub material: Option<Arc<Material>>,
-    /// Whether fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
+    /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,
-    /// Whether it is drawn into shadow maps.
+    /// True if it is drawn into shadow maps.
     pub casts_shadow: bool,
     /// Declared, and checked: the mesh is closed and its faces look outwards, so that no back face is ever seen from
     /// outside of it.

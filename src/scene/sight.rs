@@ -96,7 +96,7 @@ impl Pyramid {
         faces(&corners).into_iter().fold(Span::EMPTY, |span, face| span.including(&inside(face)))
     }
 
-    /// Whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
+    /// Tests whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
     pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2], least: f64) -> bool {
         let mut area = 0.0;
         self.visit(object, |polygon| {
@@ -106,7 +106,7 @@ impl Pyramid {
         area >= least
     }
 
-    /// Whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
+    /// Tests whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
     pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
         let mut pieces: Vec<(f64, DVec3)> = Vec::new();
         self.visit(object, |polygon| {
@@ -221,7 +221,7 @@ impl Cut {
     }
 }
 
-/// Whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
+/// Tests whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
 fn hides(polygon: &[DVec3], point: DVec3, far: f64) -> bool {
     let sides = (0..polygon.len()).map(|k| polygon[k].cross(polygon[(k + 1) % polygon.len()]).dot(point));
     let (mut left, mut right) = (false, false);
@@ -237,7 +237,7 @@ fn drawn_mesh(object: &Object) -> Arc<Mesh> {
     object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh))
 }
 
-/// Whether the alpha test leaves nothing of a part.
+/// Tests whether the alpha test leaves nothing of a part.
 fn is_clear(object: &Object, material: Option<usize>) -> bool {
     let own = || object.mesh.materials.get(material?);
     object.material.as_deref().or_else(own).is_some_and(|material| material.opacity < 0.5)

@@ -62,7 +62,7 @@ pub(super) fn hair(bounds: &Aabb) -> f64 {
     HAIR_RADII * frame::working_radius(bounds)
 }
 
-/// Whether a model has faces in the plane of its lowest point that are seen from above: a floor there would show through
+/// Tests whether a model has faces in the plane of its lowest point that are seen from above: a floor there would show through
 /// them. The bottom of a closed mesh is not seen.
 pub(super) fn has_floor(object: &Object) -> bool {
     let mesh = object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh));

@@ -25,7 +25,7 @@ pub struct Case {
     pub rows: Vec<String>,
     /// The stiff parameter that the case varies, and its value.
     pub sweep: Option<(String, f64)>,
-    /// Whether the scene cannot be drawn, and must be refused.
+    /// True if the scene cannot be drawn, and must be refused.
     pub refused: bool,
 }
 

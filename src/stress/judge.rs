@@ -222,7 +222,7 @@ impl<'a> Judge<'a> {
         self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
     }
 
-    /// Whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane of its
+    /// Tests whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane of its
     /// map a picture has light that truth does not speak of.
     fn is_beside(&self, hit: &Hit) -> bool {
         match &self.scene.lights[self.light].kind {
@@ -234,7 +234,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Whether the map's own texels explain a wrong pixel.
+    /// Tests whether the map's own texels explain a wrong pixel.
     fn accounts_for(&mut self, index: usize, should_be_lit: bool, map: &MapInfo) -> bool {
         // One texel more: positions round to a texel's neighbour.
         let reach = (map.reach_texels + 1.0) * map.texel * f64::from(1_u32 << (map.levels - 1).min(16));
@@ -298,14 +298,14 @@ fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
     }
 }
 
-/// Whether a surface beside a point shades it for all of its own polygon offset, of which GL's slope is the steeper of the
+/// Tests whether a surface beside a point shades it for all of its own polygon offset, of which GL's slope is the steeper of the
 /// two along the map's axes: at least a part of 1/√2 of the slope itself.
 fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
     let factor = f64::from(map.polygon.factor) * std::f64::consts::FRAC_1_SQRT_2;
     near.by > map.texel * around.scale * (factor * near.slope + map.texels)
 }
 
-/// Whether the map is drawn from a blocker's side.
+/// Tests whether the map is drawn from a blocker's side.
 fn holds(map: &MapInfo, blocker: &Blocker) -> bool {
     match map.cull {
         None => true,

@@ -64,7 +64,7 @@ impl Row {
         format!("{keys}{pictured}")
     }
 
-    /// Whether the picture must not be used, or was not drawn.
+    /// Tests whether the picture must not be used, or was not drawn.
     pub fn is_unusable(&self) -> bool {
         matches!(self.verdict, Verdict::FalseAlarm | Verdict::Warned | Verdict::Refused)
     }
@@ -104,7 +104,7 @@ pub struct CaseResult {
     pub seconds: f64,
     /// Why the case has no rows: the scene was refused.
     pub refused: Option<String>,
-    /// Whether a refusal is what the case expects.
+    /// True if a refusal is what the case expects.
     pub refusal_expected: bool,
     pub rows: Vec<Row>,
     /// Pictures of the worst row of each technique whose rows are not all right, where pictures are asked for.
@@ -113,17 +113,17 @@ pub struct CaseResult {
 }
 
 impl CaseResult {
-    /// Whether the case was not drawn although it should have been, or the other way around.
+    /// Tests whether the case was not drawn although it should have been, or the other way around.
     pub fn is_misjudged(&self) -> bool {
         self.refused.is_some() != self.refusal_expected
     }
 
-    /// Whether there is more to say than that all is right.
+    /// Tests whether there is more to say than that all is right.
     pub fn has_news(&self) -> bool {
         self.is_misjudged() || self.rows.iter().any(|row| row.verdict != Verdict::Right)
     }
 
-    /// Whether something is wrong and nothing said.
+    /// Tests whether something is wrong and nothing said.
     pub fn fails(&self) -> bool {
         self.is_misjudged() || self.rows.iter().any(|row| row.verdict == Verdict::SilentlyWrong)
     }

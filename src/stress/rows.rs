@@ -13,7 +13,7 @@ pub struct RowSettings {
     pub technique: String,
     /// Keys of `[light.shadow]` in TOML, ready for an inline table; empty: the technique's defaults.
     pub keys: String,
-    /// Whether the picture itself is judged, in the light of this lamp alone, and not its shade: the lit pass with its
+    /// True if the picture itself is judged, in the light of this lamp alone, and not its shade: the lit pass with its
     /// guard, its cone, and what it leaves out.
     #[serde(default)]
     pub pictured: bool,
@@ -26,7 +26,7 @@ impl RowSettings {
         format!("technique = \"{}\"{comma}{}", self.technique, self.keys)
     }
 
-    /// Whether these are the settings that a scene without further keys gets.
+    /// Tests whether these are the settings that a scene without further keys gets.
     pub fn is_default(&self) -> bool {
         self.keys.is_empty() && !self.pictured
     }
@@ -149,7 +149,7 @@ fn map_keys(kind: &LightKind) -> Vec<&'static str> {
     MAP.iter().chain(more.iter().copied().flatten()).copied().collect()
 }
 
-/// Whether every caster is closed and looks outwards, as second-depth maps need it.
+/// Tests whether every caster is closed and looks outwards, as second-depth maps need it.
 fn all_closed(scene: &Scene) -> bool {
     let casters = scene.objects.iter().filter(|object| object.casts_shadow);
     { casters }.all(|object| object.wave.is_none() && object.mesh.is_closed() && object.mesh.signed_volume() > 0.0)

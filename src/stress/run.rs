@@ -21,7 +21,7 @@ pub struct Options {
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
     pub technique: Option<String>,
-    /// Whether pictures are kept of what is not right.
+    /// True if pictures are kept of what is not right.
     pub pictures: bool,
     pub context: ContextRequest,
 }

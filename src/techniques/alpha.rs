@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::Item;
 use crate::geometry::{Placement, Texture};
 
-/// Whether the alpha test passes at `point` of a triangle, counted from the item's first; `corners` are of the space that
+/// Tests whether the alpha test passes at `point` of a triangle, counted from the item's first; `corners` are of the space that
 /// the point is in.
 pub fn passes(item: &Item, triangle: u32, corners: &[DVec3; 3], point: DVec3) -> bool {
     if !(item.needs_alpha_test() && item.has_texcoords()) {

@@ -296,7 +296,7 @@ impl Corner {
         }
     }
 
-    /// Whether GL leaves it as it is, but for the near plane.
+    /// Tests whether GL leaves it as it is, but for the near plane.
     fn is_inside(&self, planes: &[DVec4]) -> bool {
         planes.iter().all(|plane| plane.dot(self.clip) >= 0.0)
     }

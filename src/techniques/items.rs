@@ -113,7 +113,7 @@ impl Materials {
     }
 }
 
-/// Whether front faces wind clockwise under `clip_from_model`. A projection of ours turns right-handed eye space
+/// Tests whether front faces wind clockwise under `clip_from_model`. A projection of ours turns right-handed eye space
 /// into left-handed clip space, so its own determinant is negative.
 pub fn mirrors(clip_from_model: &DMat4) -> bool {
     clip_from_model.determinant() > 0.0
@@ -139,13 +139,13 @@ impl Item {
         }
     }
 
-    /// Whether some fragments of it may fail the alpha test.
+    /// Tests whether some fragments of it may fail the alpha test.
     pub fn needs_alpha_test(&self) -> bool {
         let material = &self.material;
         material.alpha.is_some() || self.decal_alpha()
     }
 
-    /// Whether its mesh has, or its material makes, texture coordinates.
+    /// Tests whether its mesh has, or its material makes, texture coordinates.
     pub fn has_texcoords(&self) -> bool {
         self.mesh.texcoords.is_some() || self.material.texgen.is_some()
     }

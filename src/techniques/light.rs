@@ -24,11 +24,11 @@ pub struct LightView<'a> {
     pub items: &'a [Item],
     /// Into [`Scene::lights`].
     pub index: usize,
-    /// Whether a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
+    /// True if a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
     pub shown_whole: bool,
-    /// Whether even what no picture can show is drawn, to prove that it changes none.
+    /// True if even what no picture can show is drawn, to prove that it changes none.
     pub keep_all: bool,
-    /// Whether warnings are worth some milliseconds.
+    /// True if warnings are worth some milliseconds.
     pub sampled_warnings: bool,
 }
 
@@ -118,7 +118,7 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
-    /// Whether its light is added to a picture that has its ambient part: what it does not reach is then not drawn.
+    /// True if its light is added to a picture that has its ambient part: what it does not reach is then not drawn.
     pub added: bool,
     /// What keeps a spotlight's light from what lies behind it.
     pub guard: Guard,
@@ -136,9 +136,9 @@ pub struct LightTerm {
 #[derive(Clone, Debug)]
 pub struct Counting {
     pub passes: Vec<CountPass>,
-    /// Whether a frame may keep the count of the one before.
+    /// True if a frame may keep the count of the one before.
     pub redraw: Redraw,
-    /// Whether the count says where any of the light is, what a shadow would leave of it too, and not what a shadow takes.
+    /// True if the count says where any of the light is, what a shadow would leave of it too, and not what a shadow takes.
     pub of_all: bool,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
@@ -227,7 +227,7 @@ pub enum VolumeSpace {
 }
 
 impl Counting {
-    /// Whether what the light's own shade says is in the stencil buffer.
+    /// Tests whether what the light's own shade says is in the stencil buffer.
     pub fn tags(&self) -> bool {
         self.passes.iter().any(|pass| matches!(pass.counted, Counted::Shadowed))
     }

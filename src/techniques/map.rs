@@ -34,7 +34,7 @@ pub struct MapInfo {
     pub polygon: PolygonOffset,
     /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
     pub texels: f64,
-    /// Whether a texel holds the middle between the two nearest layers, in place of the nearest one.
+    /// True if a texel holds the middle between the two nearest layers, in place of the nearest one.
     pub middle: bool,
 }
 

@@ -46,14 +46,14 @@ pub trait Technique: Sync {
     /// The document and section that it implements.
     fn source(&self) -> &'static str;
 
-    /// Whether it finds the shade of such lights.
+    /// Tests whether it finds the shade of such lights.
     ///
     /// # Errors
     ///
     /// Why not, as the end of a sentence that begins with the technique's name.
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
 
-    /// Whether it reads casters' vertices, which the vertex stage then must not move.
+    /// Tests whether it reads casters' vertices, which the vertex stage then must not move.
     fn needs_vertices(&self) -> bool {
         false
     }
@@ -164,7 +164,7 @@ pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
     keys.known().to_vec()
 }
 
-/// Whether the technique of some light of the scene reads casters' vertices.
+/// Tests whether the technique of some light of the scene reads casters' vertices.
 pub fn needs_vertices(scene: &Scene) -> bool {
     scene.lights.iter().any(|source| {
         let mut keys = source.shadow.read();

@@ -123,7 +123,7 @@ impl State {
         self.techniques
     }
 
-    /// Whether keys and mouse are told in the window.
+    /// Tests whether keys and mouse are told in the window.
     pub fn helps(&self) -> bool {
         self.helps
     }

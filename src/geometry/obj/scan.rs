@@ -21,7 +21,7 @@ pub(super) struct Scan {
     pub places: Places,
     /// What the mesh's positions are relative to.
     pub origin: DVec3,
-    /// Whether tobj would misread the text as it is.
+    /// True if tobj would misread the text as it is.
     pub needs_rewrite: bool,
     /// Some corners name a texture coordinate (a normal), others do not.
     pub mixed_texcoords: bool,
@@ -336,7 +336,7 @@ fn check_weight(weight: &str, xyz: [&str; 3]) -> Result<(), Wrong> {
     Err(format!("v: the weight {weight} leaves no finite position"))
 }
 
-/// Whether `word` is a sign, digits and a point, and so few that the value must be finite.
+/// Tests whether `word` is a sign, digits and a point, and so few that the value must be finite.
 fn is_plain_number(word: &str) -> bool {
     let digits = word.as_bytes();
     let digits = match digits {

@@ -53,7 +53,7 @@ pub(super) struct Use {
     /// The smaller place above the larger.
     places: u64,
     pub triangle: u32,
-    /// Whether the triangle runs from the smaller to the larger.
+    /// True if the triangle runs from the smaller to the larger.
     forward: bool,
 }
 
@@ -113,7 +113,7 @@ impl Caster {
         &self.shells
     }
 
-    /// Whether every shell is closed and consistently wound.
+    /// Tests whether every shell is closed and consistently wound.
     pub fn is_closed(&self) -> bool {
         self.shells.iter().all(|shell| shell.kind.is_closed())
     }

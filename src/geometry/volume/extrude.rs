@@ -218,7 +218,7 @@ fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
     (surrounds && touches).then_some(normal)
 }
 
-/// Whether the light all but touches a counted triangle of `caster`, for which `outline` was found: what it shades is
+/// Tests whether the light all but touches a counted triangle of `caster`, for which `outline` was found: what it shades is
 /// half the world, and cut by a plane its volume has no vertices that say on which side.
 pub fn light_touches(caster: &Caster, outline: &Outline) -> bool {
     let Some(source) = outline.source() else { return false };

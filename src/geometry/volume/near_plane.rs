@@ -39,7 +39,7 @@ impl Stand {
         self == Self::Lands
     }
 
-    /// Whether the place itself is in front of the eye.
+    /// Tests whether the place itself is in front of the eye.
     pub fn is_beyond_plane(self, plane: &NearPlane) -> bool {
         (self == Self::AtPlane) != plane.light_is_beyond()
     }
@@ -70,7 +70,7 @@ impl NearPlane {
         Self { source, near, light_height: -light.z - near * light.w, w: light.w, end }
     }
 
-    /// Whether the light stands ahead of the plane, or in it.
+    /// Tests whether the light stands ahead of the plane, or in it.
     pub fn light_is_beyond(&self) -> bool {
         self.light_height >= 0.0
     }

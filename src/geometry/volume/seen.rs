@@ -48,35 +48,35 @@ impl Casting {
         Self { volume: body.swept(&away), far_end: Hull::cone(&away), body }
     }
 
-    /// Whether the volume may hold a point of the camera's near rectangle: whether the caster may meet the pyramid that
+    /// Tests whether the volume may hold a point of the camera's near rectangle: whether the caster may meet the pyramid that
     /// the light spans with it. If not, plain z-pass counts right.
     pub fn may_hold_near(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.volume, &viewer.near)
     }
 
-    /// Whether the volume may meet the view frustum; if not, it is of no use to the picture.
+    /// Tests whether the volume may meet the view frustum; if not, it is of no use to the picture.
     pub fn may_shadow_view(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.volume, &viewer.frustum)
     }
 
-    /// Whether the caster itself may be in view, and with it the volume's cap at the light's end.
+    /// Tests whether the caster itself may be in view, and with it the volume's cap at the light's end.
     pub fn light_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.body, &viewer.frustum)
     }
 
-    /// Whether the camera may look at the volume's far end at infinity.
+    /// Tests whether the camera may look at the volume's far end at infinity.
     pub fn far_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.far_end, &viewer.rays)
     }
 
-    /// Whether the caster may stand between the light and something it lights: `reach` is convex and holds the light
+    /// Tests whether the caster may stand between the light and something it lights: `reach` is convex and holds the light
     /// and all that it lights.
     pub fn may_matter_within(&self, reach: &Hull) -> bool {
         !hull::are_apart(&self.body, reach)
     }
 }
 
-/// Whether a light stands in the box, or as near to it as f32 transforms may be off.
+/// Tests whether a light stands in the box, or as near to it as f32 transforms may be off.
 fn touches(bounds: &Aabb, source: Source) -> bool {
     let Source::Point(light) = source else { return false };
     let size = light.abs().max(bounds.min.abs()).max(bounds.max.abs()).max_element();

@@ -69,7 +69,7 @@ impl Caster {
         in_box && (self.winding(shell, light) != 0 || shell.triangles.clone().any(|index| self.has_on_it(index, light)))
     }
 
-    /// Whether a point lies on a triangle, its edges included. Exact.
+    /// Tests whether a point lies on a triangle, its edges included. Exact.
     fn has_on_it(&self, triangle: u32, point: DVec3) -> bool {
         let corners = self.corners(triangle as usize);
         let (min, max) = (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));

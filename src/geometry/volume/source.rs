@@ -37,7 +37,7 @@ impl Source {
         }
     }
 
-    /// Whether all rays are parallel, so that a volume ends in one point at infinity.
+    /// Tests whether all rays are parallel, so that a volume ends in one point at infinity.
     pub fn is_parallel(self) -> bool {
         matches!(self, Self::Direction(_))
     }

@@ -17,7 +17,7 @@ pub struct Layer {
     /// GL_ALPHA_TEST with its reference value.
     pub alpha_test: Option<(Compare, f32)>,
     pub blend: Blend,
-    /// Whether it decides visibility by the pass's own depth test; `false`: depth EQUAL to what an earlier layer left.
+    /// True if it decides visibility by the pass's own depth test; `false`: depth EQUAL to what an earlier layer left.
     pub first: bool,
     pub alpha_write: bool,
 }
@@ -84,7 +84,7 @@ pub enum UnitImage {
     /// Of the batch's inputs.
     Input {
         index: usize,
-        /// Whether its red channel stands in for alpha (GL_TEXTURE_SWIZZLE_A).
+        /// True if its red channel stands in for alpha (GL_TEXTURE_SWIZZLE_A).
         red_as_alpha: bool,
     },
     Mask(Mask),

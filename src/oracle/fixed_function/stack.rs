@@ -15,7 +15,7 @@ const BY_TEXTURE: Combine = Combine::Modulate(Operand::Previous, Operand::Textur
 pub struct Stack<'a> {
     batch: &'a Batch,
     units: Vec<Unit>,
-    /// Whether alpha holds what [`Stack::cone`] put there, to be made steeper.
+    /// True if alpha holds what [`Stack::cone`] put there, to be made steeper.
     cone: bool,
 }
 

@@ -25,9 +25,9 @@ pub struct Surroundings<'a> {
 /// What lies around a visible point, as the light sees it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Around {
-    /// Whether a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
+    /// True if a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
     pub edge: bool,
-    /// Whether the visible surface itself ends or folds over within the reach. It shadows nothing that it is seen with, but
+    /// True if the visible surface itself ends or folds over within the reach. It shadows nothing that it is seen with, but
     /// may be the second layer of a map that stores the middle of two.
     pub own_edge: bool,
     /// How far a caster stands before the plane of the visible surface somewhere within the reach, along the light's ray
@@ -61,7 +61,7 @@ pub struct Blocker {
     pub gap: f64,
     /// The steepest slope of the surface within the reach, as [`Around::slope`].
     pub slope: f64,
-    /// Whether its front looks away from the light.
+    /// True if its front looks away from the light.
     pub is_far_side: bool,
 }
 

@@ -89,7 +89,7 @@ pub(super) struct Beam {
     pub depth_error: f64,
     /// The fraction of the way from apex to base before which nothing counts; in [0, 1). 0 for parallel beams.
     pub start: f64,
-    /// Whether a corner's error turns the rays past it, so that it grows with the distance from the apex. Shadow volumes
+    /// True if a corner's error turns the rays past it, so that it grows with the distance from the apex. Shadow volumes
     /// move each corner along its own ray: there it does not.
     pub levers: bool,
 }
@@ -107,7 +107,7 @@ pub(super) enum Side {
 pub(super) struct Meeting {
     /// The fraction at which the centre segment's line crosses the triangle; `None` where it misses it.
     pub center: Option<f64>,
-    /// Whether all of the beam's lines pass within all three edges.
+    /// True if all of the beam's lines pass within all three edges.
     pub surely_inside: bool,
     /// The crossing against the base.
     pub at_base: Side,
@@ -289,7 +289,7 @@ impl Beam {
         (at_base, at_start)
     }
 
-    /// Whether the edge comes so near that a segment of the beam may sweep over it before its base.
+    /// Tests whether the edge comes so near that a segment of the beam may sweep over it before its base.
     pub fn passes_edge(&self, from: DVec3, to: DVec3, error: f64) -> bool {
         let axis = self.axis();
         let longer = (self.surface_spread[0].length() + self.surface_spread[1].length()) / axis.length();
@@ -307,7 +307,7 @@ impl Beam {
         normal.dot(self.base - on_plane).abs() * taper <= slack
     }
 
-    /// Whether the surface ends or folds over at this edge as seen from the apex: `across` is the far corner of the
+    /// Tests whether the surface ends or folds over at this edge as seen from the apex: `across` is the far corner of the
     /// triangle on the other side, `third` that of this one. An edge that cannot be told is taken for a fold.
     pub fn is_fold(&self, edge: [DVec3; 2], third: DVec3, across: Option<DVec3>, error: f64) -> bool {
         let Some(across) = across else { return true };

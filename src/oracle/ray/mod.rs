@@ -313,7 +313,7 @@ impl<'a> Tracer<'a> {
         [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| beam.passes_edge(from, to, error))
     }
 
-    /// Whether the surface ends or folds over, as seen from the beam's apex, at an edge inside the beam.
+    /// Tests whether the surface ends or folds over, as seen from the beam's apex, at an edge inside the beam.
     fn folds_inside(&self, beam: &Beam, triangle: &Triangle<'_>, error: f64) -> bool {
         (0..3).any(|k| {
             let [from, to, third] = [0, 1, 2].map(|i| triangle.corners[(k + i) % 3]);

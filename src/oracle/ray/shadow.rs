@@ -23,7 +23,7 @@ enum Verdict {
 }
 
 impl Tracer<'_> {
-    /// Whether the light reaches the centre point, and what makes that doubtful. Of a point that `is_sure` denies, for the
+    /// Tests whether the light reaches the centre point, and what makes that doubtful. Of a point that `is_sure` denies, for the
     /// answer is doubtful anyway, only the first.
     pub fn light_reaches(&self, seen: &Seen<'_>, is_sure: bool) -> (bool, Option<Reason>) {
         let (height, tilt) = self.height_of_light(seen);
@@ -89,7 +89,7 @@ impl Tracer<'_> {
         if is_cut_short { (self.is_clear_at_center(beam, seen), reason) } else { (lit, reason) }
     }
 
-    /// Whether nothing stands in the way of the beam's middle.
+    /// Tests whether nothing stands in the way of the beam's middle.
     fn is_clear_at_center(&self, beam: &Beam, seen: &Seen<'_>) -> bool {
         let segment = Segment { origin: beam.origin(), direction: beam.axis(), start: beam.start, end: 1.0 };
         let mut is_clear = true;
@@ -139,7 +139,7 @@ impl Tracer<'_> {
         Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
     }
 
-    /// Whether the triangle may cut the beam off at one of its ends: at the light, to which it may come as near as it
+    /// Tests whether the triangle may cut the beam off at one of its ends: at the light, to which it may come as near as it
     /// likes, within the error of both it may stand on either side. A triangle that shares a corner with the visible
     /// one is the same surface: within the error of the point, and without a fold between, it cannot be in the way.
     fn doubt_depth(&self, meeting: &Meeting, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<Reason> {

@@ -135,7 +135,7 @@ fn winding(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> i32 {
     triangles.iter().map(sign).sum()
 }
 
-/// Whether a point lies on a triangle, within the rounding of f64.
+/// Tests whether a point lies on a triangle, within the rounding of f64.
 fn touches(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> bool {
     let is_near = |triangle: &u32| {
         let local = solid.corners(*triangle).map(|corner| solid.position(corner) - point);

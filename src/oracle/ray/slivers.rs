@@ -90,7 +90,7 @@ impl Slivers {
 }
 
 impl Sliver {
-    /// Whether the side, moved by `aside` at the depth of `seen`, covers the ray from the eye through it, at any depth.
+    /// Tests whether the side, moved by `aside` at the depth of `seen`, covers the ray from the eye through it, at any depth.
     fn covers(&self, eye: DVec3, seen: DVec3, aside: f64) -> bool {
         let (mut start, mut end) = (0.0_f64, f64::INFINITY);
         for plane in &self.within {

@@ -25,7 +25,7 @@ pub(super) struct Solid<'a> {
     /// For a triangle's edge k (corner k to k+1) the corner opposite that edge in the one triangle across it, an index
     /// into the mesh's positions, or [`OPEN`].
     pub across: Vec<[u32; 3]>,
-    /// Whether edge k joins two parts or vertices of other texture coordinates: alpha may jump there.
+    /// True if edge k joins two parts or vertices of other texture coordinates: alpha may jump there.
     pub seam: Vec<[bool; 3]>,
     /// Each triangle's part; `u32::MAX` where no part holds it.
     pub part: Vec<u32>,
@@ -74,12 +74,12 @@ impl<'a> Solid<'a> {
         [self.mesh.indices[first], self.mesh.indices[first + 1], self.mesh.indices[first + 2]]
     }
 
-    /// Whether two corners fall together, so that the triangle covers nothing.
+    /// Tests whether two corners fall together, so that the triangle covers nothing.
     pub fn is_degenerate(&self, triangle: u32) -> bool {
         is_flat(&self.welded[triangle as usize])
     }
 
-    /// Whether two triangles share a corner.
+    /// Tests whether two triangles share a corner.
     pub fn touch(&self, one: u32, other: u32) -> bool {
         let other = self.welded[other as usize];
         self.welded[one as usize].iter().any(|corner| other.contains(corner))

@@ -115,7 +115,7 @@ pub struct Hit {
 }
 
 impl Hit {
-    /// Whether the visible side faces the light.
+    /// Tests whether the visible side faces the light.
     pub fn faces_light(&self) -> bool {
         self.cos_light > 0.0
     }

@@ -206,7 +206,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         }
     }
 
-    /// Whether the light may stand in the visible triangle's own plane, and it counts.
+    /// Tests whether the light may stand in the visible triangle's own plane, and it counts.
     fn grazing(&self, seen: &Seen<'_>) -> Option<Reason> {
         if self.rule(&seen.triangle) == Rule::Never {
             return None;
@@ -224,7 +224,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         self.rules[triangle.object as usize][triangle.index as usize]
     }
 
-    /// Whether the triangle has a volume under this light.
+    /// Tests whether the triangle has a volume under this light.
     fn counts(&self, triangle: &Triangle<'_>) -> bool {
         let height = triangle.normal().dot(self.to_light(triangle.corners[0]));
         match self.rule(triangle) {

@@ -66,7 +66,7 @@ pub(super) struct Segment {
 pub(super) struct Tube {
     /// Where the segment's parameter is 1.
     pub radius: f64,
-    /// Whether the radius grows from 0 with the segment's parameter.
+    /// True if the radius grows from 0 with the segment's parameter.
     pub tapers: bool,
 }
 
@@ -204,14 +204,14 @@ impl Triangle<'_> {
         (corner != OPEN).then(|| self.placed.to_world(self.solid.position(corner)))
     }
 
-    /// Whether both have the same three corners, whatever their order.
+    /// Tests whether both have the same three corners, whatever their order.
     pub fn coincides(&self, other: &Triangle<'_>) -> bool {
         let corners = |triangle: &Triangle<'_>| triangle.solid.welded[triangle.index as usize];
         let others = corners(other);
         self.object == other.object && corners(self).iter().all(|corner| others.contains(corner))
     }
 
-    /// Whether `other` continues it across an edge that no third triangle shares.
+    /// Tests whether `other` continues it across an edge that no third triangle shares.
     pub fn continues_in(&self, other: &Triangle<'_>) -> bool {
         let own = self.solid.welded[self.index as usize];
         let others = other.solid.welded[other.index as usize];
@@ -227,7 +227,7 @@ impl Triangle<'_> {
         self.object == other.object && self.index == other.index
     }
 
-    /// Whether both belong to one object and share a corner.
+    /// Tests whether both belong to one object and share a corner.
     pub fn touches(&self, other: &Triangle<'_>) -> bool {
         self.object == other.object && self.solid.touch(self.index, other.index)
     }
@@ -303,7 +303,7 @@ impl Placed {
         self.model_from_world.transform_point3(point)
     }
 
-    /// Whether its transform turns the winding of triangles around.
+    /// Tests whether its transform turns the winding of triangles around.
     pub fn mirrors(&self) -> bool {
         self.world_from_model.determinant() < 0.0
     }
@@ -381,7 +381,7 @@ impl Slab {
         Self { tube, ..self }
     }
 
-    /// Whether the tube may meet the node's box before `end`.
+    /// Tests whether the tube may meet the node's box before `end`.
     ///
     /// Where it tapers it is no wider, at the box, than where it leaves the box grown by its greatest width: that bound is
     /// applied again and again while it makes the tube much thinner. A far or huge surface, which f32 may move by more

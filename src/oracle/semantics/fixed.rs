@@ -214,7 +214,7 @@ fn on_floor(clip_from_model: DMat4, [x, y]: [f64; 2]) -> Option<DVec4> {
     along.is_finite().then(|| near + (far - near) * along)
 }
 
-/// Whether a look-up's result is valid; `None` where coordinates or reference are too close to call: positions are
+/// Tests whether a look-up's result is valid; `None` where coordinates or reference are too close to call: positions are
 /// known to about 1/32 texel, the reference to 1e-3.
 fn texel_grade(value: f64, at: DVec4, stored: &[f64], linear: bool) -> Option<Grade> {
     let side = f64::from(MAP);

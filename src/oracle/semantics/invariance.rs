@@ -25,7 +25,7 @@ const PLAIN: Shader = shader("gl_Position = clip_from_model * position; passed =
 /// A pass that is to meet the depths of a first one.
 struct Again {
     name: &'static str,
-    /// Whether the specification demands it, or only suggests it (enables).
+    /// True if the specification demands it, or only suggests it (enables).
     required: bool,
     shader: Shader,
     /// All of these draw, in turn.

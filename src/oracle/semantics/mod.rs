@@ -102,12 +102,12 @@ impl Checked {
         self.outcomes.iter().filter(|outcome| outcome.verdict == verdict).count()
     }
 
-    /// Whether a rule failed that is not waived, or a waiver is out of date.
+    /// Tests whether a rule failed that is not waived, or a waiver is out of date.
     pub fn fails(&self) -> bool {
         self.count(Verdict::Fail) > 0 || !self.stale_waivers.is_empty()
     }
 
-    /// Whether nothing could be tested.
+    /// Tests whether nothing could be tested.
     pub fn is_empty(&self) -> bool {
         self.count(Verdict::Untestable) == self.outcomes.len()
     }

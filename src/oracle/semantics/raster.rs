@@ -198,7 +198,7 @@ fn behind(subject: &Subject, findings: &mut Findings, surface: &Surface, random:
     Ok(())
 }
 
-/// Whether a point of normalised device coordinates lies in a triangle's part before the eye and between near and far:
+/// Tests whether a point of normalised device coordinates lies in a triangle's part before the eye and between near and far:
 /// the weights w of its corners solve sum w (x, y, w) = (X, Y, 1).
 fn homogeneous(corners: [[f32; 4]; 3], [x, y]: [f64; 2]) -> bool {
     let rows = corners.map(|corner| corner.map(f64::from)).map(|[x, y, _, w]| [x, y, w]);

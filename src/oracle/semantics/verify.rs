@@ -54,7 +54,7 @@ impl Tally {
 /// How much nearer than this reference and texel may be taken for equal (2^-16: a reference of 16 bits).
 pub const NEAR_TIE: f64 = 1.0 / 65536.0;
 
-/// Whether the eight functions' results, in [`Compare::ALL`]'s order, are those of one order of `reference` against
+/// Tests whether the eight functions' results, in [`Compare::ALL`]'s order, are those of one order of `reference` against
 /// `stored`, and of one that is possible: the true one, or any within `error`.
 pub fn comparisons(results: [f32; 8], reference: f64, stored: f64, error: f64) -> Grade {
     let explains = |order: Ordering| {
@@ -194,13 +194,13 @@ pub fn stencil(op: StencilOp, old: u8, reference: i32, write_mask: u32) -> u8 {
     (old & !mask) | (new & mask)
 }
 
-/// Whether a fragment passes the stencil test: the clamped reference on the left.
+/// Tests whether a fragment passes the stencil test: the clamped reference on the left.
 pub fn stencil_passes(compare: Compare, reference: i32, stored: u8, read_mask: u32) -> bool {
     let mask = (read_mask & 0xFF) as u8;
     compare.holds((reference.clamp(0, 255) as u8 & mask).cmp(&(stored & mask)))
 }
 
-/// Whether a triangle covers a pixel's centre; `None` within `band` pixels of an edge's line, where the raster may
+/// Tests whether a triangle covers a pixel's centre; `None` within `band` pixels of an edge's line, where the raster may
 /// decide either way. Corners in pixels, of either winding.
 pub fn covers(corners: [[f64; 2]; 3], center: [f64; 2], band: f64) -> Option<bool> {
     let distances = [0, 1, 2].map(|index| {

@@ -55,7 +55,7 @@ impl Number {
 }
 
 impl Waiver {
-    /// Whether it is of this driver and one of its versions.
+    /// Tests whether it is of this driver and one of its versions.
     fn is_of(&self, context: &ContextInfo) -> bool {
         let Some((_, after)) = context.version.split_once(&self.version) else { return false };
         let number = Number::leading(after);
@@ -134,7 +134,7 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]
     stale
 }
 
-/// Whether this context could not ask what the waiver is about.
+/// Tests whether this context could not ask what the waiver is about.
 fn may_be_untested(outcome: &Outcome, waiver: &Waiver) -> bool {
     let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Untestable);
     let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != Verdict::Untestable);

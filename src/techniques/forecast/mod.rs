@@ -133,7 +133,7 @@ impl<'a> Forecast<'a> {
         Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
     }
 
-    /// Whether a few samples do not show that all is well.
+    /// Tests whether a few samples do not show that all is well.
     fn is_uncertain(&self) -> bool {
         self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
     }
@@ -300,7 +300,7 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// Whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
+    /// Tests whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
     /// or, where the map is made of far sides, nothing at all before the plane of what is seen.
     fn is_even(&self, way: &Way<'_>, texel: f64) -> bool {
         let Way { point: seen, slack, .. } = *way;
@@ -355,7 +355,7 @@ fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
     all
 }
 
-/// Whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
+/// Tests whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
 fn is_in(projector: &Projector, point: DVec3) -> bool {
     let clip = projector.clip_from_world() * point.extend(1.0);
     clip.w > 0.0

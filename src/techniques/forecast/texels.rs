@@ -39,7 +39,7 @@ pub struct Texels<'a> {
     settings: &'a Settings,
     stored: Stored,
     offset: PolygonOffset,
-    /// Whether each item is a caster that the map is drawn from.
+    /// True if each item is a caster that the map is drawn from.
     casts: Vec<bool>,
     projector: Projector,
     world_from_light: DMat4,

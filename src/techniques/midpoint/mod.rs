@@ -203,7 +203,7 @@ fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
 
 const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
 
-/// Whether both layers are drawn under GL_DEPTH_CLAMP: the same for both, whose depths must be equal to the bit.
+/// Tests whether both layers are drawn under GL_DEPTH_CLAMP: the same for both, whose depths must be equal to the bit.
 fn is_clamped(view: &FrustumView<'_>, layers: &Layers<'_>) -> bool {
     layers.beyond_far.is_some() || layers.casters.iter().any(|item| is_before_near(view, item))
 }

@@ -143,7 +143,7 @@ fn corners(item: &Item) -> [DVec3; 8] {
     item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner))
 }
 
-/// Whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
+/// Tests whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
 fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
     let (own, others) = (corners(item), corners(other));
     let scale = own.iter().chain(&others).map(|corner| corner.abs().max_element()).fold(0.0, f64::max);

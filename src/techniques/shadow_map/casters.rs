@@ -49,13 +49,13 @@ pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item
     casters
 }
 
-/// Whether some of the item may lie in the light's frustum, or between it and the light.
+/// Tests whether some of the item may lie in the light's frustum, or between it and the light.
 pub fn may_cast(view: &FrustumView<'_>, item: &Item) -> bool {
     let clip_from_model = view.clip_from_world() * item.world_from_model;
     frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
 }
 
-/// Whether some of the item may lie between the light and its near plane. Parallel light has none.
+/// Tests whether some of the item may lie between the light and its near plane. Parallel light has none.
 pub fn is_before_near(view: &FrustumView<'_>, item: &Item) -> bool {
     let Rays::From { .. } = view.projector.rays else { return false };
     frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)

@@ -116,7 +116,7 @@ fn needed<'a>(
     Some((face, face_view, inside))
 }
 
-/// Whether the camera may see something that looks the face up.
+/// Tests whether the camera may see something that looks the face up.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
     let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };

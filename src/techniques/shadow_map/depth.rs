@@ -25,7 +25,7 @@ pub struct Layer<'a> {
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
-    /// Whether depth is clamped even where no caster comes before the near plane.
+    /// True if depth is clamped even where no caster comes before the near plane.
     pub clamped: bool,
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
@@ -139,7 +139,7 @@ pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Stor
     ImageDesc { label: format!("light {} {name}", view.index), size: [settings.size; 2], format, storage }
 }
 
-/// Whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
+/// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
 /// that plane's depth instead of being clipped; says so of `what`. Near and far are the map's, not the light's.
 pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
     let Some(item) = clamps_near(view, layer) else { return layer.clamped };
@@ -188,7 +188,7 @@ pub fn state(
 /// The greatest depth that is drawn where what is cleared must lie behind it: two codes of 16 bits before 1.
 const LAST: f64 = 1.0 - 1.0 / 32_768.0;
 
-/// Whether an offset could move what is drawn to the depth that the map is cleared to, although what it shadows lies behind:
+/// Tests whether an offset could move what is drawn to the depth that the map is cleared to, although what it shadows lies behind:
 /// what lies beyond the box of parallel light is compared at depth 1, and would be lit through it. A steep side's offset has no
 /// bound. What lies beyond the box itself must still be clipped.
 fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {

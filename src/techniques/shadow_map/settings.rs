@@ -102,7 +102,7 @@ pub struct Settings {
     /// Texels a side.
     pub size: u32,
     pub format: DepthFormat,
-    /// Whether the texture is unsized, so that the driver chooses its bits: `format` is then the one to expect, that of the
+    /// True if the texture is unsized, so that the driver chooses its bits: `format` is then the one to expect, that of the
     /// picture's depth buffer [lecture, "New Depth Texture Internal Texture Formats"].
     pub is_unsized: bool,
     pub transfer: Transfer,
@@ -115,7 +115,7 @@ pub struct Settings {
     pub kernel: u32,
     pub mipmaps: Mipmaps,
     pub fit: Fit,
-    /// Whether casters are drawn with no more triangles than the map's texels show.
+    /// True if casters are drawn with no more triangles than the map's texels show.
     pub simplified: bool,
     /// What `fit` comes to in a scene; the whole until [`super::fit::crop`] was asked.
     pub crop: Crop,

@@ -66,7 +66,7 @@ fn why_unneeded(
         .then_some("it is flat, and all that is seen is on its lit side")
 }
 
-/// Whether a spotlight's light misses the caster.
+/// Tests whether a spotlight's light misses the caster.
 fn outside_cone(view: &LightView<'_>, caster: &Casting) -> bool {
     view.light().frustum().is_some_and(|frustum| {
         let clip_from_model = frustum.unbounded().clip_from_world() * caster.world_from_model;

@@ -120,7 +120,7 @@ fn most_layers(drawn: &[&Casting]) -> usize {
     shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
 }
 
-/// Whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
+/// Tests whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
 fn may_wrap(point: &Point) -> bool {
     let most = point.within + point.doubtful;
     most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS

@@ -51,7 +51,7 @@ pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Opt
     shortest.is_finite().then_some(Plane { distance: plane.distance + MARGIN * reach, ..plane })
 }
 
-/// Whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
+/// Tests whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
 /// nothing that is seen, itself included.
 pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source) -> bool {
     let Some(axis) = caster.bounds.flat_axis() else { return false };

@@ -210,7 +210,7 @@ impl<'a> World<'a> {
         Ray { origin: point - way, way, start: 0.0, end: 1.0 }
     }
 
-    /// Whether the volume of a triangle that the ray crosses ends beyond t = 1, if it ends.
+    /// Tests whether the volume of a triangle that the ray crosses ends beyond t = 1, if it ends.
     fn goes_on(&self, triangle: u32, ray: &Ray) -> bool {
         let Some(end) = self.ended.get(triangle as usize) else { return true };
         let normal = (end[1] - end[0]).cross(end[2] - end[0]);
@@ -235,7 +235,7 @@ impl<'a> World<'a> {
             }
     }
 
-    /// Whether a triangle's surface passes the alpha test at a point of it.
+    /// Tests whether a triangle's surface passes the alpha test at a point of it.
     fn is_opaque(&self, triangle: u32, point: DVec3) -> bool {
         let (owner, number) = self.owners[triangle as usize];
         alpha::passes(&self.view.items[owner], number, self.surfaces.corners(triangle), point)

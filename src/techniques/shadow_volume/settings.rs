@@ -42,7 +42,7 @@ pub const METHODS: [(&str, Method); 8] = [
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub method: Method,
-    /// Whether counts wrap modulo 256 or stop at 0 and 255.
+    /// True if counts wrap modulo 256 or stop at 0 and 255.
     pub wrap: bool,
     /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
     pub distance: Option<f64>,

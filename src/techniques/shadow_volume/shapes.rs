@@ -31,7 +31,7 @@ impl Shape {
         std::iter::once(&self.sides).chain(&self.caps).cloned()
     }
 
-    /// Whether it has a cap that must have its caster's very depths.
+    /// Tests whether it has a cap that must have its caster's very depths.
     pub fn meets_surface(&self) -> bool {
         self.way != Way::ZPassCapped && !self.caps.is_empty()
     }

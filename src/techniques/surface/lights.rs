@@ -27,7 +27,7 @@ pub struct LightParts {
     pub meaning: LightMeaning,
     pub has_specular: bool,
     pub has_ambient: bool,
-    /// Whether its direction differs from point to point.
+    /// True if its direction differs from point to point.
     pub has_position: bool,
     pub has_attenuation: bool,
 }

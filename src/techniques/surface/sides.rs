@@ -10,7 +10,7 @@ const MOST_TRIANGLES: usize = 64;
 /// Cosines below this are left in doubt: far above what f32 rounds, far below what shows.
 const LEAST_COSINE: f64 = 1e-4;
 
-/// Whether no back face of the item can be seen: it is declared closed, has no holes by alpha, and all of it lies before
+/// Tests whether no back face of the item can be seen: it is declared closed, has no holes by alpha, and all of it lies before
 /// the near plane, so that the viewer is outside of it.
 pub fn shows_no_back_face(item: &Item, clip_from_model: &DMat4) -> bool {
     let before_near = |corner: DVec3| {
@@ -20,7 +20,7 @@ pub fn shows_no_back_face(item: &Item, clip_from_model: &DMat4) -> bool {
     item.closed && !item.needs_alpha_test() && item.bounds.corners().into_iter().all(before_near)
 }
 
-/// Whether every normal of the item, wherever it is interpolated, looks towards the viewer's eye: then none of them is
+/// Tests whether every normal of the item, wherever it is interpolated, looks towards the viewer's eye: then none of them is
 /// ever turned. False for large meshes, and where the vertex stage moves vertices.
 ///
 /// At a point of a triangle both the normal and the way to the eye are mixtures of the corners' by the same weights, so

@@ -58,27 +58,27 @@ impl View {
         VIEWS.iter().find(|row| row.1 == self).map_or("", |row| row.0)
     }
 
-    /// Whether it shows one light of the scene.
+    /// Tests whether it shows one light of the scene.
     pub fn of_light(self) -> bool {
         VIEWS.iter().any(|row| row.1 == self && row.2)
     }
 
-    /// Whether it needs a shadow map.
+    /// Tests whether it needs a shadow map.
     pub fn needs_map(self) -> bool {
         matches!(self, Self::LightDepth | Self::ProjectedMap | Self::TexelsPerPixel)
     }
 
-    /// Whether it shows what shadow volumes count.
+    /// Tests whether it shows what shadow volumes count.
     pub fn needs_count(self) -> bool {
         matches!(self, Self::StencilCount | Self::StencilColors | Self::Volume | Self::Silhouette)
     }
 
-    /// Whether it shows a stencil buffer.
+    /// Tests whether it shows a stencil buffer.
     pub fn is_stencil(self) -> bool {
         matches!(self, Self::StencilCount | Self::StencilColors)
     }
 
-    /// Whether a count in the stencil buffer decides what it shows.
+    /// Tests whether a count in the stencil buffer decides what it shows.
     pub fn depends_on_shade(self) -> bool {
         self == Self::Shade || self.needs_count()
     }
