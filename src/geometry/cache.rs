@@ -2,7 +2,7 @@
 
 use super::Mesh;
 
-/// As many triangles as a software driver transforms at once, about, each vertex in them once.
+/// Number of triangles that a software driver transforms at once, roughly, each vertex in them once.
 const WINDOW: usize = 1024;
 
 /// Vertices a triangle in such windows: 0.5 at best, 0.65 in a mesh that is ordered well, 3 in one that is shuffled.

@@ -19,7 +19,7 @@ pub(super) struct MapOptions<'a> {
     pub file: &'a str,
 }
 
-/// What is done to a texture's values before it is used.
+/// Change of a texture's values before it is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Values {
     /// -imfchan; `None`: alpha, or red where all is opaque.
@@ -35,7 +35,7 @@ impl Default for Values {
     }
 }
 
-/// What a scalar texture is made of.
+/// Channel of a scalar texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Channel {
     Red,
@@ -47,7 +47,7 @@ pub(super) enum Channel {
 }
 
 impl Channel {
-    /// From a texel, in [0, 255].
+    /// Value of a texel, in [0, 255].
     fn of(self, [r, g, b, a]: [u8; 4]) -> f32 {
         match self {
             Self::Red => f32::from(r),
@@ -109,7 +109,7 @@ impl<'a> MapOptions<'a> {
         Ok(out)
     }
 
-    /// What follows the option; `None`: it is none, but a file whose name begins with a dash.
+    /// Reads one option and returns the rest of the line; `None`: this is a file name that begins with a dash.
     fn read_option(&mut self, option: &'a str, mut rest: &'a str) -> Result<Option<&'a str>, String> {
         match option.to_ascii_lowercase().as_str() {
             "-s" => self.placement.scale = pair(&mut rest, 1.0)?,

@@ -1,4 +1,4 @@
-//! What a surface is made of, in the terms of fixed-function GL and of MTL.
+//! Materials, in the terms of fixed-function GL and of MTL.
 
 use std::sync::Arc;
 
@@ -24,11 +24,11 @@ pub struct Material {
     pub alpha: Option<Arc<Texture>>,
     /// Generates the decal's coordinates in place of the mesh's own.
     pub texgen: Option<ObjectLinear>,
-    /// Where the decal lies on its coordinates.
+    /// Placement of the decal on its coordinates.
     pub decal_placement: Placement,
-    /// Where map_d lies on the same coordinates.
+    /// Placement of map_d on the same coordinates.
     pub alpha_placement: Placement,
-    /// Where `opacity` is written, for messages: `file:line: statement`; empty: nowhere.
+    /// Line that sets `opacity`, for messages: `file:line: statement`; empty: nowhere.
     pub opacity_origin: String,
 }
 
@@ -44,12 +44,12 @@ impl Material {
     }
 }
 
-/// Where a texture lies on a surface, and whether it repeats (MTL's -s, -o and -clamp).
+/// Placement of a texture on a surface, and whether it repeats (MTL's -s, -o and -clamp).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Multiplies (s, t).
     pub scale: [f32; 2],
-    /// Added to what that comes to.
+    /// Offset, added after the scale.
     pub offset: [f32; 2],
     /// True if the texture's edge goes on beyond [0, 1], in place of more copies of it.
     pub clamped: bool,
@@ -132,7 +132,7 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// The channel of a map_d that the alpha test asks for: alpha, or red where all is opaque.
+    /// The channel of a map_d that the alpha test reads: alpha, or red where all is opaque.
     pub fn alpha_channel(&self) -> usize {
         if self.has_alpha { 3 } else { 0 }
     }

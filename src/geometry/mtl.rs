@@ -1,4 +1,4 @@
-//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and written anew, then parsed by tobj. Other
+//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and rewritten, then parsed by tobj. Other
 //! statements are left out, with a warning where that changes the picture. Format: Wavefront's "MTL material format",
 //! version 4.2.
 
@@ -24,7 +24,7 @@ pub(super) struct Library {
     oddities: Tally,
 }
 
-/// What d or Tr says.
+/// Opacity by d or Tr.
 #[derive(Clone, Debug)]
 struct Opacity {
     value: f32,
@@ -35,7 +35,7 @@ struct Opacity {
     origin: String,
 }
 
-/// A texture that a material asks for.
+/// A texture that a material names.
 #[derive(Debug)]
 struct Map {
     material: usize,
@@ -53,7 +53,7 @@ struct Map {
 enum Statement {
     Decal,
     Alpha,
-    /// Not applied: most files name map_Kd's picture here too, and the decal modulates ambient light.
+    /// Ignored: most files name map_Kd's picture here too, and the decal modulates ambient light.
     Ambient,
 }
 
@@ -66,7 +66,7 @@ impl Statement {
         }
     }
 
-    /// What is drawn without its texture.
+    /// Names what is drawn if its texture is missing.
     fn without(self) -> &'static str {
         match self {
             Self::Alpha => "the surface has no holes",
@@ -75,7 +75,7 @@ impl Statement {
     }
 }
 
-/// Where a statement stands.
+/// Place of a statement.
 #[derive(Clone, Copy)]
 struct Place<'a> {
     path: &'a Path,
@@ -363,7 +363,7 @@ impl Map {
     }
 }
 
-/// Where Ka is not given, Kd stands in, as with GL_AMBIENT_AND_DIFFUSE.
+/// Converts a material. If Ka is missing, Kd is used, as with GL_AMBIENT_AND_DIFFUSE.
 fn convert(material: tobj::Material) -> Material {
     let default = Material::default();
     let diffuse = material.diffuse.unwrap_or(default.diffuse);

@@ -36,17 +36,17 @@ pub(super) fn complete(mesh: &mut Mesh, crease_radians: f64) -> usize {
 
 struct Smoother {
     crease_cosine: f64,
-    /// Within this of the mean, all pairs are within the crease angle.
+    /// Cosine of the angle to the mean within which all pairs are within the crease angle.
     half_crease_cosine: f64,
     /// The place (welded vertex) of each vertex.
     places: Vec<u32>,
-    /// Where each place's corners begin in `corners`; one more than places.
+    /// Start of each place's corners in `corners`; one more than places.
     starts: Vec<u32>,
     /// Corners (indices into the mesh's indices), by place.
     corners: Vec<u32>,
-    /// Of each triangle; zero where it has none.
+    /// Normal of each triangle; zero if it has none.
     normals: Vec<DVec3>,
-    /// Of each corner, in radians.
+    /// Angle of each corner, in radians.
     angles: Vec<f32>,
 }
 

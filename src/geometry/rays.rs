@@ -19,7 +19,7 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// From each box's least and greatest corner.
+    /// Builds the tree from each box's least and greatest corner.
     pub fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
         let mut reach: f64 = 0.0;
         let boxes: Vec<Aabb> = boxes
@@ -90,7 +90,7 @@ struct Slab {
 }
 
 impl Slab {
-    /// For boxes within `reach` of the origin: the ray's own end may lie at infinity, and none is met there.
+    /// Prepares the ray for boxes within `reach` of the origin. Its own end may be at infinity, where no box is.
     fn new(ray: &Ray, reach: f64) -> Self {
         let size = ray.origin.abs().max_element().max(reach);
         Self { ray: *ray, inverse: ray.way.recip(), pad: 16.0 * f64::EPSILON * size }
@@ -106,9 +106,9 @@ impl Slab {
     }
 }
 
-/// Where the ray's line crosses a triangle. Corners are sheared so that the ray is the third axis [Woop, Benthin and Wald
-/// 2013]; an edge's sign comes from its own two corners, and one that the line meets is taken to lie aside of it by next
-/// to nothing, the same way for both its triangles.
+/// Crossing of the ray's line with a triangle. Corners are sheared so that the ray is the third axis [Woop 2013]. An edge's
+/// sign comes from its own two corners. An edge that the line meets counts as slightly beside the line, the same way for
+/// both its triangles.
 fn crossing(ray: &Ray, corners: &[DVec3; 3]) -> Option<f64> {
     let size = ray.way.abs();
     let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };

@@ -13,7 +13,7 @@ use super::rays::{Ray, Triangles};
 /// A range of a mesh's triangles in a box hierarchy.
 pub struct Sampled(Arc<Triangles>);
 
-/// Where a ray crosses a triangle.
+/// Crossing of a ray and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
     /// The parameter along the ray.
@@ -36,7 +36,7 @@ static CACHE: Mutex<Option<Cache>> = Mutex::new(None);
 #[derive(Default)]
 struct Cache {
     kept: HashMap<Key, Kept>,
-    /// As many are let in before those of dead meshes are let go.
+    /// Number of trees to keep before those of dead meshes are dropped.
     room: usize,
 }
 

@@ -1,4 +1,4 @@
-//! How the triangles of a mesh hang together: places (vertices welded by position), edges, closedness.
+//! Connections of a mesh's triangles: places (vertices welded by position), edges, closedness.
 
 use glam::DVec3;
 
@@ -43,7 +43,7 @@ fn hash(position: &[f32; 3]) -> u64 {
     h ^ (h >> 31)
 }
 
-/// What a mesh is as a surface. Triangles two of whose corners share a place do not count.
+/// Counts of a mesh's edges and triangles. Triangles two of whose corners share a place do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Topology {
     /// Places that a triangle uses.

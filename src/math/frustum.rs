@@ -1,10 +1,10 @@
-//! Which boxes a clip volume can show: conservative tests, in f64, of homogeneous corners.
+//! Tests of which boxes a clip volume can show: conservative, in f64, by homogeneous corners.
 
 use glam::{DMat4, DVec3, DVec4};
 
 use super::Aabb;
 
-/// What of a box lies in a clip volume.
+/// Overlap of a box and a clip volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlap {
     /// All corners are beyond one clip plane: nothing of the box can be drawn.
@@ -40,7 +40,7 @@ pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     }
 }
 
-/// As [`overlap`] under GL_DEPTH_CLAMP, where no near and no far plane clips: whether something of the box may be drawn.
+/// Tests whether something of the box may be drawn under GL_DEPTH_CLAMP, where no near and no far plane clips.
 pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
     if bounds.is_empty() {
         return false;
@@ -49,7 +49,7 @@ pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
         return true;
     }
     let corners = bounds.corners().map(|corner| *clip_from_box * corner.extend(1.0));
-    // Where the sides meet, and behind that, is what w alone tells [GL 4.6, 13.7].
+    // Only w shows what lies where the sides meet, or behind that [GL 4.6, 13.7].
     corners.iter().any(|corner| corner.w >= -slack(corner))
         && (0..4).all(|plane| corners.iter().any(|corner| signed_distance(corner, plane) >= -slack(corner)))
 }
@@ -115,7 +115,7 @@ pub fn faces(corners: &[DVec3; 8]) -> [[DVec3; 4]; 6] {
         .map(|face| face.map(|corner| corners[corner]))
 }
 
-/// What of a convex polygon lies on the inner side of `plane` [Sutherland and Hodgman].
+/// Part of a convex polygon on the inner side of `plane` [Sutherland and Hodgman 1974].
 pub fn clip_polygon(polygon: &[DVec3], plane: &DVec4) -> Vec<DVec3> {
     let distance = |point: DVec3| plane.dot(point.extend(1.0));
     let mut clipped = Vec::with_capacity(polygon.len() + 1);

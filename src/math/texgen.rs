@@ -21,7 +21,7 @@ pub enum SetUp {
     Identity,
 }
 
-/// How much of the transform the texture matrix `T` carries, in place of the planes.
+/// Share of the transform that the texture matrix `T` carries, in place of the planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// T = I.
@@ -41,7 +41,7 @@ pub struct Spaces {
     pub eye_from_world: DMat4,
 }
 
-/// What glTexGen, glMatrixMode(GL_TEXTURE) and the modelview stack would be given. Rows of `planes` are s, t, r, q.
+/// Arguments for glTexGen, glMatrixMode(GL_TEXTURE) and the modelview stack. Rows of `planes` are s, t, r, q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texgen {
     /// `E_po`, as specified.
@@ -67,7 +67,7 @@ pub fn set_up(spaces: &Spaces, set_up: SetUp, split: Split) -> Option<Texgen> {
         Split::ScaleBias => scale_bias,
         Split::Projection => scale_bias * projection,
     };
-    // What is left for the planes once T has its share.
+    // The planes have what remains after T.
     let texture_from_light = match split {
         Split::Planes => scale_bias * projection,
         Split::ScaleBias => projection,

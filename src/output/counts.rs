@@ -1,5 +1,5 @@
-//! Stencil counts as colours with a legend [GDC 2001; techniques C11]: green lit, red shadowed, the deeper the darker;
-//! violet what a count below 0 left, likewise.
+//! Stencil counts as colours with a legend [GDC, "Visualizing Stenciled Shadow Volume Tagging"]: green lit, red shadowed,
+//! the deeper the darker; violet what a count below 0 left, likewise.
 
 use super::canvas::{Canvas, Color, LETTER};
 

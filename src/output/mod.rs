@@ -44,7 +44,7 @@ impl FileFormat {
     }
 }
 
-/// The format that `path` asks for, once it is known that a file of that name can be made there.
+/// The format by the extension of `path`, after a check that a file of that name can be made.
 ///
 /// # Errors
 ///

@@ -12,7 +12,7 @@ use tempfile::NamedTempFile;
 
 use crate::process::{Unfinished, unfinished};
 
-/// What the names of unfinished files have in common.
+/// Common part of the names of unfinished files.
 const MARK: &str = ".glumbra-";
 const ENDING: &str = ".tmp";
 /// Letters between the two, chosen at random.
@@ -92,7 +92,7 @@ impl Beside {
     }
 }
 
-/// What a path leads to.
+/// Target of a path.
 enum Target {
     /// A regular file, or one that is yet to be made.
     File(PathBuf),
@@ -110,7 +110,7 @@ impl Target {
     }
 }
 
-/// Where links lead that lead to nothing yet; of anything else, itself.
+/// Follows a link whose target does not exist yet; returns any other path itself.
 fn follow(path: &Path) -> PathBuf {
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();
@@ -141,7 +141,7 @@ fn short_name(path: &Path) -> String {
 }
 
 /// Removes what processes that were killed have left in `folder`. Whatever hinders that is no error of this process.
-/// Elsewhere than on Unix a lock would keep this process itself from writing, so that nothing tells what is stale.
+/// Elsewhere than on Unix a lock would keep this process itself from writing, so that stale files cannot be recognised.
 fn remove_stale(folder: &Path) {
     if !cfg!(unix) {
         return;

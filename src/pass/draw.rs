@@ -1,4 +1,4 @@
-//! What is drawn: ranges of meshes under matrices.
+//! Draws: ranges of meshes under matrices.
 
 use std::ops::{Deref, Range};
 use std::sync::Arc;
@@ -31,13 +31,13 @@ impl Deref for MeshRef {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     pub program: Program,
-    /// What the program computes, for readers without shaders.
+    /// The program's computation, for readers without shaders.
     pub meaning: Meaning,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.
     pub cull: Option<Face>,
-    /// In the place of the pass's own, and no wider.
+    /// Overrides the pass's scissor; must lie inside it.
     pub scissor: Option<[u32; 4]>,
     /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
     /// that clips by a distance of its own.
@@ -46,7 +46,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// What it is drawn under in a pass of this state.
+    /// State that it is drawn with in a pass of this state.
     pub fn state(&self, pass: &DrawState) -> DrawState {
         DrawState {
             cull: self.cull.or(pass.cull),
@@ -67,13 +67,13 @@ pub struct Draw {
     /// Into the mesh's indices.
     pub indices: Range<u32>,
     pub order: IndexOrder,
-    /// Of what the range draws, in model space.
+    /// Bounds of the range, in model space.
     pub bounds: Aabb,
     /// `clip_from_model`: every program of ours has this uniform, and the plan culls by it.
     pub clip_from_model: DMat4,
     /// True if the transform mirrors, so that front faces wind clockwise.
     pub mirrored: bool,
-    /// Beside `clip_from_model`.
+    /// Uniforms in addition to `clip_from_model`.
     pub uniforms: Vec<Uniform>,
 }
 

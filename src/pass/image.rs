@@ -20,7 +20,7 @@ pub struct ImageDesc {
     pub storage: Storage,
 }
 
-/// Where an image's texels live, and where they come from.
+/// Storage of an image's texels, and their origin.
 #[derive(Clone, Debug)]
 pub enum Storage {
     /// A texture that passes draw or copy into and sample.
@@ -62,7 +62,7 @@ impl PartialEq for Storage {
     }
 }
 
-/// Which faces of a cube map passes draw, and what the others hold.
+/// Faces of a cube map that passes draw, and what the others hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cube {
     /// In the order of [`CubeFace::ALL`].
@@ -170,8 +170,8 @@ pub struct Sampler {
     pub wrap: Wrap,
     /// GL_TEXTURE_COMPARE_MODE = GL_COMPARE_REF_TO_TEXTURE with this function; `None`: GL_NONE.
     pub compare: Option<Compare>,
-    /// Where GL_TEXTURE_MIN_LOD and GL_TEXTURE_MAX_LOD both stand, in halves of a level; `None`: at GL's defaults, which
-    /// clamp nothing.
+    /// Value of both GL_TEXTURE_MIN_LOD and GL_TEXTURE_MAX_LOD, in halves of a level; `None`: GL's defaults, which clamp
+    /// nothing.
     pub lod_halves: Option<u8>,
 }
 

@@ -1,5 +1,5 @@
-//! What a batch's shaders compute, in the terms of the fixed-function pipeline: plain values beside the program, for a
-//! reader that has no shaders. Who writes the program sets them; tests hold the two readings against each other.
+//! Description of a batch's shaders in the terms of the fixed-function pipeline: plain values beside the program, for a
+//! reader without shaders. Code that chooses the program sets them; tests compare the two.
 //!
 //! Colours are linear RGB. Images are named as the batch's inputs are, so that they follow when the list is
 //! renumbered.
@@ -11,14 +11,15 @@ use glam::{DMat4, Vec4};
 use crate::geometry::{ObjectLinear, Placement};
 use crate::math::texgen::Texgen;
 
-/// What a batch draws.
+/// Description of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
     /// Depth alone.
     Depth(Texturing),
     /// One colour, RGBA.
     Constant([f32; 4]),
-    /// `(ambient + shade·diffuse)·decal + shade·specular`, summed over lights [techniques A12].
+    /// `(ambient + shade·diffuse)·decal + shade·specular`, summed over lights [LEC, "Advice for Shadowed Illumination
+    /// Model"].
     Lit(Box<Lit>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
     Sampled(Box<Sampled>),
@@ -35,19 +36,19 @@ pub struct Texturing {
     pub alpha_test: Option<AlphaTest>,
     /// True if the decal's RGB modulates diffuse and ambient light.
     pub decal: bool,
-    /// Where the decal lies on the coordinates.
+    /// Placement of the decal on the coordinates.
     pub decal_placement: Placement,
-    /// Where the alpha map does.
+    /// Placement of the alpha map.
     pub alpha_placement: Placement,
 }
 
-/// What alpha is made of.
+/// Factors of alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlphaTest {
     pub opacity: f32,
     /// True if the decal's alpha is a factor.
     pub decal: bool,
-    /// True if the alpha map stands in its red channel, not in its alpha.
+    /// True if the alpha map's values are in its red channel, not in its alpha.
     pub map_in_red: bool,
 }
 
@@ -101,10 +102,10 @@ pub struct Sampled {
     pub shade: Shade,
 }
 
-/// How a light's texture coordinates are generated, and where it reaches by them.
+/// Generation of a light's texture coordinates, and its reach in them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projection {
-    /// Which light's it is: the index that the light's uniforms end in.
+    /// Index of the light, as at the end of its uniforms' names.
     pub light: usize,
     pub texgen: Texgen,
     /// Scale and offset from (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
@@ -115,7 +116,7 @@ pub struct Projection {
     pub cone: bool,
 }
 
-/// Where a light's shade comes from.
+/// Source of a light's shade.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shade {
     /// It is 1.

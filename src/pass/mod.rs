@@ -45,12 +45,12 @@ pub struct Pass {
     pub work: Work,
 }
 
-/// Whether a pass may be left out of a frame that would draw the same again.
+/// Rule for leaving a pass out of a frame that would draw the same again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Redraw {
-    /// In every frame.
+    /// Draws in every frame.
     Always,
-    /// In the first frame, and in each that differs in this pass.
+    /// Draws in the first frame, and in each that differs in this pass.
     WhenChanged,
 }
 
@@ -61,7 +61,7 @@ pub enum Work {
     CopyDepth {
         from: ImageId,
         to: ImageId,
-        /// Of `to`, where that is a cube map.
+        /// Face of `to`, if that is a cube map.
         face: Option<CubeFace>,
     },
 }
@@ -70,7 +70,7 @@ pub enum Work {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawPass {
     pub target: Target,
-    /// In pixels, from the target's lower left corner; what is cleared is the whole target.
+    /// Size in pixels, from the target's lower left corner. Clears affect the whole target.
     pub viewport: [u32; 2],
     pub clear: Clear,
     pub state: DrawState,
@@ -83,13 +83,13 @@ pub struct Target {
     pub color: Option<ImageId>,
     /// Attached as depth and stencil where its format has both.
     pub depth: Option<ImageId>,
-    /// Of the images that have several levels.
+    /// Level of images that have several.
     pub level: u32,
-    /// Of `depth`, where that is a cube map.
+    /// Face of `depth`, if that is a cube map.
     pub face: Option<CubeFace>,
 }
 
-/// What is cleared before the draws.
+/// Values to clear to before the draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clear {
     pub color: Option<[f32; 4]>,

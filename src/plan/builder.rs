@@ -31,7 +31,7 @@ pub struct Builder<'a> {
     pub request: &'a Request,
 }
 
-/// Where surfaces are drawn, for whom, and how.
+/// Target, viewer and state of a pass that draws surfaces.
 pub struct Onto<'a> {
     pub label: &'a str,
     pub target: Target,
@@ -152,7 +152,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Where nothing clips at the scene's far plane and something reaches beyond it, fragments there are discarded.
+    /// Discards fragments beyond the scene's far plane if nothing else clips there and something reaches beyond.
     pub fn cut_at_far(&self, lens: &Lens, batches: &mut [Batch]) {
         let camera = &self.scene.camera;
         let reaches_beyond = |item: &Item| {
@@ -251,7 +251,7 @@ fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
     other.map_or(Ok(()), |(second, _)| Err(Error::TwoLedges { first, second }))
 }
 
-/// What clip planes at lights do not go with: more of them than a few, and passes that must meet the depths again.
+/// Refuses clip planes at lights beside passes that must meet the same depths again, and more than a few of them.
 fn check_cuts(terms: &[&LightTerm]) -> Result<(), Error> {
     let cutting: Vec<usize> =
         terms.iter().filter(|term| term.guard == Guard::ClipPlane).map(|term| term.index).collect();

@@ -69,7 +69,7 @@ fn light_terms(
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
         let shown = request.views.iter().any(|v| of_this(&v));
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
-        // What is out of the camera's sight may be in another viewer's.
+        // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
         let keep_all = request.keep_all;
         let sampled_warnings = request.sampled_warnings;

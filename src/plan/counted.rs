@@ -1,7 +1,8 @@
-//! Pictures of lights whose shadow is counted in the stencil buffer [GDC 2001; techniques C9, C10, C11]: depth and all
-//! light that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags
-//! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL. Or, for one light, the talk's two
-//! passes: depth, its count, then the scene with that light where the count is 0 and without it where it is not.
+//! Pictures of lights whose shadow is counted in the stencil buffer [GDC, "Shadow Volume Algorithm"]: depth and all light
+//! that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags [LEC,
+//! "Combining Shadow Mapping with other Techniques"], and its light where the count is 0, with depth EQUAL. Or, for one
+//! light, the talk's two passes: depth, its count, then the scene with that light where the count is 0 and without it where
+//! it is not.
 
 use super::Error;
 use super::builder::{Builder, Onto};
@@ -303,7 +304,8 @@ impl Builder<'_> {
     }
 }
 
-/// What of a light needs no count: a light that is not counted, or what a shadow leaves of one that is.
+/// The part of a light that needs no count: a light that is not counted, or the part of a counted light that its shadow
+/// leaves.
 fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
     let source = &scene.lights[term.index];
     let gives = |color: [f32; 3]| color != [0.0; 3];
@@ -330,7 +332,7 @@ fn of_all(term: &LightTerm) -> bool {
     term.counting.as_ref().is_some_and(|counting| counting.of_all)
 }
 
-/// The term of a light where its count is 0: what tagged the surfaces is not asked again.
+/// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(Counting::tags);
     if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }

@@ -1,6 +1,6 @@
-//! The camera's projection and depth range, as what counts in the stencil buffer needs them: a far plane at infinity
-//! (GDC 2001, techniques C4, C6), or a ledge before the near plane (C8). Surfaces and volumes share what is chosen here,
-//! so that their depths are comparable.
+//! The camera's projection and depth range, as what counts in the stencil buffer needs them: a far plane at infinity [GDC,
+//! "OpenGL Renders W=0 Polygons Correctly"], or a ledge before the near plane [GDC, "Building a "Ledge" at the Front of the
+//! Depth Buffer"]. Surfaces and volumes share what is chosen here, so that their depths are comparable.
 
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
@@ -12,7 +12,7 @@ use crate::techniques::surface::Viewer;
 /// The bits of the depth buffer that volumes are counted against.
 const DEPTH_BITS: u32 = 24;
 
-/// How the camera's picture is projected.
+/// Projection and depth ranges of the camera's picture.
 pub struct Lens {
     /// Surfaces, and volumes on [`Layer::Scene`].
     pub camera: Viewer,
@@ -40,8 +40,8 @@ impl Lens {
         Self { camera, depth_range: [0.0, 1.0], infinite: false, clamped: false, ledge: None }
     }
 
-    /// What all of `countings` can be counted under. Where one needs the ledge, no far plane is at infinity: the others
-    /// clamp their depth instead (see [`Lens::state`]).
+    /// A projection under which all of `countings` can be counted. Where one needs the ledge, no far plane is at infinity:
+    /// the others clamp their depth instead (see [`Lens::state`]).
     pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a Counting> + Clone) -> Self {
         let mut lens = Self::of_scene(scene);
         let camera = &scene.camera;
@@ -72,7 +72,7 @@ impl Lens {
         }
     }
 
-    /// Tests whether the scene's far plane does not clip, so that what lies beyond it must be left out by hand.
+    /// Tests whether the scene's far plane does not clip, so that fragments beyond it must be discarded.
     pub fn has_no_far_plane(&self) -> bool {
         self.infinite || self.clamped
     }

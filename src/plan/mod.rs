@@ -15,16 +15,16 @@ use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
 use crate::techniques::{Chosen, LeftOut, MapInfo, views::View};
 
-/// What a caller wants of a frame.
+/// A request for a frame.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Whose eyes the picture is drawn for.
+    /// Viewer of the picture.
     pub subject: Subject,
-    /// Beside the picture itself.
+    /// Views in addition to the picture.
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
-    /// How many frames will be drawn of this scene: what pays off is decided by it.
+    /// Frames to be drawn. Decides whether one-time work (sorting indices, keeping maps) is worth it.
     pub frames: u32,
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
     /// objects out of sight, colour buffers of depth passes, maps that are there already.
@@ -32,7 +32,7 @@ pub struct Request {
     /// True if points that the camera sees are sampled to find what the picture will show wrong, for [`Plan::warnings`].
     /// That costs some 10 to 100 ms a light: what is planned for every frame of a window goes without.
     pub sampled_warnings: bool,
-    /// What the driver can do.
+    /// Limits of the driver.
     pub limits: Limits,
 }
 
@@ -50,19 +50,19 @@ impl Default for Request {
     }
 }
 
-/// Who sees the picture.
+/// Viewer of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
     /// The scene's camera; the whole picture.
     #[default]
     Camera,
-    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture,
-    /// in its lower left corner. A shadow map that is copied from the window's own depth buffer has that size
-    /// [techniques E].
+    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture, in
+    /// its lower left corner. A shadow map that is copied from the window's own depth buffer has that size as in the sample
+    /// program hw_shadowmaps_simple.
     Light(usize),
 }
 
-/// What the driver at hand can do; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
+/// Limits of a driver; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// The lesser of GL_MAX_TEXTURE_SIZE, GL_MAX_RENDERBUFFER_SIZE and GL_MAX_VIEWPORT_DIMS.
@@ -95,7 +95,7 @@ pub struct Plan {
     pub left_out: Vec<LeftOut>,
     pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
-    /// The maps of the lights that the picture or a view asks for one, in the scene's order.
+    /// Maps of the lights that the picture or a view needs, in the scene's order.
     pub maps: Vec<MapInfo>,
 }
 

@@ -43,7 +43,7 @@ fn keep_all(plan: &mut Plan) {
 }
 
 /// Draws whose bounds lie beyond one of the pass's clip planes: its sides alone where depth is clamped, unless a clip
-/// distance stands in for the near plane.
+/// distance is used in place of the near plane.
 fn cull_draws(plan: &mut Plan) {
     let left_out = &mut plan.left_out;
     for pass in &mut plan.list.passes {
@@ -76,7 +76,7 @@ fn cull_draws(plan: &mut Plan) {
     }
 }
 
-/// Passes whose images are neither read later nor asked for, last first.
+/// Passes whose images are neither read later nor requested, last first.
 fn drop_unread_passes(plan: &mut Plan) {
     let mut needed: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
     needed.insert(plan.picture);

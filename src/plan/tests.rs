@@ -1,4 +1,4 @@
-//! Plans against the documents' own words: numbers, formats, order of passes.
+//! Plans against the documents: numbers, formats, order of passes.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ fn draws(plan: &Plan) -> Vec<(&str, &DrawPass)> {
     draw.collect()
 }
 
-/// The slide's numbers: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC 2001, "Building a Ledge at the Front of
+/// The slide's numbers: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC, "Building a "Ledge" at the Front of
 /// the Depth Buffer"].
 #[test]
 fn the_talk_s_ledge_is_drawn_by_its_numbers() {
@@ -41,8 +41,8 @@ fn the_talk_s_ledge_is_drawn_by_its_numbers() {
     assert!(draws(&plan).iter().all(|(_, pass)| pass.state.depth_range[0] < 1e-6), "the thinnest by default");
 }
 
-/// Depth, count, the scene with the light where the count is 0, the scene without it where it is not; nothing is added [GDC
-/// 2001, "Shadow Volume Algorithm"].
+/// Depth, count, the scene with the light where the count is 0, the scene without it where it is not; nothing is added
+/// [GDC, "Shadow Volume Algorithm"].
 #[test]
 fn the_talk_s_two_passes_replace() {
     let plan = plan("box.toml", &["technique=shadow-volume", "passes=lit-unlit"]);
@@ -58,7 +58,7 @@ fn the_talk_s_two_passes_replace() {
 }
 
 /// Without a number of bits the texture is the driver's choice; the depth buffer that it is to follow has the picture's
-/// [lecture, "New Depth Texture Internal Texture Formats"].
+/// [LEC, "New Depth Texture Internal Texture Formats"].
 #[test]
 fn an_unsized_map_is_copied_from_a_sized_depth_buffer() {
     for technique in ["technique=shadow-map", "technique=midpoint", "technique=second-depth"] {

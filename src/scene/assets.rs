@@ -11,17 +11,17 @@ use crate::geometry::{self, Mesh, Texture};
 /// Meshes and textures loaded so far.
 #[derive(Default)]
 pub(super) struct Assets {
-    /// By built-in name, or by the file's canonical path.
+    /// Meshes by built-in name, or by the file's canonical path.
     meshes: HashMap<PathBuf, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Pictures in memory, by the names that the scene file has for them.
     embedded: &'static [(&'static str, &'static [u8])],
-    /// Of the loaders and of the scene, each once.
+    /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
 }
 
 impl Assets {
-    /// With pictures in memory, each by the name that the scene file has for it.
+    /// Assets with pictures in memory, each by its name in the scene file.
     pub fn with_pictures(embedded: &'static [(&'static str, &'static [u8])]) -> Self {
         Self { embedded, ..Self::default() }
     }
@@ -104,7 +104,7 @@ pub(super) fn file(name: &str, origin: &Origin) -> PathBuf {
     }
 }
 
-/// What tells files apart; absolute, so never a built-in's name.
+/// Path that identifies a file; absolute, so never a built-in's name.
 fn canonical(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| Path::new("/").join(path))
 }

@@ -1,5 +1,5 @@
-//! What can go wrong between a file's name and a resolved scene. Every message stands alone: it names the file, the
-//! line where there is one, and what would be right.
+//! Errors between a file's name and a resolved scene. Every message stands alone: it names the file, the line where there
+//! is one, and what would be right.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::settings::{Origin, SettingsError};
 use crate::geometry;
 
-/// Why a scene could not be loaded.
+/// Reason why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be read: {reason}", path = .path.display())]

@@ -1,4 +1,4 @@
-//! Where a camera stands that sees given points and nothing more than it must, and between which planes. Pure geometry, no settings.
+//! Position, near and far planes of a camera that frames given points tightly. Pure geometry, no settings.
 
 use glam::DVec3;
 
@@ -15,14 +15,14 @@ const DEPTH_RATIO: f64 = 1e3;
 /// A supplied near plane stands at this part of the way to what is nearest in view.
 const ROOM: f64 = 0.8;
 
-/// What is looked at is at most this many times as far as a supplied near plane, whatever is cut: there a depth buffer of
-/// 24 bits then tells apart a thousandth of the distance ([`depth_step`]).
+/// Greatest distance of the target over a supplied near plane, whatever is cut. A depth buffer of 24 bits then resolves a
+/// thousandth of the target's distance ([`depth_step`]).
 const STIFFEST: f64 = (1 << 14) as f64;
 
 /// The default vertical angle of a camera.
 pub(super) const FOV_Y_DEGREES: f64 = 40.0;
 
-/// From what is looked at to a pleasant three-quarter view: from the front, the right and a little above.
+/// Direction from the target to the eye of a three-quarter view: from the front, the right and a little above.
 pub(super) const THREE_QUARTER: DVec3 = DVec3::new(0.55, 0.52, 0.8);
 
 /// The radius to work with: never zero, nor so small that f64 does not resolve it at the box's place.
@@ -61,7 +61,7 @@ pub(super) fn fit(points: &[DVec3], toward_eye: DVec3, fov_y_radians: f64, aspec
     (eye_world, world_from_view.transform_point3(ahead))
 }
 
-/// How far from its middle a sphere of `radius` is held by the picture.
+/// Distance from which a picture holds a sphere of `radius`.
 pub(super) fn sphere_distance(radius: f64, fov_y_radians: f64, aspect: f64) -> f64 {
     let tan = (0.5 * fov_y_radians).tan() * MARGIN * aspect.min(1.0);
     radius / tan.atan().sin()
@@ -108,7 +108,7 @@ fn near_before(seen: Span, far: f64, aim: f64) -> f64 {
     near.max(aim.min(far) / STIFFEST).min(0.5 * far)
 }
 
-/// The least distance in depth that a buffer of 24 bits tells apart at `depth`, behind a near plane at `near`: its step in
+/// The least depth difference that a buffer of 24 bits resolves at `depth`, behind a near plane at `near`: its step in
 /// window space, 2⁻²⁴, is so long there.
 pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
     depth * (depth / near) / f64::from(1 << 24)

@@ -45,7 +45,7 @@ pub struct Image {
 pub struct Camera {
     pub eye: DVec3,
     pub target: DVec3,
-    /// Of unit length, not parallel to the view direction.
+    /// Unit vector, not parallel to the view direction.
     pub up: DVec3,
     /// Full vertical angle, in (0, pi).
     pub fov_y_radians: f64,
@@ -54,7 +54,7 @@ pub struct Camera {
     pub far: f64,
 }
 
-/// How surfaces answer light.
+/// Settings of shading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
     /// GL_LIGHT_MODEL_AMBIENT, RGB; GL's default is 0.2.
@@ -69,13 +69,13 @@ pub struct Light {
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],
-    /// As written, or `light 0` by its place in the file.
+    /// Name as written, or `light 0` by its place in the file.
     pub name: String,
     /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.
     pub shadow: Settings,
 }
 
-/// Where light comes from, and what only that kind of light has.
+/// Kind of a light, with the values that only this kind has.
 #[derive(Clone, Debug)]
 pub enum LightKind {
     Spot(Spot),
@@ -107,7 +107,7 @@ pub struct Point {
     /// (the largest of |x|, |y| and |z|), as the six faces of a cube map measure depth. They do not end the light.
     pub near: f64,
     pub far: f64,
-    /// As [`Spot::attenuation`].
+    /// Attenuation as in [`Spot::attenuation`].
     pub attenuation: [f32; 3],
 }
 
@@ -116,7 +116,7 @@ pub struct Point {
 pub struct Frustum {
     pub position: DVec3,
     pub target: DVec3,
-    /// Of unit length, not parallel to the way from position to target.
+    /// Unit vector, not parallel to the way from position to target.
     pub up: DVec3,
     /// Full angle between opposite sides, in (0, pi).
     pub cone_radians: f64,
@@ -125,7 +125,7 @@ pub struct Frustum {
     pub far: f64,
 }
 
-/// Where a spotlight's light ends.
+/// Shape at which a spotlight's light ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightShape {
     /// At the circular cone inscribed in the frustum (GL_SPOT_CUTOFF).

@@ -1,4 +1,4 @@
-//! What numbers of a scene may be: ranges that more than one table needs, as methods of [`Reader`].
+//! Allowed ranges of a scene's numbers, if more than one table needs them, as methods of [`Reader`].
 
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
-//! What a viewer's pyramid holds of the objects: how near and how far they come, by depth along its axis, and what a
-//! plane across the axis cuts off. Triangles are clipped one by one: a box's corners say nothing of a floor that passes
-//! under the eye. The work is linear in the triangles.
+//! Objects in a viewer's pyramid: their least and greatest depth along its axis, and what a plane across the axis cuts off.
+//! Triangles are clipped one by one: a box's corners say nothing of a floor that passes under the eye. The work is linear
+//! in the triangles.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::math::{Aabb, spaces};
 /// A piece smaller than this, in pixels, is not missed.
 pub(super) const LEAST_PIECE: f64 = 0.5;
 
-/// What is cut off is looked for behind other surfaces at so many of its triangles.
+/// Number of triangles of a cut-off part that are tested for lying behind other surfaces.
 const SAMPLES: usize = 16;
 
 /// A pyramid of view, without end: x right, y up, -z ahead.
@@ -30,8 +30,7 @@ pub(super) struct Pyramid {
 pub(super) struct Span {
     pub least: f64,
     pub most: f64,
-    /// How far the coordinates reach, from the viewer or from their object's origin, of triangles that are in view in
-    /// part.
+    /// Greatest coordinate, from the viewer or from the object's origin, of triangles that are partly in view.
     pub reach: f64,
 }
 
@@ -201,7 +200,7 @@ impl Pyramid {
     }
 }
 
-/// Which depths of what is in view are meant.
+/// Depths that are cut off.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cut {
     Before(f64),

@@ -9,8 +9,8 @@ use super::resolve::{DEFAULT_BACKGROUND, DEFAULT_SIZE};
 use super::settings::{Entry, Origin, Settings, Value};
 use crate::math::Aabb;
 
-/// From the model to the light: from the left, above. Across the camera's view, so that the shadow falls beside the
-/// model and not behind it.
+/// Direction from the model to the light: from the left, above. Across the camera's view, so that the shadow falls beside
+/// the model and not behind it.
 const TOWARD_LIGHT: DVec3 = DVec3::new(-0.5, 1.3, 0.65);
 
 /// The light's distance from the model's middle, in radii; its cone; half the floor's side, in radii.
@@ -23,7 +23,7 @@ const FLAT_RADII: f64 = 0.01;
 const LIFT_RADII: f64 = 0.25;
 
 /// A model's own floor is no higher over its lowest point, in radii; the supplied one then lies so far below that, which
-/// any depth buffer tells apart.
+/// any depth buffer resolves.
 const HAIR_RADII: f64 = 2e-3;
 
 /// A model's own floor fills this part of its extent from above, at least.
@@ -32,7 +32,7 @@ const LEAST_FLOOR: f64 = 1e-3;
 /// A scene is supplied around models of these radii: camera, light and planes then have coordinates that a scene may have.
 pub(super) const RADII: [f64; 2] = [1e-14, 1e14];
 
-/// Where the supplied floor is.
+/// Place of the supplied floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Floor {
     /// At the model's lowest point.
@@ -57,7 +57,7 @@ pub fn framing(mesh: &str, bounds: &Aabb, aspect: f64, floor: Floor) -> Settings
     ])
 }
 
-/// How far below a model's own floor the supplied one lies.
+/// Distance of the supplied floor below a model's own.
 pub(super) fn hair(bounds: &Aabb) -> f64 {
     HAIR_RADII * frame::working_radius(bounds)
 }
@@ -114,7 +114,7 @@ impl Stage {
         rounded(FLOOR_RADII * self.radius, self.radius)
     }
 
-    /// Where the light throws the model's corners on the floor.
+    /// Shadows of the model's corners on the floor.
     fn shadow_corners(&self) -> [DVec3; 8] {
         self.bounds.corners().map(|corner| {
             let along = corner - self.light;

@@ -1,6 +1,7 @@
-//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), written anew where tobj would misread it ([`rewrite`]),
-//! parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks ([`super::normals`]).
-//! Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons only.
+//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), rewritten where tobj would
+//! misread it ([`rewrite`]), parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks
+//! ([`super::normals`]). Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons
+//! only.
 
 mod place;
 mod polygon;
@@ -73,7 +74,7 @@ fn load_libraries(scan: &Scan, path: &Path, warnings: &mut Vec<Warning>) -> Resu
     let mut unknown = HashSet::new();
     for (line, name) in &scan.uses {
         let name = if name.is_empty() { rewrite::UNNAMED } else { name.as_str() };
-        // Where no library could be read, that has been said, or none was asked for.
+        // If no library could be read, that was reported, or none was named.
         if !library.is_empty() && !library.has(name) && unknown.insert(name) {
             let message = format!("no material is named '{name}'; the default stands in");
             warnings.push(Warning { path: path.to_owned(), line: *line, message });

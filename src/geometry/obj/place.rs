@@ -1,5 +1,5 @@
-//! Where a file's vertices are: read in f64, and taken relative to an origin near them where f32, which meshes and tobj
-//! hold, would lose what f64 tells apart (map coordinates).
+//! Vertex positions of a file, read in f64. They are taken relative to an origin near them if f32, which meshes and tobj
+//! hold, would merge positions that f64 keeps apart (map coordinates).
 
 use glam::DVec3;
 
@@ -56,7 +56,7 @@ impl Places {
         (0..corners.len()).filter_map(move |k| Some([place(k)?, place(k + 1)?]))
     }
 
-    /// What the mesh's positions are relative to; zero where that saves nothing.
+    /// Origin of the mesh's positions; zero where another saves nothing.
     pub fn origin(&self) -> DVec3 {
         let away = self.bounds.min.abs().max(self.bounds.max.abs()).max_element();
         let size = (self.bounds.max - self.bounds.min).max_element();
@@ -119,7 +119,7 @@ impl Places {
     }
 }
 
-/// What is to be said of a file whose faces f32 does not hold: the line, and why.
+/// Warning about a file whose faces f32 does not hold: the line, and why.
 pub(super) fn warning(scan: &Scan, text: &str) -> Option<(usize, String)> {
     let (line, [length, off], count) = scan.places.lost(text, scan.origin)?;
     let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };

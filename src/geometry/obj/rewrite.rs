@@ -1,6 +1,7 @@
-//! Writes an OBJ text anew so that tobj reads it right: libraries and vertices first, one statement a line, every
-//! number counted from the start, positions relative to the origin, no lines, points, colours or short texture
-//! coordinates. Where only some corners have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a missing one.
+//! Rewrites an OBJ text so that tobj reads it right: libraries and vertices first, one statement a line, every number
+//! counted from the start, positions relative to the origin, no lines, points, colours or short texture coordinates. Where
+//! only some corners have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a
+//! missing one.
 
 use std::fmt::Write as _;
 
@@ -44,7 +45,7 @@ struct Rewriter<'a> {
     counts: Counts,
     /// The vertices and what they are written relative to; `None`: as they are.
     moved: Option<(&'a Places, DVec3)>,
-    /// How many texture coordinates (normals) stand before the file's own.
+    /// Number of texture coordinates (normals) before the file's own.
     first_texcoord: usize,
     first_normal: usize,
 }

@@ -10,7 +10,7 @@ use super::super::tally::Tally;
 use super::super::text::logical_lines;
 use super::place::Places;
 
-/// What the text holds.
+/// Contents of the text.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     /// `mtllib` statements: line, and what is written.
@@ -19,14 +19,14 @@ pub(super) struct Scan {
     pub uses: Vec<(usize, String)>,
     pub faces: usize,
     pub places: Places,
-    /// What the mesh's positions are relative to.
+    /// Origin of the mesh's positions.
     pub origin: DVec3,
     /// True if tobj would misread the text as it is.
     pub needs_rewrite: bool,
     /// Some corners name a texture coordinate (a normal), others do not.
     pub mixed_texcoords: bool,
     pub mixed_normals: bool,
-    /// What is left out.
+    /// Statements that are ignored.
     pub oddities: Tally,
 }
 
@@ -64,7 +64,7 @@ struct Scanner<'a> {
     corners_with_normal: usize,
 }
 
-/// What is wrong with a line.
+/// Error in a line.
 type Wrong = String;
 
 /// Reads `text`, the file at `path`.
@@ -348,7 +348,7 @@ fn is_plain_number(word: &str) -> bool {
     plain && points <= 1 && digits.len() > points && digits.len() <= 30
 }
 
-/// What follows the keyword of a statement, to the line's end.
+/// Text after the keyword of a statement, to the line's end.
 pub(super) fn statement_value<'a>(line: &'a str, keyword: &str) -> &'a str {
     line.trim().strip_prefix(keyword).unwrap_or_default().trim()
 }

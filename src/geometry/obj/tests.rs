@@ -1,4 +1,4 @@
-//! What files write in odd ways, and the normals that they lack.
+//! Odd ways in which files are written, and missing normals.
 
 use std::path::PathBuf;
 

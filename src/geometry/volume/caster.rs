@@ -17,7 +17,7 @@ use crate::geometry::topology::weld;
 /// first meet them, over the whole mesh.
 #[derive(Clone, Debug)]
 pub struct Caster {
-    /// Of each place: the position of its first vertex. Others at the place are equal (0 = -0).
+    /// Position of each place, by its first vertex. Others at the place are equal (0 = -0).
     pub(super) positions: Vec<[f32; 3]>,
     /// Places of each triangle's corners, in the order in which the mesh has them.
     pub(super) triangles: Vec<[u32; 3]>,
@@ -150,7 +150,7 @@ fn uses(triangles: &[[u32; 3]]) -> Vec<Use> {
     uses
 }
 
-/// For triangles in another order.
+/// Renumbers the uses for triangles in another order.
 fn renumber(uses: &mut [Use], order: &[(u32, u32)]) {
     let mut new_from_old = vec![0; order.len()];
     for (new, (_, old)) in (0u32..).zip(order) {

@@ -1,4 +1,4 @@
-//! Volumes closed at the camera's near plane, for z-pass whatever the eye's place [GDC 2001, near clip plane capping;
+//! Volumes closed at the camera's near plane, for z-pass whatever the eye's place [GDC, "Near Clip Plane Capping Cases";
 //! C7]. In view space: there, points of the near plane keep all their digits however small near is.
 
 use std::ops::Range;
@@ -8,7 +8,7 @@ use glam::{DMat4, DVec3};
 use super::near_plane::{NearPlane, Place, Stand};
 use super::{Caster, Outline};
 
-/// How an outline's vertices land on the near plane when projected away from the light.
+/// Numbers of an outline's vertices that land on the near plane when projected away from the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Landing {
     /// None of them, nor any piece between them: nothing to cap.
@@ -33,7 +33,7 @@ pub struct CappedVolume {
     sides: Range<u32>,
     near_cap: Range<u32>,
     landing: Landing,
-    /// Of each place of the caster: where it stands, and its vertices once it has them.
+    /// For each place of the caster: its position, and its vertices once it has them.
     places: Vec<Place>,
     polygon: Vec<u32>,
 }
@@ -49,12 +49,12 @@ impl CappedVolume {
         &self.indices
     }
 
-    /// Of [`CappedVolume::indices`]; cut off at the near plane.
+    /// Range of [`CappedVolume::indices`] with the sides, cut off at the near plane.
     pub fn sides(&self) -> Range<u32> {
         self.sides.clone()
     }
 
-    /// What of the near plane lies in shadow; see [`crate::math::ledge`] for how to draw it.
+    /// Part of the near plane that lies in shadow; [`crate::math::ledge`] says how to draw it.
     pub fn near_cap(&self) -> Range<u32> {
         self.near_cap.clone()
     }
@@ -182,7 +182,7 @@ impl CappedVolume {
         }
     }
 
-    /// Where its ray meets the plane; it does.
+    /// Adds the point where the place's ray meets the plane. The ray must meet it.
     fn push_projected(&mut self, plane: &NearPlane, place: u32) {
         let Place { projected, .. } = self.places[place as usize];
         match projected {

@@ -23,14 +23,14 @@ pub(super) struct Place {
     pub infinite: u32,
 }
 
-/// Where a place stands, for a light beyond the plane (l >= 0) or before it (l < 0).
+/// Position of a place, for a light beyond the plane (l >= 0) or before it (l < 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stand {
     /// On the other side of the plane than the light: past landing.
     AtPlane,
     /// Its ray meets the plane.
     Lands,
-    /// At the light's height or past it: its ray never comes to the plane.
+    /// At the light's height or past it: its ray never meets the plane.
     Never,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct NearPlane {
     /// l.
     light_height: f64,
     w: f64,
-    /// Where sides may end instead of at infinity: the plane `normal · x = distance`, beyond all that is seen.
+    /// Plane at which sides may end instead of at infinity, `normal · x = distance`, beyond all that is seen.
     end: Option<(DVec3, f64)>,
 }
 
@@ -107,8 +107,8 @@ impl NearPlane {
         self.on_plane((self.light_height * place.at - place.height * light) / place.fall)
     }
 
-    /// Where the edge between two places meets the plane, if they stand on different sides of it. The same bits whichever
-    /// comes first: sums of two commute.
+    /// Point where the edge between two places meets the plane, if they are on different sides of it. The order of the two
+    /// does not change a bit: sums of two commute.
     pub fn crossing(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::AtPlane) != (b.stand == Stand::AtPlane);
         let (ha, hb) = (a.height.abs(), b.height.abs());

@@ -1,14 +1,14 @@
-//! The possible silhouette [GDC 2001; C1]: the boundary of the triangles that count, as directed edges with
-//! multiplicity. All buffers are kept from one light or frame to the next.
+//! The possible silhouette [GDC, "Computing Shadow Volumes For Polygonal Models"]: the boundary of the triangles that
+//! count, as directed edges with multiplicity. All buffers are kept from one light or frame to the next.
 
 use super::{Caster, Counting, Source, loops};
 
-/// Which triangles of a caster count under one light, and the boundary of their sum.
+/// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
 /// Keep one and call [`Outline::find`] again: nothing is allocated once the buffers are large enough.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
-    /// Of each triangle of the caster: 1 where it counts as it runs, -1 where it counts turned over, else 0.
+    /// Per triangle of the caster: 1 if it counts, -1 if it counts with reversed winding, else 0.
     weights: Vec<i8>,
     edges: Vec<OutlineEdge>,
     countings: Vec<Counting>,
@@ -22,7 +22,7 @@ pub struct OutlineEdge {
     /// Places of the caster.
     pub from: u32,
     pub to: u32,
-    /// How often it is part of the boundary; at least 1.
+    /// Number of times that it is part of the boundary; at least 1.
     pub multiplicity: u32,
 }
 
@@ -66,12 +66,12 @@ impl Outline {
         &self.edges
     }
 
-    /// Of each of [`Caster::triangles`]: 1 counted as it runs, -1 counted turned over, 0 not counted.
+    /// Per triangle of [`Caster::triangles`]: 1 counted, -1 counted with reversed winding, 0 unused.
     pub fn weights(&self) -> &[i8] {
         &self.weights
     }
 
-    /// How each of [`Caster::shells`] counts.
+    /// Way in which each of [`Caster::shells`] counts.
     pub fn countings(&self) -> &[Counting] {
         &self.countings
     }
@@ -81,7 +81,7 @@ impl Outline {
         self.source
     }
 
-    /// How many triangles were too near the light's side to be told without exact arithmetic.
+    /// Number of triangles whose side needed exact arithmetic.
     pub fn exact_tests(&self) -> usize {
         self.exact_tests
     }

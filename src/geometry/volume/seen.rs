@@ -1,5 +1,5 @@
-//! What of a volume a camera may see, and whether the eye may stand in it: conservative, from bounding boxes in f64.
-//! Never says no where the exact answer is yes. World space. Knows no scene.
+//! Tests of which part of a volume a camera may see, and whether the eye may be in it: conservative, from bounding boxes in
+//! f64. The answer is never no where the exact answer is yes. World space. Knows no scene.
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
@@ -76,7 +76,7 @@ impl Casting {
     }
 }
 
-/// Tests whether a light stands in the box, or as near to it as f32 transforms may be off.
+/// Tests whether a light is in the box, or within the error of f32 transforms of it.
 fn touches(bounds: &Aabb, source: Source) -> bool {
     let Source::Point(light) = source else { return false };
     let size = light.abs().max(bounds.min.abs()).max(bounds.max.abs()).max_element();

@@ -17,14 +17,14 @@ const LEAST_VOLUME: f64 = 1.0 / (1u64 << 30) as f64;
 /// A piece of a caster whose triangles hang together across edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shell {
-    /// Of [`Caster::triangles`].
+    /// Range of [`Caster::triangles`].
     pub triangles: Range<u32>,
     pub kind: Kind,
-    /// In model space.
+    /// Bounds in model space.
     pub bounds: Aabb,
 }
 
-/// What a shell is as a surface.
+/// Kind of a shell's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Every edge has exactly two triangles, in opposite directions, and the normals look outwards: the signed volume is
@@ -42,7 +42,7 @@ impl Kind {
     }
 }
 
-/// Which triangles of a shell make its volume, under one light.
+/// Triangles of a shell that make its volume, under one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counting {
     /// Those that face the light.
@@ -52,9 +52,9 @@ pub enum Counting {
 }
 
 impl Caster {
-    /// How a shell counts under a light: [`Counting::Facing`] only where it is [`Kind::Closed`] and does not hold the light,
-    /// inside or on its surface. Then each crossing of the surface outwards has one inwards before it, so that facing
-    /// triangles alone miss no shadow; elsewhere they may.
+    /// Chooses the way in which a shell counts under a light: [`Counting::Facing`] only if it is [`Kind::Closed`] and does
+    /// not hold the light, inside or on its surface. Then each crossing of the surface outwards has one inwards before it,
+    /// so that facing triangles alone miss no shadow; elsewhere they may.
     pub fn counting(&self, shell: &Shell, source: Source) -> Counting {
         match (shell.kind, source) {
             (Kind::Closed, Source::Direction(_)) => Counting::Facing,
@@ -85,7 +85,7 @@ impl Caster {
         })
     }
 
-    /// How often the shell winds around a point that is not on it, by the triangles that a ray in +x crosses. Exact: an
+    /// Winding number of the shell around a point that is not on it, by the triangles that a ray in +x crosses. Exact: an
     /// edge or corner that the ray meets belongs to one of its triangles, whichever way the predicates' signs fall.
     fn winding(&self, shell: &Shell, point: DVec3) -> i32 {
         let at = Coord { x: point.y, y: point.z };

@@ -81,18 +81,18 @@ impl Written {
     }
 }
 
-/// How many steps of depth a solid must be thick.
+/// Least thickness of a solid, in steps of depth.
 const STEPS: f64 = 8.0;
 
-/// How many pixels a place may be off by before that is said.
+/// Error of a place, in pixels, from which there is a warning.
 const MOST_OFF: f64 = 8.0;
 
-/// How far f32 may move a vertex of what is in view.
+/// Error of f32 in a vertex that is in view.
 fn off(span: Span) -> f64 {
     0.5 * f64::from(f32::EPSILON) * span.reach
 }
 
-/// What a camera with its planes shows of the objects; `spans` has one for each.
+/// Objects as a camera with its planes shows them; `spans` has one for each.
 struct View<'a> {
     camera: &'a Camera,
     pyramid: Pyramid,
@@ -112,7 +112,7 @@ impl View<'_> {
         objects
     }
 
-    /// What is nearest hides nothing that is nearer: if it is cut, the picture lacks it.
+    /// Warning if the nearest object is cut by the near plane: nothing hides the gap.
     fn cut_before(&self) -> Option<Said> {
         let near = self.camera.near;
         let cut = self.by_depth().into_iter().take_while(|(_, span)| span.least < near);
@@ -135,7 +135,7 @@ impl View<'_> {
         Some(("far", what))
     }
 
-    /// What a depth buffer of 24 bits behind so near a plane cannot hold.
+    /// Warning about depths that a buffer of 24 bits cannot resolve behind so near a plane.
     fn coarse(&self) -> Option<Said> {
         let Camera { near, far, .. } = *self.camera;
         let last = frame::last_depth([near, far]);
@@ -187,7 +187,7 @@ impl View<'_> {
         thin > 0.0 && long > pixel && frame::depth_step(self.camera.near, span.least) > room / STEPS
     }
 
-    /// What is in view behind the near plane, the nearest first.
+    /// Objects in view behind the near plane, the nearest first.
     fn seen(&self) -> Vec<(&Object, Span)> {
         let near = self.camera.near;
         self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near).collect()

@@ -74,7 +74,7 @@ fn relative_to(material: Arc<Material>, origin: DVec3) -> Arc<Material> {
     }
 }
 
-/// Why a mesh is not what `closed = true` says of it.
+/// Refuses a mesh that is not closed as `closed = true` says.
 fn check_closed(mesh: &Mesh) -> Result<(), &'static str> {
     if !mesh.is_closed() {
         return Err("is not true: the mesh has open, crowded or turned edges");
