@@ -12,7 +12,7 @@ use super::binding::{Binding, BindingError, raw};
 use crate::context::Context;
 use crate::device::bench::{self, Bench, Image, Mutation, Sampling, State, Surface, Vertex};
 
-/// What a depth texture's comparison becomes [GL 4.6 compatibility, 8.23.1].
+/// Channels that a depth texture's comparison is written to [GL 4.6 compatibility, 8.23.1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthMode {
     Luminance,
@@ -84,7 +84,7 @@ const COORDINATES: [(u32, u32); 4] = [
 ];
 
 impl FixedBench {
-    /// On `context`, which is current and outlives it.
+    /// A bench on `context`, which is current and outlives it.
     ///
     /// # Errors
     ///

@@ -8,7 +8,7 @@ use glow::HasContext;
 
 use crate::context::{Context, Profile};
 
-/// What the generator wrote: `Gl` with a method a function (without the prefix gl), and the constants (without GL_).
+/// The generator's output: `Gl` with a method a function (without the prefix gl), and the constants (without GL_).
 #[allow(clippy::all, missing_docs, unsafe_op_in_unsafe_fn)]
 pub mod raw {
     include!(concat!(env!("OUT_DIR"), "/fixed_function.rs"));
@@ -19,7 +19,7 @@ pub struct Binding {
     functions: raw::Gl,
 }
 
-/// Why a context cannot draw by the fixed-function pipeline.
+/// Reason why a context cannot draw by the fixed-function pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BindingError {
     #[error("the {backend} context was asked for in the core profile, which has no fixed-function pipeline")]

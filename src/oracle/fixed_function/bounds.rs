@@ -1,11 +1,11 @@
-//! How far a batch's draws reach in a light's texture coordinates, from their bounding boxes: what cannot happen needs
-//! no texture unit. Knows no GL.
+//! Bounds of a batch's draws in a light's texture coordinates, from their bounding boxes: a case that cannot occur needs no
+//! texture unit. Knows no GL.
 
 use glam::{DMat4, Mat4};
 
 use crate::pass::{Batch, Draw, Projection, UniformValue};
 
-/// What may happen in a batch.
+/// Cases that may occur in a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reach {
     /// q <= 0: behind the light.

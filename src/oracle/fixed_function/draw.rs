@@ -178,7 +178,7 @@ impl FixedFunction {
     }
 }
 
-/// What a layer reads of a mesh.
+/// Vertex attributes that a layer reads.
 fn attributes(layer: &Layer) -> Vec<Attribute> {
     let mut attributes = vec![Attribute::Position];
     if matches!(layer.primary, Primary::Lighting(_)) {

@@ -1,6 +1,5 @@
-//! A pass list with the driver's own arithmetic: what the driver would compute in 32 bits for fixed function is
-//! computed by it and put into the shaders' uniforms. Where both roads still differ, it is not by how planes and
-//! matrices round.
+//! A pass list with the driver's own arithmetic: what the driver would compute in 32 bits for fixed function is computed by
+//! it and put into the shaders' uniforms. If both pipelines still differ, it is not by how planes and matrices round.
 
 use glam::{DMat4, Mat4, Vec4};
 use glow::HasContext;

@@ -1,4 +1,4 @@
-//! What can go wrong on the fixed-function road, and what it cannot draw.
+//! Errors of the fixed-function pipeline, and the passes that it cannot draw.
 
 use super::BindingError;
 use crate::device;
@@ -19,7 +19,7 @@ impl std::fmt::Display for Inexpressible {
     }
 }
 
-/// Why a list was not drawn by the fixed-function pipeline. Nothing is left out of a picture: it is whole, or this.
+/// Reason why a list was not drawn by the fixed-function pipeline. A picture is never drawn in part.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]

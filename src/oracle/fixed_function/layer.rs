@@ -9,10 +9,10 @@ use crate::pass::Compare;
 /// One drawing of all the draws of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// For errors: `ambient`, `light 0`.
+    /// Name for errors: `ambient`, `light 0`.
     pub name: String,
     pub primary: Primary,
-    /// In the order of the texture units.
+    /// Units in the order of the texture units.
     pub units: Vec<Unit>,
     /// GL_ALPHA_TEST with its reference value.
     pub alpha_test: Option<(Compare, f32)>,
@@ -22,7 +22,7 @@ pub struct Layer {
     pub alpha_write: bool,
 }
 
-/// How a fragment meets the colour that is there.
+/// Blending of a fragment with the stored colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blend {
     Replace,
@@ -48,7 +48,7 @@ pub struct Lighting {
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],
-    /// In [0, 128].
+    /// Exponent in [0, 128].
     pub shininess: f32,
     pub opacity: f32,
     pub sources: Vec<Source>,
@@ -57,7 +57,7 @@ pub struct Lighting {
 /// A point light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// In eye space.
+    /// Position in eye space.
     pub position: [f32; 4],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
@@ -70,7 +70,7 @@ pub struct Source {
 pub struct Unit {
     pub image: UnitImage,
     pub coordinates: Coordinates,
-    /// What the texture matrix does to coordinates of the surface's own textures.
+    /// Texture matrix for coordinates of the surface's own textures.
     pub placement: Placement,
     pub rgb: Combine,
     pub alpha: Combine,
@@ -81,10 +81,10 @@ pub struct Unit {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitImage {
-    /// Of the batch's inputs.
+    /// A texture of the batch's inputs.
     Input {
         index: usize,
-        /// True if its red channel stands in for alpha (GL_TEXTURE_SWIZZLE_A).
+        /// True if its red channel is read as alpha (GL_TEXTURE_SWIZZLE_A).
         red_as_alpha: bool,
     },
     Mask(Mask),
@@ -97,13 +97,13 @@ pub enum Mask {
     White,
     /// 1 inside [0, 1] x [0, 1], 0 outside.
     Square,
-    /// 0 for s < 0.5, 1 from there on [techniques A13 b].
+    /// 0 for s < 0.5, 1 from there on [LEC, "Careful about Back Projecting Shadow Maps"].
     Step,
     /// (s', t', 0.5, 1) with s' and t' from 0 to 1 as s and t go from 0.25 to 0.75, in 32-bit float.
     Ramp,
 }
 
-/// Where a unit's (s, t, r, q) come from.
+/// Source of a unit's (s, t, r, q).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Coordinates {
     /// Nothing that varies.
@@ -125,7 +125,7 @@ pub struct EyeLinear {
     pub texture_matrix: DMat4,
 }
 
-/// What a combiner reads.
+/// Argument of a combiner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operand {
     Texture,

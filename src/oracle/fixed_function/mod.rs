@@ -46,7 +46,7 @@ pub struct FixedFunction {
 }
 
 impl FixedFunction {
-    /// On `context`, which is current on this thread and stays so. It must be dropped before the context is.
+    /// A reader on `context`, which is current on this thread and stays so. Drop it before the context.
     ///
     /// # Errors
     ///
@@ -96,7 +96,7 @@ impl FixedFunction {
         Ok(())
     }
 
-    /// Waits until all that was asked of GL is done.
+    /// Waits until GL has finished.
     pub fn finish(&self) {
         self.device.finish();
     }

@@ -1,7 +1,8 @@
 //! Reads what a batch means as layers of the fixed-function pipeline, or says why that has none. Knows no GL.
 //!
-//! A lit batch is drawn as the documents' several passes [techniques A12, B4]: ambient light first, then each light,
-//! added where it reaches; specular light by itself where a decal must not modulate it. A light alone needs one.
+//! A lit batch is drawn in several passes [LEC, "Advice for Shadowed Illumination Model"; Segal 1992, 3.3]: ambient light
+//! first, then each light, added where it reaches; specular light by itself where a decal must not modulate it. A light
+//! alone needs one.
 
 use glam::Vec3;
 
@@ -51,8 +52,8 @@ fn opacity(texturing: &Texturing) -> f32 {
     texturing.alpha_test.as_ref().map_or(1.0, |test| test.opacity)
 }
 
-/// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha
-/// test can ask one question and alpha must be 1 in the end.
+/// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha test
+/// has one comparison and alpha must be 1 in the end.
 fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
     let projection = view.projection.as_ref();
     let reach = reach(batch, projection)?;
@@ -83,7 +84,7 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
     Ok(layers)
 }
 
-/// What may happen in a batch; nothing, where a light has no coordinates.
+/// Cases that may occur in a batch; none if a light has no coordinates.
 fn reach(batch: &Batch, projection: Option<&Projection>) -> Result<Reach, String> {
     projection.map_or(Ok(Reach::default()), |projection| bounds::of(batch, projection))
 }
@@ -141,7 +142,7 @@ fn product(a: [f32; 3], b: [f32; 3]) -> Vec3 {
     Vec3::from(a) * Vec3::from(b)
 }
 
-/// What a light's ambient colour comes to: what the scene's leaves below 1 bounds it.
+/// Ambient colour of a light, bounded by what the scene's ambient light leaves below 1.
 fn own_ambient(lit: &Lit, light: &LightMeaning) -> Vec3 {
     let room = (Vec3::ONE - Vec3::from(lit.scene_ambient)).max(Vec3::ZERO);
     let most = product(light.ambient, lit.ambient);
@@ -185,7 +186,7 @@ fn unlit_source(light: &LightMeaning) -> Source {
     Source { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
 }
 
-/// Which of a light's colours a layer adds, and how they are weighed.
+/// Colours of a light that a layer adds, and their weights.
 #[derive(Clone, Copy, PartialEq)]
 struct Parts {
     diffuse: bool,
@@ -287,7 +288,7 @@ fn primary(lit: &Lit, light: &LightMeaning, parts: Parts) -> Result<(Primary, Op
     let mut source = unlit_source(light);
     let mut lighting = Lighting { opacity: 1.0, shininess: lit.shininess, ..Lighting::default() };
     if !lit.lit {
-        // Ambient light asks for no normal.
+        // Ambient light needs no normal.
         (source.ambient, lighting.ambient) = (light.diffuse, lit.diffuse);
     } else if parts.diffuse {
         (source.diffuse, lighting.diffuse) = (light.diffuse, lit.diffuse);

@@ -6,12 +6,12 @@ use super::layer::{Combine, Coordinates, EyeLinear, Mask, Operand, Unit, UnitIma
 use crate::geometry::Placement;
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
-/// What the unit before came to.
+/// Result of the unit before.
 const KEPT: Combine = Combine::Replace(Operand::Previous);
 /// That, by the unit's texture.
 const BY_TEXTURE: Combine = Combine::Modulate(Operand::Previous, Operand::Texture);
 
-/// The units so far, and where the next finds what they came to.
+/// The units so far, and where the next finds their result.
 pub struct Stack<'a> {
     batch: &'a Batch,
     units: Vec<Unit>,
@@ -19,7 +19,7 @@ pub struct Stack<'a> {
     cone: bool,
 }
 
-/// What a layer's light is weighed by.
+/// Weight of a layer's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weight {
     Shade,
@@ -185,7 +185,7 @@ fn map_coordinates(projection: &Projection) -> Coordinates {
     coordinates(projection, DMat4::IDENTITY)
 }
 
-/// From the map's coordinates to the frustum's square.
+/// Matrix from the map's coordinates to the frustum's square.
 fn frustum_from_map(projection: &Projection) -> DMat4 {
     projection.frustum_from_map.map_or(DMat4::IDENTITY, |by| {
         let [x, y, z, w] = by.as_dvec4().to_array();

@@ -57,7 +57,7 @@ pub fn disable(gl: &glow::Context, fixed: &Binding, index: u32) {
     }
 }
 
-/// As the device's sampler objects, by the texture's own parameters; a comparison's result goes to luminance.
+/// Sets the texture's own parameters as the device sets sampler objects; a comparison's result goes to luminance.
 fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
     let (min, mag) = match sampler.filter {
         Filter::Nearest => (glow::NEAREST, glow::NEAREST),

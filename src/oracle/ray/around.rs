@@ -1,5 +1,5 @@
-//! What a shadow map may see in place of a pixel's own point: its texels sample the scene a little aside. Where nothing
-//! changes within a lookup's reach, as the light sees it, a map has no reason to be wrong.
+//! Surroundings of a visible point, which a shadow map may see in place of the point: its texels sample the scene a little
+//! aside. If nothing changes within a lookup's reach, as the light sees it, a map has no reason to be wrong.
 //!
 //! The reach is a parallelogram around the point, across the light's axis, as a map's texels are. Silhouettes and open
 //! edges inside it are found exactly, by the same beam that finds the doubt of a shadow ray (`beam.rs`). What rises
@@ -22,7 +22,7 @@ pub struct Surroundings<'a> {
     options: Options,
 }
 
-/// What lies around a visible point, as the light sees it.
+/// Surroundings of a visible point, as the light sees them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Around {
     /// True if a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
@@ -30,34 +30,33 @@ pub struct Around {
     /// True if the visible surface itself ends or folds over within the reach. It shadows nothing that it is seen with, but
     /// may be the second layer of a map that stores the middle of two.
     pub own_edge: bool,
-    /// How far a caster stands before the plane of the visible surface somewhere within the reach, along the light's ray
-    /// and in world units; 0: nowhere.
+    /// Greatest distance of a caster before the plane of the visible surface within the reach, along the light's ray and in
+    /// world units; 0: none.
     pub rise: f64,
-    /// What the point's own ray meets before the point.
+    /// Surfaces that the point's own ray meets before the point.
     pub blockers: Vec<Blocker>,
     /// Surfaces of other planes within the reach that lie nearer to the light than the point itself, each at its nearest.
     pub nearer: Vec<Nearer>,
-    /// How fast the visible surface's depth along the light's axis grows across a map, as GL's polygon offset has it but
-    /// over both axes together: without unit.
+    /// Slope of the visible surface's depth along the light's axis across a map, as GL's polygon offset has it but over
+    /// both axes together: without unit.
     pub slope: f64,
-    /// What a length of 1 on the plane at distance 1 from the light measures at the point, in world units; 1 for parallel
-    /// light.
+    /// Length in world units at the point of a length of 1 on the plane at distance 1 from the light; 1 for parallel light.
     pub scale: f64,
 }
 
 /// A surface beside a point that is nearer to the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearer {
-    /// By how much, along the light's axis and in world units.
+    /// Distance along the light's axis, in world units.
     pub by: f64,
-    /// As [`Around::slope`].
+    /// Slope as in [`Around::slope`].
     pub slope: f64,
 }
 
 /// A surface between the light and a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocker {
-    /// From the surface to the point along the ray, in world units.
+    /// Distance from the surface to the point along the ray, in world units.
     pub gap: f64,
     /// The steepest slope of the surface within the reach, as [`Around::slope`].
     pub slope: f64,
@@ -93,8 +92,8 @@ impl<'a> Surroundings<'a> {
         self.tracer.trace(self.scene, &self.options)
     }
 
-    /// What lies within `reach` of the point that the pixel shows, in lengths on the plane at distance 1 along the light's
-    /// axis, or in world units for parallel light. `None`: the pixel shows nothing.
+    /// Finds the surroundings within `reach` of the point that the pixel shows, in lengths on the plane at distance 1 along
+    /// the light's axis, or in world units for parallel light. `None`: the pixel shows nothing.
     pub fn around(&self, x: u32, y: u32, reach: f64) -> Option<Around> {
         let seen = self.tracer.look(x, y).0?;
         let scale = self.tracer.lamp.depth_at(seen.position);
@@ -209,7 +208,7 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// How far before the visible surface's plane the ray to `base` crosses the triangle; `None` where it does not.
+/// Distance before the visible surface's plane at which the ray to `base` crosses the triangle; `None` if it does not.
 fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, corners: &[DVec3; 3]) -> Option<f64> {
     let way = match beam.apex {
         Apex::At(apex) => base - apex,
@@ -219,7 +218,7 @@ fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, corners: &[DVec3; 3]) -> Optio
     Some(before_plane(beam, base - way + at * way, seen))
 }
 
-/// How far before the visible surface's plane a point lies, along its own ray; negative behind it, 0 where the ray does not
+/// Distance of a point before the visible surface's plane, along its own ray; negative behind it, 0 if the ray does not
 /// meet it.
 fn before_plane(beam: &Beam, point: DVec3, seen: &Seen<'_>) -> f64 {
     let way = beam.way_to(point);

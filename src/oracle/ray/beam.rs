@@ -12,12 +12,11 @@ use glam::DVec3;
 
 use super::world::Tube;
 
-/// Where a line crosses a triangle, if it does.
+/// Crossing of a line and a triangle, if there is one.
 ///
-/// Watertight after Woop, Benthin and Wald (JCGT 2013), in f64: corners relative to the origin are sheared so that the
-/// ray is the z axis; each edge's sign is then computed from that edge's two corners alone, and two triangles that
-/// share it get exactly opposite signs. Zero counts as inside for both. Returns t with the crossing at
-/// `origin + t * direction`; negative behind the origin.
+/// Watertight [Woop 2013], in f64: corners relative to the origin are sheared so that the ray is the z axis; each edge's
+/// sign is then computed from that edge's two corners alone, and two triangles that share it get exactly opposite signs.
+/// Zero counts as inside for both. Returns t with the crossing at `origin + t * direction`; negative behind the origin.
 pub(super) fn crossing(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> Option<f64> {
     let [a, b, c] = sheared(origin, direction, corners);
     let edge = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
@@ -42,8 +41,8 @@ fn sheared(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> [[f64; 3]; 
     })
 }
 
-/// Where a segment's line crosses a triangle, and just once where it passes an edge or a corner that several triangles
-/// share: as [`crossing`], for a line moved aside by next to nothing.
+/// Crossing of a segment's line and a triangle, counted once if it passes an edge or a corner that several triangles share:
+/// as [`crossing`], for a line moved aside by next to nothing.
 pub(super) fn crossing_once(origin: DVec3, direction: DVec3, corners: &[DVec3; 3]) -> Option<f64> {
     let [a, b, c] = sheared(origin, direction, corners);
     // Zero is decided by the edge's own way, which the neighbour sees reversed: (dx, dy) aside by (e, e^2) with e > 0.
@@ -59,7 +58,7 @@ pub(super) fn crossing_once(origin: DVec3, direction: DVec3, corners: &[DVec3; 3
     (is_inside && area != 0.0).then(|| (u * a[2] + v * b[2] + w * c[2]) / area)
 }
 
-/// Where a beam's segments come from.
+/// Origin of a beam's segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Apex {
     At(DVec3),
@@ -75,17 +74,17 @@ pub(super) enum Apex {
 pub(super) struct Beam {
     pub apex: Apex,
     pub base: DVec3,
-    /// How the base moves, one vector a direction of the sample.
+    /// Movement of the base, one vector for each direction of the sample.
     pub spread: [DVec3; 2],
-    /// How the base moves on its own surface: equal to `spread` for shadow rays; for primary rays the spread lies in
-    /// the image plane and this on the surface seen.
+    /// Movement of the base on its own surface: equal to `spread` for shadow rays; for primary rays the spread lies in the
+    /// image plane and this on the surface seen.
     pub surface_spread: [DVec3; 2],
-    /// How a surface that the beam meets may lie aside of its place, one vector a direction, for the sides of shadow
-    /// volumes: they are drawn as the visible surface is, and each is rounded for itself. Zero for rays.
+    /// Displacement of a surface that the beam meets, one vector for each direction, for the sides of shadow volumes: they
+    /// are drawn as the visible surface is, and each is rounded for itself. Zero for rays.
     pub slip: [DVec3; 2],
     /// Radius of the ball around each base point.
     pub error: f64,
-    /// The same against surfaces that may lie at the base's own depth; not below `error`.
+    /// The same error against surfaces that may lie at the base's own depth; not below `error`.
     pub depth_error: f64,
     /// The fraction of the way from apex to base before which nothing counts; in [0, 1). 0 for parallel beams.
     pub start: f64,
@@ -94,7 +93,7 @@ pub(super) struct Beam {
     pub levers: bool,
 }
 
-/// Of three, where one end of the beam decides: surely, or within the error.
+/// Three answers: yes, no, or within the error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Before,
@@ -102,7 +101,7 @@ pub(super) enum Side {
     Beyond,
 }
 
-/// How a beam and a triangle meet.
+/// Meeting of a beam and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
     /// The fraction at which the centre segment's line crosses the triangle; `None` where it misses it.
@@ -122,12 +121,12 @@ impl Beam {
         moves.sum::<f64>() + self.error + error
     }
 
-    /// What the beam fills, where all corners are in their places.
+    /// Space that the beam fills if all corners are in their places.
     pub fn tube(&self) -> Tube {
         Tube { radius: self.radius(0.0), tapers: matches!(self.apex, Apex::At(_)) }
     }
 
-    /// Where the centre segment begins.
+    /// Start of the centre segment.
     pub fn origin(&self) -> DVec3 {
         match self.apex {
             Apex::At(apex) => apex,
@@ -160,12 +159,12 @@ impl Beam {
         }
     }
 
-    /// How much wider than at a fraction of the way the beam is at its base.
+    /// Width of the beam at its base over that at a fraction of the way.
     fn taper(&self, fraction: f64) -> f64 {
         if let Apex::At(_) = self.apex { fraction } else { 1.0 }
     }
 
-    /// How far a corner's error may move its image on the beam's base, over that error.
+    /// Movement of a corner's image on the beam's base, over the corner's error.
     fn lever(&self, corners: &[DVec3; 3]) -> f64 {
         let (Apex::At(apex), true) = (self.apex, self.levers) else { return 1.0 };
         let axis = self.base - apex;
@@ -175,8 +174,8 @@ impl Beam {
         if least > 0.0 { least.recip() } else { f64::INFINITY }
     }
 
-    /// How far the base lies from the apex, over how far the nearest corner or edge of a triangle does; infinite where the
-    /// apex may lie in the triangle. 1 where there is no apex.
+    /// Distance of the base from the apex, over that of the nearest corner or edge of a triangle; infinite if the apex may
+    /// lie in the triangle. 1 where there is no apex.
     fn turn(&self, corners: &[DVec3; 3]) -> f64 {
         let (Apex::At(apex), true) = (self.apex, self.levers) else { return 1.0 };
         let edges = || (0..3).map(|k| (corners[k], corners[(k + 1) % 3]));
@@ -206,7 +205,7 @@ impl Beam {
         Some(Meeting { center, surely_inside, at_base, at_start })
     }
 
-    /// On which side of the plane through apex and edge the whole base lies: `Beyond`: on the third corner's.
+    /// Side of the plane through apex and edge on which the whole base lies: `Beyond`: on the third corner's.
     ///
     /// Where the third corner lies in that plane within its error, the triangle is seen edge-on: what lies beside the plane,
     /// on either side, misses it. Beside is farther than the plane turns about the apex when the triangle moves by its error:
@@ -251,7 +250,7 @@ impl Beam {
         })
     }
 
-    /// How far base and surface may move against one another.
+    /// Relative movement of base and surface.
     fn moved_along(&self, normal: DVec3) -> f64 {
         self.reach_along(normal, &self.spread) + self.reach_along(normal, &self.slip)
     }
@@ -308,12 +307,12 @@ impl Beam {
     }
 
     /// Tests whether the surface ends or folds over at this edge as seen from the apex: `across` is the far corner of the
-    /// triangle on the other side, `third` that of this one. An edge that cannot be told is taken for a fold.
+    /// triangle on the other side, `third` that of this one. An edge that is too short to decide counts as a fold.
     pub fn is_fold(&self, edge: [DVec3; 2], third: DVec3, across: Option<DVec3>, error: f64) -> bool {
         let Some(across) = across else { return true };
         let [from, to] = edge;
         let (normal, _) = self.plane_through(from, to);
-        // How wide the edge looks from the apex; a corner's error turns the plane by error over this.
+        // Angular width of the edge from the apex; a corner's error turns the plane by error over this.
         let wide = match self.apex {
             Apex::At(apex) => normal.length() / (from - apex).length().min((to - apex).length()),
             Apex::Infinity { .. } => normal.length(),

@@ -41,7 +41,7 @@ impl Eye {
             && self.far.is_finite()
     }
 
-    /// Through the centre of the pixel in column `x` and row `y` from the top. Its length is chosen so that the ray's
+    /// Ray through the centre of the pixel in column `x` and row `y` from the top. Its length is chosen so that the ray's
     /// parameter is the depth along the view axis, which near and far are measured by.
     pub fn direction(&self, x: u32, y: u32) -> DVec3 {
         let across = f64::from(x) + 0.5 - self.half_size[0];
@@ -49,8 +49,8 @@ impl Eye {
         self.ahead + across * self.right + above * self.up
     }
 
-    /// How far apart a depth buffer of 24 bits may put two surfaces that lie at the same depth: 2⁻²² of the range in
-    /// window space, as measured on llvmpipe (`shared/semantics.md` §3), in world units along the axis.
+    /// Greatest difference that a depth buffer of 24 bits may make between two surfaces at the same depth: 2⁻²² of the
+    /// range in window space, as measured on llvmpipe (rule GL-T3 of `glumbra check`), in world units along the axis.
     pub fn depth_error(&self, depth: f64, rise_per_pixel: f64) -> f64 {
         (self.window(depth, self.far) + self.slope(rise_per_pixel)) / f64::from(1 << 22)
     }
@@ -60,7 +60,7 @@ impl Eye {
         (self.window(depth, f64::INFINITY) + self.slope(rise_per_pixel)) * (2.0 - f64::from(bits)).exp2()
     }
 
-    /// What all of the depth range would be in world units, if it were everywhere as long as at `depth`.
+    /// Length of the whole depth range in world units, if it were everywhere as fine as at `depth`.
     fn window(&self, depth: f64, far: f64) -> f64 {
         depth * depth * (1.0 / self.near - 1.0 / far)
     }

@@ -45,7 +45,7 @@ impl Alpha {
 pub(super) struct Cutout {
     opacity: f64,
     textures: Vec<Layer>,
-    /// In place of the mesh's own coordinates.
+    /// Generated coordinates, in place of the mesh's own.
     texgen: Option<ObjectLinear>,
 }
 
@@ -108,7 +108,7 @@ impl Layer {
             return unknown;
         }
         let at_middle = self.lookup(middle * size - 0.5);
-        // What lies beyond a clamped texture is all one value along each axis.
+        // Beyond a clamped texture, values are constant along each axis.
         let (low, high) = match self.placement.clamped {
             true => (low.clamp(DVec2::ZERO, size - 1.0), high.clamp(DVec2::ZERO, size - 1.0)),
             false => (low, high),

@@ -11,7 +11,7 @@ pub(super) struct Lamp {
     shape: Shape,
 }
 
-/// Where light comes from.
+/// Position or direction of a light.
 #[derive(Clone, Copy)]
 enum Source {
     At(DVec3),
@@ -23,7 +23,7 @@ enum Source {
     },
 }
 
-/// What the light holds, and how a map of it would be laid out.
+/// Region that the light reaches, and the layout of a map of it.
 enum Shape {
     /// `axes`: ahead, right, up; of unit length and square to each other.
     Spot { axes: [DVec3; 3], ends: LightShape, half_angle_radians: f64, near: f64, far: f64 },
@@ -72,7 +72,7 @@ impl Lamp {
             }
     }
 
-    /// Where a beam to `base` comes from.
+    /// Apex of a beam to `base`.
     pub fn apex(&self, base: DVec3) -> Apex {
         match self.source {
             Source::At(position) => Apex::At(position),
@@ -83,7 +83,7 @@ impl Lamp {
         }
     }
 
-    /// Where it stands; `None`: infinitely far away.
+    /// Position; `None`: infinitely far away.
     pub fn place(&self) -> Option<DVec3> {
         if let Source::At(position) = self.source { Some(position) } else { None }
     }
@@ -104,7 +104,7 @@ impl Lamp {
         }
     }
 
-    /// How much farther along the light's axis at `to` that point lies than `from`, in world units.
+    /// Distance from `from` to `to` along the light's axis at `to`, in world units.
     pub fn depth_between(&self, from: DVec3, to: DVec3) -> f64 {
         self.axis_at(to).dot(to - from)
     }
@@ -123,8 +123,8 @@ impl Lamp {
         }
     }
 
-    /// How fast the depth of a plane through `point` grows across a map: along the axis, by a length across it at the
-    /// point's own depth.
+    /// Slope of a plane through `point` across a map: depth along the axis, over a length across it at the point's own
+    /// depth.
     pub fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
         let axis = self.axis_at(point);
         let ray = -self.towards(point) / self.depth_at(point);
@@ -163,7 +163,7 @@ impl Lamp {
         }
     }
 
-    /// Where a map that holds all of the light has the point, in half sides of the map (see [`super::Hit::in_map`]).
+    /// Place of the point in a map that holds all of the light, in half sides of the map (see [`super::Hit::in_map`]).
     pub fn in_map(&self, point: DVec3) -> DVec3 {
         match &self.shape {
             Shape::Spot { axes, half_angle_radians, .. } => {
@@ -209,7 +209,7 @@ impl Lamp {
         ends.iter().find(|(_, side)| *side == Side::Near).map_or(Ok(true), |(reason, _)| Err(*reason))
     }
 
-    /// What the point itself says.
+    /// Tests the point itself, without error.
     pub fn holds_exactly(&self, point: DVec3) -> bool {
         [self.inside_sides(point), self.beyond_near(point), self.before_far(point)].iter().all(|inside| *inside >= 0.0)
     }

@@ -22,10 +22,10 @@ struct Cell<'w> {
 }
 
 impl Surroundings<'_> {
-    /// How far before the point that the pixel shows the middle between two layers lies at most, somewhere within `reach`
-    /// as [`Surroundings::around`] has it, in world units along the light's axis; negative behind it, by what is no farther
-    /// than `apart`; minus infinity: nowhere. Layers no farther apart than `apart` count as one. The first of two casts; the
-    /// second may be any surface.
+    /// Greatest distance of the middle between two layers before the point that the pixel shows, within `reach` as in
+    /// [`Surroundings::around`], in world units along the light's axis; negative behind it, up to `apart`; minus infinity:
+    /// there is none. Layers no farther apart than `apart` count as one. The first of two casts; the second may be any
+    /// surface.
     ///
     /// Under a perspective the middle is that of window depths, which are linear in one over the distance. It lies before
     /// the middle of both places.
@@ -74,7 +74,7 @@ impl Surroundings<'_> {
                 are_apart |= between > apart;
                 most = most.max(middle);
             }
-            // Where the second comes before the first, the part ends.
+            // The part ends where the second layer comes before the first.
             if (between > -apart) != (next > -apart) {
                 let part = (between + apart) / (between - next);
                 let crossing = middle + part * (next_middle - middle);
@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(middle(&format!("{quad}{quad}"), 0.1), f64::NEG_INFINITY);
         let below = format!("{quad}translate = [0.0, -0.01, 0.0]\n");
         assert!(middle(&format!("{quad}{below}"), 0.1) > 0.0);
-        // What casts nothing may be the second of two, and no first.
+        // A surface that casts nothing may be the second layer, but not the first.
         assert!(middle(&format!("{quad}{below}casts_shadow = false\n"), 0.1) > 0.0);
         assert_eq!(middle(&format!("{quad}casts_shadow = false\n{below}"), 0.1), f64::NEG_INFINITY);
     }

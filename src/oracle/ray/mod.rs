@@ -4,14 +4,14 @@
 //! camera and light are places, directions and angles (`camera.rs`, `light.rs`).
 //!
 //! # What it answers
-//! A ray through each pixel's centre finds the nearest surface between the camera's near and far planes; a second asks
-//! whether anything lies between that point and the light. Triangles cast from both sides; the alpha test cuts holes
-//! for sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose
-//! visible side is turned away from the light is in its own shadow. The light lights what its shape holds: a point
-//! outside the cone (or the square frustum), nearer than its near plane or beyond its far plane along its axis is
-//! [`Answer::OutsideCone`]. Blockers count from the light on: those planes are of the maps that are drawn of it, not of its
-//! rays. A point light's planes are the six of a cube around it; a directional light has none, and its rays are parallel:
-//! no far place stands in for infinity.
+//! A ray through each pixel's centre finds the nearest surface between the camera's near and far planes; a second finds
+//! whether anything lies between that point and the light. Triangles cast from both sides; the alpha test cuts holes for
+//! sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose visible
+//! side is turned away from the light is in its own shadow. The light lights what its shape holds: a point outside the cone
+//! (or the square frustum), nearer than its near plane or beyond its far plane along its axis is [`Answer::OutsideCone`].
+//! Blockers count from the light on: those planes are of the maps that are drawn of it, not of its rays. A point light's
+//! planes are the six of a cube around it; a directional light has none, and its rays are parallel: infinity is not
+//! replaced by a far point.
 //!
 //! # When it does not answer
 //! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off
@@ -53,10 +53,10 @@ pub use truth::{Answer, Hit, Pixel, Reason, Truth};
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
 use world::{Placed, Segment, Triangle, World};
 
-/// How much doubt is granted.
+/// Amount of doubt that is granted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL asks for 4 at least.
+    /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL requires at least 4.
     pub subpixel_bits: u32,
     /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates that meet in it: its distance from
     /// its object's origin, and the origin's from eye and light (from the eye again for a directional one, whose map may
@@ -102,11 +102,11 @@ pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Er
     Tracer::new(scene, light, options)?.trace(scene, options)
 }
 
-/// A picture's pixels are answered in so many portions, each spread over all of it: after each it is asked whether too many
-/// are ambiguous already. Where all are, the rest of a slow answer is not waited for.
+/// A picture's pixels are answered in so many portions, each spread over all of it: after each there is a check whether too
+/// many are ambiguous already. Where all are, the rest of a slow answer is not waited for.
 const PORTIONS: usize = 64;
 
-/// What is undecided of the pixels that are answered so far.
+/// Undecided pixels among those answered so far.
 #[derive(Default)]
 struct Doubts {
     answered: usize,
@@ -239,8 +239,8 @@ impl<'a> Tracer<'a> {
         self.error_of(triangle.placed, position.distance(triangle.placed.origin()))
     }
 
-    /// How far, in world units along the view ray, a depth buffer may misplace the visible point against another surface
-    /// of the same pixel: each of the two by its own error.
+    /// Distance in world units along the view ray by which a depth buffer may misplace the visible point against another
+    /// surface of the same pixel: each of the two by its own error.
     fn depth_misplacement(&self, seen: &Seen<'_>, bits: u32) -> f64 {
         let ray = seen.position - self.eye.position;
         let depth = self.eye.depth_of(ray);

@@ -1,4 +1,4 @@
-//! What the camera sees through a pixel's centre, and whether it would see the same a sub-pixel aside.
+//! The surface that the camera sees through a pixel's centre, and whether it would see the same a sub-pixel aside.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ pub(super) struct Seen<'w> {
     pub position: DVec3,
     /// Unit normal on the camera's side.
     pub normal: DVec3,
-    /// How the point moves on the surface with the sample, one vector a direction.
+    /// Movement of the point on the surface with the sample, one vector for each direction.
     pub spread: [DVec3; 2],
     /// Radius of the ball that the point may lie in besides.
     pub error: f64,
@@ -56,9 +56,9 @@ impl Tracer<'_> {
         }
     }
 
-    /// How far the point moves in the surface's plane when the sample moves by one sub-pixel to the right and up, made
-    /// longer so that it holds for both moves at once. `None`: the plane is seen so nearly edge-on that half of the
-    /// ray's slope is lost.
+    /// Movement of the point in the surface's plane when the sample moves by one sub-pixel to the right and up, made longer
+    /// so that it holds for both moves at once. `None`: the plane is seen so nearly edge-on that half of the ray's slope is
+    /// lost.
     fn footprint(&self, direction: DVec3, depth: f64, normal: DVec3) -> Option<[DVec3; 2]> {
         let slope = normal.dot(direction);
         let moves = [self.eye.right, self.eye.up].map(|way| way * self.subpixel);

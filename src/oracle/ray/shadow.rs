@@ -1,4 +1,4 @@
-//! Whether a seen point has light, and whether all points that the sample may mean agree.
+//! Tests whether light reaches a seen point, and whether all points that the sample may mean agree.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use super::truth::Reason;
 use super::world::{Segment, Triangle, Tube};
 use super::{ENOUGH, Tracer, doubt};
 
-/// What one triangle does to a shadow ray.
+/// Effect of one triangle on a shadow ray.
 enum Verdict {
     /// It stops the whole beam.
     Blocks,
@@ -34,13 +34,12 @@ impl Tracer<'_> {
         // Where the light stands behind the visible side, the surface itself is in the way.
         let lit = is_clear && !(height < 0.0 && seen.triangle.placed.casts_shadow);
         doubt(&mut reason, found);
-        // What something else surely shades stays dark, whichever way the surface is turned.
+        // A point that something else surely shades is dark, whichever way its surface is turned.
         let reason = if !is_clear && found.is_none() { None } else { reason };
         (lit, reason)
     }
 
-    /// How high the light stands over the visible surface, times its distance where that is finite; and by how much that
-    /// may be wrong.
+    /// Height of the light over the visible surface, times its distance if that is finite; and the error of that.
     pub fn height_of_light(&self, seen: &Seen<'_>) -> (f64, f64) {
         let to_light = self.lamp.towards(seen.position);
         // A corner's error tilts the plane by error over the triangle's least height; a light that has a place is seen

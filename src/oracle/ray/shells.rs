@@ -1,4 +1,4 @@
-//! Which triangles make shadow volumes: the rule of [`super::volume_count`], from the scene alone. An object's triangles
+//! Triangles that make shadow volumes: the rule of [`super::volume_count`], from the scene alone. An object's triangles
 //! fall into shells, connected across edges; each is closed or not, looks outwards or not, and may hold the light.
 
 use std::collections::HashMap;
@@ -14,12 +14,12 @@ use super::solid::Solid;
 use super::world::Placed;
 use crate::scene::Object;
 
-/// How a triangle counts.
+/// Way in which a triangle counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
     /// It casts no shadow, or has no area.
     Never,
-    /// Where the light is on the side from which its corners run counter-clockwise in model space.
+    /// Counts if the light is on the side from which its corners run counter-clockwise in model space.
     Facing,
     /// From both sides.
     All,
@@ -116,7 +116,7 @@ fn looks_outwards(solid: &Solid<'_>, triangles: &[u32]) -> bool {
     volume > LEAST_VOLUME * size
 }
 
-/// How often closed triangles wind around a point: ways out less ways in along a ray of no special direction.
+/// Winding number of closed triangles around a point: ways out less ways in along a ray of no special direction.
 fn winding(solid: &Solid<'_>, triangles: &[u32], point: DVec3) -> i32 {
     let ray = DVec3::new(0.573, 0.319, 0.811);
     let sign = |triangle: &u32| {

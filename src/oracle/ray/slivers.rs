@@ -27,7 +27,7 @@ struct Sliver {
 }
 
 struct Plane {
-    /// Of unit length.
+    /// Unit normal.
     normal: DVec3,
     point: DVec3,
 }

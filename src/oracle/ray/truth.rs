@@ -1,4 +1,4 @@
-//! What the oracle answers, pixel by pixel. Plain values; knows no scene and no ray.
+//! Answers of the ray tracer, pixel by pixel. Plain values; knows no scene and no ray.
 
 use glam::DVec3;
 
@@ -16,10 +16,10 @@ pub struct Truth {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
     pub answer: Answer,
-    /// What the centre ray alone says, where the light's shape holds the point: also given for ambiguous pixels, so
-    /// that shadow edges can be located through them. Never to be counted as truth.
+    /// Answer of the centre ray alone, if the light's shape holds the point. Ambiguous pixels have it too, so that shadow
+    /// edges can be located through them. Never count it as truth.
     pub lit_at_center: Option<bool>,
-    /// What the centre ray hits; `None`: nothing between the camera's near and far planes.
+    /// Hit of the centre ray; `None`: nothing between the camera's near and far planes.
     pub hit: Option<Hit>,
 }
 
@@ -35,7 +35,7 @@ pub enum Answer {
     Ambiguous(Reason),
 }
 
-/// What a small move of the sample would change.
+/// Reason why a small move of the sample would change the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reason {
     /// The primary ray passes a silhouette or an open edge.
@@ -103,7 +103,7 @@ pub struct Hit {
     pub cos_light: f64,
     /// The longest way, in world units, that the point moves on its surface when the sample moves by one pixel.
     pub pixel_size: f64,
-    /// Where a map that holds all of the light has the point, in half sides of the map.
+    /// Place of the point in a map that holds all of the light, in half sides of the map.
     ///
     /// - Spotlight: (right, up, 0) in its square frustum, each in [-1, 1] inside; measured by angle tangents from the
     ///   light's axis. Infinite behind the light.

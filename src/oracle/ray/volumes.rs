@@ -1,4 +1,4 @@
-//! How many shadow volumes hold each visible point: what a stencil count should say, by rays alone.
+//! Number of shadow volumes that hold each visible point: the right stencil count, by rays alone.
 //!
 //! # What is counted
 //! A triangle that counts has a volume: what lies behind it as seen from the light, without end. The count of a point is
@@ -42,9 +42,9 @@ pub struct VolumeCounts {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountPixel {
     pub count: Count,
-    /// What the centre ray alone says, also for ambiguous pixels; never to be taken for truth there.
+    /// Count of the centre ray alone, also for ambiguous pixels; it is not truth there.
     pub at_center: Option<u32>,
-    /// What the centre ray hits.
+    /// Hit of the centre ray.
     pub hit: Option<Hit>,
 }
 
@@ -93,8 +93,8 @@ pub fn volume_count(scene: &Scene, light: usize, options: &Options) -> Result<Vo
     Ok(counts)
 }
 
-/// How many shadow volumes hold each of `points` (world space, on no surface); `None` within `error` (world units) of a
-/// place with another count.
+/// Number of shadow volumes that hold each of `points` (world space, on no surface); `None` within `error` (world units) of
+/// a place with another count.
 pub fn volume_count_at(
     scene: &Scene,
     light: usize,
@@ -111,13 +111,13 @@ pub fn volume_count_at(
     Ok(points.par_iter().map(count).collect())
 }
 
-/// What one triangle adds.
+/// Contribution of one triangle.
 struct Share {
     center: u32,
     reason: Option<Reason>,
 }
 
-/// What all triangles add.
+/// Sum over all triangles.
 struct Tally {
     center: u32,
     /// Triangles that may count or not: by so much the count may be off, either way.
@@ -127,7 +127,7 @@ struct Tally {
 
 pub(super) struct Counting<'t, 'a> {
     tracer: &'t Tracer<'a>,
-    /// Of each object, of each triangle.
+    /// Rule of each triangle of each object.
     rules: Vec<Vec<Rule>>,
     slivers: Slivers,
 }

@@ -1,5 +1,5 @@
-//! Where a wave moves a vertex, in f64, and how far f32 may bring it from there. The oracle's own: it shares no formula
-//! with who draws waves.
+//! Movement of a vertex by a wave, in f64, and the error of f32. The ray tracer's own: it shares no formula with the
+//! renderer.
 
 use std::f64::consts::TAU;
 
@@ -7,14 +7,14 @@ use glam::{DMat4, DVec3};
 
 use crate::geometry::{Mesh, Wave};
 
-/// Where a wave moves a point to: along its reach, by the sine of how many wavelengths the point is away along its axis.
+/// Point moved by a wave: along its reach, by the sine of how many wavelengths the point is away along its axis.
 pub(super) fn moved(place: DVec3, wave: &Wave) -> DVec3 {
     let turns = wave.vector.x * place.x + wave.vector.y * place.y + wave.vector.z * place.z + wave.phase;
     place + wave.reach * ((turns - turns.floor()) * TAU).sin()
 }
 
-/// How far f32 may bring a vertex from where its wave has it: the turns are a sum of four products, each with its factors
-/// rounded; a sine is good to 2^-20 on the least of drivers; the sum is rounded once more.
+/// Error of f32 in a vertex that a wave moves: the turns are a sum of four products, each with its factors rounded; a sine
+/// is good to 2^-20 on the least of drivers; the sum is rounded once more.
 pub(super) fn error(wave: &Wave, mesh: &Mesh, world_from_model: &DMat4) -> f64 {
     let rounding = 0.5 * f64::from(f32::EPSILON);
     let size = |position: &[f32; 3]| DVec3::from_array(position.map(f64::from)).length();

@@ -31,13 +31,13 @@ pub(super) struct Placed {
     pub casts_shadow: bool,
     world_from_model: DMat4,
     model_from_world: DMat4,
-    /// How much `model_from_world` stretches a length at most.
+    /// Greatest factor by which `model_from_world` stretches a length.
     shrink: f64,
     /// The farthest vertex from the object's origin, in world units.
     pub reach: f64,
-    /// What a vertex's wave may be off by where it is found in f32, in world units.
+    /// Error of a vertex's wave in f32, in world units.
     pub wave_error: f64,
-    /// Of each part, and last of triangles that no part holds.
+    /// Cut-out of each part, and last of triangles that no part holds.
     cutouts: Vec<Option<Cutout>>,
     has_cutouts: bool,
 }
@@ -61,10 +61,10 @@ pub(super) struct Segment {
     pub end: f64,
 }
 
-/// What is near to a segment.
+/// Neighbourhood of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tube {
-    /// Where the segment's parameter is 1.
+    /// Radius where the segment's parameter is 1.
     pub radius: f64,
     /// True if the radius grows from 0 with the segment's parameter.
     pub tapers: bool,
@@ -407,7 +407,7 @@ impl Slab {
         self.span(node, end, self.pad).map_or(f64::MAX, |(enter, _)| enter)
     }
 
-    /// Where the segment enters and leaves the node's box grown by `pad`, before `end`.
+    /// Parameters at which the segment enters and leaves the node's box grown by `pad`, before `end`.
     fn span(&self, node: &BvhNode, end: f64, pad: f64) -> Option<(f64, f64)> {
         let min = (DVec3::from_array(node.mins().to_array()) - pad - self.origin) * self.inverse;
         let max = (DVec3::from_array(node.maxs().to_array()) + pad - self.origin) * self.inverse;

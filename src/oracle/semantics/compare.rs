@@ -125,7 +125,7 @@ fn filtered_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
     Ok(())
 }
 
-/// How many results there are between a texel that passes and one that fails.
+/// Number of results between a texel that passes and one that fails.
 fn weight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     const STEPS: usize = 4096;
     let image = subject.bench.depth_image(Format::Depth24, [2, 1], &[&[1.0, 0.0]])?;
@@ -213,14 +213,14 @@ fn borders(subject: &Subject, findings: &mut Findings, flat: &Image) -> Result<(
         let sampling = Sampling { wrap, linear, border: [1.0, 0.0, 0.0, 0.0], ..compare };
         let value = subject.bench.map(COMPARE, &[[s, 0.5, 0.75, 0.0]], &[("shadow", flat, sampling)])?[0][0];
         let grade = verify::within(f64::from(value) - expected, 1.0 / 64.0, 1.0 / 8.0);
-        // What a nearest texel would give is never 'about right' here.
+        // A nearest texel's result is never 'about right' here.
         let grade = if linear { grade } else { grade.max(verify::within(f64::from(value) - expected, 0.0, 0.0)) };
         findings.grade(format!("{}: {name}", flat.format.name()), grade, format!("{value}; {expected} is due"));
     }
     Ok(())
 }
 
-/// What a shader reads of stored depths, against what is stored: used by D1.
+/// Compares depths that a shader reads with the stored ones: used by GL-D1.
 pub(super) fn fetched(subject: &Subject, image: &Image) -> Result<Tally, Error> {
     let stored = subject.bench.image_depths(image)?;
     let width = image.size[0] as usize;

@@ -50,7 +50,7 @@ fn cleared(subject: &Subject, findings: &mut Findings, format: Format) -> Result
     let surface = subject.bench.surface([4, 4], None, Some(format))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
     let mut random = Random::new(12);
-    // No sums of powers of two: their arithmetic would be exact on every road.
+    // No sums of powers of two: their arithmetic would be exact in any order.
     let depths: Vec<f32> = [0.0, 1.0].into_iter().chain((0..126).map(|_| random.unit() / 1.1)).collect();
     let (mut tally, mut apart) = (Tally::default(), 0);
     for depth in depths.iter().copied().map(f64::from) {

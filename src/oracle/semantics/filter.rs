@@ -1,4 +1,4 @@
-//! Which rules are meant: `--filter`.
+//! Choice of rules: `--filter`.
 
 use super::{Rule, TABLE};
 

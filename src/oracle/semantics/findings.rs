@@ -1,4 +1,4 @@
-//! What a rule found: verdicts with what was measured, and facts without a verdict.
+//! Findings of a rule: verdicts with measurements, and facts without a verdict.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use crate::device::bench::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// This context cannot be asked.
+    /// This context cannot be tested.
     Untestable,
     Pass,
     /// Allowed, but not as good as could be.
@@ -39,12 +39,12 @@ impl fmt::Display for Verdict {
 pub struct Finding {
     pub what: String,
     pub verdict: Verdict,
-    /// What was measured, or why it was not.
+    /// The measurement, or the reason why there is none.
     pub measured: String,
 }
 
 impl Finding {
-    /// What a waiver quotes.
+    /// Message that a waiver quotes.
     pub fn message(&self) -> String {
         format!("{}: {}", self.what, self.measured)
     }
@@ -57,7 +57,7 @@ pub struct Fact {
     pub value: String,
 }
 
-/// What a rule has found so far.
+/// Findings of a rule so far.
 #[derive(Debug, Default)]
 pub struct Findings {
     list: Vec<Finding>,

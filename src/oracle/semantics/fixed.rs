@@ -55,7 +55,7 @@ struct Setup {
     projection: DMat4,
     eye_from_world: DMat4,
     world_from_model: DMat4,
-    /// To s, t, r and q of the map.
+    /// Matrix to s, t, r and q of the map.
     map_from_world: DMat4,
     floor: Vec<Vertex>,
 }

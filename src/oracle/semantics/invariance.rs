@@ -25,7 +25,7 @@ const PLAIN: Shader = shader("gl_Position = clip_from_model * position; passed =
 /// A pass that is to meet the depths of a first one.
 struct Again {
     name: &'static str,
-    /// True if the specification demands it, or only suggests it (enables).
+    /// True if the specification demands it; `false`: it only suggests it (enables).
     required: bool,
     shader: Shader,
     /// All of these draw, in turn.
@@ -57,7 +57,7 @@ fn passes() -> Vec<Again> {
     ]
 }
 
-/// Triangles of model space, some of them across the near plane if so asked.
+/// Triangles of model space, some of them across the near plane if requested.
 fn mesh(near_too: bool) -> Vec<Vertex> {
     let mut random = Random::new(51);
     let depth = if near_too { 3.0 } else { 1.5 };
@@ -130,7 +130,7 @@ pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
     Ok(())
 }
 
-/// What renderers rely on although nobody promises it.
+/// Tests of equality that renderers rely on although GL does not promise it.
 fn not_promised(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let equal = State { depth: Some(Compare::Equal), ..State::WRITE };
     let other =

@@ -39,19 +39,19 @@ use crate::oracle::fixed_function::FixedBench;
 /// One rule of GL, and how it is checked.
 #[derive(Debug)]
 pub struct Rule {
-    /// As `C1`: a letter for the kind.
+    /// Id like `GL-C1`: a letter for the kind.
     pub id: &'static str,
     pub title: &'static str,
-    /// Of the OpenGL 4.6 specification, compatibility profile.
+    /// Section of the OpenGL 4.6 specification, compatibility profile.
     pub section: &'static str,
-    /// What the specification says, in short.
+    /// Summary of the specification's rule.
     pub says: &'static str,
-    /// What is tolerated, and why.
+    /// Tolerance, and its reason.
     pub tolerance: &'static str,
     pub check: fn(&Subject, &mut Findings) -> Result<(), bench::Error>,
 }
 
-/// What is checked: a driver by way of one context.
+/// A driver, checked by way of one context.
 pub struct Subject {
     pub bench: Bench,
     /// The fixed-function pipeline, or why there is none.
@@ -72,7 +72,7 @@ impl Subject {
     }
 }
 
-/// What came of one rule.
+/// Result of one rule.
 #[derive(Clone, Debug, Serialize)]
 pub struct Outcome {
     pub id: &'static str,
@@ -97,7 +97,7 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// How many rules have this verdict.
+    /// Number of rules with this verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.verdict == verdict).count()
     }
@@ -113,7 +113,7 @@ impl Checked {
     }
 }
 
-/// Runs `rules` and tells `seen` of each outcome.
+/// Runs `rules` and gives `seen` each outcome.
 pub fn run(subject: &Subject, rules: &[&'static Rule], mut seen: impl FnMut(&Outcome)) -> Vec<Outcome> {
     let one = |rule: &&'static Rule| {
         let start = std::time::Instant::now();

@@ -99,7 +99,7 @@ fn slope(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(
             let moved = slanted_depth(subject, &surface, slope, Some(offset))?;
             let m = (moved - slanted_depth(subject, &surface, slope, None)?) / f64::from(offset.factor);
             let ideal = slope[0].abs().max(slope[1].abs());
-            // What is stored is a code: m is known to half a code each, over the factor.
+            // The stored value is a code: m is known to half a code each, over the factor.
             let code = encoding.step(0.75) / f64::from(FACTOR);
             let grades = [m - code, m, m + code].map(|m| verify::offset_slope(m, slope));
             let best = grades.into_iter().min().unwrap_or(Grade::Wrong);

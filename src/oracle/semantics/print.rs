@@ -39,7 +39,7 @@ pub fn print(checked: &Checked, width: u16, all: bool) -> String {
     text
 }
 
-/// What passes is counted, the rest is told.
+/// Text of the measurements: passes are counted, the rest is listed.
 fn measured(outcome: &Outcome, all: bool) -> String {
     let told = |finding: &&Finding| all || finding.verdict != Verdict::Pass;
     let mut lines: Vec<String> = outcome.findings.iter().filter(told).map(line).collect();

@@ -9,7 +9,7 @@ use crate::device::bench::{Draw, Error, Format, Shader, State, StencilOp, Surfac
 const SIDE: u32 = 64;
 const COUNT: State = State::counting(StencilOp::IncrementWrap, StencilOp::IncrementWrap);
 
-/// How many fragments each pixel gets.
+/// Number of fragments of each pixel.
 fn counts(subject: &Subject, surface: &Surface, vertices: &[Vertex]) -> Result<Vec<u8>, Error> {
     surface.clear_stencil(0);
     subject.bench.draw(&Draw::plain(surface, COUNT, vertices))?;
@@ -211,7 +211,7 @@ fn homogeneous(corners: [[f32; 4]; 3], [x, y]: [f64; 2]) -> bool {
     weights.iter().all(|weight| *weight > 0.0) && z.abs() <= 1.0
 }
 
-/// What a plane clips away and what its opposite clips away make the whole, each pixel once.
+/// Tests that a plane and its opposite clip complementary parts, each pixel once.
 fn complements(
     subject: &Subject,
     findings: &mut Findings,

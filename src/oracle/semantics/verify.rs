@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use crate::device::bench::{Compare, Encoding, StencilOp};
 
-/// How good a value is.
+/// Grade of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Grade {
     /// Within the strict tier.
@@ -51,7 +51,7 @@ impl Tally {
     }
 }
 
-/// How much nearer than this reference and texel may be taken for equal (2^-16: a reference of 16 bits).
+/// Distance within which reference and texel may count as equal (2^-16: a reference of 16 bits).
 pub const NEAR_TIE: f64 = 1.0 / 65536.0;
 
 /// Tests whether the eight functions' results, in [`Compare::ALL`]'s order, are those of one order of `reference` against
@@ -89,11 +89,11 @@ pub fn filtered(value: f64, passes: [bool; 4], weights: [f64; 2]) -> Grade {
     let nearest = positions(weights, least).map(|[alpha, beta]| bilinear(texels, alpha.round(), beta.round()));
     let near = positions(weights, least).map(|[alpha, beta]| bilinear(texels, alpha, beta));
     let [low, high] = [range(nearest), range(near)].into_iter().fold([texels.iter().sum::<f64>() / 4.0; 2], join);
-    // What is written as 8 bits is read as a float: 2^-9 more.
+    // Values written as 8 bits are read as floats: 2^-9 more.
     let error = f64::from(-RESULT_BITS).exp2() + 1.0 / 512.0;
     let inside = |[low, high]: [f64; 2]| (low - error..=high + error).contains(&value);
     match () {
-        // Where all agree there is nothing to weigh.
+        // If all agree, weights do not matter.
         () if passes.iter().all(|pass| *pass == passes[0]) => within(value - texels[0], 1.0 / 512.0, 1.0 / 512.0),
         () if inside(good) => Grade::Good,
         () if inside([low, high]) => Grade::Allowed,
@@ -155,8 +155,8 @@ pub fn offset_slope(m: f64, slope: [f64; 2]) -> Grade {
     }
 }
 
-/// Polygon offset's r in steps of the format: strictly the least difference that can be told; up to twice that, as
-/// piglit's polygon-offset allows.
+/// Polygon offset's r in steps of the format: strictly the least resolvable difference; up to twice that, as piglit's
+/// polygon-offset allows.
 pub fn offset_unit(steps: f64) -> Grade {
     match () {
         () if (0.99..=1.01).contains(&steps) => Grade::Good,
@@ -177,8 +177,8 @@ pub fn unorm8(code: u8, value: f64) -> Grade {
     within(f64::from(code) - value.clamp(0.0, 1.0) * 255.0, 0.5 + 1e-4, 1.0 + 1e-4)
 }
 
-/// What stands in an 8-bit stencil buffer after `op` [GL 4.6, 17.3.3]: saturation comes before the write mask, and the
-/// reference is clamped.
+/// Value of an 8-bit stencil buffer after `op` [GL 4.6, 17.3.3]: saturation comes before the write mask, and the reference
+/// is clamped.
 pub fn stencil(op: StencilOp, old: u8, reference: i32, write_mask: u32) -> u8 {
     let new = match op {
         StencilOp::Keep => old,

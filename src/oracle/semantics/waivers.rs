@@ -25,7 +25,7 @@ pub struct Waiver {
     pub until: Option<Number>,
     /// The rule's id.
     pub rule: String,
-    /// What the rule checks, to the letter; whatever was measured there is waived.
+    /// Name of the check, to the letter; any measurement there is waived.
     pub finding: String,
     /// Why it is let pass.
     pub reason: String,
@@ -55,7 +55,7 @@ impl Number {
 }
 
 impl Waiver {
-    /// Tests whether it is of this driver and one of its versions.
+    /// Tests whether it names this driver and one of its versions.
     fn is_of(&self, context: &ContextInfo) -> bool {
         let Some((_, after)) = context.version.split_once(&self.version) else { return false };
         let number = Number::leading(after);
@@ -134,7 +134,7 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]
     stale
 }
 
-/// Tests whether this context could not ask what the waiver is about.
+/// Tests whether this context could not test what the waiver names.
 fn may_be_untested(outcome: &Outcome, waiver: &Waiver) -> bool {
     let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Untestable);
     let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != Verdict::Untestable);
