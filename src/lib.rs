@@ -3,11 +3,11 @@
 //! A frame's way through the library:
 //!
 //! 1. [`scene::load`] resolves a file (TOML or OBJ) to a [`scene::Scene`]: plain values, no GL.
-//! 2. [`plan::make`] asks each light's technique ([`techniques::TABLE`]) to describe its passes,
+//! 2. [`plan::make`] calls each light's technique ([`techniques::TABLE`]) to describe its passes,
 //! 3. adds the lit pass, and leaves out what this scene cannot show; a [`plan::Plan`] says what, and why.
 //! 4. Its [`pass::PassList`] is data: images, draw state, shader variants, draws. It can be printed and compared.
 //! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.
-//! 6. [`device::Device`] turns the pass list into GL, the only room that does,
+//! 6. [`device::Device`] turns the pass list into GL, the only module that does,
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY.
 //! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, [`oracle::fixed_function`] draws
@@ -26,7 +26,7 @@
 //! # }
 //! ```
 
-// Where standard output or standard error is closed or full, these panic.
+// These panic if standard output or standard error is closed or full.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod cli;

@@ -108,7 +108,7 @@ fn a_report_tells_what_the_documents_claim() {
     command.current_dir(work.folder.path());
     let told = succeed(command.args(["report", "scene.toml", "--quick", "--runs", "1", "-o", "out"]));
     assert!(
-        told.contains("What the documents claim, on scene.toml:") && told.contains("second-depth: moves the error")
+        told.contains("Published claims, on scene.toml:") && told.contains("second-depth: moves the error")
     );
     let report = work.load("out");
     let scene = only_scene(&report);
@@ -121,7 +121,7 @@ fn a_report_tells_what_the_documents_claim() {
     assert!(sides().all(|side| side.value.is_some() != side.why.is_some()), "{told}");
     assert!(sides().filter(|side| side.value.is_some()).count() >= 18, "{told}");
     let page = std::fs::read_to_string(work.path("out/report.html")).unwrap();
-    assert!(page.contains("What the documents claim, on this scene"));
+    assert!(page.contains("Published claims, on this scene"));
 }
 
 #[test]

@@ -128,7 +128,7 @@ A row is the scene's own [light.shadow] with the row's keys in place of its own,
 checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of
 [light.shadow]. Rows that could not be measured end in exit code 1, and the report holds the others.
 
-Without a grid file the report also holds what the documents claim of the techniques against each scene.
+Without a grid file the report also measures, on each scene, what the techniques' documents claim.
 
 Ctrl-C leaves a report of what was done; --resume goes on from there.";
 
@@ -303,11 +303,11 @@ fn measure(
     Ok(())
 }
 
-/// Measures the documents' claims on each scene.
+/// Measures published claims on each scene.
 fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());
-    let bar = super::spinner("what the documents claim, on {msg}");
+    let bar = super::spinner("published claims, on {msg}");
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         bar.set_message(scene.path.display().to_string());
         bar.tick();
@@ -322,7 +322,7 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
     if scene.claims.is_empty() {
         return Ok(());
     }
-    writeln!(out, "# What the documents claim, on {}:", scene.path.display())?;
+    writeln!(out, "# Published claims, on {}:", scene.path.display())?;
     scene.claims.iter().try_for_each(|claim| writeln!(out, "#   {claim}"))
 }
 

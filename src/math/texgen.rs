@@ -1,4 +1,4 @@
-//! Eye-linear texture-coordinate generation, emulated [Hardware Shadow Mapping, Eq. 1–5 and Appendix A].
+//! Eye-linear texture-coordinate generation, emulated [HSM, "Computing Transformations for Shadow Mapping", Appendix A].
 //!
 //! `(s, t, r, q) = T · E_e · x_eye` with `E_e = E_po · modelview_po⁻¹`: the planes as specified to glTexGen, times the
 //! inverse of the modelview in effect at that call, then the texture matrix.
@@ -7,8 +7,8 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::dd::DdMat4;
 
-/// The modelview under which the planes are specified: the document's four equal set-ups, named for the space in
-/// which the planes then stand.
+/// The modelview under which the planes are specified: four equal set-ups [HSM, Appendix A], named for the space in which
+/// the planes then stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SetUp {
     /// (i) modelview I; planes `S·P_light·L⁻¹·V`.
@@ -94,9 +94,9 @@ pub fn scale_bias(r_scale: f64, r_bias: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(0.5, 0.5, r_bias)) * DMat4::from_scale(DVec3::new(0.5, 0.5, r_scale))
 }
 
-/// The Direct3D texture matrix [Hardware Shadow Mapping, "Direct3D API Details"]: y flipped, `r` in integer units of a map of
-/// `bits` bits, `bias` in the same units (negative: towards the light). `half_texel`: half the width of a texel in [0, 1],
-/// for its addressing; 0 where the map was drawn with its viewport moved by as much.
+/// The Direct3D texture matrix [HSM, "Direct3D API Details"]: y flipped, `r` in integer units of a map of `bits` bits,
+/// `bias` in the same units (negative: towards the light). `half_texel`: half the width of a texel in [0, 1], for its
+/// addressing; 0 where the map was drawn with its viewport moved by as much.
 pub fn direct3d_scale_bias(half_texel: f64, bits: u32, bias: f64) -> DMat4 {
     let offset = 0.5 + half_texel;
     let z_scale = 2.0_f64.powi(bits as i32) - 1.0;

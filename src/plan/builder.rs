@@ -1,7 +1,8 @@
 //! Adds the passes that draw a scene's surfaces: the picture and the views beside it.
 //!
 //! Lights whose shade a shader finds are lit in one pass. Where a light's shadow is counted in the stencil buffer
-//! (`counted.rs`), that pass gives depth and what needs no count, and each such light is added after its count (C9).
+//! (`counted.rs`), that pass gives depth and what needs no count, and each such light is added after its count [GDC,
+//! "Shadow Volume Algorithm"].
 
 use std::borrow::Cow;
 

@@ -1,8 +1,8 @@
 //! Pictures of lights whose shadow is counted in the stencil buffer [GDC, "Shadow Volume Algorithm"]: depth and all light
 //! that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags [LEC,
 //! "Combining Shadow Mapping with other Techniques"], and its light where the count is 0, with depth EQUAL. Or, for one
-//! light, the talk's two passes: depth, its count, then the scene with that light where the count is 0 and without it where
-//! it is not.
+//! light, the two passes of [GDC, "Shadow Volume Algorithm"]: depth, its count, then the scene with that light where the
+//! count is 0 and without it where it is not.
 
 use super::Error;
 use super::builder::{Builder, Onto};
@@ -260,7 +260,7 @@ impl Builder<'_> {
         Ok(target.color.unwrap_or(ImageId(0)))
     }
 
-    /// Volumes, translucent, or their silhouettes over the unshadowed scene (C11).
+    /// Volumes, translucent, or their silhouettes over the unshadowed scene [GDC, "Visualizing Shadow Volumes"].
     fn volume_view(
         &mut self,
         view: View,

@@ -74,7 +74,7 @@ fn an_unsized_map_is_copied_from_a_sized_depth_buffer() {
     }
 }
 
-/// Half a texel is in the matrix or in the viewport, and never in both [Hardware Shadow Mapping, "Direct3D API Details"].
+/// Half a texel is in the matrix or in the viewport, and never in both [HSM, "Direct3D API Details"].
 #[test]
 fn direct3d_s_half_texel_is_made_up_for_once() {
     let moved = |addressing: &str| {

@@ -1,4 +1,4 @@
-//! Which pixels lie near a true shadow edge, in texels of a shadow map of all the light.
+//! Pixels near a true shadow edge, in texels of a shadow map of all the light.
 //!
 //! Distances are taken in the map's plane, not in the picture: a pixel is in the band when its point projects to
 //! within k texels of where an edge projects. That is where a map of that size can be wrong by its texels alone,
@@ -12,14 +12,14 @@ use glam::{DVec3, I64Vec3};
 use super::edges::Pair;
 use crate::oracle::ray::Truth;
 
-/// What counts as near a true shadow edge: within so many texels of a map that holds all of the light.
+/// Width of the band along a true shadow edge, in texels of a map that holds all of the light.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Band {
     /// k, not below 0. Pixels next to the edge belong to the band at any k.
     pub texels: f64,
-    /// Of a map of the whole light: a spotlight's frustum, each face of a point light's cube, the square around all the
-    /// scene across a directional light's rays (see [`crate::oracle::ray::Hit::in_map`]); for a map that covers less, of
-    /// the map that would.
+    /// Size of a map of the whole light: a spotlight's frustum, each face of a point light's cube, the square around all
+    /// the scene across a directional light's rays (see [`crate::oracle::ray::Hit::in_map`]); for a map that covers less,
+    /// of the map that would.
     pub map_size: [u32; 2],
 }
 

@@ -9,11 +9,11 @@ use super::numbers::plain;
 /// A claim of a document, and what this scene says of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claimed {
-    /// Whose claim it is, and by which document.
+    /// Technique that the claim is about, and its document.
     pub technique: String,
     pub source: String,
     pub says: String,
-    /// What is compared, with its unit.
+    /// Compared quantity, with its unit.
     pub quantity: String,
     pub first: Measurement,
     /// Between both, in words: "at most 0.5 ×", "more than".

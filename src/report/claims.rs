@@ -1,5 +1,5 @@
-//! What the documents claim of techniques, measured on a report's scene: each claim with its two numbers, and whether it
-//! holds here. The claims are the techniques' own data; their contenders are drawn and tuned here.
+//! Claims of the techniques' documents, measured on a report's scene: each with its two numbers, and whether it holds here.
+//! The claims are the techniques' own data; their contenders are drawn and tuned here.
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -113,7 +113,7 @@ impl Contest<'_> {
                     Quantity::WrongAway => wrong_away(metrics),
                     Quantity::Offset => seen.point.and_then(|point| self.median_offset(&point)),
                 };
-                let why = value.is_none().then(|| String::from("nothing in the picture tells it"));
+                let why = value.is_none().then(|| String::from("nothing in the picture shows it"));
                 (value, why)
             }
         };

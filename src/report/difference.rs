@@ -1,7 +1,7 @@
 //! The truth, and where a picture differs from it, as pictures for a person.
 //!
 //! Grays say what the truth is, darker for less light; only what is wrong has a colour. The colours are of the set that
-//! Okabe and Ito chose to be told apart with any colour vision, and differ in lightness from what they lie on.
+//! Okabe and Ito chose to be distinguishable with any colour vision, and differ in lightness from what they lie on.
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
@@ -30,7 +30,7 @@ pub const LEGEND: [([u8; 3], &str); 8] = [
     (BACKGROUND, "nothing there"),
 ];
 
-/// What the oracle says of each pixel.
+/// Picture of the ray tracer's answer for each pixel.
 pub fn truth_picture(truth: &Truth) -> RgbImage {
     paint(truth, |_, pixel| true_color(pixel))
 }

@@ -26,7 +26,7 @@ pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: 
 pub fn stamp(machine: &Machine, options: &Options) -> String {
     let mut mark = Mark::new();
     mark.debug(&(machine, options.runs));
-    // Where the program cannot be read, its version stands for it.
+    // If the program cannot be read, its version is used.
     let program = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
     mark.bytes(&program);
     mark.finish()
@@ -84,7 +84,7 @@ impl Mark {
         }
     }
 
-    /// What is long as bytes, the rest by its fields: whatever is added to a mesh is in the mark too.
+    /// Hashes a mesh: long arrays as bytes, the rest field by field, so that a new field of a mesh is hashed too.
     fn mesh(&mut self, mesh: &Mesh) {
         let mut rest = mesh.clone();
         rest.name = String::new();

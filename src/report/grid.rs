@@ -1,4 +1,4 @@
-//! Which settings a report sweeps: by default every technique's own axes, or those of a TOML file.
+//! Settings that a report sweeps: by default every technique's own axes, or those of a TOML file.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ pub fn to_inline(settings: &Settings) -> String {
     entries.collect::<Vec<_>>().join(", ")
 }
 
-/// What a report sweeps of each scene. A setting holds `technique` and the keys that are varied.
+/// Sweep of each scene. A setting holds `technique` and the keys that are varied.
 #[derive(Clone, Debug)]
 pub enum Grid {
     /// Every technique that serves the light, over its own axes; `quick` takes few values of each.

@@ -53,10 +53,10 @@ fn tags_are_closed() {
 #[test]
 fn claims_are_told_with_their_verdicts() {
     let page = page(|_| ());
-    assert!(page.contains("What the documents claim, on this scene"));
+    assert!(page.contains("Published claims, on this scene"));
     assert!(page.contains(">holds</td>") && page.contains(" class=\"failure\">does not hold</td>"));
     let without = self::page(|report| report.scenes[0].claims.clear());
-    assert!(!without.contains("What the documents claim"));
+    assert!(!without.contains("Published claims"));
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn the_answer_stands_first() {
     let page = page(|_| ());
     let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text}"));
     let answer = at("<h3>The settings to take</h3>");
-    for later in ["<figure>", "<div class=\"plot\">", "Measured on</h2>", "What the documents claim", "All 94 rows"] {
+    for later in ["<figure>", "<div class=\"plot\">", "Measured on</h2>", "Published claims", "All 94 rows"] {
         assert!(answer < at(later), "{later}");
     }
 }

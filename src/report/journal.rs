@@ -1,4 +1,4 @@
-//! What a running report has done so far, a line a row, so that a run that was cut short goes on where it stopped.
+//! Progress of a running report, one line for each row, so that an interrupted run can continue.
 
 use std::collections::HashSet;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -49,7 +49,7 @@ pub struct Done {
 }
 
 /// The rows that a journal holds of scenes and grids that `is_known`, by fingerprint and row, under `stamp`. What is
-/// damaged, or of something else, is passed over and told; no journal holds nothing.
+/// damaged, or of something else, is skipped and reported. A missing journal is an empty one.
 ///
 /// # Errors
 ///
@@ -95,7 +95,7 @@ pub fn done(folder: &Path, stamp: &str, is_known: impl Fn(&str, &Row) -> Known) 
     Ok(done)
 }
 
-/// What a row of a journal is to a run.
+/// Relation of a journal's row to a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
     Row,
@@ -111,7 +111,7 @@ fn lock(file: &File, resume: bool) -> io::Result<()> {
         Err(TryLockError::WouldBlock) => {
             return Err(io::Error::other("another report is being written into this folder"));
         }
-        // Where files cannot be locked, the user has to see to it.
+        // If files cannot be locked, the user must take care.
         Ok(()) | Err(TryLockError::Error(_)) => {}
     }
     if resume { Ok(()) } else { file.set_len(0) }
@@ -163,7 +163,7 @@ mod tests {
     use super::super::samples;
     use super::*;
 
-    /// A journal of the sample's rows under stamp "s"; what it comes to after `change` of its bytes.
+    /// Writes a journal of the sample's rows under stamp "s", applies `change` to its bytes, and reads it again.
     fn after(change: impl FnOnce(&mut Vec<u8>)) -> Done {
         let folder = tempfile::tempdir().unwrap();
         let rows = samples::report().scenes.remove(0).rows;

@@ -51,7 +51,7 @@ fn row(index: usize) -> String {
 }
 
 fn path_of(folder: &Path, scene: &SceneReport, what: &str) -> PathBuf {
-    // Of a damaged report the fingerprint may be anything; it must not name a place elsewhere.
+    // The fingerprint of a damaged report may be anything; it must not name a place elsewhere.
     let fingerprint: String = scene.fingerprint.chars().filter(char::is_ascii_alphanumeric).collect();
     folder_in(folder).join(format!("{fingerprint}-{what}.png"))
 }

@@ -202,7 +202,7 @@ fn join_scene(scene: &SceneReport, parts: &[(PathBuf, Report)]) -> Result<SceneR
     Ok(scene)
 }
 
-/// What the fingerprint promises, checked: a report that was edited by hand must not slip through.
+/// Checks what the fingerprint promises, because a report may have been edited by hand.
 fn check_scene(first: &Path, known: &SceneReport, second: &Path, other: &SceneReport) -> Result<(), Error> {
     let truth = |scene: &SceneReport| {
         let truth = &scene.truth;

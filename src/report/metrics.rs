@@ -51,7 +51,7 @@ pub struct Errors {
     pub wrong_percent: f64,
     /// The part of `wrong_percent` outside the band.
     pub wrong_outside_percent: f64,
-    /// Of the shade as it is against 0 or 1; for filtered shadows.
+    /// Root mean square error of the shade against 0 or 1; for filtered shadows.
     pub rmse: f64,
     /// From each rendered shadow edge to the nearest true one: acne shows as edges far from any. `None`: no edges.
     pub rendered_to_true: Option<EdgeDistance>,
@@ -129,7 +129,7 @@ pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics
     })
 }
 
-/// Where a shade becomes shadow.
+/// Threshold between light and shadow.
 pub(super) fn is_lit(shade: f32) -> bool {
     shade >= 0.5
 }

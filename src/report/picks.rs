@@ -1,9 +1,9 @@
 //! The settings to take: the cheapest below an error, the most exact below a time, and how far the times can be trusted.
 //!
-//! A measured time is the work's own and what else the machine did meanwhile, which only ever adds. Two signs tell how much
+//! A measured time is the work's own and what else the machine did meanwhile, which only ever adds. Two signs show how much
 //! that is: the runs of one row, and rows whose passes are the same work (their polygon offsets differ, for example). On a
 //! loaded machine the least of a row's runs is nearest to its own time, otherwise the median is taken. Two times cannot be
-//! told apart where their bars overlap: a bar reaches from the least to the greatest run of a row and of all of its work.
+//! distinguished if their bars overlap: a bar reaches from the least to the greatest run of a row and of all of its work.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ const UNSTEADY: f64 = 1.25;
 /// One unsteady row in so many makes a loaded machine.
 const LOADED_FROM: usize = 10;
 
-/// What a scene's times are worth.
+/// Spread of a scene's times.
 #[derive(Debug, Default)]
 pub struct Times<'r> {
     /// Measured rows, and those of them whose runs differ much among themselves.
@@ -69,12 +69,12 @@ impl<'r> Times<'r> {
         self.bars.get(measured.work.as_str()).copied().unwrap_or(own)
     }
 
-    /// Which time is meant.
+    /// Names the time.
     pub fn name(&self) -> &'static str {
         if self.is_loaded() { "least" } else { "median" }
     }
 
-    /// What a reader should know of a loaded machine.
+    /// Warning about a loaded machine.
     pub fn warning(&self) -> Option<String> {
         let percent = plain(100.0 * (UNSTEADY - 1.0));
         self.is_loaded().then(|| {
@@ -93,7 +93,7 @@ impl<'r> Times<'r> {
 pub struct Pick<'r> {
     pub row: &'r Row,
     pub measured: &'r Measured,
-    /// What it was picked by.
+    /// Time that it was picked by.
     pub milliseconds: f64,
     /// See [`Times::bar`].
     pub bar: [f64; 2],
@@ -181,7 +181,7 @@ impl Pick<'_> {
         format!("{wrong} % wrong in {ms} ms (runs of this work took {least} to {greatest} ms)")
     }
 
-    /// What the times leave open.
+    /// Rows that the times cannot rule out.
     pub fn doubts(&self, goals: &Goals) -> Vec<String> {
         let mut doubts = Vec::new();
         if self.bar[0] == self.bar[1] {

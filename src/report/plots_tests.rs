@@ -12,7 +12,7 @@ fn time_plot(change: impl FnOnce(&mut SceneReport)) -> Option<String> {
     error_against_time(&report.scenes[0], &report.machine, LINKS).unwrap()
 }
 
-/// What stands between tags.
+/// Text between tags.
 fn texts(svg: &str) -> Vec<String> {
     let inner = svg.split("<text").skip(1).filter_map(|text| text.split('>').nth(1));
     inner.map(|text| text.split('<').next().unwrap_or_default().trim().to_owned()).collect()

@@ -1,4 +1,4 @@
-//! What a report holds: plain values that are written as JSON, read back, merged and drawn.
+//! Contents of a report: plain values that are written as JSON, read back, merged and drawn.
 
 use std::path::{Path, PathBuf};
 
@@ -10,15 +10,15 @@ use super::metrics::{FEWEST_COMPARED, Metrics};
 /// A whole report, or a part of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Of this layout.
+    /// Version of this layout.
     pub version: u32,
     /// True if every row of the grid is there.
     pub complete: bool,
     pub machine: Machine,
-    /// What a reader should know besides: what was joined, what went wrong.
+    /// Notes for the reader: what was joined, what went wrong.
     #[serde(default)]
     pub notes: Vec<String>,
-    /// Scenes asked for, of which [`Self::scenes`] may be a part.
+    /// Requested scenes, of which [`Self::scenes`] may be a part.
     pub asked_scenes: usize,
     pub scenes: Vec<SceneReport>,
 }
@@ -58,10 +58,10 @@ pub struct SceneReport {
     pub size: [u32; 2],
     pub triangles: u64,
     pub truth: TruthSummary,
-    /// What the plan leaves out of the scene as written, and what that saves.
+    /// Parts that the plan leaves out of the scene as written, and the time that this saves.
     #[serde(default)]
     pub saved: Option<Saved>,
-    /// What the documents claim of the techniques, measured here.
+    /// Claims of the techniques' documents, measured here.
     #[serde(default)]
     pub claims: Vec<Claimed>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.
@@ -90,16 +90,16 @@ pub struct Cost {
     pub triangles: u64,
 }
 
-/// What the oracle said.
+/// Summary of the ray tracer's answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruthSummary {
     pub drawn: usize,
     pub lit: usize,
     pub shadowed: usize,
     pub ambiguous: usize,
-    /// Of the drawn.
+    /// Ambiguous pixels, in percent of `drawn`.
     pub ambiguous_percent: f64,
-    /// To trace it, in milliseconds, on all cores.
+    /// Time to trace it, in milliseconds, on all cores.
     pub trace_ms: f64,
 }
 
@@ -122,7 +122,7 @@ pub enum Outcome {
     Failed(String),
 }
 
-/// How wrong, and for what price.
+/// Errors and costs of a setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     pub metrics: Metrics,
@@ -156,7 +156,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one time.
+    /// Statistics of at least one time.
     pub fn of(times: &[f64]) -> Self {
         let mut sorted = times.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -167,7 +167,7 @@ impl Spread {
     }
 }
 
-/// What one pass costs when it is drawn and waited for.
+/// Cost of one pass when it is drawn and waited for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PassCost {
     pub label: String,
@@ -180,14 +180,14 @@ pub struct PassCost {
 }
 
 impl Report {
-    /// Tests whether every row of every scene asked for is there.
+    /// Tests whether every row of every requested scene is there.
     pub fn has_all_rows(&self) -> bool {
         self.scenes.len() == self.asked_scenes && self.scenes.iter().all(|scene| scene.rows.len() == scene.grid_rows)
     }
 }
 
 impl Row {
-    /// What was measured, if it was.
+    /// The measurement, if there is one.
     pub fn measured(&self) -> Option<&Measured> {
         match &self.outcome {
             Outcome::Measured(measured) => Some(measured),
@@ -232,7 +232,7 @@ impl Measured {
         self.metrics.all.compared >= FEWEST_COMPARED
     }
 
-    /// Of all pixels compared.
+    /// Wrong pixels, in percent of all that were compared.
     pub fn wrong_percent(&self) -> f64 {
         self.metrics.all.wrong_percent
     }

@@ -24,7 +24,7 @@ use crate::scene::{self, Loaded, Scene, Settings, Value};
 use crate::techniques::views::View;
 use crate::techniques::{self, TABLE, Technique};
 
-/// Why a report cannot be begun. What goes wrong in a row is told in that row.
+/// Reason why a report cannot be started. Errors of a row are kept in that row.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -41,7 +41,7 @@ pub enum Error {
     Shard { index: usize, count: usize },
 }
 
-/// How a grid is run.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     pub light: usize,
@@ -61,9 +61,9 @@ pub struct Sweep {
     pub scene: Scene,
     pub truth: Truth,
     pub report: SceneReport,
-    /// What loading the scene and laying out its grid warned of.
+    /// Warnings of loading the scene and laying out its grid.
     pub warnings: Vec<String>,
-    /// What the report should say of the grid.
+    /// Notes on the grid, for the report.
     pub notes: Vec<String>,
     /// By index; row 0 is the scene as written.
     rows: Vec<(Row, Settings)>,
@@ -414,7 +414,7 @@ fn triangles(pass: &Pass) -> u64 {
     }
 }
 
-/// What it is measured on.
+/// Describes the machine that is measured on.
 ///
 /// # Errors
 ///

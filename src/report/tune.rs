@@ -32,7 +32,7 @@ pub enum Error {
     TooFew { light: usize, compared: usize, facing: usize },
 }
 
-/// What to search, and what is good enough.
+/// Search range, and limits of a good result.
 #[derive(Clone, Debug)]
 pub struct Options {
     pub light: usize,
@@ -56,7 +56,7 @@ pub struct Point {
     pub false_shadow_percent: f64,
     /// The same, the band included.
     pub false_shadow_with_band_percent: f64,
-    /// Of all pixels compared.
+    /// Leak, in percent of all pixels that were compared.
     pub leak_percent: f64,
     /// On surfaces that face the light, in percent of those compared: what shading does not hide.
     pub leak_facing_percent: f64,
@@ -68,7 +68,7 @@ pub struct Point {
     pub compared_facing: usize,
 }
 
-/// What the search saw and chose.
+/// Points that the search measured, and its choice.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Tuned {
     pub curve: Vec<Point>,
@@ -82,7 +82,7 @@ pub struct Tuned {
     pub compared: usize,
     pub compared_facing: usize,
     pub compared_shadowed: usize,
-    /// True if `chosen` is within the leak that was asked for.
+    /// True if `chosen` is within the requested leak.
     pub within_leak: bool,
     /// Techniques that have no offset to tune, as they are by default.
     pub rivals: Vec<Rival>,
@@ -92,9 +92,9 @@ pub struct Tuned {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Rival {
     pub technique: &'static str,
-    /// In TOML.
+    /// Settings in TOML.
     pub settings: String,
-    /// As in [`Point`]; or why it cannot draw this scene.
+    /// Errors as in [`Point`]; or why it cannot draw this scene.
     pub errors: Result<RivalErrors, String>,
 }
 
@@ -105,7 +105,7 @@ pub struct RivalErrors {
     pub wrong_percent: f64,
 }
 
-/// Slope factors that are tried; the documents' "about 1.0 or more".
+/// Slope factors that are tried; [HSM, "Why Is Polygon Offset Needed?"] says about 1.0.
 const FACTORS: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 /// Powers of two of units that are tried; 0 stands before them.
 const MOST_UNITS_LOG2: i32 = 20;
@@ -168,7 +168,7 @@ fn check_count(light: usize, compared: usize, facing: usize) -> Result<(), Error
     if compared.min(facing) < FEWEST_COMPARED { Err(Error::TooFew { light, compared, facing }) } else { Ok(()) }
 }
 
-/// What was seen of a scene so far.
+/// State of the search on a scene.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     truth: &'a Truth,
@@ -189,7 +189,7 @@ impl<'a> Search<'a> {
         Self { scene, truth, options, renderer, curve: Vec::new(), tick }
     }
 
-    /// Of the points at one map size and among slope factors that are `enough`, the one of least `leak`.
+    /// Chooses, among the points at one map size and slope factors that are `enough`, the one of least `leak`.
     pub(super) fn best_of(
         &mut self,
         size: u32,

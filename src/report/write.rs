@@ -14,7 +14,7 @@ use super::results::{Report, SceneReport};
 use super::{csv, kept, plots};
 use crate::output::whole;
 
-/// Why a report could not be written.
+/// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
@@ -111,7 +111,7 @@ fn write_files(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Error> {
     let write = |index: usize, temporary: &Path| {
         let mut file = fs::File::create(temporary)?;
         file.write_all(&files[index].1)?;
-        // Some file systems tell only now that they are full.
+        // Some file systems report only now that they are full.
         file.sync_all()
     };
     whole::write_all(&paths, write).map_err(|(index, reason)| Error::Write { path: paths[index].to_owned(), reason })

@@ -11,7 +11,7 @@ pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
     pub is_random: bool,
-    /// What is extreme in it.
+    /// Extreme property of the scene.
     pub why: String,
     /// The scene file.
     pub toml: String,

@@ -4,14 +4,14 @@
 //! A pixel counts where the oracle is certain and the picture shows the same surface.
 //!
 //! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
-//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is
-//!   accounted for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
-//!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*); of the visible
-//!      surface itself, it counts where a texel holds the middle of two layers: past it the second one lies far behind;
-//!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
-//!   3. it is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset makes
-//!      up for: an offset knows the slope of the surface that is stored, not of the one that is compared;
-//!   4. it is lit, and what shadows it and stands in the map lies so close before it that the bias reaches across.
+//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is accounted
+//!   for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone: 1. a silhouette or an open edge, as
+//!   the light sees it, lies within a lookup's reach (the *band*); of the visible surface itself, it counts where a texel
+//!   holds the middle of two layers: past it the second one lies far behind; 2. it is dark, and a caster within that reach
+//!   stands before the visible surface's plane (a crease); 3. it is dark, and a less steep surface within that reach is
+//!   nearer to the light than its own polygon offset makes up for: an offset knows the slope of the surface that is stored,
+//!   not of the one that is compared; 4. it is lit, and its caster in the map lies so close before it that the bias reaches
+//!   across.
 //!
 //!   Of a map of middles, in place of 2 and 3: it is dark, and somewhere within that reach the middle between two layers lies
 //!   before it. So thin a caster shades its own lit side, where it falls away from the light.
@@ -47,11 +47,11 @@ pub struct Judge<'a> {
     scene: &'a Scene,
     light: usize,
     surroundings: Surroundings<'a>,
-    /// For maps.
+    /// Truth for maps.
     pub truth: Truth,
-    /// For shadow volumes: with the depth buffer's doubt.
+    /// Truth for shadow volumes: with the depth buffer's doubt.
     pub volume_truth: Truth,
-    /// By pixel and reach.
+    /// Known surroundings, by pixel and reach.
     known: HashMap<(usize, u64), Option<Around>>,
 }
 
@@ -88,7 +88,8 @@ impl<'a> Judge<'a> {
         self.row_of(self.scene, settings, renderer)
     }
 
-    /// The same with the picture of another scene, of the same size: whoever breaks a scene can see that it is noticed.
+    /// The same as [`row`](Self::row) with the picture of another scene of the same size, to test that a broken scene is
+    /// noticed.
     pub fn row_of(&mut self, drawn: &Scene, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
         let row = Row::new(self.light, settings);
         let drawn = if settings.pictured { &in_one_light(drawn, self.light) } else { drawn };
@@ -216,7 +217,8 @@ impl<'a> Judge<'a> {
         counts
     }
 
-    /// What lies within so many texels of what a pixel shows, for a map of this resolution; `None`: it shows nothing.
+    /// Finds the surroundings of what a pixel shows, within so many texels of a map of this resolution; `None`: it shows
+    /// nothing.
     pub fn around(&self, pixel: usize, map: &MapInfo, texels: f64) -> Option<Around> {
         let width = self.truth.width as usize;
         self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
@@ -314,7 +316,7 @@ fn holds(map: &MapInfo, blocker: &Blocker) -> bool {
     }
 }
 
-/// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.
+/// Greatest distance before a point of a surface whose shadow the bias removes, in world units along the ray.
 fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
     let texel = map.texel * around.scale;
     // GL's slope is the steeper of both axes', of a texel's width; the caster's depth is stored a reach aside, and the
@@ -328,7 +330,7 @@ fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
         + (f64::from(map.polygon.units.abs()) + 2.0) * code(map, around.scale)
 }
 
-/// What one code of the map's depth measures along the light's axis at distance `depth`, in world units.
+/// Length of one code of the map's depth along the light's axis at distance `depth`, in world units.
 fn code(map: &MapInfo, depth: f64) -> f64 {
     let code = match map.format {
         DepthFormat::Depth16 => 2.0_f64.powi(-16),

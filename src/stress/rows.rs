@@ -3,8 +3,8 @@
 use crate::scene::{LightKind, Scene};
 use crate::techniques::{TABLE, Technique};
 
-/// Second-depth maps serve closed casters, and refuse others by name. A scene with an open caster is drawn with it as it is:
-/// what the user then asks for is not a default.
+/// Second-depth maps serve closed casters, and refuse others with their names. A scene with an open caster is drawn with it
+/// as it is: then the user's choice is not a default.
 const ASSUMED: &str = "closed = \"assume\"";
 
 /// One way to draw a light's shadow.
@@ -43,7 +43,7 @@ pub fn row_of(inside: &str) -> RowSettings {
     }
 }
 
-/// What every map has.
+/// Keys of every map.
 const MAP: &[&str] = &[
     "filter = \"nearest\"",
     "kernel = \"3x3\"",
@@ -58,7 +58,7 @@ const MAP: &[&str] = &[
     "size = 256",
 ];
 
-/// What maps in one square have beside it.
+/// Further keys of maps in one square.
 const SQUARE: &[&str] = &[
     "bias = \"receiver-plane\"",
     "bias = \"normal-offset\"",
@@ -75,7 +75,7 @@ const SQUARE: &[&str] = &[
     "texgen = \"light\", texture_matrix = \"projection\"",
 ];
 
-/// What a spotlight's map alone has.
+/// Keys of a spotlight's map only.
 const SPOT: &[&str] = &[
     "mipmaps = true",
     "guard = \"spot-cutoff\"",

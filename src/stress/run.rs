@@ -14,14 +14,14 @@ use crate::frame::{self, Renderer};
 use crate::oracle::ray::Truth;
 use crate::report::difference;
 
-/// What is run, and how.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Cases drawn at once, each on a context of its own.
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
     pub technique: Option<String>,
-    /// True if pictures are kept of what is not right.
+    /// True if pictures of wrong rows are kept.
     pub pictures: bool,
     pub context: ContextRequest,
 }

@@ -70,7 +70,7 @@ fn worst(result: &CaseResult, technique: &str) -> String {
     format!("{count} of {} {}: {:.2} % ({})", rows().count(), worst.verdict.name(), worst.wrong_percent(), worst.keys())
 }
 
-/// By verdict, then by wrong pixels.
+/// Rank by verdict, then by wrong pixels.
 fn rank(row: &Row) -> f64 {
     let verdict = Verdict::ALL.iter().position(|verdict| *verdict == row.verdict).unwrap_or(0);
     1e6 * verdict as f64 + row.wrong_percent()

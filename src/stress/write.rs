@@ -10,7 +10,7 @@ use super::{page, plot};
 use crate::output::whole;
 use crate::report::plots;
 
-/// Why a run's outcome could not be written.
+/// Reason why a run's results could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
@@ -78,7 +78,7 @@ fn remove_scenes(folder: &Path) {
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with("reduced-") && name.ends_with(".toml") {
-            // What cannot be removed is overwritten or stays: the page names the scenes of this run.
+            // A file that cannot be removed is overwritten or stays: the page names the scenes of this run.
             let _ = fs::remove_file(path);
         }
     }

@@ -15,7 +15,7 @@ pub use window::{Shown, run};
 
 use crate::{context, frame};
 
-/// Why a window could not be opened or drawn in.
+/// Reason why a window could not be opened or drawn in.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(

@@ -1,5 +1,5 @@
-//! What a window shows and what its user changed: the scene, the display mode, what the mouse holds, the tweak that the
-//! keys step. Plain data; knows no window and no GL.
+//! State of a window: the scene, the display mode, what the mouse holds, the tweak that the keys step. Plain data; knows no
+//! window and no GL.
 
 use glam::{DMat4, DVec2, DVec3};
 
@@ -10,7 +10,7 @@ use crate::math::{Aabb, frustum};
 use crate::plan::{Request, Subject};
 use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
 
-/// The sample's display modes [techniques E].
+/// Display modes of the sample program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// From the camera, without shadows.
@@ -23,14 +23,14 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// In the order in which space goes through them, with their names on the command line.
+    /// All modes in the order of the space key, with their names on the command line.
     pub const ALL: [(&str, Self); 3] = [("camera", Self::Camera), ("shadowed", Self::Shadowed), ("light", Self::Light)];
 
     fn place(self) -> usize {
         Self::ALL.iter().position(|(_, mode)| *mode == self).unwrap_or(0)
     }
 
-    /// What it shows.
+    /// Description of the mode.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Camera => "without shadows",
@@ -64,7 +64,7 @@ impl Mode {
     }
 }
 
-/// What the mouse turns and moves.
+/// Thing that the mouse turns and moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Handle {
     #[default]
@@ -75,7 +75,7 @@ pub enum Handle {
     Object,
 }
 
-/// What a command comes to.
+/// Reaction to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reaction {
     Redraw,
@@ -113,7 +113,7 @@ impl State {
         }
     }
 
-    /// The same walk with shadow techniques to choose from, by their names in `[light.shadow]`.
+    /// The same state with shadow techniques to choose from, by their names in `[light.shadow]`.
     #[must_use]
     pub fn with_techniques(self, techniques: &'static [&'static str]) -> Self {
         Self { techniques, ..self }
@@ -123,12 +123,12 @@ impl State {
         self.techniques
     }
 
-    /// Tests whether keys and mouse are told in the window.
+    /// Tests whether the window shows the help.
     pub fn helps(&self) -> bool {
         self.helps
     }
 
-    /// As changed so far.
+    /// The scene as changed so far.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -142,7 +142,7 @@ impl State {
         self.size = size.map(|side| side.max(1));
     }
 
-    /// What to draw now.
+    /// Scene and request to draw now.
     pub fn frame(&self) -> (Scene, Request) {
         self.mode.frame(&self.scene, self.size)
     }

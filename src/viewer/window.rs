@@ -20,7 +20,7 @@ use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::plan::Request;
 
-/// How a state is shown.
+/// Look of a window.
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The window's title begins with it.
@@ -221,7 +221,7 @@ impl ApplicationHandler for App {
     }
 }
 
-/// Why there is no window, without the place in winit's sources where that was noticed.
+/// Reason why there is no window, without the place in winit's sources where that was noticed.
 fn cannot_open(error: context::Error) -> Error {
     let text = match error {
         context::Error::Present(text) => text,

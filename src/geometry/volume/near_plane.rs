@@ -1,9 +1,10 @@
 //! The near plane z = -near of view space, a light, and where rays from places away from the light meet the plane.
 //!
 //! With h(q) the height of q over the plane (positive ahead of the eye) and l that of the light (for a direction, its
-//! rise), a ray from q lands if q's height lies between 0 and l: beyond the plane it comes down on it (l > 0), before it
-//! it rises through it (l < 0). So an edge is cut in two places: where it meets the plane itself, a point that is its
-//! own projection; and where its rays run parallel to the plane, whose projection is the talk's w = 0 direction.
+//! rise), a ray from q lands if q's height lies between 0 and l: beyond the plane it comes down on it (l > 0), before it it
+//! rises through it (l < 0). So an edge is cut in two places: where it meets the plane itself, a point that is its own
+//! projection; and where its rays run parallel to the plane, whose projection is a direction with w = 0 [GDC, "Handling the
+//! "Hard" Near Clip Plane Capping Case"].
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What the documents claim, on one scene: each claim with its numbers, and whether it holds.
+//! Table of published claims on one scene: each with its numbers, and whether it holds.
 
 use super::super::claimed::{Claimed, Measurement, Verdict};
 use super::super::numbers::plain;
@@ -12,7 +12,7 @@ pub(super) fn section(scene: &SceneReport) -> String {
     }
     let rows: String = scene.claims.iter().map(row).collect();
     format!(
-        "<h3>What the documents claim, on this scene</h3>\n<div class=\"wide\"><table class=\"claims\"><thead><tr>\
+        "<h3>Published claims, on this scene</h3>\n<div class=\"wide\"><table class=\"claims\"><thead><tr>\
          <th>claim</th><th>measured</th><th>first</th><th></th><th>second</th><th>ratio</th><th>here it</th></tr></thead>\
          <tbody>\n{rows}</tbody></table></div>\n"
     )

@@ -7,7 +7,7 @@ use super::super::results::Measured;
 
 /// One measure of a row.
 pub(super) struct Column {
-    /// Into [`GROUPS`].
+    /// Index into [`GROUPS`].
     pub group: &'static str,
     pub name: &'static str,
     /// A sentence, for the tip and the list below the table.

@@ -12,7 +12,7 @@ pub(crate) mod tags;
 use super::results::{Machine, Report};
 use tags::{escape, list};
 
-/// What is asked of a setting.
+/// Limits for the best settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
     /// The cheapest setting that is wrong in at most so many percent is named.
@@ -39,12 +39,12 @@ pub struct Pictures {
 pub struct ScenePictures {
     /// Row 0 with all its lights.
     pub picture: Option<Vec<u8>>,
-    /// By [`super::difference::truth_picture`].
+    /// Picture by [`super::difference::truth_picture`].
     pub truth: Option<Vec<u8>>,
     pub differences: Vec<DifferencePicture>,
 }
 
-/// By [`super::difference::difference_picture`].
+/// Pictures by [`super::difference::difference_picture`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DifferencePicture {
     /// The row's index in the grid.

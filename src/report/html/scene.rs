@@ -51,7 +51,7 @@ pub(super) fn section(
     text + "</section>\n"
 }
 
-/// What the plan of the scene as written leaves out, and what that saves.
+/// Text on what the plan of the scene as written leaves out, and what that saves.
 fn saved_text(scene: &SceneReport) -> String {
     let Some(saved) = &scene.saved else { return String::new() };
     if !saved.same_pixels {
@@ -111,7 +111,7 @@ fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
     format!("<div class=\"figures\">\n{figures}</div>\n<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n")
 }
 
-/// What a difference picture shows, in words.
+/// Description of a difference picture.
 fn difference_alt(scene: &SceneReport, index: usize) -> String {
     let row = scene.rows.iter().find(|row| row.index == index);
     match row.and_then(|row| Some((row, row.measured()?))) {

@@ -8,7 +8,7 @@ use super::super::results::{Measured, Outcome, Row, SceneReport, Spread};
 use super::columns::{COLUMNS, GROUPS, REDRAWN};
 use super::tags::escape;
 
-/// Why a row is marked, by its index.
+/// Reasons for a row's mark, by its index.
 pub(super) type Marks = HashMap<usize, Vec<&'static str>>;
 
 /// `number`: the scene's, for the ids of rows.
@@ -69,7 +69,7 @@ fn push_row(text: &mut String, row: &Row, number: usize, scale: &Scale, marks: &
     text.push_str("</tr>\n");
 }
 
-/// Where error bars lie: from the least to the greatest run of all rows, logarithmic as in the plot.
+/// Scale of error bars: from the least to the greatest run of all rows, logarithmic as in the plot.
 struct Scale {
     least: f64,
     greatest: f64,
@@ -84,7 +84,7 @@ impl Scale {
         }
     }
 
-    /// In percent of the way from the least to the greatest.
+    /// Place in percent of the way from the least to the greatest.
     fn place(&self, time: f64) -> f64 {
         let place = 100.0 * (time / self.least).ln() / (self.greatest / self.least).ln();
         if place.is_finite() { place.clamp(0.0, 100.0) } else { 0.0 }
@@ -107,7 +107,7 @@ fn folded_passes(measured: &Measured) -> String {
     format!("<details><summary>{}</summary>{}</details>", measured.passes.len(), passes(measured))
 }
 
-/// What each pass costs.
+/// Costs of each pass.
 pub(super) fn passes(measured: &Measured) -> String {
     let mut text = String::from(
         "<table class=\"passes\"><thead><tr><th>pass</th><th>ms</th><th>least–most</th><th>GPU ms</th>\

@@ -6,11 +6,11 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Axis {
     pub range: Range<f64>,
-    /// With a label and a line.
+    /// Ticks with a label and a line.
     pub ticks: Vec<f64>,
-    /// With a faint line.
+    /// Ticks with a faint line.
     pub minor: Vec<f64>,
-    /// Where zeros are shown, below the least value; none without zeros.
+    /// Place of zeros, below the least value; `None` without zeros.
     pub floor: Option<f64>,
 }
 
@@ -30,13 +30,13 @@ impl Axis {
         (!values.is_empty()).then_some(Self { range, ticks, minor, floor })
     }
 
-    /// With a tick at each of `values`, which have a meaning of their own, and none between.
+    /// An axis with a tick at each of `values`, and none between.
     pub fn at(values: &[f64]) -> Option<Self> {
         let axis = Self::over(values.iter().copied())?;
         Some(Self { ticks: values.to_vec(), minor: Vec::new(), ..axis })
     }
 
-    /// Where a value is shown.
+    /// Place of a value on the axis.
     pub fn place(&self, value: f64) -> f64 {
         if value > 0.0 { value } else { self.floor.unwrap_or(self.range.start) }
     }

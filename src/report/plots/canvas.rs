@@ -32,7 +32,7 @@ type LogAxis = WithKeyPoints<LogCoord<f64>>;
 type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, LogAxis>>;
 type Place = (i32, i32);
 
-/// What is written around the plot.
+/// Text around the plot.
 pub(crate) struct Words<'a> {
     pub title: String,
     pub captions: &'a [String],
@@ -40,12 +40,12 @@ pub(crate) struct Words<'a> {
     pub y: &'a str,
 }
 
-/// How a kind of point looks: the number of its kind gives colour and shape.
+/// Look of a kind of point: the number of its kind gives colour and shape.
 #[derive(Clone, Copy)]
 pub(crate) struct Marker {
     pub kind: usize,
     pub radius: i32,
-    /// In [0, 1].
+    /// Opacity in [0, 1].
     pub opacity: f64,
     pub is_outlined: bool,
 }
@@ -79,7 +79,7 @@ pub(crate) fn draw(
     Ok(described(&svg, words, &links))
 }
 
-/// With a title and a description for who cannot see it, and with `links` over everything.
+/// Adds a title and a description for readers who cannot see it, and `links` over everything.
 fn described(svg: &str, words: &Words<'_>, links: &str) -> String {
     let Some((head, rest)) = svg.split_once('>') else { return svg.to_owned() };
     let (title, text) = (escape(&words.title), escape(&format!("{} against {}", words.y, words.x)));
@@ -133,7 +133,7 @@ fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&Axis; 2]) -> Resu
 }
 
 impl Canvas<'_> {
-    /// In pixels.
+    /// Place in pixels.
     pub fn place(&self, x: f64, y: f64) -> Place {
         self.chart.plotting_area().map_coordinate(&(x, y))
     }
@@ -190,7 +190,7 @@ impl Canvas<'_> {
         self.root.draw(&PathElement::new(places, color.stroke_width(2))).map_err(failed)
     }
 
-    /// Where zeros lie.
+    /// Draws the line of zeros.
     pub fn floor(&self, axis: &Axis, height: f64) -> Result<(), Error> {
         let ends = [axis.range.start, axis.range.end].map(|x| self.place(x, height));
         let dashes = (ends[0].0..ends[1].0).step_by(10).map(|x| [(x, ends[0].1), ((x + 5).min(ends[1].0), ends[0].1)]);
@@ -231,7 +231,7 @@ impl Canvas<'_> {
     }
 }
 
-/// At most `most` letters.
+/// Cuts text to at most `most` letters.
 fn cut(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

@@ -14,14 +14,14 @@ use super::results::{Machine, Measured, Row, SceneReport};
 use axis::Axis;
 use canvas::{Canvas, Marker, Words};
 
-/// Why a plot could not be drawn.
+/// Reason why a plot could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("the plot cannot be drawn: {0}")]
     Draw(String),
 }
 
-/// Where the rows stand that points link to: `#s1r5` on the page itself.
+/// Target of a point's link: `#s1r5` on the page itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Links<'a> {
     /// The page's place, seen from the plot; empty on the page itself.
@@ -98,11 +98,11 @@ impl<'a> Points<'a> {
     }
 }
 
-/// How wrong each setting is for its time, with the Pareto front; `None` where no row was measured.
+/// Plot of each setting's error against its time, with the Pareto front; `None` where no row was measured.
 ///
 /// # Errors
 ///
-/// What the plotting library says.
+/// An error of the plotting library.
 pub fn error_against_time(scene: &SceneReport, machine: &Machine, links: Links<'_>) -> Result<Option<String>, Error> {
     let all = Points::of(scene);
     let x = Axis::over(all.points.iter().flat_map(|point| point.bar));
@@ -199,11 +199,11 @@ fn draw_time_legend(canvas: &mut Canvas<'_>, all: &Points<'_>) -> Result<(), Err
     Ok(())
 }
 
-/// How wrong each setting is by the size of its map, and each technique's best; `None` with fewer than two sizes.
+/// Plot of each setting's error against the size of its map, with each technique's best; `None` with fewer than two sizes.
 ///
 /// # Errors
 ///
-/// What the plotting library says.
+/// An error of the plotting library.
 pub fn error_against_map_size(
     scene: &SceneReport,
     machine: &Machine,
