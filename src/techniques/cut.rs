@@ -1,12 +1,12 @@
-//! What reaches far beyond a picture or a map is cut to it on the CPU, in f64, before it is drawn.
+//! Cuts surfaces that reach far beyond a picture or a map, on the CPU, in f64, before they are drawn.
 //!
 //! GL clips in f32: where it cuts an edge, the new vertex and all that is interpolated to it are off by about 2^-24 of the
-//! edge's ends. Of a floor whose corners lie 10⁵ units away this is 0.006 units where light and eye stand 4 units above it:
-//! more than the offset of its own texels, so that it goes dark in patches, or all over. What is cut before needs no
-//! clipping by GL, and is off by 2^-24 of its own distance. Positions are off by 2^-24 of their distance from their origin:
-//! for an eye that is the eye itself, and in a map what lies much farther than the rest becomes a mesh of its own about an
-//! origin of its own. Every pass for the same eye, and every pass of the same map, draws the same cut meshes, so that
-//! depths agree to the bit.
+//! edge's ends. For a floor whose corners lie 10⁵ units away, with light and eye 4 units above it, this is 0.006 units:
+//! more than the offset of its own texels, so that it is dark in patches, or all over. A surface that was cut before needs
+//! no clipping by GL, and is off by 2^-24 of its own distance. Positions are off by 2^-24 of their distance from their
+//! origin. For an eye this origin is the eye. In a map, surfaces that lie much farther than the rest become a mesh of their
+//! own with an origin of its own. Every pass for the same eye, and every pass of the same map, draws the same cut meshes,
+//! so that depths agree to the bit.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -37,8 +37,8 @@ const PLANES: [DVec4; 5] = [
     DVec4::new(0.0, 0.0, -1.0, 1.0),
 ];
 
-/// How many times as far as its nearest point the farthest one of a piece may lie. GL clips what crosses a side of the
-/// picture after all, and with an error that is 2^-24 of the piece's farthest end.
+/// Greatest ratio of a piece's farthest to its nearest distance. GL clips what crosses a side of the picture after all, and
+/// with an error that is 2^-24 of the piece's farthest end.
 const PIECE: f64 = 4.0;
 
 /// So many pieces behind one another share an origin in a map: up to [`PIECE`] to this power times as far as the nearest
@@ -58,8 +58,8 @@ const MAP_SIZE: f64 = 1024.0;
 /// Meshes of more triangles have small ones.
 const MOST_TRIANGLES: u32 = 1 << 16;
 
-/// Clip coordinates up to so many times w are not too large for a camera, between [`ORDINARY`] and
-/// [`ORDINARY_FOR_CAMERA`]: fewer where a light's near plane is so near that its map tells few depths apart.
+/// Clip coordinates up to so many times w are not too large for a camera, between [`ORDINARY`] and [`ORDINARY_FOR_CAMERA`]:
+/// fewer where a light's near plane is so near that its map resolves few depths.
 ///
 /// The place of a fragment in a map is interpolated as (s, t, r, q). Where corners have k times the fragment's own w, r/q
 /// is off by some roundings of k · 2^-24. A map whose near plane is at n has r/q = 1 - n / q, nearly: over one texel a
@@ -79,7 +79,7 @@ fn ordinary_for_camera(scene: &Scene) -> f64 {
     allowed.fold(ORDINARY_FOR_CAMERA, f64::min).max(ORDINARY)
 }
 
-/// How a map or a picture sees the world, and what error of a clip coordinate it does not show.
+/// Cuts meshes for one map or picture, with the error of a clip coordinate that it does not show.
 pub struct Cutter {
     clip_from_world: DMat4,
     /// The error of x and y that does not show, where w is 1.
@@ -95,8 +95,8 @@ pub struct Cutter {
 }
 
 impl Cutter {
-    /// For a map of `size` texels a side, each `texel` wide at a distance of 1 along its axis, or anywhere in parallel
-    /// light. What is drawn `clamped` shows what lies beyond the far plane, too.
+    /// A cutter for a map of `size` texels a side, each `texel` wide at a distance of 1 along its axis, or anywhere in
+    /// parallel light. What is drawn `clamped` shows what lies beyond the far plane, too.
     pub fn for_map(projector: &Projector, clip_from_world: &DMat4, texel: f64, size: u32, clamped: bool) -> Self {
         // An eighth of what a slope of 45 degrees falls away by over one texel; offsets have a multiple of that.
         let (along, nearest) = match projector.rays {
@@ -111,8 +111,8 @@ impl Cutter {
         Self { clip_from_world: *clip_from_world, across, along, nearest, planes, origin: None }
     }
 
-    /// For an eye; `None` where vertices must stay as they are: light per vertex is of the file's vertices. Nor may be cut
-    /// what volumes' caps meet. `counted`: volumes' sides meet what is drawn.
+    /// A cutter for an eye; `None` if vertices must stay as they are: per-vertex light is computed at the file's vertices.
+    /// Surfaces that volumes' caps meet must not be cut either. `counted`: volumes' sides meet what is drawn.
     pub fn for_eye(scene: &Scene, viewer: &Viewer, counted: bool) -> Option<Self> {
         let ordinary = if counted { ORDINARY } else { ordinary_for_camera(scene) };
         (!scene.shading.per_vertex).then_some(Self {
@@ -228,7 +228,7 @@ impl Cutter {
         groups.into_iter().filter(|corners| !corners.is_empty()).map(part).collect()
     }
 
-    /// What is shown of a triangle, where GL would lose too much by clipping it.
+    /// Part of a triangle that is shown, if GL would lose too much by clipping it.
     fn cut_triangle(&self, triangle: &[Corner; 3]) -> Option<Vec<Corner>> {
         let reach =
             |corners: &[Corner]| corners.iter().map(|corner| corner.clip.abs().max_element()).fold(0.0, f64::max);
@@ -257,7 +257,7 @@ fn pieces(polygon: Vec<Corner>, nearest: f64) -> Vec<Vec<Corner>> {
     pieces
 }
 
-/// How many cut casters are kept.
+/// Number of cut casters that are kept.
 const MOST_KEPT: usize = 256;
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -296,7 +296,7 @@ impl Corner {
         }
     }
 
-    /// Tests whether GL leaves it as it is, but for the near plane.
+    /// Tests whether GL does not clip it, except at the near plane.
     fn is_inside(&self, planes: &[DVec4]) -> bool {
         planes.iter().all(|plane| plane.dot(self.clip) >= 0.0)
     }
@@ -311,7 +311,7 @@ impl Corner {
     }
 }
 
-/// What of a convex polygon has no distance below zero [Sutherland and Hodgman].
+/// Part of a convex polygon without a distance below zero [Sutherland and Hodgman 1974].
 fn clip(polygon: &[Corner], distance: impl Fn(&Corner) -> f64) -> Vec<Corner> {
     let mut clipped = Vec::with_capacity(polygon.len() + 1);
     for (index, corner) in polygon.iter().enumerate() {

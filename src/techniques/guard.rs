@@ -1,7 +1,6 @@
-//! What keeps a spotlight from lighting what lies behind it [Hardware Shadow Mapping, "negative projection"; lecture,
-//! "Careful about Back Projecting Shadow Maps"; techniques A13]: its texture coordinates divide by q, and for q < 0 the
-//! quotients are in the map again. Here are the ways, and on which side of the light's plane, q = 0, things lie. Knows no
-//! shader and no GL.
+//! Guards against back projection [HSM, "Advantages and Limitations"; LEC, "Careful about Back Projecting Shadow Maps"]: a
+//! spotlight's texture coordinates divide by q, and behind the light, where q < 0, the quotients are in the map again. The
+//! choice of guards, and the side of the light's plane, q = 0, on which things lie. Knows no shader and no GL.
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -10,29 +9,29 @@ use crate::math::texgen;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::surface::Viewer;
 
-/// How q <= 0 is kept dark.
+/// Way to keep q <= 0 dark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Guard {
-    /// What each item needs: nothing before the light, no light behind it, the fragment's test across its plane.
+    /// Chosen for each item: none if it lies before the light, no light if behind, the fragment's test if across.
     #[default]
     Auto,
-    /// GL_SPOT_CUTOFF of 90 degrees: the light times 0 or 1 at each vertex (a).
+    /// GL_SPOT_CUTOFF of 90 degrees: the light times 0 or 1 at each vertex.
     SpotCutoff,
-    /// A 1D texture of two texels, 0 behind and 1 before the light (b).
+    /// A 1D texture of two texels, 0 behind and 1 before the light.
     Texture1d,
-    /// A clip plane at the light: what is cut is drawn twice, with and without it (c).
+    /// A clip plane at the light: what is cut is drawn twice, with and without it.
     ClipPlane,
-    /// What lies behind is tagged in the stencil buffer (d).
+    /// A tag in the stencil buffer on everything behind the light.
     Stencil,
-    /// Triangles behind the light are drawn without it (e).
+    /// Triangles behind the light are drawn without it.
     Cull,
-    /// Rejected per fragment (f).
+    /// A test in each fragment.
     Fragment,
-    /// Nothing: what lies behind the light is lit by mistake. For pictures of that mistake.
+    /// No guard: surfaces behind the light are lit. For pictures of that mistake.
     None,
 }
 
-/// As the key `guard` names them.
+/// Values of the key `guard`.
 const NAMES: [(&str, Guard); 8] = [
     ("auto", Guard::Auto),
     ("spot-cutoff", Guard::SpotCutoff),
@@ -59,19 +58,19 @@ impl Guard {
     }
 }
 
-/// Where something lies of the light's plane, by all its points.
+/// Side of the light's plane on which all points of something lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// q > 0, beyond what rounding moves.
     Before,
     /// q < 0, likewise.
     Behind,
-    /// On both sides, or on or too near to the plane to tell.
+    /// On both sides, or too near to the plane to decide.
     Across,
 }
 
-/// q may be off by this much of the sum of what it is made of: 2^-24 for each of some ten roundings in f32, times what
-/// interpolation across a triangle that ends near the eye adds to them. Who lies nearer takes the fragment's test.
+/// Error of q, as a share of the sum of its terms: 2^-24 for each of some ten roundings in f32, times what interpolation
+/// across a triangle that ends near the eye adds to them. Items closer to the plane than this use the per-fragment test.
 const MARGIN: f64 = 1.0 / 16384.0;
 
 /// A spotlight's plane for one viewer.
@@ -79,12 +78,12 @@ const MARGIN: f64 = 1.0 / 16384.0;
 pub struct LightPlane {
     /// q of a point in eye space: its product with this.
     pub q_from_eye: DVec4,
-    /// The same with all that is summed made positive.
+    /// The same with the absolute values of all terms.
     sizes: DVec4,
 }
 
 impl LightPlane {
-    /// `None`: of a light without one, and where its coordinates cannot be generated.
+    /// The plane of a light; `None` for a light without one, or whose coordinates cannot be generated.
     pub fn of(term: &LightTerm, bounded: bool, viewer: &Viewer) -> Option<Self> {
         let coordinates = term.coordinates.as_ref().filter(|_| bounded)?;
         let texgen = texgen::set_up(&coordinates.spaces(viewer.eye_from_world), coordinates.set_up, coordinates.split)?;
@@ -125,12 +124,12 @@ pub struct ModelPlane {
 }
 
 impl ModelPlane {
-    /// The same for every eye: what f64 rounds on the way from it is rounded away, far below the margin.
+    /// The same plane for every eye: rounded so that f64 errors on the way from the eye vanish, far below the margin.
     pub fn rounded(&self) -> Self {
         Self { q: self.q.as_vec4().as_dvec4(), margin: self.margin.log2().ceil().exp2() }
     }
 
-    /// Where the hull of `points` lies.
+    /// Side on which the hull of `points` lies.
     pub fn of(&self, points: &[DVec3]) -> Side {
         let all = |lies: &dyn Fn(f64) -> bool| points.iter().all(|point| lies(self.q.dot(point.extend(1.0))));
         if all(&|q| q > self.margin) {

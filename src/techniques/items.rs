@@ -1,4 +1,4 @@
-//! What the scene's objects come to as draws: one item a mesh part and material.
+//! The scene's objects as draws: one item for each mesh part and material.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,11 +18,11 @@ use crate::techniques::Notes;
 #[derive(Clone, Debug)]
 pub struct Item {
     pub label: String,
-    /// Into [`Scene::objects`].
+    /// Index into [`Scene::objects`].
     pub object: usize,
     pub mesh: MeshRef,
     pub indices: std::ops::Range<u32>,
-    /// In model space, with all that its wave can reach.
+    /// Bounds in model space, with all that its wave can reach.
     pub bounds: Aabb,
     pub material: Arc<Material>,
     pub world_from_model: DMat4,
@@ -139,7 +139,7 @@ impl Item {
         }
     }
 
-    /// Tests whether some fragments of it may fail the alpha test.
+    /// Tests whether fragments of it may fail the alpha test.
     pub fn needs_alpha_test(&self) -> bool {
         let material = &self.material;
         material.alpha.is_some() || self.decal_alpha()
@@ -160,7 +160,7 @@ impl Item {
     }
 }
 
-/// What fixed function has no words for.
+/// Description of a batch that fixed function cannot express.
 pub const WAVES: Meaning = Meaning::Shader("a surface that waves in the vertex stage");
 
 /// The part of a shader variant that decides which fragments exist: shared by depth and lit passes.
@@ -172,7 +172,7 @@ pub struct Cutout {
     pub attributes: Vec<Attribute>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-    /// The same in the terms of fixed function.
+    /// Description of the texturing in the terms of fixed function.
     pub meaning: Texturing,
 }
 
@@ -180,8 +180,8 @@ pub struct Cutout {
 pub const DECAL_SAMPLER: Sampler =
     Sampler { filter: Filter::Trilinear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
 
-/// What the alpha test asks is the texture itself, level 0, in every pass: averages of smaller levels would close or open
-/// all holes at once where they are small, at another size for the eye than for the light.
+/// Sampler of the alpha test: level 0 in every pass. Averages of smaller levels would close or open all small holes at
+/// once, at another size for the eye than for the light.
 pub const ALPHA_SAMPLER: Sampler =
     Sampler { filter: Filter::Linear, wrap: Wrap::Repeat, compare: None, lod_halves: None };
 
@@ -286,7 +286,8 @@ pub fn depth_batches(items: &[&Item], clip_from_world: &DMat4, list: &mut PassLi
     batches
 }
 
-/// Binds the texture of two texels that tells a spotlight's sides apart: 0 behind it, 1 before [techniques A13 b].
+/// Binds the texture of two texels for a spotlight's sides: 0 behind it, 1 before [LEC, "Careful about Back Projecting
+/// Shadow Maps"].
 pub fn side_map(name: impl Into<std::borrow::Cow<'static, str>>, list: &mut PassList) -> Input {
     const TEXELS: &[[u8; 4]] = &[[0; 4], [255; 4]];
     let storage = Storage::Line(TEXELS);

@@ -1,4 +1,4 @@
-//! A light as techniques see it, and what they give the lit pass for it.
+//! A light as techniques see it, and the term that they give the lit pass for it.
 
 use std::ops::{Deref, Range};
 
@@ -17,18 +17,18 @@ use crate::pass::{
 };
 use crate::scene::{Frustum, Light, Scene};
 
-/// What a technique may know when it describes its passes for a light.
+/// Input of a technique that describes its passes for a light.
 #[derive(Clone, Copy, Debug)]
 pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Item],
-    /// Into [`Scene::lights`].
+    /// Index into [`Scene::lights`].
     pub index: usize,
-    /// True if a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
+    /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
     pub shown_whole: bool,
-    /// True if even what no picture can show is drawn, to prove that it changes none.
+    /// True if things that no picture can show are drawn too, to prove that they change none.
     pub keep_all: bool,
-    /// True if warnings are worth some milliseconds.
+    /// True if warnings may cost some milliseconds.
     pub sampled_warnings: bool,
 }
 
@@ -38,7 +38,7 @@ impl<'a> LightView<'a> {
     }
 }
 
-/// A light as one map sees it: from a spotlight's own frustum, or from what a technique made.
+/// A light as one map sees it: from a spotlight's own frustum, or from one that a technique made.
 #[derive(Clone, Debug)]
 pub struct FrustumView<'a> {
     pub light_view: LightView<'a>,
@@ -60,12 +60,12 @@ impl FrustumView<'_> {
     }
 }
 
-/// Eye-linear texture coordinates: the matrices that they are made of, and where the planes stand.
+/// Eye-linear texture coordinates: the matrices that they are made of, and the space that the planes are specified in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinates {
     /// `S`: texture space from the light's clip space.
     pub texture_from_light_clip: DMat4,
-    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    /// Movement of receivers before that, in the light's clip space, so that they do not shade themselves.
     pub receiver_bias: DMat4,
     /// `P_light`, of whatever the technique draws from the light.
     pub light_clip_from_light: DMat4,
@@ -76,7 +76,7 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// The documents' ordinary ones: (s/q, t/q, r/q) in [0, 1] inside the frustum.
+    /// Coordinates of a frustum [HSM, Appendix A]: (s/q, t/q, r/q) in [0, 1] inside it.
     pub fn of_frustum(frustum: &Frustum) -> Self {
         Self {
             texture_from_light_clip: scale_bias(0.5, 0.5),
@@ -88,7 +88,7 @@ impl Coordinates {
         }
     }
 
-    /// What texgen makes them from, for an eye.
+    /// Matrices for texture coordinate generation, for an eye.
     pub fn spaces(&self, eye_from_world: DMat4) -> Spaces {
         Spaces {
             texture_from_light_clip: self.texture_from_light_clip * self.receiver_bias,
@@ -99,70 +99,73 @@ impl Coordinates {
     }
 }
 
-/// How the lit pass asks for a light's shade.
+/// A light in the lit pass: its shade, its reach, and what they need.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
-    /// Into [`Scene::lights`].
+    /// Index into [`Scene::lights`].
     pub index: usize,
     /// Defines `float shade_@()`.
     pub shade: Chunk,
-    /// What that computes, in the terms of fixed function.
+    /// Description of the shade in the terms of fixed function.
     pub meaning: Shade,
-    /// Beside what [`super::surface`] adds for every light; names end in the light's index, a value may follow.
+    /// Defines in addition to those that [`super::surface`] adds for every light. Names end in the light's index; a value
+    /// may follow.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-    /// How `light_coord_@` is generated; `None`: the shade needs none, and nor does the light's reach.
+    /// Generation of `light_coord_@`; `None`: neither the shade nor the light's reach needs it.
     pub coordinates: Option<Coordinates>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
-    /// True if its light is added to a picture that has its ambient part: what it does not reach is then not drawn.
+    /// Drawn additively over a picture that already has the ambient light; surfaces outside the light are skipped.
     pub added: bool,
-    /// What keeps a spotlight's light from what lies behind it.
+    /// Guard against back projection.
     pub guard: Guard,
     /// The depth texture, for views of it.
     pub map: Option<ImageId>,
-    /// The same in numbers, for bounds of the picture's error.
+    /// The map in numbers, for bounds of the picture's error.
     pub map_info: Option<MapInfo>,
-    /// Passes after which the stencil buffer is 0 where the light reaches; where they tag surfaces by `shade`, it is not
-    /// asked again.
+    /// Passes after which the stencil buffer is 0 where the light reaches. If they tag surfaces by `shade`, the lit pass
+    /// does not evaluate it again.
     pub counting: Option<Counting>,
 }
 
-/// A light's shadow as a count in the stencil buffer [GDC 2001; techniques C3–C9]: plain data, put into whichever target
-/// and before whichever eye needs the count. What the stencil counts in is drawn first, by the plan.
+/// A light's shadow as a count in the stencil buffer [GDC, "Stenciled Shadow Volumes"]: plain data, for any target and eye.
+/// The plan draws the surfaces' depth first.
 #[derive(Clone, Debug)]
 pub struct Counting {
     pub passes: Vec<CountPass>,
-    /// True if a frame may keep the count of the one before.
+    /// Rule for keeping the count of the frame before.
     pub redraw: Redraw,
-    /// True if the count says where any of the light is, what a shadow would leave of it too, and not what a shadow takes.
+    /// `true`: a non-zero count removes this light completely (used behind a spotlight). `false`: it removes only what a
+    /// shadow takes; `dimming` stays.
     pub of_all: bool,
     /// The far plane must not cut volumes: surfaces and volumes are drawn with it at infinity.
     pub infinite: bool,
     /// Volumes are counted under the scene's own projection, without clipping at near and far planes.
     pub clamped: bool,
-    /// Volumes need depth before the near plane, which surfaces leave to them.
+    /// Volumes need a part of the depth range before the surfaces' near plane.
     pub ledge: Option<LedgeDepths>,
     pub lighting: Lighting,
-    /// Objects whose surfaces must stay as they are, since volumes' caps meet them: into [`Scene::objects`].
+    /// Objects whose surfaces must not be cut, because volumes' caps meet them: indices into [`Scene::objects`].
     pub casters: Vec<usize>,
     /// The pixels that the light may reach, as [`DrawState::scissor`]; `None`: any.
     pub scissor: Option<[u32; 4]>,
-    /// What a picture of the volumes shows: all of their sides and caps.
+    /// All sides and caps of the volumes, for a picture of them.
     pub volumes: Vec<VolumeDraw>,
-    /// Their possible silhouettes, as lines (C1).
+    /// Their possible silhouettes, as lines.
     pub silhouettes: Vec<VolumeDraw>,
 }
 
-/// Depths that the ledge before the near plane takes.
+/// Depth range of the ledge before the near plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LedgeDepths {
-    /// From 0 on, and as few as keep caps and surfaces apart.
+    /// The fewest codes, from depth 0, that keep caps and surfaces apart.
     Fewest,
-    /// Window depths: where volumes begin, where the scene begins, where both end; `n'`, `n` and `f` of the talk.
+    /// Window depths: where volumes begin, where the scene begins, where both end; `n'`, `n` and `f` of [GDC, "Building a
+    /// "Ledge" at the Front of the Depth Buffer"].
     Given([f64; 3]),
 }
 
@@ -171,37 +174,38 @@ pub enum LedgeDepths {
 pub enum Lighting {
     /// All other light first, over the whole picture; then this light is added where the count is 0.
     Added,
-    /// The talk's two passes, each of which replaces what is there: the scene with the light where the count is 0, and the
-    /// scene without it where it is not.
+    /// Two passes that replace each other's pixels [GDC, "Shadow Volume Algorithm"]: the scene with the light where the
+    /// count is 0, and without it elsewhere.
     LitAndUnlit,
 }
 
-/// What is counted under one draw state. The first pass clears the stencil buffer.
+/// Volumes that are counted under one draw state. The first pass clears the stencil buffer.
 #[derive(Clone, Debug)]
 pub struct CountPass {
     pub label: String,
-    /// `depth_range` is the plan's to set.
+    /// Draw state; the plan sets `depth_range`.
     pub state: DrawState,
     pub layer: Layer,
     pub counted: Counted,
 }
 
-/// What a pass counts.
+/// Geometry that a pass counts.
 #[derive(Clone, Debug)]
 pub enum Counted {
     Volumes(Vec<VolumeDraw>),
-    /// The surfaces themselves, where the light's own shade is below one half (A20).
+    /// The surfaces themselves, where the light's own shade is below one half [LEC, "Combining Shadow Mapping with other
+    /// Techniques"].
     Shadowed,
 }
 
-/// Which depth range volumes are drawn into [techniques C8].
+/// Depth range that volumes are drawn into [GDC, "Building a "Ledge" at the Front of the Depth Buffer"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layer {
-    /// The surfaces' own.
+    /// The surfaces' depth range.
     Scene,
-    /// From before the surfaces' near plane on.
+    /// The depth range from the ledge on.
     Ledge,
-    /// At the ledge's very front, whatever their depth: caps on the near plane.
+    /// The ledge's very front, for caps on the near plane.
     LedgeCap,
 }
 
@@ -213,26 +217,26 @@ pub struct VolumeDraw {
     pub primitive: Primitive,
     pub indices: Range<u32>,
     pub space: VolumeSpace,
-    /// Triangles look outwards where they wind clockwise.
+    /// True if triangles that wind clockwise look outwards.
     pub reversed: bool,
 }
 
 /// The space of a volume's vertices.
 #[derive(Clone, Copy, Debug)]
 pub enum VolumeSpace {
-    /// Its caster's own, so that caps are transformed as surfaces are.
+    /// The caster's model space, so that caps are transformed as surfaces are.
     Model { world_from_model: DMat4 },
-    /// The camera's, for volumes that are cut at its near plane.
+    /// The camera's view space, for volumes that are cut at its near plane.
     Eye,
 }
 
 impl Counting {
-    /// Tests whether what the light's own shade says is in the stencil buffer.
+    /// Tests whether the light's own shade is tagged in the stencil buffer.
     pub fn tags(&self) -> bool {
         self.passes.iter().any(|pass| matches!(pass.counted, Counted::Shadowed))
     }
 
-    /// The batches that draw `draws`, which `fragment` colours.
+    /// Batches that draw `draws`, coloured by `fragment`.
     pub fn batches(
         draws: &[VolumeDraw],
         viewer: &Viewer,
@@ -268,7 +272,7 @@ impl VolumeDraw {
             primitive: self.primitive,
             indices: self.indices.clone(),
             order: IndexOrder::File,
-            // Volumes have no end; the technique knows which of them can be seen.
+            // Volumes have no bounds; the technique has chosen those that can be seen.
             bounds: Aabb::EVERYTHING,
             clip_from_model,
             mirrored: items::mirrors(&clip_from_model) != self.reversed,
@@ -283,7 +287,7 @@ impl LightTerm {
         Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("light/unshadowed.frag")) }
     }
 
-    /// The same light under a shade that asks nothing, and that is no longer counted.
+    /// A copy of this term with the given shade and without a stencil count.
     pub fn under(&self, scene: &Scene, shade: Chunk, meaning: Shade) -> Self {
         let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
         Self {

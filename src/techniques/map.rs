@@ -12,27 +12,27 @@ pub use super::shadow_map::settings::Bias;
 /// A light's shadow map in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapInfo {
-    /// Into [`crate::scene::Scene::lights`].
+    /// Index into [`crate::scene::Scene::lights`].
     pub light: usize,
     pub shape: MapShape,
     /// Texels a side of the first level; of a cube, a side of each face.
     pub size: u32,
-    /// How many levels there are; 1 without mipmaps. A texel of level n, from 0, is 2^n times as wide as `texel`.
+    /// Number of levels; 1 without mipmaps. A texel of level n, from 0, is 2^n times as wide as `texel`.
     pub levels: u32,
     pub format: DepthFormat,
     /// The width of a texel along its longer side. Of a parallel map, anywhere. Of a perspective map, at a distance of 1
     /// along its axis: at a distance d along that axis (of a cube, along the axis of the face) it is d times as wide.
     pub texel: f64,
-    /// How far one lookup reaches from its point along each axis of the map, in texels: the kernel's taps, of each tap the
-    /// texels that its filter weighs, and the move of the point by a normal offset. Of several levels, in texels of the
-    /// first one under "8-tap", and of the finer one of the two that are met under `mipmaps = true`.
+    /// Reach of one lookup from its point along each axis of the map, in texels: the kernel's taps, the texels that each
+    /// tap's filter weighs, and the movement of the point by a normal offset. With several levels, in texels of the first
+    /// under "8-tap", and of the finer one of the two that are used under `mipmaps = true`.
     pub reach_texels: f64,
     pub bias: Bias,
     /// Faces that the map leaves out, as the light sees them.
     pub cull: Option<Face>,
     /// The polygon offset that the map is drawn with, positive away from the light; 0 of techniques that need none.
     pub polygon: PolygonOffset,
-    /// By how many widths of a texel, where it is, a receiver is moved towards the light before it is compared.
+    /// Movement of a receiver towards the light before it is compared, in widths of a texel at the receiver.
     pub texels: f64,
     /// True if a texel holds the middle between the two nearest layers, in place of the nearest one.
     pub middle: bool,

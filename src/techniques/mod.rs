@@ -35,7 +35,7 @@ pub use items::Item;
 pub use light::{Coordinates, FrustumView, LightTerm, LightView};
 pub use map::{MapInfo, MapShape};
 
-/// A way to find out which points a light reaches.
+/// A way to find which points a light reaches.
 pub trait Technique: Sync {
     /// The value of `technique` in `[light.shadow]`.
     fn name(&self) -> &'static str;
@@ -50,7 +50,7 @@ pub trait Technique: Sync {
     ///
     /// # Errors
     ///
-    /// Why not, as the end of a sentence that begins with the technique's name.
+    /// The reason why not, as the end of a sentence that begins with the technique's name.
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
 
     /// Tests whether it reads casters' vertices, which the vertex stage then must not move.
@@ -58,7 +58,7 @@ pub trait Technique: Sync {
         false
     }
 
-    /// What a report varies, and how.
+    /// Keys that a report varies, with their values.
     fn axes(&self) -> &'static [Axis];
 
     /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
@@ -66,20 +66,20 @@ pub trait Technique: Sync {
         &[]
     }
 
-    /// What its documents claim of it, for a report to hold against its scene.
+    /// Claims of its documents, which a report measures on its scene.
     fn claims(&self) -> &'static [Claim] {
         &[]
     }
 
-    /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
+    /// Validates the technique's keys of `[light.shadow]` without planning anything.
     ///
     /// # Errors
     ///
     /// A key with a wrong value, with its place in the scene file.
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError>;
 
-    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
-    /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
+    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and returns the
+    /// light's term for the lit pass. Notes what it leaves out in `notes`.
     ///
     /// # Errors
     ///
@@ -97,9 +97,9 @@ pub trait Technique: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     pub key: &'static str,
-    /// In TOML.
+    /// Values in TOML.
     pub values: &'static [&'static str],
-    /// The fewer values of a quick report.
+    /// Fewer values, for a quick report.
     pub quick: &'static [&'static str],
 }
 
@@ -112,11 +112,11 @@ pub const TABLE: &[&dyn Technique] = &[
     &shadow_volume::ShadowVolume,
 ];
 
-/// What was left out and why, and what the reader of a plan should know besides.
+/// Notes of a plan: what was left out and why, choices, and warnings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     pub left_out: Vec<LeftOut>,
-    /// What a technique chose by itself, and why.
+    /// Choices that a technique made, and why.
     pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }

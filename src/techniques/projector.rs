@@ -1,5 +1,5 @@
-//! What a map is drawn from: the frustum of a spotlight, a face of the cube around a point light, the box across a
-//! directional light's rays. Matrices alone; knows no settings and no pass.
+//! Projections that maps are drawn from: the frustum of a spotlight, a face of the cube around a point light, the box
+//! across a directional light's rays. Matrices alone; knows no settings and no pass.
 
 use glam::{DMat4, DVec3};
 
@@ -15,7 +15,7 @@ pub struct Projector {
     pub rays: Rays,
 }
 
-/// Where the light's rays come from.
+/// Position or direction of the light's rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rays {
     /// A point; depth begins at `near`, along the map's axis.

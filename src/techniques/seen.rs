@@ -1,4 +1,4 @@
-//! What the camera sees, from bounding boxes in world space, and which pixels a light may reach of it. Conservative.
+//! Items that the camera sees, from bounding boxes in world space, and the pixels that a light may reach. Conservative.
 
 use glam::{DMat4, DVec3};
 
@@ -14,7 +14,7 @@ pub fn bounds(view: &LightView<'_>) -> Aabb {
     items(view).fold(start, |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
 }
 
-/// What is in view.
+/// Items in view.
 pub fn items<'a>(view: &LightView<'a>) -> impl Iterator<Item = &'a Item> {
     let clip_from_world = clip_from_world(view);
     let is_seen = move |item: &&Item| {

@@ -12,8 +12,7 @@ use super::{FrustumView, Item};
 use crate::math::Aabb;
 use crate::math::frustum::planes;
 
-/// How far from its own place one comparison's lookup reaches: a linear filter's neighbour, Direct3D's half texel and
-/// rounding, in texels.
+/// Reach of one comparison's lookup, in texels: a linear filter's neighbour, Direct3D's half texel and rounding.
 const REACH_TEXELS: f64 = 4.0;
 
 /// Tells which casters of one light matter to the picture.
@@ -22,12 +21,12 @@ pub struct Unseen {
     rays: Rays,
     /// World space; the normals, of unit length, point inwards.
     camera_planes: [DVec4; 6],
-    /// What the texels that a lookup reaches measure: at a distance of 1 from the light, or anywhere in parallel light.
+    /// Length of the texels that a lookup reaches: at a distance of 1 from the light, or anywhere in parallel light.
     reach: f64,
 }
 
 impl Unseen {
-    /// For a map of `texels` a side, looked up within `reach` texels beside a filter's own.
+    /// A test for a map of `texels` a side, looked up within `reach` texels beside a filter's own.
     pub fn new(view: &FrustumView<'_>, texels: u32, reach: f64) -> Self {
         let camera = &view.scene.camera;
         let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();

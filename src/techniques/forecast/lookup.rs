@@ -8,9 +8,9 @@ use crate::techniques::projector::Rays;
 use crate::techniques::shadow_map::bias;
 use crate::techniques::shadow_map::settings::{Bias, Mipmaps, Settings};
 
-/// What is compared with the map.
+/// A point that is compared with the map.
 pub struct Receiver {
-    /// In light space.
+    /// Point in light space.
     pub point: DVec3,
     /// Unit length, towards the eye, in light space.
     pub normal: DVec3,
@@ -38,11 +38,11 @@ pub fn lit(texels: &mut Texels<'_>, settings: &Settings, moved_texels: f64, rece
 struct Lookup<'l, 'a> {
     texels: &'l mut Texels<'a>,
     settings: &'l Settings,
-    /// In texels of level 0.
+    /// Place in texels of level 0.
     at: DVec2,
     /// The reference: a window depth.
     depth: f64,
-    /// How the receiver's plane deepens by a texel of level 0.
+    /// Increase of the receiver's depth by a texel of level 0, along each axis.
     slope: DVec2,
     is_parallel: bool,
 }
@@ -121,7 +121,7 @@ impl<'l, 'a> Lookup<'l, 'a> {
     }
 }
 
-/// How far `normal_offset.frag` moves a point along its normal, in world units.
+/// Movement of a point along its normal by `normal_offset.frag`, in world units.
 fn normal_offset(texels: &Texels<'_>, settings: &Settings, point: DVec3, normal: DVec3) -> f64 {
     let reach = bias::reach_texels(settings) * bias::texel_sides_at_one(texels.projector(), settings);
     let reach = reach.dot(normal.truncate().abs());
@@ -131,7 +131,7 @@ fn normal_offset(texels: &Texels<'_>, settings: &Settings, point: DVec3, normal:
     }
 }
 
-/// How a plane's window depth grows by a texel of level 0 along each axis of the map.
+/// Increase of a plane's window depth by a texel of level 0, along each axis of the map.
 fn slope(texels: &Texels<'_>, point: DVec3, normal: DVec3) -> DVec2 {
     // From two steps along it: seen through a projection a plane is a plane, so that any will do.
     let [right, up] = [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())];

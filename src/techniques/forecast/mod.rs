@@ -24,10 +24,10 @@ use super::{Item, LightView, Notes};
 use crate::pass::{DepthFormat, Face, PolygonOffset};
 use crate::scene::{LightKind, LightShape};
 
-/// In pictures where the light reaches fewer pixels a share says nothing.
+/// Fewest pixels that the light must reach for a share to be meaningful.
 const FEWEST_PIXELS: u32 = 1000;
 
-/// At most so many points are looked at first, and where any of them is wrong as many as the second number.
+/// Greatest number of points to sample first, and if any of them is wrong.
 const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
 
 /// Lengths below this share of a point's coordinates and of its distance from the eye are none.
@@ -41,7 +41,7 @@ pub struct Map<'a> {
     pub settings: &'a Settings,
     pub offset: Offset,
     pub stored: Stored,
-    /// What the map is drawn from.
+    /// Casters in the map.
     pub casters: &'a [&'a Item],
     /// One, or a cube's six.
     pub projectors: Vec<Projector>,
@@ -55,7 +55,7 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     let items = Items::new(view);
     let mut forecast = Forecast::new(view, map, &items);
     let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
-    // A map of far sides may be wrong in single pixels where a caster is open: a few samples tell nothing of all.
+    // A map of far sides may be wrong in single pixels where a caster is open: a few samples do not show the rest.
     let starts_with_few = map.settings.cull.is_none() && few > many;
     if starts_with_few {
         forecast.sample(few);
@@ -82,16 +82,16 @@ struct Wrong {
     is_even: bool,
     /// Lit by mistake before the near plane, where a map has no depths.
     is_before_near: bool,
-    /// Whose shadow is missing, or what is dark: into the items.
+    /// Item whose shadow is missing, or that is dark: index into the items.
     item: usize,
     /// The width of a texel, in pixels.
     texel_pixels: f64,
-    /// What one code of depth measures there, and how far from the light that is, in world units.
+    /// Length of one code of depth there, and distance from the light, in world units.
     code: f64,
     distance: f64,
 }
 
-/// What lies between a point and the light.
+/// Surfaces between a point and the light.
 struct Way<'p> {
     point: &'p Seen,
     met: Vec<Met>,
@@ -103,12 +103,12 @@ struct Way<'p> {
 }
 
 impl Way<'_> {
-    /// What shadows the point.
+    /// Surfaces that shadow the point.
     fn blockers(&self) -> impl Iterator<Item = &Met> {
         self.met.iter().filter(|met| !met.is_own && met.t > self.slack && met.t < self.end)
     }
 
-    /// From something met to the point, in world units.
+    /// Distance from something met to the point, in world units.
     fn gap(&self, met: &Met) -> f64 {
         met.t * self.length
     }
@@ -138,7 +138,7 @@ impl<'a> Forecast<'a> {
         self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
     }
 
-    /// Looks at every `step`-th pixel of every `step`-th row, anew.
+    /// Samples every `step`-th pixel of every `step`-th row, from scratch.
     fn sample(&mut self, step: u32) {
         (self.step, self.reached) = (step, 0);
         self.wrong.clear();
@@ -154,7 +154,7 @@ impl<'a> Forecast<'a> {
         for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
             let [near, far] = ray(x, y);
             let Some(point) = seen(self.items, camera.eye, near, far - near) else { continue };
-            // Where the rays of the pixels beside meet the same plane.
+            // Points where the rays of the neighbouring pixels meet the same plane.
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
             });
@@ -191,8 +191,8 @@ impl<'a> Forecast<'a> {
         Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
     }
 
-    /// By how much interpolation in f32 may move a point's window depth. A rasterizer finds what is interpolated from its value
-    /// at the window's origin, which lies the farther off the more steeply the camera sees the surface; of r and q, each divided
+    /// Error of f32 interpolation in a point's window depth. A rasterizer finds what is interpolated from its value at the
+    /// window's origin, which lies the farther off the more steeply the camera sees the surface; of r and q, each divided
     /// by the camera's w, both are rounded there.
     fn interpolation_error(&self, texels: usize, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> f64 {
         let camera = &self.view.scene.camera;
@@ -207,13 +207,13 @@ impl<'a> Forecast<'a> {
         let here = value(point.point);
         let steps = beside.map(|beside| (value(beside) / w(beside) - here / w(point.point)).abs());
         let at_origin = f64::from(pixel[0]) * steps[0] + f64::from(pixel[1]) * steps[1];
-        // Of parallel light z alone, of a depth in [0, 1].
+        // For parallel light only z counts, a depth in [0, 1].
         let relative = if is_parallel { 1.0 } else { 2.0 / here };
         let error = 2.0_f64.powi(-24) * at_origin * w(point.point) * relative;
         if error.is_finite() { error.abs().min(1.0) } else { 1.0 }
     }
 
-    /// What lies between a point and the light.
+    /// Surfaces between a point and the light.
     fn way<'p>(&self, point: &'p Seen) -> Way<'p> {
         let slack = self.slack(point);
         // A surface that the light lies in is edge-on to it, and shadows nothing.
@@ -222,7 +222,7 @@ impl<'a> Forecast<'a> {
         Way { point, met: on_the_way(self.items, point, -slack, &self.rays()), slack, end, length }
     }
 
-    /// Why a point is wrong, whose pixel is one world unit wide.
+    /// Reason why a point is wrong, whose pixel is one world unit wide.
     fn wrong(&self, way: &Way<'_>, receiver: &Receiver, texels: &Texels<'_>, lit: bool) -> Wrong {
         let map = self.map;
         let texel = texels.width_at(receiver.point);
@@ -254,7 +254,7 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// What counts as no length at a point, as a share of its way to the light.
+    /// Length that counts as zero at a point, as a share of its way to the light.
     fn slack(&self, point: &Seen) -> f64 {
         let length = match self.rays() {
             Rays::From { position, .. } => position.distance(point.point),
@@ -264,7 +264,7 @@ impl<'a> Forecast<'a> {
         SLACK * (point.point.abs().max_element() + eye) / length
     }
 
-    /// How far before a point a caster may lie whose shadow bias and slopes take away, along the ray and in world units.
+    /// Greatest distance before a point of a caster whose shadow bias and slopes remove, along the ray and in world units.
     fn taken(&self, point: &Seen, met: &Met, texel: f64, code: f64) -> f64 {
         let map = self.map;
         let reach = bias::reach_texels(map.settings);
@@ -275,7 +275,7 @@ impl<'a> Forecast<'a> {
         texel * (slopes + map.offset.texels + 1.0) + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
     }
 
-    /// How far a plane falls away along the light's ray for a step across it, both of unit length.
+    /// Slope of a plane along the light's ray for a step across it, both of unit length.
     fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
         let way = to_light(point, &self.rays()).normalize_or_zero();
         let along = normal.dot(way).abs();
@@ -348,7 +348,7 @@ fn receiver(texels: &Texels<'_>, point: &Seen, beside: [DVec3; 2]) -> Receiver {
     }
 }
 
-/// Which sides of which items are met, whatever their order.
+/// Sides of items that a ray meets, whatever their order.
 fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
     let mut all: Vec<_> = met.iter().map(|met| (met.item, met.is_far_side, met.t.abs() <= slack)).collect();
     all.sort_unstable();
@@ -371,7 +371,7 @@ fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
     }
 }
 
-/// The least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
+/// The least step of depth that is resolved: the format's, and no less than what the comparison's f32 is off by, half a
 /// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
 fn code(format: DepthFormat) -> f64 {
     match format {

@@ -16,7 +16,7 @@ pub struct Placed<'a> {
 
 /// A point that the camera sees.
 pub struct Seen {
-    /// Into the items.
+    /// Index into the items.
     pub item: usize,
     pub point: DVec3,
     /// The surface's normal, of unit length, towards the eye.
@@ -25,12 +25,13 @@ pub struct Seen {
     pub triangle: u32,
 }
 
-/// What a ray to the light meets.
+/// A surface that a ray to the light meets.
 pub struct Met {
-    /// Into the items.
+    /// Index into the items.
     pub item: usize,
     pub triangle: u32,
-    /// From the seen point towards the light, negative behind it; 1 at the light, of parallel light in world units.
+    /// Parameter from the seen point towards the light, negative behind it; 1 at the light, or world units for parallel
+    /// light.
     pub t: f64,
     /// Its front looks away from the light.
     pub is_far_side: bool,
@@ -115,7 +116,7 @@ pub fn seen(items: &Items<'_>, eye: DVec3, origin: DVec3, way: DVec3) -> Option<
     (normal != DVec3::ZERO).then_some(Seen { item, point, normal, triangle })
 }
 
-/// From a point to the light: of length, or of parallel light of unit length.
+/// Vector from a point to the light, or a unit vector for parallel light.
 pub fn to_light(point: DVec3, rays: &Rays) -> DVec3 {
     match rays {
         Rays::From { position, .. } => *position - point,

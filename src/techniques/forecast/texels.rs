@@ -1,5 +1,5 @@
-//! A map's texels as rays from the light find them, each when it is first asked for. f64; depths are those of the window,
-//! in [0, 1] and growing away from the light, whichever way the map's own run.
+//! A map's texels as rays from the light find them, each found when it is first needed. f64; depths are those of the
+//! window, in [0, 1] and growing away from the light, whichever way the map's own run.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,7 +15,7 @@ use crate::techniques::shadow_map::bias;
 use crate::techniques::shadow_map::settings::Settings;
 use crate::techniques::shadow_map::term::raster_from_clip;
 
-/// What a texel stores.
+/// Layer that a texel stores.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stored {
     /// The nearest face of a caster, under the map's polygon offset.
@@ -25,7 +25,7 @@ pub enum Stored {
     Middle { margin: f64, eye_linear: bool, alone: Alone },
 }
 
-/// What a texel with one layer alone stores.
+/// Value of a texel with only one layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alone {
     Far,
@@ -49,7 +49,7 @@ pub struct Texels<'a> {
 /// A layer that a texel's ray crosses.
 #[derive(Clone, Copy)]
 struct Layer {
-    /// Not clamped.
+    /// Depth, not clamped.
     depth: f64,
     item: usize,
     triangle: u32,
@@ -87,7 +87,8 @@ impl<'a> Texels<'a> {
         if matches!(self.projector.rays, Rays::From { .. }) { -light.z * one } else { one }
     }
 
-    /// Where a point in light space is looked up, in texels of level 0 from a corner of the map; its window depth.
+    /// Place where a point in light space is looked up, in texels of level 0 from a corner of the map, and its window
+    /// depth.
     pub fn place(&self, light: DVec3) -> (DVec2, f64) {
         let crop = raster_from_clip(self.settings) * self.settings.crop.map_clip_from_light_clip();
         let clip = crop * self.projector.clip_from_light * light.extend(1.0);
@@ -179,7 +180,7 @@ impl<'a> Texels<'a> {
         Ray { origin: from, way: to - from, start: 1e-9, end: 1.0 }
     }
 
-    /// What the ray crosses and the map has drawn, in no order.
+    /// Layers that the ray crosses and the map draws, in no order.
     fn layers(&self, ray: &Ray) -> Vec<Layer> {
         let mut layers = Vec::new();
         let far_sides = match self.settings.cull {
@@ -188,7 +189,7 @@ impl<'a> Texels<'a> {
             Some(Face::Back) => Some(false),
         };
         let with_receivers = matches!(self.stored, Stored::Middle { .. });
-        // What lies beyond the far plane is a second layer at depth 1.
+        // Surfaces beyond the far plane are a second layer at depth 1.
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
         self.items.crossings(ray, |item, met| {
             let casts = self.casts[item];
@@ -207,11 +208,11 @@ impl<'a> Texels<'a> {
         self.depth_at(start + t * (self.distance(1.0) - start))
     }
 
-    /// By how much the polygon offset moves a layer, in window depth [GL 4.6, 14.6.5].
+    /// Movement of a layer by the polygon offset, in window depth [GL 4.6, 14.6.5].
     fn moved(&self, level: u32, center: DVec2, layer: &Layer) -> f64 {
         let PolygonOffset { factor, units } = self.offset;
-        // GL's r, the least that is told apart [GL 4.6, 14.6.5]: of 24 bits drivers take up to two codes, of floats what it is
-        // between 1/2 and 1.
+        // GL's r, the least resolvable difference [GL 4.6, 14.6.5]: with 24 bits drivers take up to two codes, of floats
+        // what it is between 1/2 and 1.
         let unit = match self.settings.format {
             DepthFormat::Depth16 => 2.0_f64.powi(-16),
             DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0_f64.powi(-23),

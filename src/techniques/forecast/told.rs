@@ -1,4 +1,4 @@
-//! The warnings that a forecast comes to.
+//! Warnings of a forecast.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub fn all(forecast: &Forecast<'_>, notes: &mut Notes) {
 }
 
 impl Forecast<'_> {
-    /// In percent of what the light reaches.
+    /// Share in percent of the points that the light reaches.
     fn percent(&self, count: usize) -> f64 {
         100.0 * count as f64 / f64::from(self.reached.max(1))
     }

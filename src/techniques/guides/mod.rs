@@ -1,5 +1,5 @@
-//! Wire frames that show what a picture does not: the frustum of a light [techniques E: a cube mapped through the
-//! inverse light projection]. They are drawn over the finished surfaces, hidden by them, and leave their depth as it is.
+//! Wire frames of lights' frusta, as in the sample program hw_shadowmaps_simple [a cube mapped through the inverse light
+//! projection]. They are drawn over the finished surfaces, hidden by them, and leave their depth as it is.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ const YELLOW: glam::Vec3 = glam::Vec3::new(1.0, 1.0, 0.0);
 const EDGES: [[u32; 2]; 12] =
     [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 
-/// The batch that draws the frusta of the lights that ask for it; `None` where none does.
+/// The batch that draws the frusta of the lights with `frustum = "shown"`; `None` where none does.
 pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
     let shown = |light: &Light| {
         let spot = light.spot().filter(|spot| spot.frustum_shown)?;

@@ -1,14 +1,13 @@
-//! Woo's midpoint map, in two passes by depth peeling [Hardware Shadow Mapping, "Advantages and Limitations";
-//! techniques A14].
+//! Woo's midpoint map, in two passes by depth peeling [Woo 1992; HSM, "Advantages and Limitations"].
 //!
-//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (as the
-//! document has it by the texture unit's comparison, or by its own: [`settings::Peel`]), and stores the middle between the
-//! nearest depth and its own; the nearest fragment that is left is the second layer. A surface's own depth then lies half
-//! a caster's thickness before what it is compared with, and no polygon offset is needed.
+//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (by the
+//! texture unit's comparison as in [HSM], or in the shader: [`settings::Peel`]), and stores the middle between the nearest
+//! depth and its own; the nearest fragment that is left is the second layer. A surface's own depth then lies half a
+//! caster's thickness before what it is compared with, and no polygon offset is needed.
 //!
-//! # Pitfalls that the document does not mention
-//! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer
-//!   lies behind itself. That is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
+//! # Pitfalls that [HSM] does not mention
+//! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer lies
+//!   behind itself. So it is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
 //!   rounding reaches: nor that by which two triangles in one plane differ.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
 //!   `tests/layers.rs`) and costs nothing. It is right where all that can be shadowed is a layer, so that the second one
@@ -40,8 +39,7 @@ pub struct Midpoint;
 
 const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
 
-/// [Hardware Shadow Mapping, "Advantages and Limitations"]. The edge band is told apart, for at a caster's rim its two
-/// layers meet and nothing lies between them.
+/// [HSM, "Advantages and Limitations"]. The edge band is counted apart, because at a caster's rim its two layers meet.
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {
@@ -77,7 +75,7 @@ impl Technique for Midpoint {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping, Woo; techniques A14"
+        "Hardware Shadow Mapping, on Woo"
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
@@ -136,7 +134,7 @@ impl Technique for Midpoint {
             };
             depth::draw(view, &layer, &settings.map, list, notes)
         };
-        // Without a second layer beside it, the nearest one is asked for only to be stored itself.
+        // Without a second layer beside it, the nearest one is only stored itself.
         let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, single != Single::First);
         let peel = peel(view, nearest, clamped, &settings);
         let midpoint = draw("midpoint", "midpoint map", Some(peel), NO_OFFSET, true);
@@ -190,8 +188,8 @@ fn note_shared(view: &FrustumView<'_>, [_, _, width, height]: [u32; 4], size: u3
     }
 }
 
-/// What the second pass cannot do: it looks its own texel up, in a map of one level; and what a fitted map leaves out
-/// may be the second layer.
+/// Refuses keys that the second pass cannot serve: it reads its own texel in a map of one level, and a fitted map may leave
+/// out the second layer.
 fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
     let message = "goes with technique = \"shadow-map\" or \"second-depth\", not with \"midpoint\"";
     match (map.mipmaps, map.fit) {
@@ -208,7 +206,7 @@ fn is_clamped(view: &FrustumView<'_>, layers: &Layers<'_>) -> bool {
     layers.beyond_far.is_some() || layers.casters.iter().any(|item| is_before_near(view, item))
 }
 
-/// What stands in the second layer beside the casters.
+/// Notes what is drawn into the second layer in addition to the casters.
 fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
     if let Some(name) = &layers.beyond_far {
         let why = format!("{name} reaches beyond the far plane: it is a second layer at depth 1");
@@ -223,7 +221,7 @@ fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
     }
 }
 
-/// How the second pass ends its fragments.
+/// Ending of the second pass's fragments.
 fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Settings) -> Ending {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
@@ -250,7 +248,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
         ending.defines.push("COMPARE");
         ending.inputs.push(input("nearest_compared", Some(behind)));
     }
-    // Of parallel light a window depth is linear: the mean of two is that of the middle point.
+    // Under parallel light window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {
@@ -261,7 +259,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
 }
 
 /// Two codes of 16 bits: one for the rounding when a depth is stored [GL 4.6, 2.3.5.2: either of the two nearest], one for
-/// that when it is fetched. Of more bits, four steps of the f32 that drivers interpolate depth in: two triangles in one
+/// that when it is fetched. With more bits, four steps of the f32 that drivers interpolate depth in: two triangles in one
 /// plane, such as a face given in both windings, differ by as many.
 fn margin(format: DepthFormat) -> f32 {
     match format {

@@ -1,5 +1,5 @@
-//! What is drawn into both layers of the map and what into the second alone, and which texels may have a second layer: what
-//! the passes draw, and are scissored to. From bounding boxes.
+//! Items drawn into both layers of the map or only into the second, and the texels that may have a second layer, to which
+//! the passes are scissored. From bounding boxes.
 
 use glam::{DMat4, DVec3};
 
@@ -41,7 +41,7 @@ impl Rectangle {
     }
 }
 
-/// Where two layers may meet.
+/// Texels that two layers may share.
 pub struct Shared<'a> {
     /// Left, bottom, width and height of all such texels; zeros where there are none.
     pub scissor: [u32; 4],
@@ -49,17 +49,17 @@ pub struct Shared<'a> {
     pub receivers: Drawn<'a>,
 }
 
-/// What is drawn there.
+/// Items drawn there.
 #[derive(Default)]
 pub struct Drawn<'a> {
-    /// Under the scissor of all such texels.
+    /// Items drawn under the scissor of all such texels.
     pub whole: Vec<&'a Item>,
     /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
     /// on.
     pub in_parts: Vec<InParts<'a>>,
 }
 
-/// What the two layers are made of.
+/// Items of the two layers.
 pub struct Layers<'a> {
     /// Drawn into both.
     pub casters: Vec<&'a Item>,
@@ -147,7 +147,7 @@ fn corners(item: &Item) -> [DVec3; 8] {
 fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
     let (own, others) = (corners(item), corners(other));
     let scale = own.iter().chain(&others).map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-    // What f32 transforms may be off by.
+    // Error of f32 transforms.
     let slack = scale / f64::from(1 << 20);
     let bounds = Aabb::from_points(others);
     let (farthest, nearest) = match rays {

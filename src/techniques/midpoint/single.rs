@@ -1,5 +1,5 @@
-//! What texels with one layer alone store, where that is not the far plane: a pass over the whole map that puts the
-//! nearest layer there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
+//! Value of texels with only one layer, if it is not the far plane: a pass over the whole map stores the nearest layer
+//! there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
 
 use std::sync::{Arc, OnceLock};
 

@@ -1,10 +1,10 @@
-//! Second-depth shadow maps: only the faces that look away from the light are drawn into the map [Hardware Shadow
-//! Mapping, Wang and Molnar; techniques A15].
+//! Second-depth shadow maps: only the faces that look away from the light are drawn into the map [Wang and Molnar 1994;
+//! HSM, "Advantages and Limitations"].
 //!
-//! What is lit is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
-//! offset. What looks away from the light is compared with itself, and errs; by its shading it is dark in any case. A
-//! caster that is open has no far side and would lose its shadow: it is refused by name, or with `closed = "assume"`
-//! drawn as it is, and named in a warning where that shadow is missed.
+//! A lit surface is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
+//! offset. A surface that looks away from the light is compared with itself, and errs; its shading is dark in any case. An
+//! open caster has no far side and would lose its shadow: it is refused, or with `closed = "assume"` drawn as it is, and
+//! named in a warning if that shadow is missed.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub struct SecondDepth;
 
 const BARE: Contender = Contender::Keys("technique = \"second-depth\", closed = \"assume\"");
 
-/// [Hardware Shadow Mapping, on Wang and Molnar].
+/// [HSM, "Advantages and Limitations"].
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {
@@ -57,7 +57,7 @@ impl Technique for SecondDepth {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping, Wang and Molnar; techniques A15"
+        "Hardware Shadow Mapping, on Wang and Molnar"
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
@@ -117,7 +117,7 @@ fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
 }
 
-/// Answers whether an item has a far side all over: each mesh is looked at once.
+/// Tests whether an item has a far side all over: each mesh is examined once.
 fn closed_test() -> impl FnMut(&Item) -> bool {
     let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
     move |item| {
@@ -134,7 +134,7 @@ fn closed_test() -> impl FnMut(&Item) -> bool {
     }
 }
 
-/// Refuses casters without a far side, each by its name.
+/// Refuses casters without a far side, and names each.
 fn refuse_open(
     casters: &[&Item],
     is_closed: &mut dyn FnMut(&Item) -> bool,

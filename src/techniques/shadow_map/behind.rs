@@ -1,6 +1,6 @@
-//! `guard = "stencil"`: what lies behind a spotlight is tagged in the stencil buffer [lecture, "Careful about Back
-//! Projecting Shadow Maps"; techniques A13 d], by counting one volume, the light's own frustum mirrored at the light.
-//! The light is added, shadow and all, where the count is 0.
+//! `guard = "stencil"`: tags everything behind a spotlight in the stencil buffer [LEC, "Careful about Back Projecting
+//! Shadow Maps"], by counting one volume, the light's own frustum mirrored at the light. The light is added, shadow and
+//! all, where the count is 0.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::techniques::light::{CountPass, Counted, Counting, Layer, Lighting, Vo
 use crate::techniques::surface::Viewer;
 use crate::techniques::{LightTerm, LightView, Notes};
 
-/// Gives `term` the guard that the light's keys ask for; none is counted where nothing that is seen needs it.
+/// Gives `term` the guard that the light's keys choose. Nothing is counted if no visible item needs it.
 pub fn guard(view: &LightView<'_>, settings: &Settings, term: &mut LightTerm, notes: &mut Notes) {
     term.guard = settings.guard;
     let (Guard::Stencil, Some(frustum)) = (settings.guard, view.light().frustum()) else { return };

@@ -1,4 +1,4 @@
-//! How far a map and what is compared with it are held apart, so that no surface shades itself.
+//! Distances between a map and the compared points, so that no surface shades itself.
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
@@ -6,18 +6,18 @@ use super::settings::{Bias, Mipmaps, Offset, Settings};
 use crate::pass::{DepthFormat, Filter, PolygonOffset};
 use crate::techniques::projector::{Projector, Rays};
 
-/// How far a lookup reaches from its place along each axis, in texels: the kernel's taps, and of each its filter: the
-/// half texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
+/// Reach of a lookup from its place along each axis, in texels: the kernel's taps and each tap's filter, which is the half
+/// texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.
 pub fn reach_texels(settings: &Settings) -> f64 {
     kernel_reach(settings) + filter_reach(settings)
 }
 
-/// Of a kernel's outermost tap.
+/// Distance of a kernel's outermost tap.
 pub fn kernel_reach(settings: &Settings) -> f64 {
     0.5 * f64::from(settings.kernel - 1)
 }
 
-/// Of one tap.
+/// Reach of one tap.
 pub fn filter_reach(settings: &Settings) -> f64 {
     if settings.filter == Filter::Nearest { 0.5 } else { 1.0 }
 }
@@ -67,8 +67,8 @@ fn default_offset(settings: &Settings) -> Offset {
     Offset { polygon: PolygonOffset { factor: factor as f32, units }, texels: width * texels + moved }
 }
 
-/// How many levels are drawn. Depths cannot be averaged: every one that is met is drawn [lecture, "Mipmapping for Depth
-/// Textures"].
+/// Number of levels that are drawn. Depths cannot be averaged: every level that is used is drawn [LEC, "Mipmapping for
+/// Depth Textures"].
 pub fn levels(settings: &Settings) -> u32 {
     match settings.mipmaps {
         Mipmaps::None => 1,
@@ -82,7 +82,7 @@ pub fn texel_at_one(projector: &Projector, settings: &Settings) -> f64 {
     texel_sides_at_one(projector, settings).max_element()
 }
 
-/// The same along both sides.
+/// The same as [`texel_at_one`] along both sides.
 pub fn texel_sides_at_one(projector: &Projector, settings: &Settings) -> DVec2 {
     let clip = &projector.clip_from_light;
     2.0 * settings.crop.half() / (DVec2::new(clip.x_axis.x, clip.y_axis.y) * f64::from(settings.size))
@@ -102,7 +102,7 @@ pub fn moved_to_light(projector: &Projector, texels: f64, settings: &Settings) -
     DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0 + g, 0.0), DVec4::new(0.0, 0.0, -g * a, 1.0))
 }
 
-/// By how much `1 / distance` grows where a point is moved towards the light by `share` of its distance.
+/// Growth of `1 / distance` if a point is moved towards the light by `share` of its distance.
 pub fn growth(share: f64) -> f64 {
     let share = share.min(0.5);
     share / (1.0 - share)

@@ -1,4 +1,4 @@
-//! Which of the scene's items are drawn into a light's map.
+//! Items that are drawn into a light's map.
 
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
@@ -23,7 +23,7 @@ pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Note
     casters
 }
 
-/// What kernels, normal offsets and the coarser of two levels reach beside a filter's own, in texels.
+/// Reach of kernels, normal offsets and the coarser of two levels, in addition to the filter's own, in texels.
 pub fn reach(settings: &Settings) -> f64 {
     let kernel = bias::kernel_reach(settings);
     match (settings.mipmaps, settings.bias) {

@@ -1,5 +1,5 @@
-//! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [Hardware Shadow Mapping;
-//! techniques A16].
+//! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [HSM, "Advantages and
+//! Limitations"].
 //!
 //! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are
 //! cleared to, so that what looks it up, or reaches into it across a seam, is lit.
@@ -25,11 +25,11 @@ use crate::techniques::projector::{Projector, Rays};
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, MapInfo, Notes};
 
-/// How far beyond a face's sides something may lie that looks it up across a seam, in texels: a filter's neighbour and
+/// Distance beyond a face's sides within which a point may look it up across a seam, in texels: a filter's neighbour and
 /// rounding.
 const SEAM_TEXELS: f64 = 4.0;
 
-/// What a cube map cannot do.
+/// Refuses keys that a cube map cannot serve.
 ///
 /// # Errors
 ///
@@ -116,7 +116,7 @@ fn needed<'a>(
     Some((face, face_view, inside))
 }
 
-/// Tests whether the camera may see something that looks the face up.
+/// Tests whether the camera may see something that is looked up in the face.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
     let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
@@ -158,7 +158,7 @@ pub fn projectors(point: &Point) -> Vec<Projector> {
     CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
 }
 
-/// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
+/// Draws the faces and, with `transfer = "copy"`, copies each from one depth buffer. Returns the cube.
 fn draw(
     view: &LightView<'_>,
     faces: &[(CubeFace, FrustumView<'_>, Vec<&Item>)],
@@ -212,7 +212,7 @@ fn draw(
     map
 }
 
-/// How the lit pass looks the cube up.
+/// Light term of the cube.
 fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));

@@ -1,4 +1,4 @@
-//! The passes that draw the casters' depth from the light [Hardware Shadow Mapping, "How To Do It"; techniques A1-A4].
+//! The passes that draw the casters' depth from the light [HSM, "How To Do It"].
 
 use glam::{DMat4, DVec3};
 
@@ -17,15 +17,15 @@ use crate::techniques::{Chosen, FrustumView, Item, LightView, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
-    /// Of the pass, behind the light's number.
+    /// Name of the pass, after the light's number.
     pub name: &'static str,
-    /// Of the image, likewise.
+    /// Name of the image, after the light's number.
     pub image: &'static str,
     /// `None`: the depth of a fragment is written, and that is all.
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
-    /// True if depth is clamped even where no caster comes before the near plane.
+    /// True if depth is clamped even if no caster comes before the near plane.
     pub clamped: bool,
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
@@ -61,7 +61,7 @@ pub struct InParts<'a> {
     pub scissors: Vec<[u32; 4]>,
 }
 
-/// What a fragment of a layer does once it has passed the alpha test.
+/// Work of a layer's fragment after the alpha test.
 #[derive(Clone)]
 pub struct Ending {
     pub label: &'static str,
@@ -72,7 +72,7 @@ pub struct Ending {
     pub inputs: Vec<Input>,
 }
 
-/// Draws a layer and, by the copy road, copies it. Returns the depth texture.
+/// Draws a layer and, with `transfer = "copy"`, copies it. Returns the depth texture.
 pub fn draw(
     view: &FrustumView<'_>,
     layer: &Layer<'_>,
@@ -139,8 +139,8 @@ pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Stor
     ImageDesc { label: format!("light {} {name}", view.index), size: [settings.size; 2], format, storage }
 }
 
-/// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
-/// that plane's depth instead of being clipped; says so of `what`. Near and far are the map's, not the light's.
+/// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that casters before the near plane are drawn at that plane's
+/// depth instead of being clipped; notes it for `what`. Near and far are the map's, not the light's.
 pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
     let Some(item) = clamps_near(view, layer) else { return layer.clamped };
     let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };

@@ -182,8 +182,8 @@ pub fn rim_texels(settings: &Settings) -> f64 {
     lookup_texels(settings, 1.0) + 1.0
 }
 
-/// How far a lookup reaches from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as
-/// wide ones of a second level.
+/// Reach of a lookup from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as wide ones
+/// of a second level.
 ///
 /// A normal offset moves a point by up to √2 times the kernel's and filter's reach, and its place in the map by no more
 /// than that times `slant`, the secant of the greatest angle between the light's rays and its axis.

@@ -1,5 +1,5 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A13, A16, A20];
-//! its parts are what every technique with a map is made of.
+//! Shadow maps by the depth comparison of the texture unit [Williams 1978; HSM, "How To Do It"]. Every technique with a map
+//! uses its parts.
 
 mod behind;
 pub(super) mod bias;
@@ -25,7 +25,7 @@ use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
 
-/// A constant cannot take the place of the slope factor [Hardware Shadow Mapping, on polygon offset; techniques A8].
+/// Claims that a constant cannot replace the slope factor [HSM, "Why Is Polygon Offset Needed?"].
 const CLAIMS: &[Claim] = &[
     Claim {
         says: "a constant offset must be larger than a slope-scaled one for equal false shadow",
@@ -41,7 +41,7 @@ const CLAIMS: &[Claim] = &[
         relation: Relation::Greater,
         second: Contender::SlopeScaled,
     },
-    // The slope factor knows no bound at a caster's rim: what is turned away behind it is told apart.
+    // The slope factor has no bound at a caster's rim: surfaces turned away behind it are counted apart.
     Claim {
         says: "a constant offset leaks more, with what is turned away",
         quantity: Quantity::Leak,
@@ -61,7 +61,7 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12, A13, A16, A20"
+        "Hardware Shadow Mapping"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -72,7 +72,7 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has those of the first three grids alone; nothing lies behind parallel light.
+    /// A cube map has the keys of the first three grids only; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         match kind {
             LightKind::Point(_) => &settings::MORE_AXES[..3],
@@ -147,7 +147,7 @@ pub(super) fn looked_up(
     term
 }
 
-/// For techniques that draw one square map and no other.
+/// Refuses point lights, for techniques that draw one square map.
 pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
     match kind {
         LightKind::Spot(_) | LightKind::Directional { .. } => Ok(()),
@@ -177,7 +177,7 @@ pub(super) fn one_view<'a>(
     Ok(projector.map(|projector| FrustumView { light_view: *view, projector }))
 }
 
-/// A light in whose frustum nothing casts a shadow that is seen.
+/// Term of a light in whose frustum nothing casts a visible shadow.
 pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);

@@ -1,11 +1,11 @@
 //! The map of a directional light: an orthographic box around what casts, as far as something lies behind it that it can
-//! shadow [techniques A1]. The box depends on the scene alone, never on the camera.
+//! shadow [HSM, "How To Do It"]. The box depends on the scene alone, never on the camera.
 //!
 //! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's
 //! width is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light
 //! the box holds the casters; what lies behind them all is compared at depth 1, and is behind all the same.
 //!
-//! Nothing outside the box is shadowed, and no shader has to ask: what is looked up there meets the texels at the rim
+//! Nothing outside the box is shadowed, and no shader has to test it: lookups there meet the texels at the rim
 //! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end, and where the box ends before its casters do, nothing
 //! beyond lies behind them.
 
@@ -23,7 +23,7 @@ use crate::techniques::{Item, LightView, Notes};
 /// Widths of a texel in a factor of 2.
 const STEPS: f64 = 8.0;
 
-/// What a directional light's map cannot do.
+/// Refuses keys that a directional light's map cannot serve.
 ///
 /// # Errors
 ///
@@ -49,7 +49,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
     Ok(())
 }
 
-/// What a lookup reaches across, in whole texels, Direct3D's half texel included.
+/// Width of a lookup, in whole texels, Direct3D's half texel included.
 fn rim(settings: &Settings) -> u32 {
     rim_texels(settings).ceil() as u32 + 1
 }
@@ -99,7 +99,7 @@ fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
 /// A box deeper than so many times its width may be deep for what lies beside it.
 const DEEP: f64 = 16.0;
 
-/// How much farther the casters are looked at than what is needed, over the longer side.
+/// Margin within which casters are examined, as a share of the longer side.
 const BESIDE: f64 = 0.5;
 
 /// The sides of a box that holds no more of the casters' depth than they have within it: an oblique floor is as deep as it
@@ -137,7 +137,7 @@ fn shallow(items: &[Item], light_from_world: &DMat4, needed: &Aabb, settings: &S
 fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
     let (size, rim) = (f64::from(settings.size), f64::from(rim(settings)));
     let extent = needed.max - needed.min;
-    // Of what is flat across the light, and not below what f32 resolves at its place.
+    // Least thickness, for casters that are flat across the light; not below what f32 resolves there.
     let reach = needed.min.abs().max(needed.max.abs()).max_element();
     let least = (1e-3 * extent.max_element()).max(1e-5 * reach).max(f64::MIN_POSITIVE);
     let axis = |min: f64, extent: f64| {
@@ -190,7 +190,7 @@ mod tests {
         assert!(found.min.cmplt(least).all() && found.max.cmpgt(DVec3::new(4.0, 3.0, -6.0)).all(), "{found:?}");
         let size = found.max - found.min;
         assert!(size.x < 2.0 * 1.0905 * 256.0 / 249.0 && (size.z - size.x).abs() < 1e-9, "{size}");
-        // Of the floor only its own height, which nothing lies behind.
+        // Only the floor's own height is needed: nothing lies behind it.
         assert!(found.min.y < 1.0 && found.min.y > 0.8, "{found:?}");
         assert_eq!(box_of(FLOOR, "size = 256"), None, "a floor alone shadows nothing");
     }

@@ -1,7 +1,7 @@
-//! The comparison's outcome as a tag in the stencil buffer, for later passes [lecture, "Combining Shadow Mapping with other
-//! Techniques"; techniques A20]. A tag is one bit: of a filtered shade it keeps which half it is in. As many pixels are on
-//! the wrong side of one half as a shader leaves there; the root mean square error of GL_LINEAR grows by a tenth
-//! (`glumbra report` on teapot.toml and main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
+//! The comparison's result as a tag in the stencil buffer, for later passes [LEC, "Combining Shadow Mapping with other
+//! Techniques"]. A tag is one bit: a filtered shade of one half or more is lit. As many pixels are on the wrong side of one
+//! half as a shader leaves there; the root mean square error of GL_LINEAR grows by a tenth (`glumbra report` on teapot.toml
+//! and main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
@@ -9,7 +9,7 @@ use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Counting, Layer, Lighting};
 use crate::techniques::seen;
 
-/// The pass that tags what the light's shade calls shadowed; `None`: the lit pass asks for the shade itself.
+/// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
     if settings.into == Outcome::Shade {
         return None;

@@ -1,4 +1,4 @@
-//! How the lit pass looks a map up: its sampler, its texture matrix, and where in it the light's frustum lies.
+//! Lookup of a map in the lit pass: its sampler, its texture matrix, and the place of the light's frustum in it.
 
 use glam::{DMat4, DVec3, Vec4};
 
@@ -11,7 +11,7 @@ use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler,
 use crate::techniques::projector::Rays;
 use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
-/// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
+/// Light term that compares against `map`, with receivers moved towards the light by `texels`.
 pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
     let index = view.index;
     let name = format!("shadow_map_{index}");
@@ -33,7 +33,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     if texels > 0.0 {
         coordinates.receiver_bias = bias::moved_to_light(&view.projector, texels, settings);
     }
-    // Parallel light reaches everywhere: nothing asks where a frustum ends.
+    // Parallel light reaches everywhere: no frustum bounds it.
     if let Rays::From { .. } = view.projector.rays {
         term.frustum_from_map = frustum_from_map(settings);
     }
@@ -59,9 +59,9 @@ fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
     }
 }
 
-/// How the map of such rays is sampled. Beyond the box of parallel light nothing is shadowed, whatever its outermost
-/// texels hold: there the map goes on with what it is cleared to. Beyond a frustum no light falls, and what lies there
-/// is best guessed from the texel beside it.
+/// Sampler of a map with such rays. Beyond the box of parallel light nothing is shadowed, whatever its outermost texels
+/// hold: the border has the depth that the map is cleared to. Beyond a frustum no light falls, and the nearest texel is the
+/// best guess.
 pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
     let (compare, farthest) = match settings.order {
         Order::LessEqual => (Compare::LessEqual, Border::One),
@@ -71,7 +71,7 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
         Rays::From { .. } => Wrap::ClampToEdge,
         Rays::Along(_) => Wrap::ClampToBorder(farthest),
     };
-    // Where the shader weighs the texels itself, it asks for them one by one.
+    // If the shader weighs the texels itself, it reads them one by one.
     let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
     let plain = Sampler { filter, wrap, compare: Some(compare), lod_halves: None };
     match settings.mipmaps {

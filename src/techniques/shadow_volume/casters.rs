@@ -1,4 +1,4 @@
-//! What casts: the parts of an object that hang together, with their adjacency, which is found once a mesh.
+//! Casters: the connected parts of an object, with their adjacency, which is found once for each mesh.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -13,11 +13,11 @@ use crate::techniques::Item;
 /// An object that casts.
 pub struct Casting {
     pub label: String,
-    /// Into the scene's objects.
+    /// Index into the scene's objects.
     pub object: usize,
     pub caster: Arc<Caster>,
     pub world_from_model: DMat4,
-    /// In model space, of the parts that cast.
+    /// Bounds in model space, of the parts that cast.
     pub bounds: Aabb,
     /// Some of its surface is cut out by the alpha test; its volume is not.
     pub has_holes: bool,
@@ -50,7 +50,7 @@ struct Known {
     caster: Arc<Caster>,
 }
 
-/// Of every mesh that is still alive: neither a moved light nor the next frame looks for edges again.
+/// Casters of every mesh that is still alive: neither a moved light nor the next frame searches edges again.
 static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 
 fn adjacency(mesh: &Arc<Mesh>, ranges: Vec<Range<u32>>) -> Arc<Caster> {

@@ -1,5 +1,5 @@
-//! Which way each caster is counted, and which casters need not be: z-pass costs fewer fragments and no caps, z-fail is
-//! right wherever the eye stands [GDC 2001; techniques C3, C4].
+//! Choice of the way in which each caster is counted, and of casters that need not be: z-pass costs fewer fragments and no
+//! caps, z-fail is right for any eye [GDC, "Alternative to Near Plane Capping: Carmack's Reverse"].
 
 use super::casters::Casting;
 use super::settings::{Method, Settings};
@@ -8,7 +8,7 @@ use crate::geometry::volume::{self, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::techniques::{LightView, Notes};
 
-/// How one caster's volume is drawn.
+/// Way in which one caster's volume is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     LeftOut,

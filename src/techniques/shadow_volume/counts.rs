@@ -1,4 +1,5 @@
-//! The passes that count [techniques C2–C4, C7, C8]: which faces change the stencil value, and when.
+//! The passes that count [GDC, "Stencil Inverting of Shadow Volume", "For Shadow Volumes With Intersecting Polygons",
+//! "Alternative to Near Plane Capping: Carmack's Reverse"]: which faces change the stencil value, and when.
 
 use super::choice::Way;
 use super::settings::Settings;
@@ -59,7 +60,7 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     [StencilOp::Invert, up, down].into_iter().flat_map(only).collect()
 }
 
-/// What of a pass does `op`: the whole of it where both faces do, or one face.
+/// The part of a pass that does `op`: all of it if both faces do, or one face.
 fn counting_only(pass: &CountPass, op: StencilOp) -> Option<CountPass> {
     let stencil = pass.state.stencil?;
     let does = |ops: StencilOps| ops.pass == op || ops.depth_fail == op;

@@ -15,10 +15,10 @@ use crate::techniques::{Item, LightView, Notes};
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
 
-/// The number of layers that a stencil count tells apart.
+/// Number of layers that a stencil count can distinguish.
 const LAYERS: u32 = 256;
 
-/// Why a sample is wrong.
+/// Reason why a sample is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Fault {
     Hole,
@@ -49,7 +49,7 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
             return Some((Fault::TooMany, point));
         }
         let fault = fault(&point, settings)?;
-        // What GL may show there instead must be wrong too.
+        // The points that GL may show there instead must be wrong too.
         let aside = [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)].map(|way| point.aside * way);
         let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
             let beside = world.at(place + by);
@@ -114,19 +114,19 @@ fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
     is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
 }
 
-/// How many volumes may hold one point: an open shell's triangles one by one, and of a closed one two that face the light.
+/// Greatest number of volumes that may hold one point: one for each triangle of an open shell, two for a closed one.
 fn most_layers(drawn: &[&Casting]) -> usize {
     let shells = drawn.iter().flat_map(|caster| caster.caster.shells());
     shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
 }
 
-/// Tests whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
+/// Tests whether the count may be a multiple of 256, which looks like none. The point is then surely in shadow.
 fn may_wrap(point: &Point) -> bool {
     let most = point.within + point.doubtful;
     most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS
 }
 
-/// What makes a pixel wrong; `None`: it is right, or the depth buffer's rounding decides.
+/// Reason why a pixel is wrong; `None`: it is right, or the depth buffer's rounding decides.
 fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
     if point.doubtful > 0 {
         return None;

@@ -1,5 +1,5 @@
-//! What lies beyond all that is seen: where volumes may end, and which casters shadow nothing. Conservative, from
-//! bounding boxes in world space.
+//! Planes beyond all that is seen, at which volumes may end, and casters that shadow nothing. Conservative, from bounding
+//! boxes in world space.
 
 use glam::DVec3;
 
@@ -15,13 +15,13 @@ pub struct Plane {
     pub distance: f64,
 }
 
-/// What f32 transforms may be off by, relative to the coordinates that meet.
+/// Error of f32 transforms, relative to the greatest operand.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
 /// A ray nearer than this to a plane's own direction takes too long to reach it.
 const STEEPNESS: f64 = 1e-2;
 
-/// How far beyond all that is seen a volume ends at least, relative to how far from the eye it ends: more than a depth
+/// Least distance beyond all that is seen at which a volume ends, relative to its distance from the eye: more than a depth
 /// buffer rounds by. Not relative to all that is seen: beneath a floor without end, sides would be as long.
 const MARGIN: f64 = 1e-3;
 

@@ -1,5 +1,5 @@
-//! Stencil shadow volumes [GDC 2001, "Stenciled Shadow Volumes"; techniques C1–C12]: how often a point lies in a volume
-//! is counted in the stencil buffer; it is lit where the count is 0.
+//! Stencil shadow volumes [Crow 1977; GDC, "Review: Stenciled Shadow Volumes"]: the stencil buffer counts the volumes that
+//! hold a point; a point is lit where the count is 0.
 
 mod casters;
 mod choice;
@@ -32,7 +32,7 @@ impl Technique for ShadowVolume {
     }
 
     fn source(&self) -> &'static str {
-        "GDC 2001, Stenciled Shadow Volumes; techniques C1-C12"
+        "GDC 2001, Stenciled Shadow Volumes"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -95,7 +95,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
     }
 }
 
-/// Where the light stands, or the direction to it, in world space.
+/// Position of the light, or the direction to it, in world space.
 fn source(view: &LightView<'_>) -> Source {
     match &view.light().kind {
         LightKind::Spot(spot) => Source::Point(spot.frustum.position),
@@ -104,7 +104,7 @@ fn source(view: &LightView<'_>) -> Source {
     }
 }
 
-/// How soups are counted.
+/// Notes how casters that are not closed are counted.
 fn explain(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
     for caster in casting {
         let open = caster.caster.shells().iter().filter(|shell| shell.kind != Kind::Closed).count();

@@ -10,34 +10,34 @@ use crate::geometry::volume::{Outline, Source};
 use crate::scene::{LightKind, LightShape};
 use crate::techniques::{LightView, alpha};
 
-/// What lies so near a point's own plane, relative to the segment from the light, is in it.
+/// Distance from a point's own plane within which a surface counts as in it, relative to the segment from the light.
 const IN_PLANE: f64 = 1e-9;
 
 /// GL rounds places to so much of a pixel.
 const SUBPIXEL: f64 = 1.0 / 256.0;
 
-/// What is known of a point.
+/// A visible point, and its counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// How many volumes hold it.
+    /// Number of volumes that hold it.
     pub within: u32,
-    /// The same for volumes that end at the given distance.
+    /// Number of volumes that hold it if they end at the given distance.
     pub within_ended: u32,
     /// Volumes at whose surface it lies, within the depth buffer's rounding: they may hold it or not.
     pub doubtful: u32,
-    /// How many hold the point of the near rectangle on the same ray.
+    /// Number of volumes that hold the point of the near rectangle on the same ray.
     pub before: u32,
-    /// How many it is seen to enter through holes of their casters, less those that it is seen to leave: without caps
+    /// Number of volumes that the ray enters through holes of their casters, less those that it leaves so: without caps
     /// z-pass does not count them.
     pub through_holes: i32,
-    /// How far aside, in pixels, a picture may show it: both ways across.
+    /// Distance aside, in pixels, at which a picture may show it, in both directions.
     pub aside: f64,
     pub is_shadowed: bool,
-    /// How far behind the first caster that shadows it, in world units.
+    /// Distance behind the first caster that shadows it, in world units.
     pub behind: f64,
 }
 
-/// What there is to see and to count.
+/// Surfaces to see and volumes to count.
 pub struct World<'a> {
     view: &'a LightView<'a>,
     source: Source,
@@ -108,7 +108,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what is outside the
+    /// Point seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or a point outside the
     /// light's shape.
     pub fn at(&self, place: DVec2) -> Option<Point> {
         let camera = &self.view.scene.camera;
@@ -134,7 +134,7 @@ impl<'a> World<'a> {
         self.counted.crossings(&near, |_, _| before += 1);
         let mut through_holes = 0;
         if self.has_holes {
-            // What stands before the point and is not seen is a hole.
+            // A surface before the point that is not seen has a hole there.
             self.counted.crossings(&Ray { end: depth - doubt / way.length(), ..ray }, |triangle, t| {
                 let normal = normal(self.counted.corners(triangle));
                 let light_ray = self.source.away(ray.origin + t * way);
@@ -188,7 +188,7 @@ impl<'a> World<'a> {
         Point { within, within_ended, doubtful, before: 0, through_holes: 0, aside: 0.0, is_shadowed, behind }
     }
 
-    /// What f32 rounds a point of a triangle by: four times, by 2^-24 of what meets in a transform.
+    /// Rounding of f32 in a point of a triangle: four times, by 2^-24 of what meets in a transform.
     fn rounding(&self, point: DVec3, triangle: u32) -> f64 {
         let origin = self.view.items[self.owners[triangle as usize].0].world_from_model.w_axis.truncate();
         let light = match self.source {
@@ -199,7 +199,7 @@ impl<'a> World<'a> {
         4.0 * 2.0_f64.powi(-24) * met
     }
 
-    /// From the light to a point, which has t = 1.
+    /// Ray from the light to a point, which has t = 1.
     fn toward(&self, point: DVec3) -> Ray {
         let away = self.source.away(point);
         let way = match self.source {

@@ -6,10 +6,10 @@ use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
 use crate::techniques::light::{LedgeDepths, Lighting};
 
-/// How volumes are counted [GDC 2001; techniques C2–C8].
+/// Way in which volumes are counted [GDC, "Stenciled Shadow Volumes"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// For each caster the cheapest that is right.
+    /// The cheapest way that is right, for each caster.
     Auto,
     /// C2: one bit, inverted. Right only where volumes do not intersect and the eye is outside of them.
     Parity,
@@ -42,9 +42,9 @@ pub const METHODS: [(&str, Method); 8] = [
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub method: Method,
-    /// True if counts wrap modulo 256 or stop at 0 and 255.
+    /// True if counts wrap modulo 256; `false`: they stop at 0 and 255.
     pub wrap: bool,
-    /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
+    /// Length of truncated volumes, in world units; `None`: that of the scene's bounds.
     pub distance: Option<f64>,
     /// Depths of the ledge for volumes with caps on the near plane.
     pub ledge: LedgeDepths,
@@ -90,7 +90,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
 fn read_ledge(keys: &mut Reader<'_>) -> Result<LedgeDepths, SettingsError> {
     let Some(depths) = keys.numbers::<3>("ledge", 0.0..=1.0)? else { return Ok(LedgeDepths::Fewest) };
     let [volumes, scene, far] = depths;
-    // Of 24 bits. Less than half of the depths would cost the scene more than a bit.
+    // For 24 bits. Less than half of the depths would cost the scene more than a bit.
     let least = f64::from(GUARD_CODES + 1) / 16_777_215.0;
     if scene - volumes < least || far - scene < 0.5 {
         let message = format!(

@@ -1,4 +1,5 @@
-//! The volumes themselves, as meshes to draw [techniques C5–C7], each with the ends that its way of counting needs.
+//! The volumes themselves, as meshes to draw [GDC, "Computing Shadow Volumes For Polygonal Models", "Near Clip Plane
+//! Capping Cases"], each with the ends that its way of counting needs.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,7 +22,7 @@ pub struct Shape {
     /// Its caster, into the scene's objects.
     pub object: usize,
     pub sides: VolumeDraw,
-    /// At the caster's own surface, or on the near plane; then the same with its front faces reversed; at the far end.
+    /// Caps at the caster's own surface or on the near plane; the same with front faces reversed; caps at the far end.
     pub caps: Vec<VolumeDraw>,
     pub silhouette: VolumeDraw,
 }
@@ -31,7 +32,7 @@ impl Shape {
         std::iter::once(&self.sides).chain(&self.caps).cloned()
     }
 
-    /// Tests whether it has a cap that must have its caster's very depths.
+    /// Tests whether it has a cap whose depths must equal its caster's to the bit.
     pub fn meets_surface(&self) -> bool {
         self.way != Way::ZPassCapped && !self.caps.is_empty()
     }
@@ -97,8 +98,8 @@ fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Ex
     }
 }
 
-/// Where a volume may end that is counted before what is seen only: beyond all that is seen and the eye, as far as one
-/// plane tells. Sides that go on behind the floor are fragments for nothing.
+/// End of a volume that is counted only before visible surfaces: a plane beyond all that is seen and the eye. Sides that go
+/// on behind the floor would be wasted fragments.
 fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
     let Some(end) = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all) else { return Extent::Infinite };
     let model_from_world = caster.world_from_model.transpose();
@@ -120,12 +121,12 @@ pub fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Setting
     world / scale
 }
 
-/// How far truncated volumes reach where nothing else is asked for, in world units.
+/// Default length of truncated volumes, in world units.
 pub fn default_distance(view: &LightView<'_>) -> f64 {
     2.0 * view.scene.world_bounds().radius()
 }
 
-/// What a draw is called, and where it stands.
+/// Name and transform of a draw.
 struct Name<'a> {
     caster: &'a Casting,
     light: usize,

@@ -1,4 +1,4 @@
-//! What guards each light against back projection in one picture, in words [techniques A13].
+//! Notes on the guards against back projection in one picture [LEC, "Careful about Back Projecting Shadow Maps"].
 
 use super::Viewer;
 use super::guarded::plane;
@@ -11,7 +11,7 @@ use crate::techniques::{Item, LightTerm, Notes};
 /// Names that a sentence lists before it counts.
 const MOST_NAMES: usize = 3;
 
-/// What the items that `viewer` sees need of each light, and what is left out for them.
+/// Notes the guards that the items in `viewer`'s view need for each light, and what is left out for them.
 pub fn explain_guards(scene: &Scene, items: &[Item], viewer: &Viewer, terms: &[&LightTerm], notes: &mut Notes) {
     let clip_from_world = viewer.clip_from_world();
     let seen =
@@ -66,7 +66,7 @@ fn explain(
     }
 }
 
-/// How many triangles of `items` cross the plane, of how many; `None` where some are not known before they are drawn.
+/// Number of triangles of `items` that cross the plane, and of all; `None` if some are not known before they are drawn.
 fn triangles(items: &[&Item], plane: &LightPlane, viewer: &Viewer) -> Option<[u32; 2]> {
     let mut sum = [0, 0];
     let count = |item: &Item| (item.indices.end - item.indices.start) / 3;

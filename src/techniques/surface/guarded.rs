@@ -1,5 +1,5 @@
-//! Which lights each item is drawn with, and what guards each against back projection [techniques A13]: items are parted
-//! where a guard needs it. Knows items, lights and planes; no shader.
+//! Lights that each item is drawn with, and their guards against back projection [LEC, "Careful about Back Projecting
+//! Shadow Maps"]: items are split if a guard needs it. Knows items, lights and planes; no shader.
 
 use glam::Vec4;
 
@@ -9,16 +9,16 @@ use crate::scene::Scene;
 use crate::techniques::guard::{Guard, LightPlane, Side};
 use crate::techniques::{Item, LightTerm};
 
-/// What of a light an item is drawn with.
+/// Part of a light that an item is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// All of it: nothing of the item that is drawn lies behind the light.
     Free,
-    /// What each fragment's test leaves.
+    /// The part that each fragment's test leaves.
     Fragment,
-    /// What the texture of two texels leaves.
+    /// The part that the texture of two texels leaves.
     Texture,
-    /// What the vertices' factor leaves.
+    /// The part that the vertices' factor leaves.
     Cutoff,
     /// Its ambient light alone.
     Nowhere,
@@ -32,7 +32,7 @@ impl Reach {
 #[derive(Clone, Debug)]
 pub struct Piece {
     pub item: Item,
-    /// Of each light.
+    /// Reach of each light.
     pub reaches: Vec<Reach>,
     /// Half-spaces that it is cut to, in eye space: what is kept has a product >= 0.
     pub clip_planes: Vec<Vec4>,
@@ -57,7 +57,7 @@ pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPl
     LightPlane::of(term, bounded, viewer)
 }
 
-/// What becomes of `piece` under one more light.
+/// Splits `piece` for one more light.
 fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Viewer, ending: &Ending) -> Vec<Piece> {
     let Some(plane) = plane.filter(|_| term.guard != Guard::None) else { return vec![piece.with(Reach::Free)] };
     // A view shows one light, where it reaches and where not: there is nothing to leave out.

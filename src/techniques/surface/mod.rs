@@ -1,5 +1,5 @@
-//! The lit pass: every visible surface once, with the light of every contributing light in one shader variant
-//! [lecture, "Advice for Shadowed Illumination Model"; techniques A5–A7, A12, A13].
+//! The lit pass: every visible surface once, with the light of every contributing light in one shader variant [LEC, "Advice
+//! for Shadowed Illumination Model"].
 
 mod explain;
 mod guarded;
@@ -19,7 +19,7 @@ pub use explain::explain_guards;
 pub use guarded::MOST_CLIP_PLANES;
 pub use variant::Ending;
 
-/// Whose picture the surfaces are drawn for.
+/// Viewer that the surfaces are drawn for.
 #[derive(Clone, Copy, Debug)]
 pub struct Viewer {
     pub clip_from_eye: DMat4,

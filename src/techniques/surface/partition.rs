@@ -1,5 +1,5 @@
 //! Parts an item's triangles by a plane: those before it, those across it and those behind it, each a range of one mesh
-//! [lecture: "simply avoid drawing geometry behind the light"; techniques A13 e].
+//! [LEC, "Careful about Back Projecting Shadow Maps"].
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -45,7 +45,7 @@ struct Entry {
 
 static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
-/// Of one mesh; the oldest goes first. A light that moves leaves a plane behind in every frame.
+/// Number of planes kept for one mesh; the oldest goes first. A moving light adds a plane in every frame.
 const MOST_PLANES: usize = 8;
 
 fn cached(item: &Item, plane: &ModelPlane) -> Parts {

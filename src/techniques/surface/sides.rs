@@ -1,4 +1,4 @@
-//! Which sides of an item a viewer can see, so that the lit pass leaves out what the others would need.
+//! Sides of an item that a viewer can see, so that the lit pass leaves out work for the others.
 
 use glam::{DMat4, DVec3};
 

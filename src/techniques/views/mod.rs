@@ -1,12 +1,11 @@
-//! Arbitrary output variables: the pictures that show how a shadow comes about [Hardware Shadow Mapping, Fig. 2, 4, 5;
-//! techniques A17, A18]. Each is a row of [`VIEWS`].
+//! Pictures beside the picture, which show how a shadow is made [HSM, Figures 2, 4, 5 and 6]. Each is a row of [`VIEWS`].
 
 use crate::pass::{Filter, ImageId, Input, Sampler, Shade, Wrap, glsl};
 
 use super::LightTerm;
 use super::surface::Ending;
 
-/// What a picture beside the main one shows.
+/// Content of a picture beside the main one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum View {
     Shade,
@@ -84,8 +83,8 @@ impl View {
     }
 }
 
-/// How a view from the camera ends its fragments, and the light's term with what the view reads. `None` for views that
-/// are no camera pass of their own.
+/// Ending of the fragments of a view from the camera, and the light's term with what the view reads. `None` for views
+/// without a camera pass of their own.
 pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> {
     let mut term = term.clone();
     let ending = match view {
