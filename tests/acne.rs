@@ -133,7 +133,7 @@ fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
             }
             if scale == 1.0 && *format == "depth24" {
                 let (bare, _) = measure(", offset = {}");
-                assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (semantics T4)");
+                assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (rule GL-T4)");
                 let (documents, acne) = measure(", offset = { factor = 1.1, units = 4 }");
                 assert!(documents.false_shadow.outside_percent < 0.02 && acne > 0);
                 let (_, acne) = measure(", bias = \"adaptive\", offset = { texels = 0.5, units = 4 }");

@@ -107,9 +107,7 @@ fn a_report_tells_what_the_documents_claim() {
     let mut command = Command::new(GLUMBRA);
     command.current_dir(work.folder.path());
     let told = succeed(command.args(["report", "scene.toml", "--quick", "--runs", "1", "-o", "out"]));
-    assert!(
-        told.contains("Published claims, on scene.toml:") && told.contains("second-depth: moves the error")
-    );
+    assert!(told.contains("Published claims, on scene.toml:") && told.contains("second-depth: moves the error"));
     let report = work.load("out");
     let scene = only_scene(&report);
     for technique in ["none", "shadow-map", "midpoint", "second-depth", "shadow-volume"] {

@@ -15,7 +15,7 @@ use crate::output;
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct CheckArgs {
-    /// Only rules with this id, kind or word: C1, s, stencil; may be given again
+    /// Only rules with this id, kind or word: GL-C1, s, stencil; may be given again
     #[arg(long, value_name = "PATTERN")]
     filter: Vec<String>,
 
@@ -56,7 +56,7 @@ A waiver names a deviation that is known, by driver, versions, rule and check:
   version = \"Mesa \"            # a part of GL_VERSION
   from = \"22.3\"               # the first such version, by the number behind it; may be absent
   until = \"27\"                # the first that is sound again; may be absent
-  rule = \"O1\"
+  rule = \"GL-O1\"
   finding = \"DEPTH_COMPONENT32: one unit\"
   reason = \"f32 has 24 bits\"
 One that no longer applies is a failure.
@@ -65,7 +65,7 @@ Exit status: 0 nothing fails, 1 a rule fails, 2 nothing could be run.
 
 Examples:
   glumbra check
-  glumbra check --filter stencil --filter O1 --verbose
+  glumbra check --filter stencil --filter GL-O1 --verbose
   glumbra check --junit out/check.xml --json out/check.json
   GALLIUM_DRIVER=softpipe glumbra check --context egl";
 

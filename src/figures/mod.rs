@@ -121,7 +121,8 @@ fn where_lit(view: &[f32], shade: &[f32]) -> Vec<f32> {
 
 /// A page that lists the figures with their captions.
 pub fn index(figures: &[&Figure]) -> String {
-    let mut text = String::from("# Figures\n\nResults that the shadow documents (data/documents.md) show, from our own scenes.\n");
+    let mut text =
+        String::from("# Figures\n\nResults that the shadow documents (data/documents.md) show, from our own scenes.\n");
     for Figure { name, title, source, caption, .. } in figures {
         text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n");
     }

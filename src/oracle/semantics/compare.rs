@@ -1,4 +1,4 @@
-//! C1 to C5: comparison with depth textures [GL 4.6, 8.14, 8.23].
+//! GL-C1 to GL-C5: comparison with depth textures [GL 4.6, 8.14, 8.23].
 
 use super::verify::{self, NEAR_TIE, Tally};
 use super::{Findings, Subject};
@@ -12,7 +12,7 @@ const COMPARE_LEVEL: &str =
 /// The depth itself.
 const FETCH: &str = "result = vec4(texture(map, texelFetch(inputs, ivec2(gl_FragCoord.xy), 0).xy).r);";
 
-/// C1: eight functions, references below, at and above stored depths.
+/// GL-C1: eight functions, references below, at and above stored depths.
 pub fn function(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
         findings.part(|findings| function_of(subject, findings, format));
@@ -44,7 +44,7 @@ fn function_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
     Ok(())
 }
 
-/// C2: references beyond [0, 1], and uploads.
+/// GL-C2: references beyond [0, 1], and uploads.
 pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for (format, clamps) in [(Format::Depth16, true), (Format::Depth24, true), (Format::Depth32F, false)] {
         findings.part(|findings| {
@@ -92,7 +92,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 /// Weights along x and along y that are no simple fractions, and some that are.
 const WEIGHTS: [f32; 9] = [0.0, 0.1, 0.2, 0.3, 0.5, 0.625, 0.7, 0.9, 1.0];
 
-/// C3: filtered comparison, as a verifier of texture filters sees it.
+/// GL-C3: filtered comparison, as a verifier of texture filters sees it.
 pub fn filtered(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
         findings.part(|findings| filtered_of(subject, findings, format));
@@ -142,7 +142,7 @@ fn weight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> 
     Ok(())
 }
 
-/// C4: each level is compared, then levels are blended.
+/// GL-C4: each level is compared, then levels are blended.
 pub fn levels(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth24, Format::Depth32F] {
         findings.part(|findings| {
@@ -163,7 +163,7 @@ pub fn levels(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// C5: wrap modes and the border's depth.
+/// GL-C5: wrap modes and the border's depth.
 pub fn border(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth24, Format::Depth32F] {
         findings.part(|findings| {

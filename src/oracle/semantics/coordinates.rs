@@ -1,4 +1,4 @@
-//! T2 to T4: the division by q, interpolation, and a surface's shadow on itself [GL 4.6, 14.6.1, 15.2.2].
+//! GL-T2 to GL-T4: the division by q, interpolation, and a surface's shadow on itself [GL 4.6, 14.6.1, 15.2.2].
 
 use super::planes;
 use super::random::Random;
@@ -11,10 +11,10 @@ use crate::device::bench::{
 const PROJECTED: &str = "result = vec4(compare_proj(texelFetch(inputs, ivec2(gl_FragCoord.xy), 0)));";
 const DIVIDED: &str = "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = vec4(compare(at.xyz / at.w));";
 
-/// Texels along a side of T2's map.
+/// Texels along a side of GL-T2's map.
 const SIDE: usize = 16;
 
-/// T2: projective look-ups against a division of one's own, and both against the verifier.
+/// GL-T2: projective look-ups against a division of one's own, and both against the verifier.
 pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let mut random = Random::new(2);
     let depths: Vec<f32> = (0..SIDE * SIDE).map(|_| random.unit()).collect();
@@ -74,7 +74,7 @@ fn texel_grade(value: f64, [s, t, r, q]: [f32; 4], stored: &[f64], linear: bool)
     }
 }
 
-/// T3: varyings with perspective, depth without, and what gl_FragCoord.z says.
+/// GL-T3: varyings with perspective, depth without, and what gl_FragCoord.z says.
 pub fn interpolation(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     findings.part(|findings| varyings(subject, findings));
     findings.part(|findings| fragment_depth(subject, findings));
@@ -123,13 +123,13 @@ fn fragment_depth(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
     Ok(())
 }
 
-/// Pixels along a side of T4's map.
+/// Pixels along a side of GL-T4's map.
 const MAP: u32 = 128;
 /// A floor under the light's view, corners in clip space (60 degrees, near 1, far 30).
 const FLOOR: [[f32; 4]; 4] =
     [[-1.6, -1.4, 0.069, 1.0345], [1.6, -1.4, 0.069, 1.0345], [14.0, 9.0, 12.0, 12.9], [-14.0, 9.0, 12.0, 12.9]];
 
-/// T4: the floor's shadow map, looked up from the light's own view.
+/// GL-T4: the floor's shadow map, looked up from the light's own view.
 pub fn self_shadow(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
         findings.part(|findings| {

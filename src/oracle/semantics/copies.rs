@@ -1,4 +1,4 @@
-//! F1 to F4: copies of depth, completeness, reading what is attached, and 8-bit colour [GL 4.6, 8.6, 9.3, 9.4, 17.3].
+//! GL-F1 to GL-F4: copies of depth, completeness, reading what is attached, and 8-bit colour [GL 4.6, 8.6, 9.3, 9.4, 17.3].
 
 use super::random::Random;
 use super::verify::{self, Grade, Tally};
@@ -30,7 +30,7 @@ fn drawn(subject: &Subject, format: Format) -> Result<Surface, Error> {
     Ok(surface)
 }
 
-/// F1: glCopyTexSubImage2D of depth.
+/// GL-F1: glCopyTexSubImage2D of depth.
 pub fn copy(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth16, Format::Depth24, Format::Depth32F, Format::Depth24Stencil8] {
         findings.part(|findings| same_format(subject, findings, format));
@@ -112,7 +112,7 @@ fn refusals(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// F2: framebuffers of depth alone.
+/// GL-F2: framebuffers of depth alone.
 pub fn completeness(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in Format::DEPTHS {
         // Table 8.13 has DEPTH_COMPONENT32, but 8.5.1 does not require it.
@@ -129,7 +129,7 @@ pub fn completeness(subject: &Subject, findings: &mut Findings) -> Result<(), Er
     Ok(())
 }
 
-/// F3: a depth texture is read while it is attached and not written.
+/// GL-F3: a depth texture is read while it is attached and not written.
 pub fn feedback(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba32F), Some(Format::Depth24))?;
     surface.clear_depth(1.0);
@@ -146,7 +146,7 @@ pub fn feedback(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
     Ok(())
 }
 
-/// F4: floats to 8 bits, sums and products of 8 bits, sRGB.
+/// GL-F4: floats to 8 bits, sums and products of 8 bits, sRGB.
 pub fn eight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     const WIDTH: u32 = 128;
     let mut random = Random::new(64);

@@ -1,4 +1,4 @@
-//! D1 to D4: how depths are stored, ranged and clamped [GL 4.6, 13.6.1, 13.8.1, 14.6.5, 15.2.3, 17.3.4].
+//! GL-D1 to GL-D4: how depths are stored, ranged and clamped [GL 4.6, 13.6.1, 13.8.1, 14.6.5, 15.2.3, 17.3.4].
 
 use super::compare::fetched;
 use super::coordinates::flat;
@@ -22,7 +22,7 @@ fn written(subject: &Subject, format: Format, depths: &[f32]) -> Result<(Surface
     Ok((surface, stored))
 }
 
-/// D1: conversion to codes by a shader's depth and by a clear, and back by a fetch.
+/// GL-D1: conversion to codes by a shader's depth and by a clear, and back by a fetch.
 pub fn conversion(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let mut random = Random::new(11);
     let mut depths: Vec<f32> = (0..4096).map(|_| random.unit()).collect();
@@ -66,10 +66,10 @@ fn cleared(subject: &Subject, findings: &mut Findings, format: Format) -> Result
     Ok(())
 }
 
-/// Ranges of D2: plain, inner, reversed, empty, and beyond [0, 1], which is clamped.
+/// Ranges of GL-D2: plain, inner, reversed, empty, and beyond [0, 1], which is clamped.
 const RANGES: [[f64; 2]; 7] = [[0.0, 1.0], [0.25, 0.75], [0.75, 0.25], [1.0, 0.0], [0.1, 1.0], [0.5, 0.5], [-1.0, 2.0]];
 
-/// D2: what window depth a range makes of near, middle and far; and the ledge.
+/// GL-D2: what window depth a range makes of near, middle and far; and the ledge.
 pub fn range(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in FORMATS {
         findings.part(|findings| {
@@ -127,7 +127,7 @@ fn ledge(subject: &Subject, findings: &mut Findings, surface: &Surface, format: 
     Ok(())
 }
 
-/// D3: clamping to the range in place of clipping, after the offset and before the test.
+/// GL-D3: clamping to the range in place of clipping, after the offset and before the test.
 pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in [Format::Depth24, Format::Depth32F] {
         findings.part(|findings| {
@@ -170,7 +170,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// D4: a shader's depth is clamped to [0, 1], in float formats too.
+/// GL-D4: a shader's depth is clamped to [0, 1], in float formats too.
 pub fn fragment_clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in FORMATS {
         findings.part(|findings| {
@@ -183,7 +183,7 @@ pub fn fragment_clamp(subject: &Subject, findings: &mut Findings) -> Result<(), 
     Ok(())
 }
 
-/// D5: the eight functions of the depth test, the fragment on the left.
+/// GL-D5: the eight functions of the depth test, the fragment on the left.
 pub fn test(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let (mut wrong, mut count) = (0, 0);
     let surface = subject.bench.surface([4, 4], None, Some(Format::Depth24))?;

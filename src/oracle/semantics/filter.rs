@@ -11,8 +11,8 @@ pub struct UnknownFilter {
     pub ids: Vec<&'static str>,
 }
 
-/// The rules that `patterns` name, in the table's order: each pattern is an id, a part of one or of a title, in capitals
-/// or not. All of them without a pattern.
+/// The rules that `patterns` name, in the table's order: each pattern is an id (`GL-C1` or `C1`), the letter of
+/// a kind, or a part of a title, in capitals or not. All of them without a pattern.
 ///
 /// # Errors
 ///
@@ -29,19 +29,24 @@ pub fn choose(patterns: &[String]) -> Result<Vec<&'static Rule>, UnknownFilter> 
 
 fn matches(rule: &Rule, pattern: &str) -> bool {
     let pattern = pattern.trim().to_lowercase();
-    let (id, title) = (rule.id.to_lowercase(), rule.title.to_lowercase());
-    // An id is meant as it stands: C1 is not C10.
+    let (id, title) = (short_id(rule), rule.title.to_lowercase());
+    // An id is compared whole: C1 is not C10.
     !pattern.is_empty()
-        && (id == pattern
+        && (id == pattern.strip_prefix("gl-").unwrap_or(&pattern)
             || (pattern.len() == 1 && id.starts_with(&pattern))
             || (pattern.len() > 2 && title.contains(&pattern)))
+}
+
+/// The id without its prefix, in small letters: `c1` for `GL-C1`.
+fn short_id(rule: &Rule) -> String {
+    rule.id.trim_start_matches("GL-").to_lowercase()
 }
 
 fn unknown(pattern: &str) -> UnknownFilter {
     let far = |rule: &Rule| {
         let pattern = pattern.trim().to_lowercase();
         let words = rule.title.to_lowercase();
-        let words = words.split_whitespace().map(str::to_owned).chain([rule.id.to_lowercase()]);
+        let words = words.split_whitespace().map(str::to_owned).chain([short_id(rule), rule.id.to_lowercase()]);
         words.map(|word| strsim::damerau_levenshtein(&word, &pattern)).min().unwrap_or(usize::MAX)
     };
     let mut rules: Vec<&Rule> = TABLE.iter().collect();
@@ -64,19 +69,20 @@ mod tests {
 
     #[test]
     fn patterns_name_ids_kinds_and_words() {
-        assert_eq!(ids(&["c1"]), ["C1"]);
-        assert_eq!(ids(&["S3", "C1"]), ["C1", "S3"]);
-        assert_eq!(ids(&["s"]), ["S1", "S2", "S3"]);
-        assert!(ids(&["stencil"]).contains(&"S1"));
+        assert_eq!(ids(&["c1"]), ["GL-C1"]);
+        assert_eq!(ids(&["gl-c1"]), ["GL-C1"]);
+        assert_eq!(ids(&["S3", "C1"]), ["GL-C1", "GL-S3"]);
+        assert_eq!(ids(&["s"]), ["GL-S1", "GL-S2", "GL-S3"]);
+        assert!(ids(&["stencil"]).contains(&"GL-S1"));
         assert_eq!(ids(&[]).len(), super::TABLE.len());
     }
 
     #[test]
     fn a_pattern_without_a_rule_names_the_nearest() {
         let error = choose(&["C9".to_owned()]).unwrap_err();
-        assert!(error.nearest.iter().all(|id| id.starts_with('C')), "{error}");
-        assert!(error.to_string().starts_with("no rule is called `C9`: did you mean C"), "{error}");
+        assert!(error.nearest.iter().all(|id| id.starts_with("GL-C")), "{error}");
+        assert!(error.to_string().starts_with("no rule is called `C9`: did you mean GL-C"), "{error}");
         let error = choose(&["stensil".to_owned()]).unwrap_err();
-        assert!(error.nearest[0].starts_with('S'), "{error}");
+        assert!(error.nearest[0].starts_with("GL-S"), "{error}");
     }
 }

@@ -1,4 +1,4 @@
-//! C6, T1 and parts of T2 and I1: what only the fixed-function pipeline does [GL 4.6 compatibility, 8.23, 12.1.3, A.3].
+//! GL-C6, GL-T1 and parts of GL-T2 and GL-I1: what only the fixed-function pipeline does [GL 4.6 compatibility, 8.23, 12.1.3, A.3].
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -23,7 +23,7 @@ fn pipeline<'a>(subject: &'a Subject, findings: &mut Findings, what: &str) -> Op
     }
 }
 
-/// C6: what a comparison becomes in each DEPTH_TEXTURE_MODE, by REPLACE.
+/// GL-C6: what a comparison becomes in each DEPTH_TEXTURE_MODE, by REPLACE.
 pub fn depth_mode(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "DEPTH_TEXTURE_MODE") else { return Ok(()) };
     let image = subject.bench.depth_image(Format::Depth24, [1, 1], &[&[0.5]])?;
@@ -96,7 +96,7 @@ void main() { gl_FragColor = vec4(shadow2DProj(map, gl_TexCoord[0]).rgb, 1.0); }
 const PASS_ON: &str = "#version 120
 void main() { gl_TexCoord[0] = gl_MultiTexCoord0; gl_Position = ftransform(); }";
 
-/// T1: eye planes are multiplied by the inverse of the modelview at the time they are given, object planes are not, and
+/// GL-T1: eye planes are multiplied by the inverse of the modelview at the time they are given, object planes are not, and
 /// the texture matrix comes after.
 pub fn texgen(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "glTexGen") else { return Ok(()) };
@@ -239,7 +239,7 @@ fn texel_grade(value: f64, at: DVec4, stored: &[f64], linear: bool) -> Option<Gr
     }
 }
 
-/// T2's part: (s, t, r, q) given at the vertices.
+/// GL-T2's part: (s, t, r, q) given at the vertices.
 pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "fixed function: division by q") else { return Ok(()) };
     let map = map(subject, Format::Depth24)?;
@@ -275,7 +275,7 @@ void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }";
 const WHITE: &str = "#version 120
 void main() { gl_FragColor = vec4(1.0); }";
 
-/// I1's part: a shader meets the depths of the fixed-function pipeline by ftransform().
+/// GL-I1's part: a shader meets the depths of the fixed-function pipeline by ftransform().
 pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "fixed function: ftransform()") else { return Ok(()) };
     let setup = setup();

@@ -1,4 +1,4 @@
-//! I1: passes that must meet the same depths [GL 4.6, A.3, 11.1.3.11], and two that need not.
+//! GL-I1: passes that must meet the same depths [GL 4.6, A.3, 11.1.3.11], and two that need not.
 
 use glam::{Mat4, Vec3};
 
@@ -104,7 +104,7 @@ fn missed(subject: &Subject, format: Format, again: &Again, mesh: &[Vertex]) -> 
     Ok((pairs.clone().filter(|(color, _)| color[0] != 255).count(), pairs.count()))
 }
 
-/// I1.
+/// GL-I1.
 pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let mesh_before = mesh(false);
     for format in [Format::Depth16, Format::Depth24Stencil8, Format::Depth32F] {

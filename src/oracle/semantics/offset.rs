@@ -1,11 +1,11 @@
-//! O1 and O2: polygon offset [GL 4.6, 14.6.5].
+//! GL-O1 and GL-O2: polygon offset [GL 4.6, 14.6.5].
 
 use super::verify::{self, Grade, Tally};
 use super::{Findings, Subject};
 use crate::device::bench::{Compare, Draw, Encoding, Error, Format, Mode, Offset, State, Surface, Vertex, rectangle};
 use crate::device::probe::{self, Measured};
 
-/// O1: r, m, their sum and its clamp.
+/// GL-O1: r, m, their sum and its clamp.
 pub fn offset(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     for format in Format::DEPTHS {
         findings.part(|findings| unit(subject, findings, format));
@@ -158,11 +158,11 @@ fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Units of O2's offset, and of the one that the size of a unit is found by.
+/// Units of GL-O2's offset, and of the one that the size of a unit is found by.
 const UNITS: f32 = 64.0;
 const MANY_UNITS: f32 = 1024.0;
 
-/// O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode. Each
+/// GL-O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode. Each
 /// pair of modes has the unit that is measured there; whether all have the same is one question of its own.
 pub fn modes(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     use Mode::{Fill, Line};

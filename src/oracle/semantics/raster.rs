@@ -1,4 +1,4 @@
-//! R1 and R2: which pixels a triangle covers, and clipping in homogeneous coordinates [GL 4.6, 13.7, 14.6.1].
+//! GL-R1 and GL-R2: which pixels a triangle covers, and clipping in homogeneous coordinates [GL 4.6, 13.7, 14.6.1].
 
 use super::random::Random;
 use super::verify::{self, Tally};
@@ -24,7 +24,7 @@ fn surface(subject: &Subject) -> Result<Surface, Error> {
     subject.bench.surface([SIDE; 2], None, Some(Format::Depth24Stencil8))
 }
 
-/// R1: every pixel of a seamless mesh is drawn once, and by the triangle that covers its centre.
+/// GL-R1: every pixel of a seamless mesh is drawn once, and by the triangle that covers its centre.
 pub fn coverage(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     const ROUNDS: usize = 12;
     let surface = surface(subject)?;
@@ -129,7 +129,7 @@ fn subpixel_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error
     Ok(())
 }
 
-/// R2: w = 0 and w < 0, planes of one's own.
+/// GL-R2: w = 0 and w < 0, planes of one's own.
 pub fn clipping(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let surface = surface(subject)?;
     directions(subject, findings, &surface)?;

@@ -1,4 +1,4 @@
-//! S1 and S2: stencil operations and tests, and which side a polygon shows [GL 4.6, 14.6.1, 17.3.3].
+//! GL-S1 and GL-S2: stencil operations and tests, and which side a polygon shows [GL 4.6, 14.6.1, 17.3.3].
 
 use super::verify;
 use super::{Findings, Subject};
@@ -67,7 +67,7 @@ fn rows(
     Ok((wrong, values.len()))
 }
 
-/// S1: operations, masks, tests, and which of the three operations is taken.
+/// GL-S1: operations, masks, tests, and which of the three operations is taken.
 pub fn operations(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     clears(subject, findings)?;
     let no_depth = State { depth: None, ..State::WRITE };
@@ -136,7 +136,7 @@ fn repeated(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-/// S2: mirrored or not, front faces either way: the sign of the area in the window decides.
+/// GL-S2: mirrored or not, front faces either way: the sign of the area in the window decides.
 pub fn facing(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let surface = subject.bench.surface([4, 4], Some(Format::Rgba8), Some(FORMAT))?;
     for (mirrored, clockwise) in [(false, false), (false, true), (true, false), (true, true)] {

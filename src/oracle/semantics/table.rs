@@ -5,7 +5,7 @@ use super::{Rule, compare, coordinates, copies, depth, fixed, invariance, offset
 /// Every rule, in the order of a report.
 pub const TABLE: &[Rule] = &[
     Rule {
-        id: "C1",
+        id: "GL-C1",
         title: "compare function",
         section: "8.23.1",
         says: "A depth texture gives 1 where reference OP texel holds, else 0: eight functions, the reference on the left.",
@@ -13,7 +13,7 @@ pub const TABLE: &[Rule] = &[
         check: compare::function,
     },
     Rule {
-        id: "C2",
+        id: "GL-C2",
         title: "clamp of the reference",
         section: "8.5, 8.23.1",
         says: "Against fixed-point depths the reference is clamped to [0, 1], against floats it is not; uploads always are.",
@@ -21,7 +21,7 @@ pub const TABLE: &[Rule] = &[
         check: compare::clamp,
     },
     Rule {
-        id: "C3",
+        id: "GL-C3",
         title: "filtered comparison",
         section: "8.14, 8.23.1",
         says: "LINEAR may compare several texels: the result lies in [0, 1], in proportion to those that pass.",
@@ -29,7 +29,7 @@ pub const TABLE: &[Rule] = &[
         check: compare::filtered,
     },
     Rule {
-        id: "C4",
+        id: "GL-C4",
         title: "comparison and mipmaps",
         section: "8.14.3, 8.23.1",
         says: "Each level is compared, then levels are blended by the fraction of lambda.",
@@ -37,7 +37,7 @@ pub const TABLE: &[Rule] = &[
         check: compare::levels,
     },
     Rule {
-        id: "C5",
+        id: "GL-C5",
         title: "wrap modes and border",
         section: "8.14.2",
         says: "The border's depth is the border colour's first component, and is compared; CLAMP meets it under LINEAR only.",
@@ -45,7 +45,7 @@ pub const TABLE: &[Rule] = &[
         check: compare::border,
     },
     Rule {
-        id: "C6",
+        id: "GL-C6",
         title: "DEPTH_TEXTURE_MODE",
         section: "8.23.1, 16.1 compat.",
         says: "The comparison becomes luminance, intensity, alpha or red, as the mode says.",
@@ -53,23 +53,23 @@ pub const TABLE: &[Rule] = &[
         check: fixed::depth_mode,
     },
     Rule {
-        id: "T1",
+        id: "GL-T1",
         title: "texture coordinate generation",
         section: "12.1.3 compat.",
         says: "Eye planes are multiplied by the inverse modelview when given; object planes are not; the texture matrix follows.",
-        tolerance: "64 roundings of f32 for the planes; look-ups as C3, but where a texel's edge or a tie is near",
+        tolerance: "64 roundings of f32 for the planes; look-ups as GL-C3, but where a texel's edge or a tie is near",
         check: fixed::texgen,
     },
     Rule {
-        id: "T2",
+        id: "GL-T2",
         title: "division by q",
         section: "8.14, 16.1 compat.",
         says: "Projective look-ups use s/q, t/q and the reference r/q.",
-        tolerance: "as C3; NEAREST either way within 2^-7 texel of a texel's edge",
+        tolerance: "as GL-C3; NEAREST either way within 2^-7 texel of a texel's edge",
         check: coordinates::division,
     },
     Rule {
-        id: "T3",
+        id: "GL-T3",
         title: "interpolation",
         section: "14.6.1, 15.2.2",
         says: "Varyings are interpolated with perspective, depth is linear in the window, and gl_FragCoord.z is that depth.",
@@ -77,7 +77,7 @@ pub const TABLE: &[Rule] = &[
         check: coordinates::interpolation,
     },
     Rule {
-        id: "T4",
+        id: "GL-T4",
         title: "a surface's shadow on itself",
         section: "8.23.1, 14.6.5",
         says: "Nothing is promised, but maps are used so: offset (1, 1) should clear a floor of its own shadow.",
@@ -85,7 +85,7 @@ pub const TABLE: &[Rule] = &[
         check: coordinates::self_shadow,
     },
     Rule {
-        id: "D1",
+        id: "GL-D1",
         title: "depth conversion",
         section: "2.3.4, 2.3.5",
         says: "A depth becomes one of the two nearest codes, preferably the nearest; 0 and 1 are exact.",
@@ -93,7 +93,7 @@ pub const TABLE: &[Rule] = &[
         check: depth::conversion,
     },
     Rule {
-        id: "D2",
+        id: "GL-D2",
         title: "depth range",
         section: "13.8.1",
         says: "Window depth is (f - n)/2 z + (n + f)/2, n and f clamped to [0, 1], in either order.",
@@ -101,7 +101,7 @@ pub const TABLE: &[Rule] = &[
         check: depth::range,
     },
     Rule {
-        id: "D3",
+        id: "GL-D3",
         title: "depth clamp",
         section: "13.7, 17.3.4",
         says: "With DEPTH_CLAMP nothing is clipped by near and far; depth is clamped to the range, after the offset.",
@@ -109,7 +109,7 @@ pub const TABLE: &[Rule] = &[
         check: depth::clamp,
     },
     Rule {
-        id: "D4",
+        id: "GL-D4",
         title: "clamp of a shader's depth",
         section: "15.2.3, 17.3.4",
         says: "gl_FragDepth is clamped to [0, 1], in float formats too.",
@@ -117,7 +117,7 @@ pub const TABLE: &[Rule] = &[
         check: depth::fragment_clamp,
     },
     Rule {
-        id: "D5",
+        id: "GL-D5",
         title: "depth test",
         section: "17.3.4",
         says: "A fragment passes where its depth OP the stored depth holds.",
@@ -125,7 +125,7 @@ pub const TABLE: &[Rule] = &[
         check: depth::test,
     },
     Rule {
-        id: "O1",
+        id: "GL-O1",
         title: "polygon offset",
         section: "14.6.5",
         says: "o = m factor + r units, clamped; r is the least difference sure to be told, for floats 2^(e-23); m lies between both norms.",
@@ -133,7 +133,7 @@ pub const TABLE: &[Rule] = &[
         check: offset::offset,
     },
     Rule {
-        id: "O2",
+        id: "GL-O2",
         title: "polygon offset of lines and fills",
         section: "14.6.4, 14.6.5",
         says: "POLYGON_OFFSET_FILL and _LINE hold for the sides that are drawn in that mode, by the same r.",
@@ -141,7 +141,7 @@ pub const TABLE: &[Rule] = &[
         check: offset::modes,
     },
     Rule {
-        id: "S1",
+        id: "GL-S1",
         title: "stencil operations",
         section: "17.3.3",
         says: "INCR and DECR saturate, _WRAP wraps, before the write mask; (ref & mask) OP (stored & mask), ref clamped.",
@@ -149,7 +149,7 @@ pub const TABLE: &[Rule] = &[
         check: stencil::operations,
     },
     Rule {
-        id: "S2",
+        id: "GL-S2",
         title: "front and back",
         section: "14.6.1",
         says: "The sign of the area in the window decides, with glFrontFace; a mirror turns it.",
@@ -157,7 +157,7 @@ pub const TABLE: &[Rule] = &[
         check: stencil::facing,
     },
     Rule {
-        id: "S3",
+        id: "GL-S3",
         title: "closed shadow volumes",
         section: "13.7, 14.6.1",
         says: "What enters a closed volume leaves it, at infinity too: net counts are 0; directions lie at depth 1.",
@@ -165,7 +165,7 @@ pub const TABLE: &[Rule] = &[
         check: volumes::closure,
     },
     Rule {
-        id: "R1",
+        id: "GL-R1",
         title: "coverage",
         section: "14.6.1",
         says: "A pixel is drawn where its centre lies inside; a shared edge draws it once.",
@@ -173,7 +173,7 @@ pub const TABLE: &[Rule] = &[
         check: raster::coverage,
     },
     Rule {
-        id: "R2",
+        id: "GL-R2",
         title: "clipping",
         section: "13.7, GLSL 7.1.1",
         says: "-w <= x, y, z <= w before the division: w = 0 is a direction; a clip plane and its opposite make the whole, one that is not enabled does nothing.",
@@ -181,7 +181,7 @@ pub const TABLE: &[Rule] = &[
         check: raster::clipping,
     },
     Rule {
-        id: "I1",
+        id: "GL-I1",
         title: "invariance",
         section: "A.3, 11.1.3.11",
         says: "invariant gl_Position and ftransform() meet the same depths (EQUAL) whatever else changes; for enables that is a wish.",
@@ -189,7 +189,7 @@ pub const TABLE: &[Rule] = &[
         check: invariance::invariance,
     },
     Rule {
-        id: "F1",
+        id: "GL-F1",
         title: "copies of depth",
         section: "8.6, 18.2",
         says: "glCopyTexSubImage2D copies depth, converted to the texture's format; without depth to copy it is an error.",
@@ -197,7 +197,7 @@ pub const TABLE: &[Rule] = &[
         check: copies::copy,
     },
     Rule {
-        id: "F2",
+        id: "GL-F2",
         title: "framebuffers of depth alone",
         section: "8.5.1, 9.4",
         says: "A depth attachment alone is complete; 16, 24, 32F, 24+8 and 32F+8 bits are required.",
@@ -205,7 +205,7 @@ pub const TABLE: &[Rule] = &[
         check: copies::completeness,
     },
     Rule {
-        id: "F3",
+        id: "GL-F3",
         title: "reading what is attached",
         section: "9.3.1",
         says: "Values are undefined where a texture is written and read; read alone, they should be what is stored.",
@@ -213,7 +213,7 @@ pub const TABLE: &[Rule] = &[
         check: copies::feedback,
     },
     Rule {
-        id: "F4",
+        id: "GL-F4",
         title: "8-bit colour",
         section: "2.3.5, 17.3.6, 17.3.7",
         says: "A float becomes the nearest code, or the next; sums are exact, products and sRGB near.",

@@ -166,7 +166,7 @@ pub fn offset_unit(steps: f64) -> Grade {
 }
 
 /// An offset of `due` units that moved a flat surface by so many: to half a unit, or to a code, of which a unit has
-/// 1 / `step`. That units add up to a code is O1's question.
+/// 1 / `step`. That units add up to a code is GL-O1's question.
 pub fn offset_moves(units: f64, due: f64, step: f64) -> Grade {
     let bound = (step * (1.0 + 1e-6)).clamp(0.5, 1.01);
     within(units - due, bound, bound)

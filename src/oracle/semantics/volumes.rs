@@ -1,4 +1,4 @@
-//! S3: closed shadow volumes to infinity [GL 4.6, 13.7, 14.6.1]: what enters leaves, and the far cap lies at 1.
+//! GL-S3: closed shadow volumes to infinity [GL 4.6, 13.7, 14.6.1]: what enters leaves, and the far cap lies at 1.
 
 use super::random::Random;
 use super::verify::{self, Grade, Tally};
@@ -45,7 +45,7 @@ fn random_volume(random: &mut Random) -> Vec<[[f32; 4]; 3]> {
     volume(caster, light)
 }
 
-/// S3: net counts, and the far cap's depth.
+/// GL-S3: net counts, and the far cap's depth.
 pub fn closure(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     const VOLUMES: usize = 48;
     let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24Stencil8))?;

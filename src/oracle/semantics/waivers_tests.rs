@@ -37,11 +37,11 @@ fn context(renderer: &str) -> ContextInfo {
     }
 }
 
-/// O1 with one finding.
+/// GL-O1 with one finding.
 fn outcome(what: &str, verdict: Verdict, measured: &str) -> Outcome {
     let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned() }];
     Outcome {
-        id: "O1",
+        id: "GL-O1",
         title: "",
         section: "",
         says: "",
@@ -54,7 +54,7 @@ fn outcome(what: &str, verdict: Verdict, measured: &str) -> Outcome {
 }
 
 fn waiver(finding: &str) -> Vec<Waiver> {
-    let [renderer, version, rule, reason] = ["llvmpipe", "Mesa ", "O1", "known"].map(str::to_owned);
+    let [renderer, version, rule, reason] = ["llvmpipe", "Mesa ", "GL-O1", "known"].map(str::to_owned);
     let [from, until] = ["22.3", "25.1"].map(|number| Number::try_from(number.to_owned()).ok());
     vec![Waiver { renderer, version, from, until, rule, finding: finding.to_owned(), reason }]
 }
@@ -94,7 +94,7 @@ fn a_waiver_holds_for_a_range_of_versions() {
 fn a_waiver_that_nothing_needs_is_stale() {
     let mut outcomes = [outcome("r", Verdict::Pass, "is 4")];
     let stale = apply(&waiver("r"), &context("llvmpipe"), &mut outcomes);
-    assert!(stale[0].contains("a waiver of O1 no longer applies to llvmpipe 4.5 Mesa 22.3.6"), "{stale:?}");
+    assert!(stale[0].contains("a waiver of GL-O1 no longer applies to llvmpipe 4.5 Mesa 22.3.6"), "{stale:?}");
 }
 
 #[test]
@@ -113,11 +113,11 @@ fn files_are_read_with_their_lines() {
     let path = Path::new("w.toml");
     assert!(!parse(path, SHIPPED).unwrap().is_empty());
     assert!(parse(path, "").unwrap().is_empty());
-    let text = "[[waiver]]\nrenderer = \"a\"\nversion = \"b\"\nrule = \"O1\"\nfinding = \"c\"\nreason = \"d\"\n";
+    let text = "[[waiver]]\nrenderer = \"a\"\nversion = \"b\"\nrule = \"GL-O1\"\nfinding = \"c\"\nreason = \"d\"\n";
     assert_eq!(parse(path, text).unwrap().len(), 1);
     for (text, error) in [
         (format!("{text}typo = 1\n"), "w.toml:7: unknown field `typo`"),
-        (text.replace("O1", "O9"), "w.toml: there is no rule O9"),
+        (text.replace("GL-O1", "GL-O9"), "w.toml: there is no rule GL-O9"),
         (text.replace("reason", "raison"), "w.toml:6: unknown field `raison`"),
         (text.replace("rule", "from = \"22.x\"\nrule"), "w.toml:4: \"22.x\" is no version"),
         ("[[waiver]]\nrule = \n".to_owned(), "w.toml:2: "),
