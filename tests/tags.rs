@@ -99,7 +99,7 @@ fn a_tag_is_no_volume_to_look_at() {
     for view in [View::Volume, View::Silhouette] {
         let views = vec![ViewRequest { view, light: 0 }];
         let error = plan::make(&scene, &Request { views, ..Request::default() }).unwrap_err().to_string();
-        assert!(error.contains("light 0 counts no volumes"), "{error}");
+        assert!(error.contains("light 0 counts no shadow volumes"), "{error}");
     }
 }
 

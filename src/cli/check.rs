@@ -23,7 +23,7 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 
-    /// Writes everything that was measured, as JSON
+    /// Writes all measurements as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 
@@ -31,11 +31,11 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     waivers: Option<PathBuf>,
 
-    /// Lists what passes, too
+    /// Lists checks that pass, too
     #[arg(short, long)]
     verbose: bool,
 
-    /// Asks for a core context, where rules of the fixed-function pipeline cannot be tested
+    /// Uses a core context, where rules of the fixed-function pipeline cannot be tested
     #[arg(long)]
     core: bool,
 

@@ -14,7 +14,7 @@ use crate::process;
 pub(super) struct InfoArgs {
     #[command(flatten)]
     context: ContextArgs,
-    /// Asks for a context with the fixed-function pipeline
+    /// Uses a context with the fixed-function pipeline
     #[arg(long)]
     compatibility: bool,
     /// Prints JSON

@@ -89,7 +89,7 @@ pub enum Error {
     Stress(#[from] crate::stress::Error),
     #[error(transparent)]
     StressCases(#[from] crate::stress::named::Error),
-    #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
+    #[error("interrupted: {folder} holds a report of the rows so far; continue with --resume", folder = .folder.display())]
     Interrupted { folder: std::path::PathBuf },
     #[error("{failed} of {rows} settings could not be measured, row {row} for example: {why}; {folder} holds the others", folder = .folder.display())]
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },

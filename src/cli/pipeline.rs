@@ -14,11 +14,11 @@ use crate::process;
 /// Pipeline that draws the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Pipeline {
-    /// By shaders, the product
+    /// Shaders
     #[default]
     Shaders,
-    /// By the driver's own fixed-function pipeline (glTexGen, glTexEnv, glLight), which the shaders are held against;
-    /// what that cannot draw is named, and nothing is written
+    /// The driver's fixed functions (glTexGen, glTexEnv, glLight). A scene with passes that they cannot express is
+    /// refused, with a list of these passes
     FixedFunction,
 }
 

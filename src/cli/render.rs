@@ -162,7 +162,7 @@ fn each_once(wanted: &[ViewRequest]) -> Vec<ViewRequest> {
     for view in wanted {
         if views.contains(view) {
             let name = output::beside(Path::new("PICTURE"), &view_name(view));
-            super::say(format_args!("warning: --aov asks for {} twice; it is written once", name.display()));
+            super::say(format_args!("warning: --aov names {} twice; it is written once", name.display()));
         } else {
             views.push(*view);
         }

@@ -58,15 +58,15 @@ pub struct ReportArgs {
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard)]
     shard: (usize, usize),
 
-    /// Goes on where a run into the same folder was cut short
+    /// Continues an interrupted run into the same folder
     #[arg(long)]
     resume: bool,
 
-    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    /// Error limit, in percent of the pixels: prints the fastest setting within it
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     error: f64,
 
-    /// Names the most exact setting whose frame takes at most this many milliseconds
+    /// Time limit for a frame, in milliseconds: prints the most accurate setting within it
     #[arg(long, value_name = "MS", default_value_t = 16.7)]
     time: f64,
 
@@ -98,15 +98,15 @@ struct MergeArgs {
     #[arg(required = true, value_name = "PART")]
     parts: Vec<PathBuf>,
 
-    /// The folder for the whole
+    /// The folder for the joined report
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    /// Error limit, in percent of the pixels: prints the fastest setting within it
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     error: f64,
 
-    /// Names the most exact setting whose frame takes at most this many milliseconds
+    /// Time limit for a frame, in milliseconds: prints the most accurate setting within it
     #[arg(long, value_name = "MS", default_value_t = 16.7)]
     time: f64,
 }
@@ -130,7 +130,7 @@ checked before the first is drawn; a grid has at most 100000. The settings to ta
 
 Without a grid file the report also measures, on each scene, what the techniques' documents claim.
 
-Ctrl-C leaves a report of what was done; --resume goes on from there.";
+Ctrl-C leaves a report of the rows so far; --resume continues it.";
 
 /// `I/N`.
 pub(super) fn parse_shard(text: &str) -> Result<(usize, usize), String> {

@@ -65,9 +65,9 @@ const HELP: &str = "\
 Verdicts:
   right           within the technique's bound
   false alarm     within it, although the plan warns
-  warned          outside it, and the plan says why
-  refused         a clear error in place of a picture
-  silently wrong  outside it, and nothing said
+  warned          outside it, with a warning in the plan
+  refused         an error instead of a picture
+  silently wrong  outside it, without a warning
 
 The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's
 reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face the

@@ -35,7 +35,8 @@ pub struct TuneArgs {
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     leak: f64,
 
-    /// Pixels in 100,000 that may stay falsely dark (slivers steeper than their neighbours need large offsets); 2 always may
+    /// Acne allowed, in pixels per 100,000. Two pixels are always allowed, because thin steep triangles would otherwise
+    /// force a huge offset
     #[arg(long, value_name = "COUNT", default_value_t = 1.0)]
     spare: f64,
 

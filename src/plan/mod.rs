@@ -110,25 +110,25 @@ pub enum Error {
     NoMap { view: &'static str, light: usize, why: &'static str },
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
-    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
+    #[error("--aov {view}: light {light} counts no shadow volumes: give it technique = \"shadow-volume\"")]
     NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
     TooManyInputs { needed: usize, limit: u32 },
     #[error(
-        "guard = \"clip-plane\" of lights {lights:?}: at most {most} may choose it, as what lies across all their planes is drawn once for each combination of sides"
+        "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
     #[error(
-        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
+        "guard = \"clip-plane\" (light {light}) cannot be combined with a stencil-counted light (light {counted}): clipping changes depth values, and that light is drawn with depth EQUAL. Choose another guard."
     )]
     CutDepths { light: usize, counted: usize },
     #[error(
         "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
     )]
     TwoLedges { first: usize, second: usize },
-    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
+    #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }
 

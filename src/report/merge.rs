@@ -26,7 +26,7 @@ pub enum Error {
     Nothing,
     #[error(
         "{second} was drawn by another {what} than {first}: \"{second_value}\", not \"{first_value}\"; their errors and \
-         times cannot stand in one report",
+         times cannot be combined in one report",
         first = .first.display(), second = .second.display()
     )]
     Driver { first: PathBuf, second: PathBuf, what: &'static str, first_value: String, second_value: String },

@@ -27,7 +27,7 @@ pub enum Error {
     #[error(
         "nothing can be tuned: of light {light} {compared} pixels could be compared, {facing} of them on surfaces that face \
          it; each needs {FEWEST_COMPARED} at least. Does the light reach what the camera sees? Is the picture large enough \
-         (--size)? Is another light meant (--light)?"
+         (--size)? Did you mean another light (--light)?"
     )]
     TooFew { light: usize, compared: usize, facing: usize },
 }

@@ -97,7 +97,7 @@ pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let entry = parse::value("light.shadow", &text, &origin)?;
     match entry.map(|entry| entry.value) {
         Some(Value::Table(table)) => Ok(table),
-        _ => Err(Error::Settings(SettingsError::new(&origin, "this is no inline table"))),
+        _ => Err(Error::Settings(SettingsError::new(&origin, "expected an inline table: { key = value, … }"))),
     }
 }
 

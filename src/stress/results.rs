@@ -14,7 +14,7 @@ pub enum Verdict {
     Warned,
     /// A clear error in place of a picture.
     Refused,
-    /// Beyond the bound, and nothing said.
+    /// Wrong, beyond the bound, without a warning.
     SilentlyWrong,
 }
 

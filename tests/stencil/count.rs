@@ -49,7 +49,7 @@ impl Bench {
         let plan = match self.renderer.plan(&scene, &Request { views, ..Request::default() }) {
             Ok(plan) => plan,
             // No volume can matter to the picture.
-            Err(error) if error.to_string().contains("counts no volumes") => {
+            Err(error) if error.to_string().contains("counts no shadow volumes") => {
                 return vec![0; (scene.image.size[0] * scene.image.size[1]) as usize];
             }
             Err(error) => panic!("{error}"),

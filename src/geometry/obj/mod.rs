@@ -76,7 +76,7 @@ fn load_libraries(scan: &Scan, path: &Path, warnings: &mut Vec<Warning>) -> Resu
         let name = if name.is_empty() { rewrite::UNNAMED } else { name.as_str() };
         // If no library could be read, that was reported, or none was named.
         if !library.is_empty() && !library.has(name) && unknown.insert(name) {
-            let message = format!("no material is named '{name}'; the default stands in");
+            let message = format!("no material is named '{name}'; the default is used");
             warnings.push(Warning { path: path.to_owned(), line: *line, message });
         }
     }

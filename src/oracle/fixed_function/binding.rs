@@ -22,7 +22,7 @@ pub struct Binding {
 /// Reason why a context cannot draw by the fixed-function pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BindingError {
-    #[error("the {backend} context was asked for in the core profile, which has no fixed-function pipeline")]
+    #[error("the {backend} context was requested in the core profile, which has no fixed-function pipeline")]
     Core { backend: String },
     #[error(
         "the {backend} context says that it is of the core profile: the driver has no fixed-function pipeline for it"

@@ -79,25 +79,25 @@ impl Default for Options {
     }
 }
 
-/// Why there is no truth.
+/// Reason why there is no truth.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
-    #[error("the camera or the light stands in no usable place")]
+    #[error("the camera or the light has no usable position")]
     View,
     #[error("object `{name}`: its transform has no inverse")]
     Transform { name: String },
     #[error("mesh `{name}`: {what}")]
     Mesh { name: String, what: String },
     #[error(
-        "the oracle is of two minds on {percent:.2} % of the drawn pixels, above {most_percent} % ({reasons}): \
-         no truth to measure against"
+        "the ray tracer cannot decide {percent:.2} % of the drawn pixels (limit {most_percent} %; {reasons}): \
+         there is no truth to measure against"
     )]
     TooAmbiguous { percent: f64, most_percent: f64, reasons: String },
 }
 
-/// Asks for each pixel of the scene's image whether light number `light` reaches it.
+/// Finds for each pixel of the scene's image whether light number `light` reaches it.
 pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
     Tracer::new(scene, light, options)?.trace(scene, options)
 }

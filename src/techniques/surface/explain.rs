@@ -40,18 +40,16 @@ fn explain(
     let all = before.len() + across.len() + behind.len();
     let crossing = format!("{} of {all} items that are seen cross the light's plane: {}", across.len(), names(&across));
     match (term.guard, across.is_empty()) {
-        (Guard::Auto, true) if behind.is_empty() => {
-            notes.chosen(of, "none", "nothing that is seen lies behind the light")
-        }
+        (Guard::Auto, true) if behind.is_empty() => notes.chosen(of, "none", "nothing visible lies behind the light"),
         (Guard::Auto, true) => {
             let why =
                 format!("{} of {all} items that are seen lie behind the light, none crosses its plane", behind.len());
             notes.chosen(of, "leave-out", why);
         }
         (Guard::Auto, false) => notes.chosen(of, "fragment", format!("{crossing}; the others need none")),
-        (Guard::None, _) if !(across.is_empty() && behind.is_empty()) => notes
-            .warnings
-            .push(format!("light {index} has guard = \"none\": it lights what lies behind it, as no light does")),
+        (Guard::None, _) if !(across.is_empty() && behind.is_empty()) => {
+            notes.warnings.push(format!("light {index} has guard = \"none\": surfaces behind it are lit by mistake"))
+        }
         (Guard::ClipPlane, false) => notes.chosen(of, "clip-plane", format!("{crossing}; each is drawn once a side")),
         (Guard::Cull | Guard::SpotCutoff, false) => {
             let why = match triangles(&across, plane, viewer) {
