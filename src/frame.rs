@@ -33,8 +33,8 @@ pub struct Renderer {
     limits: Limits,
 }
 
-/// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done or
-/// `stop` is set. `finished` is called on the caller's thread with each number and what came of it, in no order.
+/// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done
+/// or `stop` is set. `finished` is called on the caller's thread with each number and its result, in no order.
 ///
 /// # Errors
 ///
@@ -195,13 +195,13 @@ impl Renderer {
         Ok(self.device.read_window(window)?)
     }
 
-    /// The device, for what only it can do.
+    /// The device, for its own functions.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
 
-    /// Says what this driver makes of DEPTH_COMPONENT32, which is optional, and of the unsized DEPTH_COMPONENT, where that does
-    /// not follow the picture's depth buffer.
+    /// Warns if the driver changes DEPTH_COMPONENT32, which is optional, or if the unsized DEPTH_COMPONENT does not follow
+    /// the picture's depth buffer.
     fn warn_of_formats(&mut self, plan: &mut Plan) -> Result<(), Error> {
         let depth32 = Format::Depth(DepthFormat::Depth32);
         for format in [depth32, Format::UnsizedDepth] {

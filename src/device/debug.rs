@@ -1,5 +1,5 @@
-//! Turns GL errors into errors of ours, with the label of the pass that made them: by KHR_debug where the context
-//! reports, by glGetError elsewhere.
+//! Turns GL errors into our errors, with the label of the pass that made them: by KHR_debug where the context reports, by
+//! glGetError elsewhere.
 
 use std::rc::Rc;
 
@@ -13,11 +13,11 @@ use crate::context::{Context, DebugLog};
 pub struct GlError {
     /// The pass, or the step outside of one.
     pub label: String,
-    /// The driver's words in a debug context, else the errors' names. Never empty.
+    /// The driver's text in a debug context, else the errors' names. Never empty.
     pub messages: Vec<String>,
 }
 
-/// Asks one context for its errors.
+/// Reads the errors of one context.
 #[derive(Clone, Debug)]
 pub struct Debug {
     gl: Rc<glow::Context>,

@@ -24,7 +24,7 @@ pub enum ImageName {
 }
 
 impl ImageName {
-    /// GL's number for it; textures and renderbuffers are told apart by the sign bit.
+    /// GL's number for it; the sign bit distinguishes textures and renderbuffers.
     pub fn number(self) -> u32 {
         match self {
             Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => texture.0.get(),
@@ -41,7 +41,7 @@ impl ImageName {
         }
     }
 
-    /// `None` of a renderbuffer.
+    /// The texture; `None` for a renderbuffer.
     pub fn texture(self) -> Option<glow::Texture> {
         match self {
             Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => Some(texture),

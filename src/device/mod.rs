@@ -1,7 +1,8 @@
 //! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan.
 //!
-//! GL objects are made when a list first needs them and kept while later lists do; programs longer, up to a number. A pass that would draw again what
-//! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
+//! GL objects are made when a list first needs them and kept while later lists do; programs are kept longer, up to
+//! [`MOST_PROGRAMS`]. A pass whose target already holds its result is skipped
+//! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 pub mod bench;
 pub mod debug;
@@ -102,8 +103,8 @@ impl Device {
         known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
     }
 
-    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever
-    /// else has used the context.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, in case other
+    /// code has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
         self.state = None;

@@ -137,7 +137,7 @@ fn measure(bench: &Bench, surface: &Surface) -> Result<Option<Measured>, Error> 
 ///
 /// GL's.
 pub fn stored(bench: &Bench, surface: &Surface, depth: f64, units: f32) -> Result<f64, Error> {
-    // Without units no offset is asked for at all, so that a driver which adds one of its own is found out.
+    // Without units no offset is set at all, so that a driver which adds one of its own is found out.
     let offset = (units != 0.0).then_some(Offset { factor: 0.0, units, clamp: 0.0 });
     let state = State { offset, color_write: false, ..State::WRITE };
     bench.draw(&Draw::plain(surface, state, &full((2.0 * depth - 1.0) as f32)))?;

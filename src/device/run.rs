@@ -18,8 +18,8 @@ use crate::pass::{
 pub enum Measure {
     /// No timing.
     No,
-    /// Each pass by the wall clock with glFinish behind it, and by GL_TIME_ELAPSED where the driver has it. Waiting
-    /// after each pass makes the frame as a whole slower.
+    /// Each pass by the wall clock, ended by glFinish, and by GL_TIME_ELAPSED if the driver has it. Waiting after each pass
+    /// makes the frame as a whole slower.
     Passes,
     /// The fragments that pass each pass's depth test (GL_SAMPLES_PASSED); no times.
     Fragments,
@@ -135,7 +135,7 @@ impl Device {
         self.check(&pass.label)
     }
 
-    /// Makes images, programs and vertex arrays, and lets go of images and meshes that the list no longer uses.
+    /// Makes images, programs and vertex arrays, and drops images and meshes that the list no longer uses.
     fn prepare(&mut self, list: &PassList) -> Result<(), Error> {
         self.make_images(list)?;
         self.meshes.retain(|_, mesh| !mesh.is_orphan());
@@ -269,7 +269,7 @@ impl Device {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
             }
             if let Some(stencil) = pass.clear.stencil {
-                // All of it, however few bits the draws write.
+                // The whole stencil value, however few bits the draws write.
                 self.gl.stencil_mask(0xFF);
                 self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
                 self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));

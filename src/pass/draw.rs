@@ -35,7 +35,7 @@ pub struct Batch {
     pub meaning: Meaning,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-    /// Faces that are not drawn, beside those of the pass's own state.
+    /// Faces that are not drawn, in addition to those of the pass's state.
     pub cull: Option<Face>,
     /// Overrides the pass's scissor; must lie inside it.
     pub scissor: Option<[u32; 4]>,
@@ -64,7 +64,7 @@ pub struct Draw {
     pub label: String,
     pub mesh: MeshRef,
     pub primitive: Primitive,
-    /// Into the mesh's indices.
+    /// Range of the mesh's indices.
     pub indices: Range<u32>,
     pub order: IndexOrder,
     /// Bounds of the range, in model space.
@@ -78,7 +78,7 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// Triangles, or line segments.
+    /// Number of triangles, or of line segments.
     pub fn primitive_count(&self) -> u64 {
         let each = match self.primitive {
             Primitive::Triangles => 3,
@@ -97,8 +97,8 @@ pub enum Primitive {
 /// The order in which a mesh's triangles are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum IndexOrder {
-    /// As the file has them.
+    /// The file's order.
     File,
-    /// For the post-transform vertex cache.
+    /// An order for the post-transform vertex cache.
     VertexCache,
 }

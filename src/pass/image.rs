@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::Compare;
 use crate::geometry::Texture;
 
-/// Into [`super::PassList::images`].
+/// Index into [`super::PassList::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ImageId(pub usize);
 
@@ -25,7 +25,7 @@ pub struct ImageDesc {
 pub enum Storage {
     /// A texture that passes draw or copy into and sample.
     Texture,
-    /// The same with so many mipmap levels, at least one, each drawn by a pass of its own.
+    /// A texture with so many mipmap levels, at least one, each drawn by a pass of its own.
     Mipmapped(u32),
     /// A cube map, six square faces of the image's size.
     Cube(Cube),
@@ -38,7 +38,7 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// The faces of a cube map; otherwise 1.
+    /// Number of faces of a cube map; otherwise 1.
     pub fn layers(&self) -> u64 {
         if let Self::Cube(_) = self { 6 } else { 1 }
     }
@@ -65,9 +65,9 @@ impl PartialEq for Storage {
 /// Faces of a cube map that passes draw, and what the others hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cube {
-    /// In the order of [`CubeFace::ALL`].
+    /// Drawn faces, in the order of [`CubeFace::ALL`].
     pub drawn: [bool; 6],
-    /// The depth of every texel of a face that none draws.
+    /// Depth of every texel of a face that no pass draws.
     pub rest: f32,
 }
 
@@ -187,7 +187,7 @@ pub enum Filter {
 pub enum Wrap {
     Repeat,
     ClampToEdge,
-    /// Beyond [0, 1] lie texels whose components are all this [GL 4.6, 8.14.2].
+    /// Texels beyond [0, 1] have this value in all components [GL 4.6, 8.14.2].
     ClampToBorder(Border),
 }
 

@@ -14,7 +14,7 @@ use crate::math::texgen::Texgen;
 /// Description of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
-    /// Depth alone.
+    /// Depth only.
     Depth(Texturing),
     /// One colour, RGBA.
     Constant([f32; 4]),
@@ -23,7 +23,7 @@ pub enum Meaning {
     Lit(Box<Lit>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
     Sampled(Box<Sampled>),
-    /// Something that fixed function has no words for: what that is.
+    /// Something that fixed function cannot express, in words.
     Shader(&'static str),
 }
 
@@ -56,7 +56,7 @@ pub struct AlphaTest {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lit {
     pub clip_from_eye: DMat4,
-    /// GL's lighting per vertex; else Phong's, per fragment.
+    /// True: GL's lighting per vertex; false: Phong's, per fragment.
     pub per_vertex: bool,
     /// True if normals count; `false`: the diffuse colour as it is.
     pub lit: bool,
@@ -64,7 +64,7 @@ pub struct Lit {
     pub scene_ambient: [f32; 3],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
-    /// Black where no light has a specular colour.
+    /// Specular colour; black if no light has one.
     pub specular: [f32; 3],
     pub shininess: f32,
     pub texturing: Texturing,
@@ -74,9 +74,9 @@ pub struct Lit {
 /// One light of [`Lit`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightMeaning {
-    /// Into the scene's lights.
+    /// Index into the scene's lights.
     pub index: usize,
-    /// In eye space, homogeneous as GL_POSITION is: w = 0 for parallel light, whose direction is towards it.
+    /// Position in eye space, homogeneous like GL_POSITION: w = 0 for parallel light, whose direction is towards it.
     pub position: [f32; 4],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
@@ -87,7 +87,7 @@ pub struct LightMeaning {
     pub beam: Option<Cow<'static, str>>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
-    /// `None`: it reaches everywhere, and nothing is looked up by coordinates of it.
+    /// Texture coordinates of the light; `None`: it reaches everywhere, and no lookup needs them.
     pub projection: Option<Projection>,
     pub shade: Shade,
 }
@@ -97,7 +97,7 @@ pub struct LightMeaning {
 pub struct Sampled {
     pub clip_from_eye: DMat4,
     pub texturing: Texturing,
-    /// As [`LightMeaning::projection`].
+    /// Texture coordinates as in [`LightMeaning::projection`].
     pub projection: Option<Projection>,
     pub shade: Shade,
 }
@@ -119,16 +119,16 @@ pub struct Projection {
 /// Source of a light's shade.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shade {
-    /// It is 1.
+    /// The shade is 1.
     Lit,
-    /// It is 0.
+    /// The shade is 0.
     Dark,
-    /// The input of this name at (s/q, t/q, r/q), by its sampler; compared where that compares.
+    /// The input of this name at (s/q, t/q, r/q), with a comparison if its sampler has one.
     Texture {
         input: Cow<'static, str>,
         /// True if r/q is clamped to [0, 1] although the format does not clamp it.
         clamped: bool,
     },
-    /// Something that fixed function has no words for: what that is.
+    /// Something that fixed function cannot express, in words.
     Shader(&'static str),
 }

@@ -39,7 +39,7 @@ impl PassList {
 /// One step of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    /// Unique in the list; names the pass in plans, times and errors.
+    /// Name of the pass in plans, times and errors; unique in the list.
     pub label: String,
     pub redraw: Redraw,
     pub work: Work,
@@ -81,7 +81,7 @@ pub struct DrawPass {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
-    /// Attached as depth and stencil where its format has both.
+    /// Depth attachment; also the stencil attachment if its format has both.
     pub depth: Option<ImageId>,
     /// Level of images that have several.
     pub level: u32,
@@ -126,7 +126,7 @@ impl Pass {
         }
     }
 
-    /// The images that the pass writes. A pass that only holds its fragments against depth or stencil writes neither.
+    /// The images that the pass writes. A pass that only tests depth or stencil writes neither.
     pub fn writes(&self) -> Vec<ImageId> {
         match &self.work {
             Work::Draw(draw) => {

@@ -72,11 +72,11 @@ pub struct Stencil {
 pub enum Blend {
     /// GL_ONE, GL_ONE; alpha stays as it is.
     Add,
-    /// By the fragment's alpha over what is there; alpha stays as it is.
+    /// Blends by the fragment's alpha over the stored colour; alpha stays as it is.
     Over,
 }
 
-/// All of GL's per-fragment and raster state that a pass of ours can set.
+/// All per-fragment and raster state that a pass can set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
     /// `None`: the depth test, and with it depth writing, is off.
@@ -123,7 +123,7 @@ impl DrawState {
     /// Colour and depth: LESS.
     pub const OPAQUE: Self = Self { color_write: true, ..Self::DEPTH_ONLY };
 
-    /// Colour where depth is already what this draws: EQUAL, no depth writes. Exact only with the same position
+    /// Colour only where the stored depth equals the draw's: EQUAL, no depth writes. Exact only with the same position
     /// arithmetic as the pass that wrote it [GL 4.6 compatibility, A.3].
     pub const REPEAT: Self = Self { depth_test: Some(Compare::Equal), depth_write: false, ..Self::OPAQUE };
 }

@@ -1,8 +1,8 @@
 //! Adds the passes that draw a scene's surfaces: the picture and the views beside it.
 //!
-//! Lights whose shade a shader finds are lit in one pass. Where a light's shadow is counted in the stencil buffer
-//! (`counted.rs`), that pass gives depth and what needs no count, and each such light is added after its count [GDC,
-//! "Shadow Volume Algorithm"].
+//! Lights whose shade a shader finds are drawn in one pass. If a light's shadow is counted in the stencil buffer
+//! (`counted.rs`), that pass gives depth and all light that needs no count, and each such light is added after its count
+//! [GDC, "Shadow Volume Algorithm"].
 
 use std::borrow::Cow;
 
@@ -23,9 +23,9 @@ use crate::techniques::{Item, LightTerm, Notes, guides};
 pub struct Builder<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Item],
-    /// Objects whose meshes volumes' caps meet, into the scene's: they are drawn as they are.
+    /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
     pub kept: Vec<usize>,
-    /// Volumes are counted in the picture.
+    /// True if volumes are counted in the picture.
     pub counted: bool,
     pub list: &'a mut PassList,
     pub notes: &'a mut Notes,
@@ -242,7 +242,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Volumes of several lights are counted in one depth buffer, before one ledge.
+/// Refuses lights with different ledges: all volumes are counted in one depth buffer.
 fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
     let ledge =
         |term: &&LightTerm| term.counting.as_ref().and_then(|counting| counting.ledge).map(|ledge| (term.index, ledge));

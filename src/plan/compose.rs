@@ -104,7 +104,7 @@ fn visible<'a>(items: &'a [Item], camera: &Viewer) -> Vec<&'a Item> {
     items.iter().filter(seen).collect()
 }
 
-/// Why a light adds nothing to the picture, if so.
+/// Reason why a light adds nothing to the picture, if there is one.
 fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
@@ -126,8 +126,8 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
     if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
-/// `clip_from_world` of what the light can light: its cone's pyramid from its very position on. Its near plane bounds
-/// casters and its far plane the map's depths; neither ends the light. `None`: nothing bounds it.
+/// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position. Near and far bound the
+/// map's depths, not the light. `None`: nothing bounds it.
 fn reach(source: &Light) -> Option<DMat4> {
     source.frustum().map(|frustum| frustum.unbounded().clip_from_world())
 }

@@ -19,7 +19,7 @@ use crate::techniques::surface::sides::shows_no_back_face;
 use crate::techniques::views::{self, View};
 use crate::techniques::{Item, LightTerm};
 
-/// Passes where the count is 0, and leaves it.
+/// Stencil state that passes where the count is 0, and keeps it.
 const LIT: Stencil = Stencil {
     test: Compare::Equal,
     reference: 0,
@@ -29,7 +29,7 @@ const LIT: Stencil = Stencil {
     back: StencilOps::KEEP,
 };
 
-/// Passes where the count is not 0, and leaves it.
+/// Stencil state that passes where the count is not 0, and keeps it.
 const UNLIT: Stencil = Stencil { test: Compare::NotEqual, ..LIT };
 
 impl Builder<'_> {
@@ -61,7 +61,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The surfaces in all lights: with `chosen` where its count is 0, without it where it is not. What else is counted is
+    /// The surfaces in all lights: with `chosen` where its count is 0, without it where it is not. Other counted lights are
     /// added.
     fn lit_and_unlit(
         &mut self,
@@ -112,7 +112,7 @@ impl Builder<'_> {
         may && self.request.frames > 1 && !self.request.keep_all
     }
 
-    /// Depth alone; by [`Redraw::WhenChanged`] kept from frame to frame.
+    /// A pass of depth only; with [`Redraw::WhenChanged`] it is kept from frame to frame.
     fn depth_first(&mut self, target: Target, lens: &Lens, redraw: Redraw) {
         let clip_from_world = lens.camera.clip_from_world();
         // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.
@@ -138,7 +138,7 @@ impl Builder<'_> {
         self.count(target, lens, term, counting, "", redraw)
     }
 
-    /// The count itself, over depth that is there.
+    /// Passes that count, over existing depth.
     fn count(
         &mut self,
         target: Target,
@@ -158,7 +158,7 @@ impl Builder<'_> {
             match &pass.counted {
                 Counted::Volumes(draws) => self.volumes(redraw, &onto, draws, pass.layer),
                 Counted::Shadowed => {
-                    // Surfaces are clipped as those are whose depth they must meet.
+                    // Surfaces are clipped like those whose depth they must equal.
                     let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
                     let ending = Ending::View { chunk: glsl!("light/tag.frag"), shade: true };
                     let asked = LightTerm { meaning: Shade::Shader("a shade that only tags"), ..term.clone() };
@@ -207,7 +207,7 @@ impl Builder<'_> {
         self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
     }
 
-    /// The scene whose counted lights give only what a shadow leaves of them.
+    /// A copy of the scene in which counted lights have only the part that a shadow leaves.
     fn without_count(&self, counted: &[&LightTerm]) -> Scene {
         let mut scene = self.scene.clone();
         for term in counted {
@@ -322,7 +322,7 @@ fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
     }
 }
 
-/// In which passes the light joins the picture.
+/// Passes in which the light joins the picture.
 fn lighting(term: &LightTerm) -> Lighting {
     term.counting.as_ref().map_or(Lighting::Added, |counting| counting.lighting)
 }
@@ -338,7 +338,7 @@ fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
 }
 
-/// Takes a part of the light's diffuse colour, after all else.
+/// Weights the light's diffuse colour.
 fn weigh(term: &mut LightTerm, weight: f32) {
     if weight < 1.0 {
         term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));

@@ -1,6 +1,6 @@
-//! The camera's projection and depth range, as what counts in the stencil buffer needs them: a far plane at infinity [GDC,
-//! "OpenGL Renders W=0 Polygons Correctly"], or a ledge before the near plane [GDC, "Building a "Ledge" at the Front of the
-//! Depth Buffer"]. Surfaces and volumes share what is chosen here, so that their depths are comparable.
+//! The camera's projection and depth range, as stencil counts need them: a far plane at infinity [GDC, "OpenGL Renders W=0
+//! Polygons Correctly"], or a ledge before the near plane [GDC, "Building a "Ledge" at the Front of the Depth Buffer"].
+//! Surfaces and volumes share what is chosen here, so that their depths are comparable.
 
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
@@ -14,19 +14,19 @@ const DEPTH_BITS: u32 = 24;
 
 /// Projection and depth ranges of the camera's picture.
 pub struct Lens {
-    /// Surfaces, and volumes on [`Layer::Scene`].
+    /// Viewer of surfaces, and of volumes on [`Layer::Scene`].
     pub camera: Viewer,
     depth_range: [f32; 2],
-    /// The far plane is at infinity.
+    /// True if the far plane is at infinity.
     infinite: bool,
-    /// The far plane does not clip; depth is clamped, of surfaces too: a triangle that is clipped here and not there has
-    /// other depths.
+    /// True if depth is clamped instead of clipped, for surfaces too: a triangle that is clipped in one pass only has other
+    /// depths.
     clamped: bool,
     ledge: Option<Ledge>,
 }
 
 impl Lens {
-    /// The scene's own.
+    /// The lens of the scene's camera.
     pub fn of_scene(scene: &Scene) -> Self {
         let camera = Viewer {
             clip_from_eye: scene.camera.clip_from_view(scene.aspect()),
@@ -35,13 +35,13 @@ impl Lens {
         Self::of_viewer(camera)
     }
 
-    /// A viewer's, for pictures in which nothing is counted.
+    /// The lens of a viewer, for pictures in which nothing is counted.
     pub fn of_viewer(camera: Viewer) -> Self {
         Self { camera, depth_range: [0.0, 1.0], infinite: false, clamped: false, ledge: None }
     }
 
-    /// A projection under which all of `countings` can be counted. Where one needs the ledge, no far plane is at infinity:
-    /// the others clamp their depth instead (see [`Lens::state`]).
+    /// A projection under which all of `countings` can be counted. If one needs the ledge, the far plane is not at
+    /// infinity: the others clamp their depth instead (see [`Lens::state`]).
     pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a Counting> + Clone) -> Self {
         let mut lens = Self::of_scene(scene);
         let camera = &scene.camera;
@@ -87,7 +87,7 @@ impl Lens {
         }
     }
 
-    /// State of a count pass: its depth range, and depth clamp where the far plane would cut what must not be cut.
+    /// State of a count pass: its depth range, and depth clamp if the far plane would cut volumes.
     pub fn state(&self, counting: &Counting, state: &DrawState, layer: Layer) -> DrawState {
         let range = |range: [f64; 2]| range.map(|depth| depth as f32);
         let depth_range = match (&self.ledge, layer) {

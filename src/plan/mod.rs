@@ -29,8 +29,8 @@ pub struct Request {
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
     /// objects out of sight, colour buffers of depth passes, maps that are there already.
     pub keep_all: bool,
-    /// True if points that the camera sees are sampled to find what the picture will show wrong, for [`Plan::warnings`].
-    /// That costs some 10 to 100 ms a light: what is planned for every frame of a window goes without.
+    /// True if points that the camera sees are sampled to find pixels that will be wrong, for [`Plan::warnings`]. That
+    /// costs some 10 to 100 ms a light: windows, which plan every frame, turn it off.
     pub sampled_warnings: bool,
     /// Limits of the driver.
     pub limits: Limits,
@@ -81,16 +81,16 @@ impl Default for Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ViewRequest {
     pub view: View,
-    /// Into the scene's lights; 0 for views of no light.
+    /// Index into the scene's lights; 0 for views of no light.
     pub light: usize,
 }
 
-/// A frame's passes, where its pictures lie, and what it leaves out.
+/// A frame's passes, its pictures' images, and what was left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     pub list: PassList,
     pub picture: ImageId,
-    /// In the request's order.
+    /// Views in the request's order.
     pub views: Vec<(ViewRequest, ImageId)>,
     pub left_out: Vec<LeftOut>,
     pub chosen: Vec<Chosen>,
@@ -99,7 +99,7 @@ pub struct Plan {
     pub maps: Vec<MapInfo>,
 }
 
-/// Why a scene cannot be planned.
+/// Reason why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]

@@ -24,8 +24,8 @@ fn draws(plan: &Plan) -> Vec<(&str, &DrawPass)> {
     draw.collect()
 }
 
-/// The slide's numbers: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC, "Building a "Ledge" at the Front of
-/// the Depth Buffer"].
+/// Numbers of the slide: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC, "Building a "Ledge" at the Front
+/// of the Depth Buffer"].
 #[test]
 fn the_talk_s_ledge_is_drawn_by_its_numbers() {
     for (ledge, [volumes, scene_near]) in

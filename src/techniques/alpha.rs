@@ -25,7 +25,7 @@ pub fn passes(item: &Item, triangle: u32, corners: &[DVec3; 3], point: DVec3) ->
     f64::from(material.opacity) * decal * alpha >= 0.5
 }
 
-/// The three of an item's triangle, into its mesh's arrays.
+/// Three vertex indices of an item's triangle, into its mesh's arrays.
 pub fn vertices(item: &Item, triangle: u32) -> [usize; 3] {
     let first = (item.indices.start + 3 * triangle) as usize;
     [0, 1, 2].map(|k| item.mesh.indices[first + k] as usize)
@@ -41,7 +41,7 @@ fn texcoord(item: &Item, vertex: usize) -> DVec2 {
     f64::from(texgen.scale) * DVec2::new(on(texgen.s), on(texgen.t))
 }
 
-/// LINEAR, as in [`super::items::ALPHA_SAMPLER`], and REPEAT or CLAMP_TO_EDGE; in [0, 1].
+/// Samples the texture with LINEAR, as in [`super::items::ALPHA_SAMPLER`], and REPEAT or CLAMP_TO_EDGE; in [0, 1].
 fn lookup(texture: &Texture, channel: usize, placement: &Placement, at: DVec2) -> f64 {
     let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
     let at = scale * at + offset;

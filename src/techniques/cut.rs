@@ -26,9 +26,9 @@ use crate::scene::{LightKind, Scene};
 /// transform, one in the distance from the plane, one in the product.
 const CLIP_ROUNDINGS: f64 = 4.0;
 
-/// Planes of clip space; what is drawn has a product >= 0 with each. A quarter beyond the sides of what is shown, so that
-/// GL has nothing to clip there, and up to the far plane. The near plane cuts nothing: a map may have to show at depth 0
-/// what lies before it.
+/// Planes of clip space; points that are kept have a product >= 0 with each. They lie a quarter beyond the visible sides,
+/// so that GL has nothing to clip there, and at the far plane. The near plane is not among them: a map may have to show
+/// casters before it, at depth 0.
 const PLANES: [DVec4; 5] = [
     DVec4::new(1.0, 0.0, 0.0, 1.25),
     DVec4::new(-1.0, 0.0, 0.0, 1.25),
@@ -41,24 +41,24 @@ const PLANES: [DVec4; 5] = [
 /// with an error that is 2^-24 of the piece's farthest end.
 const PIECE: f64 = 4.0;
 
-/// So many pieces behind one another share an origin in a map: up to [`PIECE`] to this power times as far as the nearest
-/// one, about as far as [`ORDINARY`] has it.
+/// Number of pieces behind one another that share an origin in a map: up to [`PIECE`] to this power times as far as the
+/// nearest one, about as far as [`ORDINARY`] has it.
 const SHARE_ORIGIN: usize = 2;
 
-/// Clip coordinates up to so many times w are never too large: they are those of ordinary scenes.
+/// Ratio of a clip coordinate to w that is never too large: ordinary scenes stay below it.
 const ORDINARY: f64 = 16.0;
 
-/// The same for a camera: 2^-24 of these is a ten-thousandth of what is seen, a tenth of a texel of a map that shows it.
-/// Where volumes are counted, [`ORDINARY`] holds: their sides meet the surfaces themselves, to a hundredth of a pixel.
+/// The same ratio for a camera: 2^-24 of these is a ten-thousandth of what is seen, a tenth of a texel of a map that shows
+/// it. Where volumes are counted, [`ORDINARY`] holds: their sides meet the surfaces themselves, to a hundredth of a pixel.
 const ORDINARY_FOR_CAMERA: f64 = 400.0;
 
-/// Texels a side of the map that [`ordinary_for_camera`] reckons with.
+/// Texels a side of the map that [`ordinary_for_camera`] assumes.
 const MAP_SIZE: f64 = 1024.0;
 
-/// Meshes of more triangles have small ones.
+/// Meshes of more triangles are not cut: their triangles are small.
 const MOST_TRIANGLES: u32 = 1 << 16;
 
-/// Clip coordinates up to so many times w are not too large for a camera, between [`ORDINARY`] and [`ORDINARY_FOR_CAMERA`]:
+/// Ratio of a clip coordinate to w that is not too large for a camera, between [`ORDINARY`] and [`ORDINARY_FOR_CAMERA`]:
 /// fewer where a light's near plane is so near that its map resolves few depths.
 ///
 /// The place of a fragment in a map is interpolated as (s, t, r, q). Where corners have k times the fragment's own w, r/q
@@ -88,7 +88,7 @@ pub struct Cutter {
     along: f64,
     /// The least w.
     nearest: f64,
-    /// Those of [`PLANES`] that cut.
+    /// The planes of [`PLANES`] that cut.
     planes: &'static [DVec4],
     /// The origin of all that is cut, in world space; `None`: pieces have their own.
     origin: Option<DVec3>,
@@ -125,7 +125,7 @@ impl Cutter {
         })
     }
 
-    /// All of `items`, of which those that reach too far are cut, but for those of the objects `kept`.
+    /// All of `items`. Those that reach too far are cut, except those of the objects `kept`.
     pub fn cut_all<'a>(&self, items: &'a [Item], kept: &[usize]) -> Cow<'a, [Item]> {
         let may_cut = |item: &Item| !kept.contains(&item.object);
         let cut_one = |item| if may_cut(item) { self.cut(item) } else { vec![Cow::Borrowed(item)] };
@@ -142,8 +142,7 @@ impl Cutter {
         most.max(ORDINARY * w)
     }
 
-    /// `item`, or what is shown of it where it reaches too far, nearest part first. Waves are left: the vertex stage moves
-    /// them.
+    /// `item`, or its visible pieces if it reaches too far, nearest first. Waves are not cut: the vertex stage moves them.
     pub fn cut<'a>(&self, item: &'a Item) -> Vec<Cow<'a, Item>> {
         let clip_from_model = self.clip_from_world * item.world_from_model;
         let most = self.most(self.nearest);
@@ -168,7 +167,8 @@ impl Cutter {
         cut.into_iter().map(part).collect()
     }
 
-    /// Kept as long as the mesh lives: a plan is made for every frame, and a pass that draws the same is not drawn again.
+    /// Cut meshes, kept as long as their mesh lives: a plan is made for every frame, and a pass that draws the same meshes
+    /// is not redrawn.
     fn cached(&self, item: &Item, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let key = Key {
             mesh: Arc::as_ptr(&item.mesh.0) as usize,
@@ -191,7 +191,7 @@ impl Cutter {
         cut
     }
 
-    /// The cut meshes, each about an origin of its own in the item's space; none where nothing needs to be cut, or is left.
+    /// Cut meshes, each with an origin of its own in the item's space; none if nothing needs to be cut, or nothing is left.
     fn cut_mesh(&self, item: &Item, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let mesh = &item.mesh;
         let range = item.indices.start as usize..item.indices.end as usize;
@@ -243,8 +243,8 @@ impl Cutter {
     }
 }
 
-/// A polygon by its distance: cut where w is a power of [`PIECE`] times that of the nearest point of all, at the same
-/// places in every triangle, so that neighbours share their vertices.
+/// Cuts a polygon by distance: where w is a power of [`PIECE`] times that of the nearest point of all, at the same places
+/// in every triangle, so that neighbours share their vertices.
 fn pieces(polygon: Vec<Corner>, nearest: f64) -> Vec<Vec<Corner>> {
     let mut pieces = Vec::new();
     let (mut rest, mut end) = (polygon, PIECE * nearest);

@@ -26,16 +26,16 @@ pub struct Item {
     pub bounds: Aabb,
     pub material: Arc<Material>,
     pub world_from_model: DMat4,
-    /// Moves its vertices in the vertex stage.
+    /// Wave that moves its vertices in the vertex stage.
     pub wave: Option<Wave>,
     pub lit: bool,
     pub casts_shadow: bool,
-    /// See [`crate::scene::Object::closed`]; not of what waves, whose triangles may cross.
+    /// See [`crate::scene::Object::closed`]; false for waves, whose triangles may cross.
     pub closed: bool,
 }
 
-/// The scene's items, in its order. Parts of a mesh that share a material and follow one another are one item; what
-/// the alpha test would discard whole is left out. With `moved`, vertices that a wave moves are moved already.
+/// The scene's items, in its order. Successive parts of a mesh with one material are one item. Parts that the alpha test
+/// would discard completely are left out. With `moved`, vertices that a wave moves are moved already.
 pub fn items(scene: &Scene, moved: bool) -> Vec<Item> {
     let mut materials = Materials::default();
     let mut items: Vec<Item> = Vec::new();
@@ -77,7 +77,7 @@ pub fn items(scene: &Scene, moved: bool) -> Vec<Item> {
     items
 }
 
-/// The alpha test discards what is less opaque.
+/// Alpha below which the alpha test discards.
 const OPAQUE: f32 = 0.5;
 
 /// Notes what [`items`] leaves out because the alpha test would discard all of it.

@@ -1,4 +1,4 @@
-//! A light's shadow map in numbers: what decides how far a picture may be from the truth. Lengths are in world units.
+//! A light's shadow map in numbers that bound the error of a picture. Lengths are in world units.
 
 use super::FrustumView;
 use super::projector::{Projector, Rays};
@@ -15,13 +15,13 @@ pub struct MapInfo {
     /// Index into [`crate::scene::Scene::lights`].
     pub light: usize,
     pub shape: MapShape,
-    /// Texels a side of the first level; of a cube, a side of each face.
+    /// Texels a side of the first level; for a cube, a side of each face.
     pub size: u32,
     /// Number of levels; 1 without mipmaps. A texel of level n, from 0, is 2^n times as wide as `texel`.
     pub levels: u32,
     pub format: DepthFormat,
-    /// The width of a texel along its longer side. Of a parallel map, anywhere. Of a perspective map, at a distance of 1
-    /// along its axis: at a distance d along that axis (of a cube, along the axis of the face) it is d times as wide.
+    /// The width of a texel along its longer side. For a parallel map, anywhere. For a perspective map, at a distance of 1
+    /// along its axis: at a distance d along that axis (for a cube, the face's axis) it is d times as wide.
     pub texel: f64,
     /// Reach of one lookup from its point along each axis of the map, in texels: the kernel's taps, the texels that each
     /// tap's filter weighs, and the movement of the point by a normal offset. With several levels, in texels of the first
@@ -30,7 +30,7 @@ pub struct MapInfo {
     pub bias: Bias,
     /// Faces that the map leaves out, as the light sees them.
     pub cull: Option<Face>,
-    /// The polygon offset that the map is drawn with, positive away from the light; 0 of techniques that need none.
+    /// The polygon offset that the map is drawn with, positive away from the light; 0 for techniques that need none.
     pub polygon: PolygonOffset,
     /// Movement of a receiver towards the light before it is compared, in widths of a texel at the receiver.
     pub texels: f64,
@@ -69,7 +69,7 @@ impl MapInfo {
     }
 }
 
-/// The secant of the angle between the axis and the corner of the frustum; 1 of parallel light.
+/// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
 fn slant(projector: &Projector) -> f64 {
     match projector.rays {
         Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),

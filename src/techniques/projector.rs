@@ -18,9 +18,9 @@ pub struct Projector {
 /// Position or direction of the light's rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rays {
-    /// A point; depth begins at `near`, along the map's axis.
+    /// Rays from a point; depth begins at `near`, along the map's axis.
     From { position: DVec3, near: f64 },
-    /// Infinitely far away; the way that they travel, of unit length.
+    /// Parallel rays, with the direction in which they travel, of unit length.
     Along(DVec3),
 }
 

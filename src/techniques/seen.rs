@@ -23,7 +23,7 @@ pub fn items<'a>(view: &LightView<'a>) -> impl Iterator<Item = &'a Item> {
     view.items.iter().filter(is_seen)
 }
 
-/// The camera's.
+/// The camera's `clip_from_world`.
 pub fn clip_from_world(view: &LightView<'_>) -> DMat4 {
     view.scene.camera.clip_from_view(view.scene.aspect()) * view.scene.camera.view_from_world()
 }

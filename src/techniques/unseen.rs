@@ -1,9 +1,9 @@
 //! Casters whose shadow the camera cannot see: conservative, from bounding boxes.
 //!
-//! What a box shadows are the points c + t (c - L) with c in the box, t >= 0 and L the light's position, or c + t d with
-//! the way d of parallel light. Once all eight corners have crossed one face of the scene's bounds, nothing is left to be
-//! shadowed; up to there, the hull of the corners and of where they then are holds the shadow. Where that hull, grown by
-//! what a filter can reach, lies beyond one of the camera's planes, no visible point looks the caster up.
+//! A box shadows the points c + t (c - L) with c in the box, t >= 0 and L the light's position, or c + t d with the
+//! direction d of parallel light. Once all eight corners have crossed one face of the scene's bounds, there is nothing left
+//! to shadow; up to there, the hull of the corners and their crossings holds the shadow. If that hull, grown by a filter's
+//! reach, lies beyond one of the camera's planes, no visible point looks the caster up.
 
 use glam::{DVec3, DVec4};
 
@@ -15,7 +15,7 @@ use crate::math::frustum::planes;
 /// Reach of one comparison's lookup, in texels: a linear filter's neighbour, Direct3D's half texel and rounding.
 const REACH_TEXELS: f64 = 4.0;
 
-/// Tells which casters of one light matter to the picture.
+/// Finds the casters of one light that matter to the picture.
 pub struct Unseen {
     scene_bounds: Aabb,
     rays: Rays,
@@ -53,7 +53,7 @@ impl Unseen {
         })
     }
 
-    /// Along the ray through a point, of any length.
+    /// Vector along the ray through a point, of any length.
     fn way(&self, point: DVec3) -> DVec3 {
         match self.rays {
             Rays::From { position, .. } => point - position,
@@ -68,7 +68,7 @@ impl Unseen {
         }
     }
 
-    /// Tests whether `item` is flat and nothing of the scene lies behind it: what it could shadow is itself, and that it cannot.
+    /// Tests whether `item` is flat and nothing lies behind it: it cannot shadow itself.
     pub fn shadows_nothing(&self, item: &Item) -> bool {
         let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
         let is_flat = item.bounds.flat_axis().is_some();

@@ -18,8 +18,8 @@ pub enum Extent {
     /// At infinity: far vertices are (position - light, 0), scaled by a power of two. For a directional light they are one
     /// vertex, sides are triangles and there is no far cap.
     Infinite,
-    /// C5: each vertex moved by this distance, in model units, along its own ray. Wrong by design where a shadow
-    /// reaches farther.
+    /// At a finite distance [GDC, "More Implications of Carmack's Reverse"]: each vertex moved by this distance, in model
+    /// units, along its own ray. Wrong by design where a shadow reaches farther.
     Truncated(f64),
     /// At the plane `normal · x = distance`, each vertex along its own ray; one that is beyond stays. For all points before
     /// the plane, seen from before it, the sides are those of the infinite volume. `normal` in model space, of any length,

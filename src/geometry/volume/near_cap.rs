@@ -1,5 +1,6 @@
 //! Volumes closed at the camera's near plane, for z-pass whatever the eye's place [GDC, "Near Clip Plane Capping Cases";
-//! C7]. In view space: there, points of the near plane keep all their digits however small near is.
+//! "Handling the "Hard" Near Clip Plane Capping Case"]. In view space: there, points of the near plane keep all their
+//! digits however small near is.
 
 use std::ops::Range;
 

@@ -117,8 +117,8 @@ impl NearPlane {
     }
 
     /// The direction in the plane in which the projection of the edge between two places runs to infinity, if the rays of
-    /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [C7]. The same bits whichever comes
-    /// first.
+    /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [GDC, "Handling the "Hard" Near Clip
+    /// Plane Capping Case"]. The same bits whichever comes first.
     pub fn direction_between(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::Never) != (b.stand == Stand::Never);
         parted.then(|| match self.source {

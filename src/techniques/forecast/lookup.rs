@@ -18,7 +18,7 @@ pub struct Receiver {
     pub pixel_texels: f64,
 }
 
-/// The share of the comparisons that find light, where the reference is `deeper` by so much window depth.
+/// Share of the comparisons that find light, with the reference `deeper` by so much window depth.
 pub fn lit(texels: &mut Texels<'_>, settings: &Settings, moved_texels: f64, receiver: &Receiver, deeper: f64) -> f64 {
     let mut lookup = Lookup::new(texels, settings, moved_texels, receiver);
     lookup.depth += deeper;
@@ -105,7 +105,7 @@ impl<'l, 'a> Lookup<'l, 'a> {
         lit
     }
 
-    /// 1: light, 0: shadow.
+    /// One comparison: 1 is light, 0 shadow.
     fn compare(&mut self, level: u32, here: DVec2, texel: DVec2, reference: f64) -> f64 {
         let last = f64::from(self.texels.size(level) - 1);
         if self.is_parallel && (texel.min_element() < 0.0 || texel.max_element() > last) {
@@ -133,7 +133,7 @@ fn normal_offset(texels: &Texels<'_>, settings: &Settings, point: DVec3, normal:
 
 /// Increase of a plane's window depth by a texel of level 0, along each axis of the map.
 fn slope(texels: &Texels<'_>, point: DVec3, normal: DVec3) -> DVec2 {
-    // From two steps along it: seen through a projection a plane is a plane, so that any will do.
+    // Two steps along the plane: a projection maps planes to planes, so that any two will do.
     let [right, up] = [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())];
     let length = texels.width_at(point);
     let (here, depth) = texels.place(point);

@@ -1,7 +1,8 @@
-//! Forecasts where the picture of a map is wrong, by sampling: points that the camera sees in the middles of pixels are
-//! looked up in the map as the lit pass does it, in texels that rays find (`texels.rs`, `lookup.rs`), and held against a
-//! ray to the light. Warns, with the share, where
-//! - more than [`told::MOST_WRONG`] of what the light reaches is wrong: of too few texels, or too few codes of depth;
+//! Forecasts wrong pixels of a map's picture, by sampling. Points that the camera sees in the middles of pixels are looked
+//! up in the map as in the lit pass, in texels that rays find (`texels.rs`, `lookup.rs`), and compared with a ray to the
+//! light. Warns, with the share, if
+//! - more than [`told::MOST_WRONG`] of the points that the light reaches are wrong, for too few texels or too few codes of
+//!   depth;
 //! - a point before the near plane is lit by mistake;
 //! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
 //!   or a caster that the map does not hold.
@@ -30,7 +31,7 @@ const FEWEST_PIXELS: u32 = 1000;
 /// Greatest number of points to sample first, and if any of them is wrong.
 const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
 
-/// Lengths below this share of a point's coordinates and of its distance from the eye are none.
+/// Lengths below this share of a point's coordinates and of its distance from the eye count as zero.
 const SLACK: f64 = 1e-7;
 
 /// No polygon offset.
@@ -43,11 +44,11 @@ pub struct Map<'a> {
     pub stored: Stored,
     /// Casters in the map.
     pub casters: &'a [&'a Item],
-    /// One, or a cube's six.
+    /// One projector, or a cube's six.
     pub projectors: Vec<Projector>,
 }
 
-/// Warns of what goes wrong.
+/// Warns of points that will be wrong.
 pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     if !view.sampled_warnings {
         return;
@@ -74,13 +75,13 @@ fn step(view: &LightView<'_>, most: u32) -> u32 {
 
 /// A point that the picture will show wrong.
 struct Wrong {
-    /// Lit by mistake, or dark.
+    /// True if lit by mistake, false if dark by mistake.
     is_lit: bool,
-    /// Lost by the rounding of depths and the offset's units.
+    /// True if wrong by the rounding of depths and the offset's units.
     is_rounded: bool,
-    /// Wrong although nothing changes as far as a lookup reaches.
+    /// True if wrong although nothing changes as far as a lookup reaches.
     is_even: bool,
-    /// Lit by mistake before the near plane, where a map has no depths.
+    /// True if lit by mistake before the near plane, where a map has no depths.
     is_before_near: bool,
     /// Item whose shadow is missing, or that is dark: index into the items.
     item: usize,
@@ -191,9 +192,9 @@ impl<'a> Forecast<'a> {
         Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
     }
 
-    /// Error of f32 interpolation in a point's window depth. A rasterizer finds what is interpolated from its value at the
-    /// window's origin, which lies the farther off the more steeply the camera sees the surface; of r and q, each divided
-    /// by the camera's w, both are rounded there.
+    /// Error of f32 interpolation in a point's window depth. A rasterizer extrapolates from the value at the window's
+    /// origin, which is the greater the more steeply the camera sees the surface. r and q, each divided by the camera's w,
+    /// are both rounded there.
     fn interpolation_error(&self, texels: usize, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> f64 {
         let camera = &self.view.scene.camera;
         let ahead = (camera.target - camera.eye).normalize_or_zero();
@@ -300,8 +301,8 @@ impl<'a> Forecast<'a> {
         }
     }
 
-    /// Tests whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup reaches;
-    /// or, where the map is made of far sides, nothing at all before the plane of what is seen.
+    /// Tests whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup
+    /// reaches; or, for a map of far sides, nothing at all before the plane of the seen surface.
     fn is_even(&self, way: &Way<'_>, texel: f64) -> bool {
         let Way { point: seen, slack, .. } = *way;
         let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
@@ -322,7 +323,7 @@ impl<'a> Forecast<'a> {
         for step in around {
             let across = seen.point + reach * (step.x * axes[0] + step.y * axes[1]);
             let way = to_light(across, &rays);
-            // In the seen triangle's plane, so that what lies at its depth stays there.
+            // In the seen triangle's plane, so that surfaces at its depth stay there.
             let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
             let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays);
             is_alike = is_alike && self::signature(&met, slack) == signature;
@@ -364,7 +365,7 @@ fn is_in(projector: &Projector, point: DVec3) -> bool {
 
 /// World units along the axis for one unit of window depth, at a distance along it.
 fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
-    // z = A w - B: depth is (1 + A - B / w) / 2. Of parallel light w is 1, and z linear.
+    // z = A w - B: depth is (1 + A - B / w) / 2. For parallel light w is 1, and z linear.
     match projector.rays {
         Rays::From { .. } => 2.0 * distance * distance / projector.clip_from_light.w_axis.z.abs(),
         Rays::Along(_) => 2.0 / projector.clip_from_light.z_axis.z.abs(),

@@ -33,9 +33,9 @@ pub struct Met {
     /// Parameter from the seen point towards the light, negative behind it; 1 at the light, or world units for parallel
     /// light.
     pub t: f64,
-    /// Its front looks away from the light.
+    /// True if its front looks away from the light.
     pub is_far_side: bool,
-    /// It is the seen triangle itself.
+    /// True if it is the seen triangle itself.
     pub is_own: bool,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Items<'a> {
         Self { boxes: Boxes::new(placed.iter().map(bounds)), placed }
     }
 
-    /// Calls `look` with all that a ray of world space crosses, and of which item, holes left out.
+    /// Calls `look` with every crossing of a ray in world space, and its item; holes are left out.
     pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(usize, Crossing)) {
         self.boxes.met(ray, |index| {
             let index = index as usize;
@@ -78,7 +78,7 @@ fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
 }
 
 impl Placed<'_> {
-    /// Calls `look` with all that a ray of world space crosses, holes left out.
+    /// Calls `look` with every crossing of a ray in world space; holes are left out.
     fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
         let origin = self.model_from_world.transform_point3(ray.origin);
         let ray = Ray { origin, way: self.model_from_world.transform_vector3(ray.way), ..*ray };
@@ -133,7 +133,7 @@ pub fn on_the_way(items: &Items<'_>, seen: &Seen, behind: f64, rays: &Rays) -> V
     items.crossings(&ray, |item, met| {
         if items.placed[item].item.casts_shadow {
             let is_own = (item, met.triangle) == (seen.item, seen.triangle);
-            // The ray runs to the light: what it meets from the front looks away from it.
+            // The ray runs to the light: a surface that it meets from the front looks away from the light.
             all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
         }
     });

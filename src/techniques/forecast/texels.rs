@@ -20,8 +20,8 @@ use crate::techniques::shadow_map::term::raster_from_clip;
 pub enum Stored {
     /// The nearest face of a caster, under the map's polygon offset.
     Nearest,
-    /// The middle between the nearest caster and what lies next behind it by more than `margin`, casters or not; `alone`
-    /// where nothing does.
+    /// The middle between the nearest caster and the next surface more than `margin` behind it, caster or not; `alone` if
+    /// there is none.
     Middle { margin: f64, eye_linear: bool, alone: Alone },
 }
 
@@ -113,7 +113,7 @@ impl<'a> Texels<'a> {
         let ray = self.ray(level, center);
         let layers = self.layers(&ray);
         let casting = || layers.iter().filter(|layer| layer.casts);
-        // The depth test compares what the offset has moved, and GL_DEPTH_CLAMP clamps that [GL 4.6, 14.6.5 and 17.3.4].
+        // The depth test compares depths after the offset, and GL_DEPTH_CLAMP clamps those [GL 4.6, 14.6.5 and 17.3.4].
         let moved = || casting().map(|layer| layer.depth + self.moved(level, center, layer)).fold(1.0, f64::min);
         match self.stored {
             Stored::Nearest => moved(),
@@ -146,7 +146,7 @@ impl<'a> Texels<'a> {
         0.5 + 0.5 * if matches!(self.projector.rays, Rays::From { .. }) { z / distance } else { z }
     }
 
-    /// The other way around.
+    /// The distance along the axis at a window depth.
     fn distance(&self, depth: f64) -> f64 {
         let clip = self.projector.clip_from_light;
         let z = 2.0 * depth - 1.0;
@@ -193,7 +193,7 @@ impl<'a> Texels<'a> {
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
         self.items.crossings(ray, |item, met| {
             let casts = self.casts[item];
-            // The ray runs away from the light: what it meets from behind looks away from it.
+            // The ray runs away from the light: a surface that it meets from behind looks away from the light.
             if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
                 let depth = self.depth_along(met.t);
                 layers.push(Layer { depth, item, triangle: met.triangle, casts });

@@ -7,8 +7,8 @@ use crate::pass::DepthFormat;
 use crate::techniques::Notes;
 use crate::techniques::projector::Rays;
 
-/// The greatest share of the points in the light's reach that may be wrong without a warning. A picture with more than 1.5 %
-/// is too coarse; a forecast is off by up to 0.2 points and 10 %, so that 1.5 % may be foretold as 1.18 %.
+/// The greatest share of the points in the light's reach that may be wrong without a warning. A picture with more than 1.5
+/// % is too coarse; a forecast is off by up to 0.2 points and 10 %, so that 1.5 % may be forecast as 1.18 %.
 pub const MOST_WRONG: f64 = 0.0118;
 
 /// Adds every warning.
@@ -24,7 +24,7 @@ impl Forecast<'_> {
         100.0 * count as f64 / f64::from(self.reached.max(1))
     }
 
-    /// Tells of too many wrong points.
+    /// Warns of too many wrong points.
     fn warn_of_share(&self, notes: &mut Notes) {
         let pixels = self.reached.saturating_mul(self.step.pow(2));
         if pixels < FEWEST_PIXELS || self.wrong.len() as f64 <= MOST_WRONG * f64::from(self.reached) {
@@ -60,7 +60,7 @@ impl Forecast<'_> {
             .push(format!("light {index}: about {percent:.1} % of what it reaches gets the wrong shade: {why}"));
     }
 
-    /// Tells of points before the near plane.
+    /// Warns of points before the near plane.
     fn warn_of_near(&self, notes: &mut Notes) {
         let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near);
         let (Rays::From { near, .. }, Some(first)) = (self.rays(), before().next()) else { return };
@@ -73,7 +73,7 @@ impl Forecast<'_> {
         ));
     }
 
-    /// Tells of points that are wrong for no edge of a shadow, item by item.
+    /// Warns of points that are wrong away from any shadow edge, item by item.
     fn warn_of_even(&self, notes: &mut Notes) {
         let mut counts: BTreeMap<(usize, bool), usize> = BTreeMap::new();
         for wrong in self.wrong.iter().filter(|wrong| wrong.is_even) {

@@ -1,5 +1,5 @@
-//! Wire frames of lights' frusta, as in the sample program hw_shadowmaps_simple [a cube mapped through the inverse light
-//! projection]. They are drawn over the finished surfaces, hidden by them, and leave their depth as it is.
+//! Wire frames of lights' frusta, as in the sample program hw_shadowmaps_simple: a cube mapped through the inverse light
+//! projection. They are drawn over the finished surfaces, hidden by them, and leave their depth as it is.
 
 use std::sync::Arc;
 

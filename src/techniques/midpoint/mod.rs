@@ -6,16 +6,16 @@
 //! caster's thickness before what it is compared with, and no polygon offset is needed.
 //!
 //! # Pitfalls that [HSM] does not mention
-//! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer lies
+//! - A depth is rounded when it is stored, but the compared depth is not [GL 4.6, 8.23.1]: half of a first layer lies
 //!   behind itself. So it is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
 //!   rounding reaches: nor that by which two triangles in one plane differ.
 //! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
-//!   `tests/layers.rs`) and costs nothing. It is right where all that can be shadowed is a layer, so that the second one
-//!   has what casts no shadow too, and both are drawn under GL_DEPTH_CLAMP where something lies beyond the far plane:
-//!   it is then a second layer at depth 1. What casts nothing is never a first layer: before the nearest caster it is
-//!   peeled away with it, and lit.
-//! - A caster that a plain map leaves out because nothing that it shadows is seen may be the second layer of one that
-//!   it does not: see [`second::needed`].
+//!   `tests/layers.rs`) and costs nothing. It is right if everything that can be shadowed is a layer. So the second layer
+//!   has objects that cast no shadow, too. If something lies beyond the far plane, both are drawn under GL_DEPTH_CLAMP: it
+//!   is then a second layer at depth 1. An object that casts nothing is never a first layer: before the nearest caster it
+//!   is peeled away with it, and lit.
+//! - A caster whose shadow is not seen is left out of a plain map, but may be the second layer of another caster: see
+//!   [`second::needed`].
 
 mod second;
 mod settings;
@@ -39,7 +39,8 @@ pub struct Midpoint;
 
 const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
 
-/// [HSM, "Advantages and Limitations"]. The edge band is counted apart, because at a caster's rim its two layers meet.
+/// Claims of [HSM, "Advantages and Limitations"]. The edge band is counted apart, because at a caster's rim its two layers
+/// meet.
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {

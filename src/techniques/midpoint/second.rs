@@ -54,23 +54,23 @@ pub struct Shared<'a> {
 pub struct Drawn<'a> {
     /// Items drawn under the scissor of all such texels.
     pub whole: Vec<&'a Item>,
-    /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
-    /// on.
+    /// Flat items, each under the scissors of the items that it may share texels with: for example a large floor with many
+    /// small objects on it.
     pub in_parts: Vec<InParts<'a>>,
 }
 
 /// Items of the two layers.
 pub struct Layers<'a> {
-    /// Drawn into both.
+    /// Items drawn into both layers.
     pub casters: Vec<&'a Item>,
-    /// Drawn into the second alone, before which the middle must lie: what casts no shadow but may be shadowed, and what
-    /// lies beyond the light's far plane, where it is all of one depth.
+    /// Items drawn into the second layer only, before which the middle must lie: items that cast no shadow but may be
+    /// shadowed, and items beyond the light's far plane, all at one depth.
     pub receivers: Vec<&'a Item>,
-    /// Something lies beyond the far plane: its name. Without clipping it is a second layer at depth 1.
+    /// Name of an item beyond the far plane, if there is one. Without clipping it is a second layer at depth 1.
     pub beyond_far: Option<String>,
 }
 
-/// Sorts out what the light meets.
+/// Sorts the items that the light meets into layers.
 pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
     let clip_from_world = view.clip_from_world();
     let (mut casters, mut receivers, mut beyond_far) = (Vec::new(), Vec::new(), None);
@@ -96,14 +96,14 @@ pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
     Layers { casters, receivers, beyond_far }
 }
 
-/// More triangles are not drawn again and again to spare texels.
+/// Most triangles of an item that is drawn several times to save texels.
 const MOST_TRIANGLES: usize = 4096;
 
-/// The casters without those that no texel needs which is looked up: the camera sees nothing that they shadow, and they
-/// are the second layer of no caster whose shadow it sees.
+/// The casters that some visible texel needs: those whose shadow the camera sees, and those that are the second layer of
+/// such a caster.
 ///
-/// Where such a one is the first layer, nothing that is seen lies behind it, and without it the middle only moves away
-/// from what lies before it.
+/// If another caster is the first layer, nothing visible lies behind it, and without it the middle only moves away from
+/// surfaces before it.
 pub fn needed<'a>(
     view: &FrustumView<'_>,
     casters: Vec<&'a Item>,
@@ -175,9 +175,9 @@ fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
 
 /// Finds the texels that two layers may share.
 ///
-/// A flat caster is one layer: it shares texels with others alone. (Triangles of one plane that cover one another count
-/// as one too: nothing lies between them, and what holds their depths apart is rounding.) What casts nothing is never the
-/// first of two, and shares texels with casters alone.
+/// A flat caster is one layer: it shares texels only with others. (Overlapping triangles of one plane count as one layer,
+/// too: only rounding separates their depths.) An item that casts nothing is never the first of two, and shares texels only
+/// with casters.
 pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: &Settings) -> Shared<'a> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
     let covered = |items: &[&'a Item]| -> Vec<Rectangle> {
@@ -202,7 +202,7 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
 }
 
 impl<'a> Drawn<'a> {
-    /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
+    /// Adds rectangles that cover `own` where it meets `others`; returns a rectangle around all these places.
     fn share<'r>(&mut self, item: &'a Item, own: &Rectangle, others: impl Iterator<Item = &'r Rectangle>) -> Rectangle {
         let parts: Vec<Rectangle> = others.map(|other| own.within(*other)).filter(|part| part.area() > 0).collect();
         let together = parts.iter().fold(Rectangle::NOTHING, |sum, part| sum.with(*part));

@@ -17,9 +17,9 @@ pub enum Average {
 /// Value of a texel with only one layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Single {
-    /// That layer: it shades itself as a map without polygon offset does.
+    /// That layer: it shades itself like a map without polygon offset.
     First,
-    /// The far plane: it shades nothing. Right where all that can be seen behind a caster is a layer too, as it is here.
+    /// The far plane: it shades nothing. Right, because everything that can be seen behind a caster is a layer, too.
     Far,
     /// That layer under the polygon offset of an ordinary map.
     FirstOffset,

@@ -22,7 +22,7 @@ pub struct SecondDepth;
 
 const BARE: Contender = Contender::Keys("technique = \"second-depth\", closed = \"assume\"");
 
-/// [HSM, "Advantages and Limitations"].
+/// Claims of [HSM, "Advantages and Limitations"].
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {
@@ -111,7 +111,7 @@ impl Technique for SecondDepth {
     }
 }
 
-/// The map's keys, with the faces towards the light left out, and whether casters are taken to be closed unseen.
+/// The map's keys, with the faces towards the light left out, and whether casters are assumed to be closed.
 fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     let is_assumed = keys.choice("closed", &[("assume", true), ("check", false)])?.unwrap_or(false);
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))

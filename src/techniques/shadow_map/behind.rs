@@ -39,8 +39,7 @@ fn anything_behind(view: &LightView<'_>, term: &LightTerm) -> bool {
     })
 }
 
-/// Counted behind what is seen (z-fail), so that the eye may be in the volume; its end is at infinity, and so is the far
-/// plane.
+/// The count of the volume by z-fail, so that the eye may be in it; its end is at infinity, and so is the far plane.
 fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
     let ops = |depth_fail| StencilOps { depth_fail, ..StencilOps::KEEP };
     let stencil = Stencil {
@@ -74,8 +73,8 @@ fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
     }
 }
 
-/// A little wider than what is lit by mistake, so that no rounding of a depth shows at its sides: they meet what the
-/// light reaches in one point alone, the light itself.
+/// Factor by which the volume is wider than the wrongly lit region, so that rounding of depths does not show at its sides:
+/// they meet the light's reach only at the light itself.
 const WIDER: f64 = 1.02;
 
 /// The pyramid with its tip in the light and its base at infinity behind it, in the light's space, faces outwards.

@@ -7,7 +7,7 @@ use crate::techniques::projector::Rays;
 use crate::techniques::unseen::Unseen;
 use crate::techniques::{FrustumView, Item, LightView, Notes};
 
-/// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
+/// Items that can block light inside its frustum, and whose shadow can be seen.
 pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
     let mut casters = in_frustum(view, notes);
     if !view.shown_whole && !view.keep_all {
@@ -34,7 +34,7 @@ pub fn reach(settings: &Settings) -> f64 {
     }
 }
 
-/// The items that can stand in the light's way inside its frustum's sides, up to its far plane.
+/// Items that can block light inside its frustum's sides, up to its far plane.
 pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
     let mut casters = Vec::new();
     for item in view.items {
@@ -55,7 +55,7 @@ pub fn may_cast(view: &FrustumView<'_>, item: &Item) -> bool {
     frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
 }
 
-/// Tests whether some of the item may lie between the light and its near plane. Parallel light has none.
+/// Tests whether some of the item may lie between the light and its near plane. Parallel light has no near plane.
 pub fn is_before_near(view: &FrustumView<'_>, item: &Item) -> bool {
     let Rays::From { .. } = view.projector.rays else { return false };
     frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)

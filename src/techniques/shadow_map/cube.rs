@@ -1,8 +1,8 @@
 //! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [HSM, "Advantages and
 //! Limitations"].
 //!
-//! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are
-//! cleared to, so that what looks it up, or reaches into it across a seam, is lit.
+//! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are cleared
+//! to, so that lookups in it, or into it across a seam, find light.
 
 use glam::{DMat4, DVec3, Vec2};
 
@@ -48,7 +48,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
     }
 }
 
-/// Adds the passes of the faces that are needed, and says how the cube is looked up.
+/// Adds the passes of the faces that are needed, and returns the light term.
 pub fn describe(
     view: &LightView<'_>,
     point: &Point,
@@ -144,7 +144,7 @@ fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
         CubeFace::NegativeZ => (-DVec3::Z, -DVec3::Y),
     };
     let Point { position, near, far, .. } = *point;
-    // So far away that the target's coordinates round to another point, on the axis still.
+    // A target so far away that its coordinates may round, but stay on the axis.
     let target = position + direction * position.abs().max_element().max(1.0);
     Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
 }
@@ -236,7 +236,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
         term.defines.push(format!("SEAMS_{index}"));
-        // That much of the seam, of a face of 2; rounding may bring a lookup nearer.
+        // Width of the seam, for a face of side 2; rounding may bring a lookup nearer.
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
@@ -249,8 +249,8 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     term
 }
 
-/// `r = x - y / depth`, by every face's projection `z / w = a - b / depth`, with what is compared moved towards the light
-/// (see [`bias::moved_to_light`]), and by `S`.
+/// `r = x - y / depth`, by every face's projection `z / w = a - b / depth`, with receivers moved towards the light (see
+/// [`bias::moved_to_light`]), and by `S`.
 fn face_depth(point: &Point, settings: &Settings) -> Vec2 {
     let Point { near, far, .. } = *point;
     let (a, b) = ((far + near) / (far - near), 2.0 * far * near / (far - near));

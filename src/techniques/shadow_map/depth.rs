@@ -21,7 +21,7 @@ pub struct Layer<'a> {
     pub name: &'static str,
     /// Name of the image, after the light's number.
     pub image: &'static str,
-    /// `None`: the depth of a fragment is written, and that is all.
+    /// Ending of the fragments; `None`: they write their depth only.
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
@@ -30,15 +30,15 @@ pub struct Layer<'a> {
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
     pub casters: &'a [&'a Item],
-    /// Casters that are drawn in parts of these texels alone, once in each.
+    /// Casters that are drawn only in parts of these texels, once in each.
     pub in_parts: &'a [InParts<'a>],
-    /// Drawn after them, both faces whatever the map leaves out: what casts nothing.
+    /// Items that cast nothing, drawn after the casters with both faces, whichever faces the map leaves out.
     pub receivers: &'a [&'a Item],
     pub receivers_in_parts: &'a [InParts<'a>],
 }
 
 impl<'a> Layer<'a> {
-    /// The depth of `casters`, all over the map.
+    /// A layer of the depth of `casters`, all over the map.
     pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Item]) -> Self {
         Self {
             name,
@@ -65,7 +65,7 @@ pub struct InParts<'a> {
 #[derive(Clone)]
 pub struct Ending {
     pub label: &'static str,
-    /// Has `main`.
+    /// Chunk with `main`.
     pub fragment: Chunk,
     pub defines: Vec<&'static str>,
     pub uniforms: Vec<Uniform>,
@@ -127,12 +127,12 @@ pub fn draw(
     map
 }
 
-/// Raster, crop, and the light's own clip space.
+/// Product of raster, crop, and the light's clip space.
 pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
     raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
-/// An image of the map's size and format. A depth buffer that is copied is sized always: an unsized texture is to follow it.
+/// An image of the map's size and format. A depth buffer that is copied is always sized: an unsized texture must follow it.
 pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
     let is_unsized = settings.is_unsized && storage != Storage::Renderbuffer;
     let format = if is_unsized { Format::UnsizedDepth } else { Format::Depth(settings.format) };
@@ -160,8 +160,8 @@ fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Item
 
 /// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
 ///
-/// GL adds the offset before it clamps [GL 4.6, 14.6.5 and 17.3.4]: an offset away from the light moves what lies before
-/// the near plane by as much as any other, and only what is then still before it to the plane.
+/// GL adds the offset before it clamps [GL 4.6, 14.6.5 and 17.3.4]: an offset away from the light moves casters before the
+/// near plane like any other, and only those still before it are then clamped to the plane.
 pub fn state(
     settings: &Settings,
     PolygonOffset { factor, units }: PolygonOffset,
@@ -185,12 +185,12 @@ pub fn state(
     }
 }
 
-/// The greatest depth that is drawn where what is cleared must lie behind it: two codes of 16 bits before 1.
+/// Greatest depth to draw if the cleared depth must lie behind it: two codes of 16 bits before 1.
 const LAST: f64 = 1.0 - 1.0 / 32_768.0;
 
-/// Tests whether an offset could move what is drawn to the depth that the map is cleared to, although what it shadows lies behind:
-/// what lies beyond the box of parallel light is compared at depth 1, and would be lit through it. A steep side's offset has no
-/// bound. What lies beyond the box itself must still be clipped.
+/// Tests whether an offset could move a caster to the depth that the map is cleared to. Points beyond the box of parallel
+/// light are compared at depth 1, and would be lit through it. A steep side's offset has no bound. Casters beyond the box
+/// itself must still be clipped.
 fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {
     let PolygonOffset { factor, units } = layer.offset;
     let clip_from_world = map_clip_from_world(view, settings);
@@ -212,13 +212,13 @@ fn before_cleared(state: DrawState) -> DrawState {
     DrawState { depth_clamp: true, depth_range: [near, last], ..state }
 }
 
-/// Clip space whose depths under the shorter range are what they were.
+/// Matrix in clip space that makes up for the shorter range, so that depths stay what they were.
 fn depths_kept() -> DMat4 {
     let longer = LAST.recip();
     DMat4::from_translation(DVec3::new(0.0, 0.0, longer - 1.0)) * DMat4::from_scale(DVec3::new(1.0, 1.0, longer))
 }
 
-/// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
+/// The casters in as few batches as their alpha tests allow, with the layer's ending.
 pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
     let clip_from_world = map_clip_from_world(view, settings);
     let clip_from_world =

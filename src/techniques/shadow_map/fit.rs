@@ -1,8 +1,8 @@
-//! The part of a light's frustum that its map needs to cover: what holds casters, and of that what is seen in the light
-//! (`fit`). The light's own reach stays what it is; only texels are moved to where they are looked at.
+//! The part of a light's frustum that its map must cover (`fit`): the part that holds casters, or of that the part that is
+//! lit and seen. The light's reach stays the same; only the texels are placed where they are used.
 //!
-//! What is looked up beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE), which lie a filter's reach
-//! away from every caster and hold nothing; or else nothing that is seen lies there, or no light does.
+//! A lookup beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE). They lie more than a filter's reach from
+//! every caster and hold nothing, or nothing visible and lit lies there.
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
 
@@ -30,12 +30,12 @@ impl Crop {
         0.5 * (self.min + self.max)
     }
 
-    /// The light's normalised device coordinates of those over the map.
+    /// Converts the map's normalised device coordinates to the light's.
     pub fn light_clip(&self, map: DVec2) -> DVec2 {
         self.center() + self.half() * map
     }
 
-    /// Half its size; (1, 1) of the whole.
+    /// Half its size; (1, 1) for the whole.
     pub fn half(&self) -> DVec2 {
         0.5 * (self.max - self.min)
     }
@@ -52,7 +52,7 @@ impl Crop {
         self.min.cmpge(self.max).any()
     }
 
-    /// The map's clip space from the light's.
+    /// Matrix from the light's clip space to the map's.
     pub fn map_clip_from_light_clip(&self) -> DMat4 {
         DMat4::from_scale(self.half().recip().extend(1.0)) * DMat4::from_translation(-self.center().extend(0.0))
     }
@@ -64,11 +64,11 @@ impl Crop {
     }
 }
 
-/// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
-/// frustum the map covers.
+/// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
+/// covers.
 pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
-    // A map of one side's faces needs closed casters: what shadows nothing need not be one.
+    // A map of one side's faces needs closed casters; a caster that shadows nothing need not be closed.
     if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {
         return Crop::WHOLE;
     }
@@ -98,7 +98,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Setting
     fitted
 }
 
-/// Around every caster in the frustum, so that what else is left out moves no texel.
+/// A crop around every caster in the frustum, so that leaving items out moves no texel.
 fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     let clip_from_world = view.clip_from_world();
     let mut crop = Crop::NOTHING;
@@ -118,7 +118,7 @@ fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     crop.within(Crop::WHOLE)
 }
 
-/// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
+/// A crop around the lit part of the scene's bounds that the camera sees. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
 fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera = &view.scene.camera;
@@ -134,7 +134,7 @@ fn of_sight(view: &FrustumView<'_>) -> Crop {
     let slack = DVec3::splat(1e-6 * bounds.radius());
     let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
     let light_clip = view.clip_from_world();
-    // The light's sides alone: it lights from its very position on.
+    // Only the light's sides: it lights everything from its position on.
     let light_sides: Vec<DVec4> = frustum::planes(&light_clip)[..4].to_vec();
     let camera_sides = frustum::planes(&camera_clip);
     let bounds_sides = sides(&bounds);
@@ -146,7 +146,7 @@ fn of_sight(view: &FrustumView<'_>) -> Crop {
             let clipped = others.iter().chain(&light_sides).fold(face.to_vec(), |face, side| clip_polygon(&face, side));
             for point in clipped {
                 let clip = light_clip * point.extend(1.0);
-                // All sides of the light meet in its position: there, any direction may be meant.
+                // All sides of the light meet at its position, where the direction is undefined.
                 if clip.w <= 0.0 {
                     return Crop::WHOLE;
                 }

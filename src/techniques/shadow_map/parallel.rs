@@ -1,13 +1,13 @@
-//! The map of a directional light: an orthographic box around what casts, as far as something lies behind it that it can
-//! shadow [HSM, "How To Do It"]. The box depends on the scene alone, never on the camera.
+//! The map of a directional light: an orthographic box around the casters that have something behind them to shadow [HSM,
+//! "How To Do It"]. The box depends on the scene alone, never on the camera.
 //!
-//! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's
-//! width is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light
-//! the box holds the casters; what lies behind them all is compared at depth 1, and is behind all the same.
+//! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's width
+//! is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light the box
+//! holds the casters; receivers behind them all are compared at depth 1, which is still behind.
 //!
 //! Nothing outside the box is shadowed, and no shader has to test it: lookups there meet the texels at the rim
-//! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end, and where the box ends before its casters do, nothing
-//! beyond lies behind them.
+//! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end. Where the box ends before its casters, nothing lies behind
+//! them there.
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -27,7 +27,7 @@ const STEPS: f64 = 8.0;
 ///
 /// # Errors
 ///
-/// Levels of which one reaches across the whole, or a map too small for its own rim.
+/// Mipmaps, of which one level would reach across the whole map, or a map too small for its own rim.
 pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
     if settings.mipmaps == Mipmaps::All {
         return Err(keys.error(
@@ -75,8 +75,8 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
     Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
 }
 
-/// Around every caster as far as other items, or itself where it is not flat, reach behind it; in light space, where z
-/// falls along the rays. In z, around the whole of these casters.
+/// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
+/// bounds of these casters as a whole; z falls along the rays.
 fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
@@ -96,7 +96,7 @@ fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
     (!needed.is_empty() && needed.min.is_finite() && needed.max.is_finite()).then_some(needed)
 }
 
-/// A box deeper than so many times its width may be deep for what lies beside it.
+/// Ratio of depth to width above which a box may be deep only because of items beside it.
 const DEEP: f64 = 16.0;
 
 /// Margin within which casters are examined, as a share of the longer side.
@@ -141,14 +141,14 @@ fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
     let reach = needed.min.abs().max(needed.max.abs()).max_element();
     let least = (1e-3 * extent.max_element()).max(1e-5 * reach).max(f64::MIN_POSITIVE);
     let axis = |min: f64, extent: f64| {
-        // One texel more for the place of the first on the grid.
+        // One more texel for the place of the first on the grid.
         let texel = extent.max(least) / (size - 2.0 * rim - 1.0);
         let texel = ((texel.log2() * STEPS).ceil() / STEPS).exp2();
         let start = ((min / texel).floor() - rim) * texel;
         (start, start + size * texel)
     };
     let (x, y) = (axis(needed.min.x, extent.x), axis(needed.min.y, extent.y));
-    // Room for the offset of the farthest caster, which must not reach what is cleared.
+    // Room for the offset of the farthest caster, which must not reach the cleared depth.
     let room = (extent.z / 16.0).max(least);
     (DVec3::new(x.0, y.0, needed.min.z - room), DVec3::new(x.1, y.1, needed.max.z + room))
 }

@@ -10,7 +10,7 @@ use crate::techniques::guard::Guard;
 /// Way in which the depth texture gets its texels [HSM, "Why Is Polygon Offset Needed?"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// Drawn into directly.
+    /// The texture is drawn into directly.
     Fbo,
     /// glCopyTexSubImage2D from a framebuffer of the map's size.
     Copy,
@@ -29,17 +29,17 @@ pub enum Order {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Addressing {
     OpenGl,
-    /// Pixel centres at integers, rows from the top, depth in integer units. Texel centres lie at halves there, so that half
-    /// a texel must be made up for.
+    /// Pixel centres at integers, rows from the top, depth in integer units. Texel centres lie at halves there, so that
+    /// half a texel must be compensated.
     Direct3d(HalfTexel),
 }
 
 /// Compensation for Direct3D's half texel [HSM, "Direct3D API Details"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HalfTexel {
-    /// In the texture matrix, when the map is addressed.
+    /// Half a texel in the texture matrix, when the map is addressed.
     Matrix,
-    /// In the viewport, when the map is drawn.
+    /// Half a texel in the viewport, when the map is drawn.
     Viewport,
 }
 
@@ -97,7 +97,7 @@ pub enum Outcome {
     Tag,
 }
 
-/// Everything that decides how a map is drawn and compared.
+/// Settings of a map: how it is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Texels a side.
@@ -109,7 +109,7 @@ pub struct Settings {
     pub transfer: Transfer,
     pub filter: Filter,
     pub order: Order,
-    /// `None`: see [`super::bias`].
+    /// The offset as written; `None`: the default of [`super::bias`].
     pub offset: Option<Offset>,
     pub bias: Bias,
     /// Comparisons a side, 1..=7.

@@ -1,7 +1,7 @@
 //! The comparison's result as a tag in the stencil buffer, for later passes [LEC, "Combining Shadow Mapping with other
 //! Techniques"]. A tag is one bit: a filtered shade of one half or more is lit. As many pixels are on the wrong side of one
-//! half as a shader leaves there; the root mean square error of GL_LINEAR grows by a tenth (`glumbra report` on teapot.toml
-//! and main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
+//! half as with a shader; the root mean square error of GL_LINEAR grows by a tenth (`glumbra report` on teapot.toml and
+//! main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
@@ -14,7 +14,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
     if settings.into == Outcome::Shade {
         return None;
     }
-    // Not a count: of surfaces that tie each may be tagged.
+    // This replaces, and does not count: where surfaces tie, each may be tagged.
     let tag = StencilOps { pass: StencilOp::Replace, ..StencilOps::KEEP };
     let stencil =
         Stencil { test: Compare::Always, reference: 1, read_mask: 0xFF, write_mask: 0xFF, front: tag, back: tag };

@@ -81,7 +81,7 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
     }
 }
 
-/// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
+/// Chooses the shader of a kernel, or of a bias in the comparison. One comparison needs only the plain shader.
 fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
     if settings.mipmaps != Mipmaps::None {
@@ -132,7 +132,7 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
     if settings.bias != Bias::Offset {
         term.defines.push(format!("DERIVATIVES_{index}"));
     }
-    // These clamp the reference themselves, whatever the format.
+    // These shaders clamp the reference themselves, whatever the format.
     if settings.bias != Bias::Offset {
         term.defines.retain(|name| !name.starts_with("CLAMP_REFERENCE"));
     }
@@ -159,7 +159,7 @@ pub fn texture_from_light_clip(settings: &Settings) -> DMat4 {
     mirrored * texture
 }
 
-/// The half texel of the texture matrix, of [0, 1].
+/// Half a texel in the texture matrix, as a share of [0, 1].
 fn matrix_half_texel(way: HalfTexel, settings: &Settings) -> f64 {
     match way {
         HalfTexel::Matrix => 0.5 / f64::from(settings.size),

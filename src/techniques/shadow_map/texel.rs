@@ -9,10 +9,10 @@ use crate::pass::MeshRef;
 use crate::techniques::projector::Rays;
 use crate::techniques::{FrustumView, Item, Notes};
 
-/// Fewer triangles are not worth looking at.
+/// Fewest triangles that are worth simplifying.
 const FEWEST: u32 = 200;
 
-/// `casters` with fewer triangles, where that moves their surface by less than half a texel.
+/// `casters` with fewer triangles, if that moves their surface by less than half a texel.
 pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings, notes: &mut Notes) -> Vec<Item> {
     let of = |item: &&Item| {
         let mut item = (*item).clone();
@@ -41,10 +41,10 @@ pub fn simplified(view: &FrustumView<'_>, casters: &[&Item], settings: &Settings
     casters.iter().map(of).collect()
 }
 
-/// An eleventh of a texel by quadrics, which take the mean of what bends: a sixth of one at most places. A silhouette
-/// that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's hundred models had
-/// 0.037 points more of wrong pixels than full ones, with this 0.007 (`ci/bench --techniques --scene s2 --only resolution`).
-/// In the item's own units: of the texels that it meets, those nearest to the light are the smallest.
+/// Greatest error: an eleventh of a texel by quadrics, which average over curved parts; at most places that is below a
+/// sixth. A silhouette that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's
+/// hundred models had 0.037 percentage points more wrong pixels than full ones, with this 0.007 (`ci/bench --techniques
+/// --scene s2 --only resolution`). In the item's own units, for the smallest texels that it meets, nearest to the light.
 fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f64 {
     let projector = &view.projector;
     let light_from_model = projector.light_from_world * item.world_from_model;
@@ -60,7 +60,7 @@ fn allowed_error(view: &FrustumView<'_>, item: &Item, settings: &Settings) -> f6
 }
 
 /// A simplified range of a mesh and the exponent of its error, kept as long as the mesh lives: a plan is made for every
-/// frame, and the same caster stands in many places.
+/// frame, and the same caster may occur many times.
 struct Entry {
     source: Weak<Mesh>,
     indices: std::ops::Range<u32>,
@@ -70,7 +70,7 @@ struct Entry {
 
 static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
-/// With the error rounded down to a power of two, so that casters at all distances share a few meshes.
+/// A simplified mesh. The error is rounded down to a power of two, so that casters at all distances share a few meshes.
 fn cached(item: &Item, error: f64) -> Arc<Mesh> {
     let exponent = error.log2().floor().clamp(-120.0, 120.0) as i32;
     let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -19,7 +19,7 @@ pub struct Casting {
     pub world_from_model: DMat4,
     /// Bounds in model space, of the parts that cast.
     pub bounds: Aabb,
-    /// Some of its surface is cut out by the alpha test; its volume is not.
+    /// True if the alpha test makes holes in its surface; its volume has none.
     pub has_holes: bool,
 }
 

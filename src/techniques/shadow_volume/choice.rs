@@ -21,7 +21,7 @@ pub enum Way {
     ZFailTruncated,
 }
 
-/// One way for each caster.
+/// Chooses a way for each caster.
 pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, notes: &mut Notes) -> Vec<Way> {
     let camera = &view.scene.camera;
     let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();

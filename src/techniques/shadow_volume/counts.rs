@@ -8,12 +8,11 @@ use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::techniques::LightView;
 use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
-/// The passes for all shapes, way by way. Sums modulo 256 do not care for their order; where counts stop at 0, all that
+/// The passes for all shapes, way by way. Sums modulo 256 do not depend on the order; if counts stop at 0, all passes that
 /// count up come before all that count down.
 ///
-/// A pass for one face keeps what the other finds, and culls none: of a side narrower than GL's own rounding llvmpipe
-/// culls by the area of the vertices as they are, and counts by that of the rounded ones. A face that a culling pass
-/// takes for the other one would be counted by neither pass.
+/// A pass for one face has KEEP for the other, and culls none. llvmpipe culls by the area of the unrounded vertices, but
+/// counts by that of the rounded ones. With culling, a side narrower than that rounding could be counted by neither pass.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
     let label = |what: &str| format!("light {}: {what}", view.index);
     let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };

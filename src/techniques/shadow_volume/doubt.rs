@@ -1,5 +1,5 @@
-//! Warnings of counts that cannot be right. What is seen is sampled, and the count that the settings lead to is held
-//! against whether the light reaches it.
+//! Warnings of counts that cannot be right. Visible points are sampled, and the count by these settings is compared with a
+//! ray to the light.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -28,7 +28,7 @@ enum Fault {
     TooMany,
 }
 
-/// Says why pixels will be wrong, where a sample finds some. Nothing is sampled where nothing can be.
+/// Warns if a sample finds wrong pixels, with the reason. Nothing is sampled if nothing can be wrong.
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
@@ -54,7 +54,7 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
         let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
             let beside = world.at(place + by);
             beside.is_some_and(|beside| {
-                // Dark on both sides of another volume's edge, of which one is lit by parity.
+                // The point is dark on both sides of another volume's edge, and parity lights one of them.
                 let is_dark = point.is_shadowed && beside.is_shadowed;
                 self::fault(&beside, settings).is_some() || (settings.method == Method::Parity && is_dark)
             })
@@ -72,14 +72,15 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
     }
 }
 
-/// A share of a pixel that rounding may move a volume's edge by without turning pixels over.
+/// Share of a pixel by which rounding may move a volume's edge without changing pixels.
 const MOST_MOVED: f64 = 0.2;
 
-/// The same for surfaces that stay whole for a cap, and every shadow on them: many edges, of which each may turn a pixel.
+/// The same share for surfaces that must not be cut, because caps meet them, and for every shadow on them: many edges, each
+/// of which may change a pixel.
 const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 
-/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a part of a pixel: volumes meet their
-/// casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
+/// Warns of casters so large that GL's clipping in f32 moves their visible parts by a part of a pixel: volumes meet their
+/// casters' vertices, so that these cannot be cut before. With per-vertex lighting no item is cut.
 fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
     let camera = &view.scene.camera;
     let most_moved = |item: &Item| {

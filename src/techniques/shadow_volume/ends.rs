@@ -18,11 +18,11 @@ pub struct Plane {
 /// Error of f32 transforms, relative to the greatest operand.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// A ray nearer than this to a plane's own direction takes too long to reach it.
+/// Least sine of the angle between a ray and a plane; a flatter ray reaches the plane too late.
 const STEEPNESS: f64 = 1e-2;
 
 /// Least distance beyond all that is seen at which a volume ends, relative to its distance from the eye: more than a depth
-/// buffer rounds by. Not relative to all that is seen: beneath a floor without end, sides would be as long.
+/// buffer rounds by. It is not relative to the size of the scene: beneath an endless floor, sides would be as long.
 const MARGIN: f64 = 1e-3;
 
 /// A plane beyond the eye, the near rectangle and all that is seen, which every ray from the light through the caster's

@@ -1,5 +1,5 @@
-//! Points that the camera sees, and what is true of them: how many volumes hold each, and whether light reaches it. By
-//! rays through pixels, in f64.
+//! Points that the camera sees, with the number of volumes that hold each, and whether light reaches it. By rays through
+//! pixels, in f64.
 
 use glam::{DVec2, DVec3};
 
@@ -13,7 +13,7 @@ use crate::techniques::{LightView, alpha};
 /// Distance from a point's own plane within which a surface counts as in it, relative to the segment from the light.
 const IN_PLANE: f64 = 1e-9;
 
-/// GL rounds places to so much of a pixel.
+/// Step to which GL rounds positions, in pixels.
 const SUBPIXEL: f64 = 1.0 / 256.0;
 
 /// A visible point, and its counts.
@@ -204,7 +204,7 @@ impl<'a> World<'a> {
         let away = self.source.away(point);
         let way = match self.source {
             Source::Point(_) => away,
-            // From beyond all there is.
+            // A ray from beyond the whole scene.
             Source::Direction(_) => away.normalize() * (4.0 * (self.largest + point.abs().max_element())),
         };
         Ray { origin: point - way, way, start: 0.0, end: 1.0 }

@@ -11,19 +11,24 @@ use crate::techniques::light::{LedgeDepths, Lighting};
 pub enum Method {
     /// The cheapest way that is right, for each caster.
     Auto,
-    /// C2: one bit, inverted. Right only where volumes do not intersect and the eye is outside of them.
+    /// One bit, inverted [GDC, "Stencil Inverting of Shadow Volume"]. Right only if volumes do not intersect and the eye is
+    /// outside of them.
     Parity,
-    /// C3 in two draws. Right only where the eye's near rectangle is outside of all volumes.
+    /// Counting before visible surfaces in two draws [GDC, "For Shadow Volumes With Intersecting Polygons"]. Right only if
+    /// the eye's near rectangle is outside of all volumes.
     ZPass,
-    /// C3 in one draw with two-sided stencil operations.
+    /// The same in one draw with two-sided stencil operations.
     ZPassTwoSided,
-    /// C7 with C8's ledge.
+    /// The same with caps on the near plane, on a ledge [GDC, "Near Clip Plane Capping Cases", "Building a "Ledge" at the
+    /// Front of the Depth Buffer"].
     ZPassCapped,
-    /// C4 with C6, the far plane at infinity.
+    /// Counting behind visible surfaces, with volumes and far plane at infinity [GDC, "Alternative to Near Plane Capping:
+    /// Carmack's Reverse"; Everitt and Kilgard 2002].
     ZFail,
-    /// C4 with C6 under the scene's own projection, with depth clamp.
+    /// The same under the scene's own projection, with depth clamp.
     ZFailClamped,
-    /// C5: ends at a finite distance; wrong where a shadow reaches farther.
+    /// Counting behind visible surfaces with volumes of finite length; wrong where a shadow reaches farther [GDC, "More
+    /// Implications of Carmack's Reverse"].
     ZFailTruncated,
 }
 
@@ -38,7 +43,7 @@ pub const METHODS: [(&str, Method); 8] = [
     ("z-fail-truncated", Method::ZFailTruncated),
 ];
 
-/// Everything that decides how volumes are made and counted.
+/// Settings of volumes: how they are made and counted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub method: Method,
@@ -69,7 +74,7 @@ pub const AXES: &[Axis] = &[Axis {
     quick: &["\"auto\"", "\"z-fail\""],
 }];
 
-/// Reads the settings; what is absent takes the default that data/scenes/README.md names.
+/// Reads the settings; data/scenes/README.md has the defaults.
 pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     Ok(Settings {
         method: keys.choice("method", &METHODS)?.unwrap_or(Method::Auto),

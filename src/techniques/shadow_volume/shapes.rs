@@ -19,7 +19,7 @@ use crate::techniques::{LightView, Notes};
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
     pub way: Way,
-    /// Its caster, into the scene's objects.
+    /// Index of its caster among the scene's objects.
     pub object: usize,
     pub sides: VolumeDraw,
     /// Caps at the caster's own surface or on the near plane; the same with front faces reversed; caps at the far end.
@@ -38,7 +38,7 @@ impl Shape {
     }
 }
 
-/// The shapes of those that are not left out.
+/// Shapes of the casters that are drawn.
 pub fn shapes(
     view: &LightView<'_>,
     casting: &[Casting],
@@ -86,7 +86,7 @@ pub fn shapes(
     shapes
 }
 
-/// The caps that can be seen by a way of counting that needs them.
+/// Caps that can be seen, if the way of counting needs them.
 fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Extent) -> Caps {
     match way {
         Way::ZFailTruncated => Caps::BOTH,

@@ -12,7 +12,7 @@ use crate::techniques::{Item, LightTerm};
 /// Part of a light that an item is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// All of it: nothing of the item that is drawn lies behind the light.
+    /// All of it: no drawn part of the item lies behind the light.
     Free,
     /// The part that each fragment's test leaves.
     Fragment,
@@ -20,7 +20,7 @@ pub enum Reach {
     Texture,
     /// The part that the vertices' factor leaves.
     Cutoff,
-    /// Its ambient light alone.
+    /// Its ambient light only.
     Nowhere,
 }
 
@@ -34,7 +34,7 @@ pub struct Piece {
     pub item: Item,
     /// Reach of each light.
     pub reaches: Vec<Reach>,
-    /// Half-spaces that it is cut to, in eye space: what is kept has a product >= 0.
+    /// Half-spaces that it is cut to, in eye space: kept points have a product >= 0.
     pub clip_planes: Vec<Vec4>,
 }
 
@@ -60,7 +60,7 @@ pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPl
 /// Splits `piece` for one more light.
 fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Viewer, ending: &Ending) -> Vec<Piece> {
     let Some(plane) = plane.filter(|_| term.guard != Guard::None) else { return vec![piece.with(Reach::Free)] };
-    // A view shows one light, where it reaches and where not: there is nothing to leave out.
+    // A view shows one light, also where it does not reach: nothing is left out.
     if *ending != Ending::Lit {
         return vec![piece.with(Reach::Fragment)];
     }

@@ -13,7 +13,7 @@ use crate::techniques::Item;
 use crate::techniques::guard::{ModelPlane, Side};
 
 /// The item's triangles before, across and behind the plane; `None` for a part without any. `None` for an item whose
-/// vertices move after they are looked at.
+/// vertices the vertex stage moves.
 pub fn partition(item: &Item, plane: &ModelPlane) -> Option<[Option<Item>; 3]> {
     if item.wave.is_some() {
         return None;
@@ -35,7 +35,8 @@ struct Parts {
     ends: [(u32, Aabb); 3],
 }
 
-/// Kept as long as the source lives: a plan is made for every frame, and lights and objects mostly stand still.
+/// Partitions of a mesh, kept as long as it lives: a plan is made for every frame, and lights and objects mostly stand
+/// still.
 struct Entry {
     source: Weak<Mesh>,
     indices: Range<u32>,

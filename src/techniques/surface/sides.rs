@@ -4,10 +4,10 @@ use glam::{DMat4, DVec3};
 
 use crate::techniques::Item;
 
-/// Items of more triangles are not looked at: the test must cost less than what it saves.
+/// Most triangles of an item that is tested: the test must cost less than it saves.
 const MOST_TRIANGLES: usize = 64;
 
-/// Cosines below this are left in doubt: far above what f32 rounds, far below what shows.
+/// Cosines below this are undecided: far above f32 rounding, far below what shows.
 const LEAST_COSINE: f64 = 1e-4;
 
 /// Tests whether no back face of the item can be seen: it is declared closed, has no holes by alpha, and all of it lies before

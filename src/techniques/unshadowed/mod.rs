@@ -1,4 +1,4 @@
-//! No shadow: the light reaches all that its cone, if it has one, holds.
+//! No shadow: the light reaches everything in its cone, if it has one.
 
 use super::{Axis, LightTerm, LightView, Notes, Technique};
 use crate::pass::PassList;

@@ -21,7 +21,7 @@ pub enum View {
     Silhouette,
 }
 
-/// Name, view, whether it shows one light, what it shows.
+/// All views: name, view, whether it shows one light, and a description.
 pub const VIEWS: &[(&str, View, bool, &str)] = &[
     (
         "shade",
@@ -122,7 +122,7 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
     Some((ending, term))
 }
 
-/// A map for its depths as they are; the name is the caller's.
+/// An input that reads a map's depths without comparison; the caller sets its name.
 fn uncompared(image: ImageId) -> Input {
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     Input { name: "".into(), image, sampler }
