@@ -1,11 +1,11 @@
-//! The order of triangles and vertices that a driver's vertex cache likes, by meshoptimizer.
+//! Orders triangles and vertices for a driver's vertex cache, by meshoptimizer.
 
 use super::Mesh;
 
 /// Number of triangles that a software driver transforms at once, roughly, each vertex in them once.
 const WINDOW: usize = 1024;
 
-/// Vertices a triangle in such windows: 0.5 at best, 0.65 in a mesh that is ordered well, 3 in one that is shuffled.
+/// Vertices per triangle in such windows: 0.5 at best, 0.65 in a mesh that is ordered well, 3 in one that is shuffled.
 const WELL_ORDERED: f64 = 0.8;
 
 impl Mesh {

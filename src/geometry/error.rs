@@ -30,7 +30,7 @@ impl Error {
     }
 }
 
-/// Something odd in a file that does not keep it from being used.
+/// An oddity of a file that can still be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     pub path: PathBuf,

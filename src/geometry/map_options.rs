@@ -1,10 +1,10 @@
-//! The options in front of an MTL map's file: what can be applied, and what is left out. Format: Wavefront's "MTL material
-//! format", version 4.2, "Options for texture map statements".
+//! Options before an MTL map's file name: those that are applied, and those that are ignored. Format: Wavefront's "MTL
+//! material format", version 4.2, "Options for texture map statements".
 
 use super::obj::scan::shorten;
 use super::{Placement, Texture};
 
-/// No scale or offset of texture coordinates is larger.
+/// Greatest scale or offset of texture coordinates.
 const LARGEST: f32 = 1e6;
 
 /// The value of a map statement.
@@ -140,7 +140,7 @@ impl<'a> MapOptions<'a> {
     }
 }
 
-/// The first word and what follows the space behind it.
+/// Splits off the first word and the space after it.
 fn split_word(text: &str) -> (&str, &str) {
     let end = text.find(|c: char| c.is_ascii_whitespace()).unwrap_or(text.len());
     (&text[..end], text[end..].trim_start())
@@ -181,7 +181,7 @@ fn switch(rest: &mut &str) -> Result<bool, String> {
     }
 }
 
-/// `None`: a picture here has no such channel.
+/// The channel of a word; `None`: pictures here have no such channel.
 fn channel(word: &str) -> Result<Option<Channel>, String> {
     match word {
         "r" => Ok(Some(Channel::Red)),

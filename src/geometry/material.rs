@@ -51,7 +51,7 @@ pub struct Placement {
     pub scale: [f32; 2],
     /// Offset, added after the scale.
     pub offset: [f32; 2],
-    /// True if the texture's edge goes on beyond [0, 1], in place of more copies of it.
+    /// True if the texture's edge continues beyond [0, 1], instead of repeats.
     pub clamped: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct ObjectLinear {
 }
 
 impl ObjectLinear {
-    /// The same coordinates for positions that are relative to `origin`, but for whole turns of a texture that repeats.
+    /// The same coordinates for positions that are relative to `origin`, except for whole repeats of a texture.
     #[must_use]
     pub fn relative_to(&self, origin: DVec3) -> Self {
         let scale = f64::from(self.scale);

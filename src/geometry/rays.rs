@@ -1,4 +1,4 @@
-//! Rays against triangles, in f64: what techniques sample to find out where their pictures are wrong.
+//! Rays against triangles, in f64: techniques sample with them to find out where their pictures are wrong.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -31,7 +31,8 @@ impl Boxes {
         Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach }
     }
 
-    /// Calls `found` with each box that the ray may meet, in no particular order; returns how many nodes were looked at.
+    /// Calls `found` with each box that the ray may meet, in no particular order; returns the number of nodes that were
+    /// visited.
     pub fn met(&self, ray: &Ray, mut found: impl FnMut(u32)) -> usize {
         let slab = Slab::new(ray, self.reach);
         let mut looked_at = 0;
@@ -64,7 +65,7 @@ impl Triangles {
         Self { boxes: Boxes::new(bounds), corners }
     }
 
-    /// The corners of a triangle, by its place in what [`Triangles::new`] was given.
+    /// The corners of a triangle, by its index in the input of [`Triangles::new`].
     pub fn corners(&self, triangle: u32) -> &[DVec3; 3] {
         &self.corners[triangle as usize]
     }

@@ -1,4 +1,4 @@
-//! Text files as they are found: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends.
+//! Decodes text files: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(super) fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, E
         [0xef, 0xbb, 0xbf, rest @ ..] => decode_bytes(rest),
         _ => decode_bytes(bytes),
     };
-    // Looked at as a whole first, which the compiler makes many bytes at once.
+    // Checks the whole first, which the compiler vectorises.
     let has_binary = text.bytes().fold(false, |any, byte| any | is_binary(byte));
     if let Some(at) = has_binary.then(|| text.bytes().position(is_binary)).flatten() {
         let line = 1 + text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count();

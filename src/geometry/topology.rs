@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Mesh;
 
-/// The place of each vertex, and how many there are: vertices whose positions are equal (0 = -0) share one. Places
-/// are numbered as they are first met.
+/// The place of each vertex, and the number of places: vertices whose positions are equal (0 = -0) share one. Places are
+/// numbered as they are first met.
 pub fn weld(positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
     const FREE: u32 = u32::MAX;
     let capacity = (2 * positions.len()).next_power_of_two().max(2);

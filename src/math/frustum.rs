@@ -15,8 +15,8 @@ pub enum Overlap {
     Inside,
 }
 
-/// Holds a box against the clip volume `-w <= x, y, z <= w` (GL 4.6, 13.7). Never calls a visible box `Outside`; a box
-/// past a frustum's corner may be called `Partial`. The slack of 2⁻²⁰ covers the driver's f32 transforms.
+/// Tests a box against the clip volume `-w <= x, y, z <= w` (GL 4.6, 13.7). Never calls a visible box `Outside`; a box past
+/// a frustum's corner may be called `Partial`. The slack of 2⁻²⁰ covers the driver's f32 transforms.
 pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     if bounds.is_empty() {
         return Overlap::Outside;

@@ -14,7 +14,8 @@ use super::spaces::perspective;
 /// side, and a window transform in f32 by one more.
 pub const GUARD_CODES: u32 = 4;
 
-/// N' for which depths of the volumes are comparable with those of the scene. `0 <= n' <= n < f <= 1`, `0 < near < far`.
+/// Computes N' for which depths of the volumes are comparable with those of the scene. `0 <= n' <= n < f <= 1`, `0 < near <
+/// far`.
 pub fn volume_near(near: f64, far: f64, scene_depth_near: f64, volume_depth_near: f64, depth_far: f64) -> f64 {
     let (n, n_volume, f) = (scene_depth_near, volume_depth_near, depth_far);
     (f - n) * near * far / ((n_volume - n) * near + (f - n_volume) * far)

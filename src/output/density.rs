@@ -1,5 +1,5 @@
 //! Texels per pixel as colours with a legend [HSM, Figure 6]: green where a pixel shows one texel, warm where texels are
-//! larger than pixels and are seen, cold where they are smaller and are lost.
+//! larger than pixels, cold where they are smaller.
 
 use super::canvas::{Canvas, Color, LETTER};
 
@@ -10,7 +10,7 @@ const SCALE: [Color; 7] =
 pub const ONE: &str = "1 texel a pixel";
 const OUTSIDE: Color = [30, 32, 38];
 
-/// Between the two nearest colours, by the logarithm.
+/// Interpolates between the two nearest colours, by the logarithm.
 fn color(texels: f32) -> Color {
     let at = (texels.max(f32::MIN_POSITIVE).log2() + 3.0).clamp(0.0, 6.0);
     let (low, part) = (at.floor(), at.fract());

@@ -1,5 +1,5 @@
-//! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
-//! renamed when it is whole (`whole.rs`).
+//! Pictures as files: PNG for viewing, EXR and NPY with exact 32-bit values. Every file is written under another name and
+//! renamed when it is complete (`whole.rs`).
 
 pub mod canvas;
 mod counts;
@@ -16,7 +16,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use crate::device::Pixels;
 use crate::techniques::views::View;
 
-/// Why a file could not be written.
+/// Reason why a file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
@@ -128,8 +128,8 @@ fn write_png(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
         .map_err(io::Error::other)
 }
 
-/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their
-/// greatest so that a person sees them (the other formats have them as they are).
+/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their greatest
+/// so that they are visible (the other formats have the exact values).
 fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
     match (output.pixels, output.view) {
         (Pixels::Rgba8 { data, .. }, _) => {
@@ -163,7 +163,7 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
     }
 }
 
-/// The picture as its PNG has it; what is transparent lies on dark blue.
+/// The picture as its PNG has it; transparent parts are on dark blue.
 pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
     const BEHIND: [f32; 3] = [44.0, 50.0, 64.0];
     let (bytes, kind) = png_bytes(&Output { path: Path::new(""), pixels, view });

@@ -1,7 +1,6 @@
-//! Files that are whole or not there: each is written beside its name, brought to the disk, and then all are renamed.
-//! Knows no format.
+//! Atomic file writes: each file is written under another name and synced, and then all are renamed. Knows no format.
 //!
-//! What is beside a name is called `.NAME.glumbra-XXXXXX.tmp` and locked while it is written. A process that is killed
+//! An unfinished file is called `.NAME.glumbra-XXXXXX.tmp` and is locked while it is written. A process that is killed
 //! leaves it there, without a lock, and the next one that writes into the folder removes it.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -20,8 +19,7 @@ const RANDOM_LETTERS: usize = 6;
 
 /// Writes all of `paths`, or none: `write` gets each one's place in `paths` and the name to write to.
 ///
-/// A path that is a link is followed, and what it leads to is replaced. A path that is a pipe or a device is written to
-/// as it is.
+/// A path that is a link is followed, and its target is replaced. A pipe or a device is written to directly.
 ///
 /// # Errors
 ///
@@ -46,7 +44,7 @@ pub(crate) fn write_all(
     Ok(())
 }
 
-/// A file that is being written, and where it goes. It is removed when it is dropped.
+/// A file that is being written, and its target. It is removed on drop.
 struct Beside {
     file: NamedTempFile,
     target: Target,
@@ -70,17 +68,17 @@ impl Beside {
             let file = builder.tempfile_in(&folder).map_err(plain)?;
             let unfinished = unfinished(file.path());
             if cfg!(unix) {
-                // Where files cannot be locked, nobody takes it for stale either.
+                // If files cannot be locked, no process treats it as stale either.
                 let _ = file.as_file().lock();
             }
-            // Another process may have taken it for stale before it was locked.
+            // Another process may have removed it as stale before it was locked.
             if file.path().exists() {
                 return Ok(Self { file, target, _unfinished: unfinished });
             }
         }
     }
 
-    /// Gives the file its name, or the stream what the file holds.
+    /// Renames the file, or copies it to the stream.
     fn finish(self) -> io::Result<()> {
         match &self.target {
             Target::File(path) => self.file.persist(path).map(drop).map_err(|error| error.error),
@@ -140,8 +138,8 @@ fn short_name(path: &Path) -> String {
     name
 }
 
-/// Removes what processes that were killed have left in `folder`. Whatever hinders that is no error of this process.
-/// Elsewhere than on Unix a lock would keep this process itself from writing, so that stale files cannot be recognised.
+/// Removes what processes that were killed have left in `folder`. Failures are ignored. Outside Unix a lock would keep this
+/// process itself from writing, so that stale files cannot be recognised.
 fn remove_stale(folder: &Path) {
     if !cfg!(unix) {
         return;

@@ -3,14 +3,14 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Each with a number that no other has.
+/// Current steps, each with a unique number.
 static STEPS: Mutex<Vec<(u64, String)>> = Mutex::new(Vec::new());
 
 /// A step that lasts until this is dropped.
 #[must_use]
 pub(crate) struct Doing(u64);
 
-/// Notes that the driver is at work on `what`: "opening a context". It may have lines of its own for what was tried before.
+/// Notes that the driver works on `what`, for example "opening a context". It may have further lines for earlier attempts.
 pub(crate) fn doing(what: impl Into<String>) -> Doing {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);

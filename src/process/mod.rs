@@ -16,8 +16,8 @@ pub use memory::Memory;
 pub(crate) use signals::uninstall;
 pub(crate) use unfinished::{Unfinished, unfinished};
 
-/// Has signals that end this process say what it was doing, and remove its unfinished files. A limit on the size of files
-/// (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
+/// Installs handlers: a signal that ends this process prints the current work and removes unfinished files. A limit on the
+/// size of files (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
 #[cfg(unix)]
 pub fn guard() {
     signals::install();

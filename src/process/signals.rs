@@ -1,4 +1,4 @@
-//! Signals that end the process, and an alarm that notices a driver which waits for ever.
+//! Signals that end the process, and an alarm that detects a driver that waits for ever.
 //!
 //! Mesa's llvmpipe waits without end for threads that could not be started (seen under a limit on memory). Such a process
 //! uses no processor time at all, which a driver that draws, however slowly, does.
@@ -23,16 +23,16 @@ const CRASHES: [(c_int, &str); 5] = [
 /// Requests to end.
 const ENDS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
 
-/// Seconds between two looks at the processor time.
+/// Seconds between two checks of the processor time.
 const TICK_SECONDS: u32 = 5;
-/// Looks in a row that find none used, after which a driver at work is given up.
+/// Successive checks without used processor time after which a working driver is given up.
 const MOST_IDLE_TICKS: u32 = 6;
-/// Processor time between two looks that counts as none, in microseconds; the look itself takes some.
+/// Processor time between two checks that counts as none, in microseconds; the check itself uses some.
 const IDLE_MICROSECONDS: i64 = 1_000;
 
 /// True if SIGALRM has our handler.
 static WATCHES: AtomicBool = AtomicBool::new(false);
-/// Looks in a row that found no processor time used.
+/// Successive checks that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
 
 pub(super) fn install() {
@@ -45,7 +45,7 @@ pub(super) fn install() {
     unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
 }
 
-/// Begins or ends to look at the processor time. Alarms come only while the driver is at work.
+/// Starts or stops the checks of the processor time. Alarms come only while the driver is at work.
 pub(super) fn watch(begins: bool) {
     if WATCHES.load(Ordering::Relaxed) {
         IDLE_TICKS.store(0, Ordering::Relaxed);
@@ -93,7 +93,7 @@ fn handle(signal: c_int, handler: Handler) {
     }
 }
 
-/// Says what was being done, removes unfinished files, and lets the signal take its former course.
+/// Prints the current work, removes unfinished files, and passes the signal on to its former handler.
 extern "C" fn on_end(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
     if let Some((_, name)) = CRASHES.iter().find(|(known, _)| *known == signal) {
         doing::steps(|what| {

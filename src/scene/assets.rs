@@ -1,4 +1,4 @@
-//! The files that a scene names: each is loaded once however often it is used, and what its loader warned of is kept.
+//! The files that a scene names: each is loaded once however often it is used, and its loader's warnings are kept.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ impl Assets {
         self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
-    /// Keeps a warning, once however often it is given.
+    /// Keeps a warning, once.
     pub fn warn(&mut self, warning: String) {
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
@@ -60,7 +60,7 @@ impl Assets {
         Ok(mesh)
     }
 
-    /// Lets a model be found by `name` too, for paths that are no text.
+    /// Registers a model under `name` too, for paths that are not UTF-8.
     pub fn also_known_as(&mut self, name: &str, mesh: &Arc<Mesh>) {
         self.meshes.insert(canonical(Path::new(name)), mesh.clone());
     }

@@ -9,10 +9,10 @@ use crate::math::{Aabb, spaces};
 /// The part of the picture's half height and half width that framed points may reach.
 const MARGIN: f64 = 0.82;
 
-/// The far plane is so many times as far as the near plane where nothing is in view.
+/// Ratio of far to near plane if nothing is in view.
 const DEPTH_RATIO: f64 = 1e3;
 
-/// A supplied near plane stands at this part of the way to what is nearest in view.
+/// Distance of a supplied near plane, as a share of the nearest distance in view.
 const ROOM: f64 = 0.8;
 
 /// Greatest distance of the target over a supplied near plane, whatever is cut. A depth buffer of 24 bits then resolves a
@@ -67,7 +67,7 @@ pub(super) fn sphere_distance(radius: f64, fov_y_radians: f64, aspect: f64) -> f
     radius / tan.atan().sin()
 }
 
-/// Near and far planes of `camera` (its own are not read): just before what is nearest in view, and behind all that is
+/// Near and far planes of `camera` (its own are ignored): just before the nearest surface in view, and behind everything
 /// ahead. `points`: the corners of boxes around all objects.
 pub(super) fn depth_range(points: &[DVec3], camera: &Camera, seen: Span, radius: f64) -> [f64; 2] {
     let view_from_world = camera.view_from_world();
@@ -76,17 +76,17 @@ pub(super) fn depth_range(points: &[DVec3], camera: &Camera, seen: Span, radius:
     [near_before(seen, far, camera.eye.distance(camera.target)), far]
 }
 
-/// Near and far planes of a spotlight (its own are not read), around what its frustum holds.
+/// Near and far planes of a spotlight (its own are ignored), around the contents of its frustum.
 pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
     let pyramid = Pyramid::of_frustum(frustum);
     let seen = objects.iter().fold(Span::EMPTY, |span, object| span.union(pyramid.span(object)));
     let reach = frustum.position.distance(frustum.target);
     let far = if seen.is_empty() { 2.0 * reach } else { 1.1 * seen.most };
     let near = near_before(seen, far, reach);
-    // Before the boxes too, where that costs little: who draws a map judges casters by their boxes.
+    // Before the boxes too, if that costs little: maps choose casters by their boxes.
     let boxes = objects.iter().map(|object| pyramid.span_of_box(object).least).fold(f64::INFINITY, f64::min);
     let near = near.min(0.99 * boxes).max(0.25 * near);
-    // No map can be drawn of what lies in the light's own place.
+    // A map cannot show surfaces at the light's own position.
     [near, far.max(2.0 * near)]
 }
 
@@ -96,13 +96,13 @@ pub(super) fn cube_range(position: DVec3, objects: &[Object]) -> [f64; 2] {
     let spans = objects.iter().flat_map(|object| faces.iter().map(|face| face.span(object)));
     let seen = spans.fold(Span::EMPTY, Span::union);
     let far = if seen.is_empty() || seen.most <= 0.0 { 1.0 } else { 1.1 * seen.most };
-    // It looks at nothing: only what lies in its own place is cut.
+    // There is no target: only surfaces at its own position are cut.
     let aim = if ROOM * seen.least < far / f64::from(1 << 24) { far } else { 0.0 };
     [near_before(seen, far, aim), far]
 }
 
-/// A near plane just before what is seen: farther off it would cut, nearer it would waste the depth buffer's precision,
-/// which goes with its distance. `aim`: how far away what is looked at is.
+/// A near plane just before the nearest visible surface. Farther away it would cut; nearer it would waste the depth
+/// buffer's precision, which is proportional to its distance. `aim`: distance of the target.
 fn near_before(seen: Span, far: f64, aim: f64) -> f64 {
     let near = if seen.is_empty() { far / DEPTH_RATIO } else { ROOM * seen.least };
     near.max(aim.min(far) / STIFFEST).min(0.5 * far)
@@ -114,9 +114,8 @@ pub(super) fn depth_step(near: f64, depth: f64) -> f64 {
     depth * (depth / near) / f64::from(1 << 24)
 }
 
-/// Beyond this depth all lies within two steps, of 2⁻²⁴, of the last value of a depth buffer of 24 bits, to which it is
-/// cleared. Half a step is what it rounds by, and f32 rounds a depth near 1 by about one before: what lies there is lost,
-/// or at best on one depth with all that is farther.
+/// Depth beyond which everything lies within two steps of 2⁻²⁴ of the cleared value of a 24-bit depth buffer. The buffer
+/// rounds by half a step, and f32 by about one near depth 1: surfaces there are lost, or share one depth.
 pub(super) fn last_depth([near, far]: [f64; 2]) -> f64 {
     1.0 / (1.0 / (f64::from(1 << 23) * near) + 1.0 / far)
 }

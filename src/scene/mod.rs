@@ -30,10 +30,10 @@ use crate::math::Aabb;
 use assets::{Assets, has_extension};
 use settings::Plain;
 
-/// No scene file is longer, in bytes.
+/// Greatest size of a scene file, in bytes.
 const LONGEST_FILE: u64 = 4 << 20;
 
-/// A scene and what its reader should know of it.
+/// A scene and its warnings.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     pub scene: Scene,
@@ -47,7 +47,7 @@ pub struct Embedded {
     /// The file's name, for messages.
     pub path: &'static str,
     pub text: &'static str,
-    /// Each with the name that the file has for it.
+    /// Pictures, each with its name in the file.
     pub pictures: &'static [(&'static str, &'static [u8])],
 }
 
@@ -90,7 +90,7 @@ pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, 
     Ok(root)
 }
 
-/// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
+/// Reads a `[light.shadow]` from the inside of an inline table: `technique = "shadow-map", size = 512`.
 pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
     let text = format!("{{ {inside} }}");
@@ -119,8 +119,8 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
 /// The key that leaves out the floor of a supplied scene.
 const FLOOR: &str = "floor";
 
-/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is done
-/// again for what they make of it.
+/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is repeated
+/// after them.
 fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
@@ -152,7 +152,7 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     Ok(root)
 }
 
-/// Refuses a model around which no camera and light can stand.
+/// Refuses a model too large or too small for a camera and a light around it.
 fn check_size(path: &Path, bounds: &Aabb) -> Result<(), Error> {
     let radius = frame::working_radius(bounds);
     let [least, most] = supply::RADII;

@@ -1,5 +1,4 @@
-//! TOML text to [`Settings`], each entry with its line. The grammar is the `toml` crate's; what keys mean is not known
-//! here.
+//! TOML text to [`Settings`], each entry with its line. The grammar is the `toml` crate's; it knows no meaning of keys.
 
 use std::ops::Range;
 use std::path::Path;

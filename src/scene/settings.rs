@@ -1,4 +1,4 @@
-//! A table of a scene file as written, read key by key with types and ranges: whoever reads it names each key once, and
+//! A table of a scene file as written, read key by key with types and ranges: the reading code names each key once, and
 //! [`Reader::finish`] refuses unread keys, with file, line and the nearest known key.
 
 use std::fmt;
@@ -95,7 +95,7 @@ impl Settings {
         self.entries.is_empty()
     }
 
-    /// Sets `key`, in place where it is there already.
+    /// Sets `key`, in place if it exists.
     pub fn set(&mut self, key: &str, entry: Entry) {
         match self.entries.iter_mut().find(|(name, _)| name == key) {
             Some((_, old)) => *old = entry,
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
         SettingsError::new(origin, format!("`{}` {message}", self.settings.key(key)))
     }
 
-    /// The error of a key that must be there.
+    /// The error of a missing key.
     pub fn missing(&self, key: &str, what: &str) -> SettingsError {
         SettingsError::new(&self.settings.origin, format!("`{}` is missing: {what}", self.settings.key(key)))
     }
@@ -292,7 +292,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A range as a person would write it; f64's own ends are none.
+/// A range as a person would write it; f64's limits are no bounds.
 fn words(range: &RangeInclusive<f64>) -> String {
     let (low, high) = (*range.start(), *range.end());
     let least = match low {

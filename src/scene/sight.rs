@@ -1,5 +1,5 @@
 //! Objects in a viewer's pyramid: their least and greatest depth along its axis, and what a plane across the axis cuts off.
-//! Triangles are clipped one by one: a box's corners say nothing of a floor that passes under the eye. The work is linear
+//! Triangles are clipped one by one: a box's corners do not describe a floor that passes under the eye. The work is linear
 //! in the triangles.
 
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::geometry::Mesh;
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 
-/// A piece smaller than this, in pixels, is not missed.
+/// Area in pixels below which a piece does not count.
 pub(super) const LEAST_PIECE: f64 = 0.5;
 
 /// Number of triangles of a cut-off part that are tested for lying behind other surfaces.
@@ -105,7 +105,7 @@ impl Pyramid {
         area >= least
     }
 
-    /// Tests whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
+    /// Tests whether some of `object` beyond depth `far` is not hidden by surfaces before that depth.
     pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
         let mut pieces: Vec<(f64, DVec3)> = Vec::new();
         self.visit(object, |polygon| {
@@ -144,7 +144,7 @@ impl Pyramid {
         area * 0.25 * f64::from(size[0]) * f64::from(size[1])
     }
 
-    /// Calls `look` with what of each triangle that is drawn lies in view, in view space, until it says `false`.
+    /// Calls `look` with the part in view of each drawn triangle, in view space, until it says `false`.
     fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
         self.visit_triangles(object, |_, polygon| look(polygon));
     }

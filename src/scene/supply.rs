@@ -22,11 +22,11 @@ const FLOOR_RADII: f64 = 4.0;
 const FLAT_RADII: f64 = 0.01;
 const LIFT_RADII: f64 = 0.25;
 
-/// A model's own floor is no higher over its lowest point, in radii; the supplied one then lies so far below that, which
-/// any depth buffer resolves.
+/// Greatest height of a model's own floor over its lowest point, in radii. The supplied one lies as far below that: any
+/// depth buffer resolves it.
 const HAIR_RADII: f64 = 2e-3;
 
-/// A model's own floor fills this part of its extent from above, at least.
+/// Least share of a model's extent from above that its own floor fills.
 const LEAST_FLOOR: f64 = 1e-3;
 
 /// A scene is supplied around models of these radii: camera, light and planes then have coordinates that a scene may have.
@@ -37,7 +37,7 @@ pub(super) const RADII: [f64; 2] = [1e-14, 1e14];
 pub enum Floor {
     /// At the model's lowest point.
     Touching,
-    /// A hair below it, for the model has a floor of its own.
+    /// A little below it, because the model has a floor of its own.
     Below,
     Absent,
 }
@@ -85,7 +85,7 @@ pub(super) fn has_floor(object: &Object) -> bool {
     above > least || (below > least && !mesh.is_closed())
 }
 
-/// The lengths that everything else follows from, rounded to what a person would write.
+/// The lengths that everything else follows from, rounded to short numbers.
 struct Stage {
     bounds: Aabb,
     radius: f64,

@@ -1,11 +1,11 @@
-//! The matrices and bounds that follow from a scene's values.
+//! Matrices and bounds of a scene.
 
 use glam::{DMat4, DVec3};
 
 use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
 use crate::math::{Aabb, spaces};
 
-/// A scene is moved where it is so many times as far from the world's origin as it is large.
+/// Ratio of distance from the world's origin to size from which a scene is moved.
 const FAR: f64 = 8.0;
 
 impl Image {

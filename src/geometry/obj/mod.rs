@@ -24,9 +24,9 @@ pub const CREASE_DEGREES: f64 = 60.0;
 ///
 /// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
 /// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. Warnings are: a library that does not exist, a
-/// material that no library has, a texture that cannot be had, faces of fewer than three vertices, and what is not drawn
-/// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the
-/// file's origin, for their size, are relative to [`Mesh::origin`].
+/// material that no library has, a texture that cannot be loaded, faces of fewer than three vertices, and what is not drawn
+/// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the file's origin, for
+/// their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let bytes = text::read(path)?;
     let text = text::decode(&bytes, path)?;
@@ -40,7 +40,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     }
     let library = load_libraries(&scan, path, &mut warnings)?;
     let models = parse(&text, &scan, &library).map_err(|error| {
-        // The scan has refused all that tobj refuses; should it not, the file is still named.
+        // The scan has refused everything that tobj refuses; if not, the error still names the file.
         Error::malformed(path, 0, error.to_string())
     })?;
     let mut mesh = join(models, path)?;
@@ -89,7 +89,7 @@ fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>,
         tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
     let mut reader = rewritten.as_deref().unwrap_or(text).as_bytes();
-    // All libraries are one to tobj, at its first `mtllib`.
+    // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
         false => library.parse(),

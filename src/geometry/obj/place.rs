@@ -7,11 +7,11 @@ use super::scan::{Counts, Scan, read_corner};
 use crate::geometry::text::logical_lines;
 use crate::math::Aabb;
 
-/// An origin is taken where the vertices are at least so many times as far away as they are apart: it saves three bits.
-/// Other files are read as they are.
+/// Ratio of the vertices' distance to their extent from which an origin is used: it saves three bits. Other files are read
+/// as they are.
 const FAR: f64 = 8.0;
 
-/// A face an edge of which is off by more than this part of the longest one has no longer its shape.
+/// Error of an edge, as a share of the face's longest, above which the face has lost its shape.
 const MOST_OFF: f64 = 1.0 / 16.0;
 
 /// The vertices of a file.

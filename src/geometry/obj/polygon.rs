@@ -1,4 +1,4 @@
-//! Polygons into triangles: a fan where that is right, else by cutting off ears.
+//! Cuts polygons into triangles: a fan if that is right, else by clipping ears.
 
 use glam::{DVec2, DVec3};
 

@@ -11,10 +11,10 @@ use super::super::text::logical_lines;
 use super::place::Places;
 use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
 
-/// The name of a material that is named by nothing.
+/// Name of a material without a name.
 pub(super) const UNNAMED: &str = "unnamed";
 
-/// `text`, which [`super::scan::scan`] has found right.
+/// Rewrites `text`, which [`super::scan::scan`] has accepted.
 pub(super) fn rewrite(text: &str, scan: &Scan) -> String {
     let mut rewriter = Rewriter {
         vertices: String::with_capacity(text.len()),
@@ -43,7 +43,7 @@ struct Rewriter<'a> {
     vertices: String,
     faces: String,
     counts: Counts,
-    /// The vertices and what they are written relative to; `None`: as they are.
+    /// The vertices and their origin; `None`: they are written as they are.
     moved: Option<(&'a Places, DVec3)>,
     /// Number of texture coordinates (normals) before the file's own.
     first_texcoord: usize,

@@ -1,5 +1,5 @@
-//! One cheap pass over an OBJ text before tobj sees it: refuses what is wrong with its line, and notes what tobj
-//! would misread (see [`super::rewrite`]). Allocates nothing a line.
+//! One cheap pass over an OBJ text before tobj sees it: refuses errors, with their line, and notes what tobj would misread
+//! (see [`super::rewrite`]). It allocates nothing per line.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub(super) struct Scan {
     pub oddities: Tally,
 }
 
-/// Numbers of a kind so far, or in all.
+/// Counts of statements, so far or in total.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counts {
     pub v: usize,
@@ -38,7 +38,7 @@ pub(super) struct Counts {
     pub vn: usize,
 }
 
-/// A corner of a face: what it names, counted from 1; `None`: left out.
+/// A corner of a face: its indices, from 1; `None`: missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {
     pub v: usize,
@@ -125,7 +125,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Warns of a statement that is not drawn, but for what changes no picture of polygons.
+    /// Warns of a statement that is ignored, unless it changes no picture of polygons.
     fn leave_out(&mut self, number: usize, keyword: &str) {
         match keyword {
             _ if keyword.starts_with('#') => {}
@@ -253,7 +253,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Judges the faces that named vertices before they were read, now that all are.
+    /// Checks the faces that named vertices before they were read.
     fn finish(self) -> Result<Scan, Error> {
         let Self { path, mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal, .. } = self;
         for Forward { line, corner } in &forward {
@@ -313,7 +313,7 @@ fn read_index(digits: &str, kind: &str, count: usize, word: &str) -> Result<Opti
     }
 }
 
-/// Refuses what is no number, and no finite one as f32.
+/// Refuses a word that is not a finite f32.
 fn check_coordinate(statement: &str, word: &str) -> Result<(), Wrong> {
     if is_plain_number(word) {
         return Ok(());
@@ -353,7 +353,7 @@ pub(super) fn statement_value<'a>(line: &'a str, keyword: &str) -> &'a str {
     line.trim().strip_prefix(keyword).unwrap_or_default().trim()
 }
 
-/// `word`, cut where it would drown the message.
+/// `word`, shortened for a message.
 pub(in super::super) fn shorten(word: &str) -> String {
     match word.char_indices().nth(40) {
         Some((end, _)) => format!("{}...", &word[..end]),

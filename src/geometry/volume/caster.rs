@@ -1,5 +1,5 @@
-//! Adjacency of a caster: what depends on its mesh alone, in flat arrays. Made once a mesh, shared by all instances,
-//! lights and frames (`Arc`). Knows no light.
+//! Adjacency of a caster: everything that depends only on its mesh, in flat arrays. Made once for each mesh, shared by all
+//! instances, lights and frames (`Arc`). Knows no light.
 
 use std::ops::Range;
 

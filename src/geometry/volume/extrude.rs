@@ -1,6 +1,6 @@
 //! Extrusion of an outline: sides, and caps at both ends [GDC, "Handling the "Trivial" None Near Clip Plane Capping Case"].
-//! In the caster's model space, as homogeneous positions: the far end lies at w = 0, where no distance has to be large
-//! enough.
+//! In the caster's model space, as homogeneous positions: the far end lies at w = 0, where no finite distance can be too
+//! small.
 
 use std::ops::Range;
 
@@ -168,7 +168,7 @@ impl Volume {
     }
 
     fn far(&mut self, caster: &Caster, place: u32, end: &End) -> u32 {
-        // One vertex serves all where there is one point to go to.
+        // One vertex serves all sides if they end in one point.
         let slot = if end.is_one_point() { 0 } else { place };
         self.far_slots.get_or_push(slot, &mut self.vertices, || end.of(caster.position(place)))
     }
@@ -205,8 +205,8 @@ impl End {
     }
 }
 
-/// The normal of a triangle that the light all but touches: at infinity it covers half the sky, its corners lie all but
-/// on a great circle, and a rounding may turn it into the other half. With a corner in its middle it cannot.
+/// The normal of a triangle that the light all but touches. At infinity that triangle covers half the sky, and its corners
+/// lie almost on a great circle: rounding may turn it into the other half. A corner in its middle prevents that.
 fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
     const TOUCHES: f64 = 1.0 / (1 << 10) as f64;
     if source.is_parallel() {

@@ -27,7 +27,7 @@ pub(super) struct Place {
 /// Position of a place, for a light beyond the plane (l >= 0) or before it (l < 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stand {
-    /// On the other side of the plane than the light: past landing.
+    /// The place is on the other side of the plane than the light.
     AtPlane,
     /// Its ray meets the plane.
     Lands,

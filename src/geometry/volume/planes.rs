@@ -1,5 +1,5 @@
-//! On which side of each triangle's plane a light stands: a vectorised test in f64 with an error bound over flat
-//! arrays, and exact predicates for the few triangles that it leaves in doubt.
+//! Side of each triangle's plane on which a light lies: a vectorised test in f64 with an error bound over flat arrays, and
+//! exact predicates for the few triangles that it leaves in doubt.
 
 use std::ops::Range;
 
@@ -11,11 +11,11 @@ use crate::math::exact;
 /// Unit roundoff of f64.
 const ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 
-/// Roundings of size [`ROUNDOFF`] in a side's value, relative to the magnitudes that meet in it: 4 in a component of the
+/// Roundings of size [`ROUNDOFF`] in a side's value, relative to the magnitudes of its terms: 4 in a component of the
 /// normal, 5 in product and sums, 1 in the light's offset, as many again in the plane's own; 32 holds them.
 const ROUNDINGS: f64 = 32.0;
 
-/// Triangles whose signs are looked through for doubt at a time: they stay in the first cache.
+/// Number of triangles whose signs are checked at a time: they stay in the first-level cache.
 const BLOCK: usize = 1024;
 
 /// Each triangle's plane relative to `center`: dot((x, y, z), p - center) - offset is positive where the corners run

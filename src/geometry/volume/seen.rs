@@ -84,8 +84,8 @@ fn touches(bounds: &Aabb, source: Source) -> bool {
     light.cmpge(bounds.min - slack).all() && light.cmple(bounds.max + slack).all()
 }
 
-/// The pixels that the convex hull of `points` (world space) may cover: `[x, y, width, height]` as for glScissor, y up,
-/// in a picture of `size` pixels. `None`: no pixel. One pixel wider than exact arithmetic would have it.
+/// The pixels that the convex hull of `points` (world space) may cover: `[x, y, width, height]` as for glScissor, y up, in
+/// a picture of `size` pixels. `None`: no pixel. It is one pixel wider than exact arithmetic gives.
 pub fn scissor(points: &[DVec3], clip_from_world: &DMat4, size: [u32; 2]) -> Option<[u32; 4]> {
     let clip: Vec<DVec4> = points.iter().map(|point| *clip_from_world * point.extend(1.0)).collect();
     let ahead = |point: &DVec4| point.z + point.w;

@@ -1,5 +1,5 @@
-//! Shells: the pieces of a caster that hang together across edges. Which of them are closed, which way they look, and
-//! whether a light stands inside.
+//! Shells: the pieces of a caster that are connected across edges; whether each is closed, which way it looks, and whether
+//! a light is inside.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::math::Aabb;
 /// far below any body.
 const LEAST_VOLUME: f64 = 1.0 / (1u64 << 30) as f64;
 
-/// A piece of a caster whose triangles hang together across edges.
+/// A piece of a caster whose triangles are connected across edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shell {
     /// Range of [`Caster::triangles`].

@@ -15,7 +15,7 @@ use super::world::{Segment, Triangle};
 use super::{Error, Options, Tracer, Truth};
 use crate::scene::Scene;
 
-/// One light of one scene, ready for questions about single pixels.
+/// One light of one scene, prepared for queries of single pixels.
 pub struct Surroundings<'a> {
     pub(super) tracer: Tracer<'a>,
     scene: &'a Scene,
@@ -27,7 +27,7 @@ pub struct Surroundings<'a> {
 pub struct Around {
     /// True if a silhouette or an open edge of a caster lies within the reach. The other answers are then not complete.
     pub edge: bool,
-    /// True if the visible surface itself ends or folds over within the reach. It shadows nothing that it is seen with, but
+    /// True if the visible surface itself ends or folds over within the reach. It does not shadow the visible point, but
     /// may be the second layer of a map that stores the middle of two.
     pub own_edge: bool,
     /// Greatest distance of a caster before the plane of the visible surface within the reach, along the light's ray and in
@@ -70,7 +70,7 @@ type Place = (u32, u32);
 /// The cosine between the normals of two triangles of one plane, at least.
 const SAME_PLANE: f64 = 1.0 - 1e-9;
 
-/// Slopes beyond this one count as this: a surface seen edge-on.
+/// Greatest slope: a surface seen edge-on.
 const STEEPEST: f64 = 1e6;
 
 impl<'a> Surroundings<'a> {

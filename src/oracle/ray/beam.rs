@@ -2,11 +2,11 @@
 //! triangles stop all of it, none of it, or perhaps a part. An apex at infinity makes the segments parallel: they come
 //! from beyond the whole scene, and where a formula would divide by the distance to the apex its limit stands.
 //!
-//! The base is a parallelogram `base ± spread[0] ± spread[1]` grown by a ball of radius `error`; corners of other
-//! triangles may be off by `error` of their own. As the base point moves, the number of times that its segment crosses
-//! the scene's surfaces changes only where the segment sweeps over an open edge or a fold as seen from the apex, or
-//! where the base itself (or the near end) passes through a surface. So it is enough to look for those events inside
-//! the beam: without one, the centre ray speaks for all.
+//! The base is a parallelogram `base ± spread[0] ± spread[1]` grown by a ball of radius `error`; corners of other triangles
+//! may be off by `error` of their own. As the base point moves, the number of times that its segment crosses the scene's
+//! surfaces changes only where the segment sweeps over an open edge or a fold as seen from the apex, or where the base
+//! itself (or the near end) passes through a surface. So it is enough to look for those events inside the beam: without
+//! one, the centre ray's answer holds for all.
 
 use glam::DVec3;
 
@@ -288,7 +288,7 @@ impl Beam {
         (at_base, at_start)
     }
 
-    /// Tests whether the edge comes so near that a segment of the beam may sweep over it before its base.
+    /// Tests whether the edge is so near that a segment of the beam may sweep over it before its base.
     pub fn passes_edge(&self, from: DVec3, to: DVec3, error: f64) -> bool {
         let axis = self.axis();
         let longer = (self.surface_spread[0].length() + self.surface_spread[1].length()) / axis.length();

@@ -7,19 +7,18 @@
 //! A ray through each pixel's centre finds the nearest surface between the camera's near and far planes; a second finds
 //! whether anything lies between that point and the light. Triangles cast from both sides; the alpha test cuts holes for
 //! sight and light; objects with `casts_shadow = false` are seen and do not cast. A surface that casts and whose visible
-//! side is turned away from the light is in its own shadow. The light lights what its shape holds: a point outside the cone
-//! (or the square frustum), nearer than its near plane or beyond its far plane along its axis is [`Answer::OutsideCone`].
-//! Blockers count from the light on: those planes are of the maps that are drawn of it, not of its rays. A point light's
-//! planes are the six of a cube around it; a directional light has none, and its rays are parallel: infinity is not
-//! replaced by a far point.
+//! side is turned away from the light is in its own shadow. A point outside the cone (or the square frustum), nearer than
+//! its near plane or beyond its far plane along its axis is [`Answer::OutsideCone`]. Blockers count from the light on: near
+//! and far belong to its maps, not to its rays. A point light's planes are the six of a cube around it; a directional light
+//! has none, and its rays are parallel: infinity is not replaced by a far point.
 //!
 //! # When it does not answer
-//! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off
-//! by the rounding of f32 transforms (see [`Options`]). `beam.rs` says what can change within that, and why looking for
-//! silhouettes, ends and holes inside the beam finds every such change: no sampling is involved, and nothing depends on
-//! the scene's size. No epsilon hides a contact: the visible triangle is left out by its number; another triangle of
-//! the same surface that touches the point counts only by its folds; any other surface within the error of the point
-//! makes it [`Reason::Contact`].
+//! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off by
+//! the rounding of f32 transforms (see [`Options`]). `beam.rs` says what can change within that, and why the search for
+//! silhouettes, ends and holes inside the beam finds every such change: no sampling is involved, and nothing depends on the
+//! scene's size. No epsilon hides a contact: the visible triangle is left out by its number; another triangle of the same
+//! surface that touches the point counts only by its folds; any other surface within the error of the point makes it
+//! [`Reason::Contact`].
 
 mod around;
 mod beam;
@@ -58,14 +57,14 @@ use world::{Placed, Segment, Triangle, World};
 pub struct Options {
     /// GL's SUBPIXEL_BITS: a sample may lie 2^-bits pixel aside. 8 on llvmpipe; GL requires at least 4.
     pub subpixel_bits: u32,
-    /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates that meet in it: its distance from
+    /// A position is off by at most this many roundings of 2⁻²⁴ of the coordinates in its computation: its distance from
     /// its object's origin, and the origin's from eye and light (from the eye again for a directional one, whose map may
-    /// lie around what is seen). A row of a 4×4 product makes four. How far the scene or a triangle reaches elsewhere
-    /// does not count: if that makes a picture wrong here, the picture is wrong.
+    /// lie around what is seen). A row of a 4×4 product makes four. How far the scene or a triangle reaches elsewhere does
+    /// not count: if that makes a picture wrong here, the picture is wrong.
     pub position_roundings: f64,
     /// For shadow volumes, whose sides a depth buffer compares with what is seen: its bits, in 1..=32. Where the count of
-    /// volumes may come to 0 or leave it because rounding misplaces a side against the visible surface, [`trace`] is of
-    /// two minds. `None`, for shadow maps: no such doubt. [`volume_count`] takes 24 bits then.
+    /// volumes may come to 0 or leave it because rounding misplaces a side against the visible surface, [`trace`] cannot
+    /// decide. `None`, for shadow maps: no such doubt. [`volume_count`] takes 24 bits then.
     pub depth_buffer_bits: Option<u32>,
     /// The greatest share of drawn pixels that may be ambiguous, in [0, 1]. Above it there is no truth. Left out on both
     /// sides are pixels of [`Reason::GrazingLight`] on surfaces that shading keeps dark either way: walls under an
@@ -103,7 +102,7 @@ pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Er
 }
 
 /// A picture's pixels are answered in so many portions, each spread over all of it: after each there is a check whether too
-/// many are ambiguous already. Where all are, the rest of a slow answer is not waited for.
+/// many are ambiguous already. If so, the rest is skipped.
 const PORTIONS: usize = 64;
 
 /// Undecided pixels among those answered so far.
@@ -159,11 +158,11 @@ impl Doubts {
 /// A cosine below which diffuse light is less than a code of eight bits.
 const FAINT: f64 = 1.0 / 256.0;
 
-/// Once one point of a beam is doubtful, its other triangles are looked at up to this many: where f32 may move surfaces by
+/// Once one point of a beam is doubtful, only this many of its other triangles are examined: where f32 may move surfaces by
 /// more than a mesh is large, each beam meets all of its triangles.
 const ENOUGH: u32 = 1024;
 
-/// All that a pixel's question needs.
+/// Everything that an answer for a pixel needs.
 struct Tracer<'a> {
     world: World<'a>,
     eye: Eye,

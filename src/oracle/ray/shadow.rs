@@ -31,7 +31,7 @@ impl Tracer<'_> {
         let beam = self.shadow_beam(seen);
         let (is_clear, found) =
             if is_sure { self.trace_to_light(&beam, seen) } else { (self.is_clear_at_center(&beam, seen), None) };
-        // Where the light stands behind the visible side, the surface itself is in the way.
+        // If the light is behind the visible side, the surface itself blocks it.
         let lit = is_clear && !(height < 0.0 && seen.triangle.placed.casts_shadow);
         doubt(&mut reason, found);
         // A point that something else surely shades is dark, whichever way its surface is turned.
@@ -88,7 +88,7 @@ impl Tracer<'_> {
         if is_cut_short { (self.is_clear_at_center(beam, seen), reason) } else { (lit, reason) }
     }
 
-    /// Tests whether nothing stands in the way of the beam's middle.
+    /// Tests whether nothing blocks the beam's middle.
     fn is_clear_at_center(&self, beam: &Beam, seen: &Seen<'_>) -> bool {
         let segment = Segment { origin: beam.origin(), direction: beam.axis(), start: beam.start, end: 1.0 };
         let mut is_clear = true;
@@ -138,9 +138,9 @@ impl Tracer<'_> {
         Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
     }
 
-    /// Tests whether the triangle may cut the beam off at one of its ends: at the light, to which it may come as near as it
-    /// likes, within the error of both it may stand on either side. A triangle that shares a corner with the visible
-    /// one is the same surface: within the error of the point, and without a fold between, it cannot be in the way.
+    /// Tests whether the triangle may cut the beam off at one of its ends: at the light, to which it may be arbitrarily
+    /// near; within the error of both, it may be on either side. A triangle that shares a corner with the visible one is
+    /// the same surface: within the error of the point, and without a fold between, it cannot be in the way.
     fn doubt_depth(&self, meeting: &Meeting, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<Reason> {
         match (meeting.at_base, meeting.at_start) {
             (Side::Near, _) if !seen.triangle.touches(triangle) => Some(Reason::Contact),

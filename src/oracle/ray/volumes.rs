@@ -69,7 +69,7 @@ impl VolumeCounts {
     }
 }
 
-/// Asks for each pixel of the scene's image how many shadow volumes of light number `light` hold the visible point.
+/// Counts, for each pixel of the scene's image, the shadow volumes of light number `light` that hold the visible point.
 ///
 /// Besides the doubt of [`super::trace`], the depth buffer's is granted: a volume's side may be compared with a surface
 /// as much nearer or farther as 24 bits may misplace both.
@@ -154,7 +154,7 @@ impl<'t, 'a> Counting<'t, 'a> {
         CountPixel { count, at_center: Some(tally.center), hit: Some(self.tracer.describe(&seen)) }
     }
 
-    /// Why a count may say something else about a pixel than `answer`, although that is sure.
+    /// Reason why a stencil count may differ from `answer` at a pixel, although that answer is certain.
     pub fn doubt(&self, x: u32, y: u32, answer: Answer) -> Option<Reason> {
         if !matches!(answer, Answer::Lit | Answer::Shadowed) {
             return None;

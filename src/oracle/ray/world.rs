@@ -1,6 +1,6 @@
-//! The scene's objects ready for rays: one [`Solid`] a mesh, one placement an object, a box hierarchy over both.
-//! Triangles are handed out in world space, each vertex transformed by the same operations wherever it is used, so
-//! that neighbours share their edges to the bit.
+//! The scene's objects, prepared for rays: one [`Solid`] for each mesh, one placement for each object, a box hierarchy over
+//! both. Triangles are returned in world space, each vertex transformed by the same operations wherever it is used, so that
+//! neighbours share their edges to the bit.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;

@@ -1,4 +1,4 @@
-//! `[camera]`: every key may be absent; what is missing is framed on the scene's objects.
+//! `[camera]`: every key may be absent; missing values are framed on the scene's objects.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::scene::settings::{Plain, Settings, SettingsError};
 use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
 use crate::scene::{Camera, Image, Object};
 
-/// `[camera]` as written; what depends on the objects comes later.
+/// `[camera]` as written; values that depend on the objects follow later.
 pub(super) struct Written {
     settings: Settings,
     eye: Option<DVec3>,
@@ -18,7 +18,7 @@ pub(super) struct Written {
     far: Option<f64>,
 }
 
-/// Reads and checks what can be checked without the objects.
+/// Reads the keys, and checks them as far as that is possible without the objects.
 pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
     let absent = || Settings { path: String::from("camera"), ..Settings::default() };
     let settings = table.cloned().unwrap_or_else(absent);
@@ -35,7 +35,7 @@ pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
 }
 
 impl Written {
-    /// The camera, framed on `objects` where it is not written; what its planes cut or make too coarse is added to
+    /// The camera, framed on `objects` where values are missing; cuts by its planes and too coarse depths are added to
     /// `warnings`.
     pub fn complete(
         self,
@@ -101,7 +101,7 @@ struct View<'a> {
     size: [u32; 2],
 }
 
-/// A key, and what is to be said of its value.
+/// A key, and the warning about its value.
 type Said = (&'static str, String);
 
 impl View<'_> {
@@ -178,7 +178,7 @@ impl View<'_> {
     }
 
     /// A solid whose front and back are a few steps of depth apart: which of them is shown, and on which side of them a
-    /// shadow's surface lies, is left to chance.
+    /// shadow's surface lies, is arbitrary.
     fn is_flattened(&self, object: &Object, span: Span) -> bool {
         let [thin, _, long] = extents(object);
         let pixel = self.camera.pixel_at(span.least, self.size);
@@ -193,7 +193,8 @@ impl View<'_> {
         self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near).collect()
     }
 
-    /// Triangles so large, or so far from their object's origin, that rounded vertices move what is seen of them.
+    /// Warning about triangles so large, or so far from their object's origin, that rounding of vertices moves them
+    /// visibly.
     fn vague(&self) -> Option<String> {
         let pixel = |span: Span| self.camera.pixel_at(span.least.max(self.camera.near), self.size);
         let (object, span) = self.seen().into_iter().find(|(_, span)| off(*span) > MOST_OFF * pixel(*span))?;
