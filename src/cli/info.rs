@@ -1,4 +1,4 @@
-//! `glumbra info`: what draws here, within which limits, and how exactly.
+//! `glumbra info`: driver, limits and precision.
 
 use std::fmt::Write as _;
 

@@ -113,7 +113,7 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
-/// Runs the command with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+/// Runs the command with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.
 pub fn run() -> ExitCode {
     if let Err(code) = begin() {
         return code;
@@ -148,7 +148,7 @@ fn begin() -> Result<(), ExitCode> {
 /// Help and version, which are no errors, and errors of usage.
 fn usage(error: &clap::Error) -> ExitCode {
     match error.print() {
-        // What cannot be said on standard error cannot be said at all.
+        // If standard error is closed, the message is lost.
         Err(lost) if !error.use_stderr() => exit_code(Err(lost.into())),
         _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
     }
@@ -161,7 +161,7 @@ fn exit_code(result: Result<(), Error>) -> ExitCode {
     }
 }
 
-/// Says what is wrong, and answers with `status`.
+/// Prints the error, and returns `status`.
 fn failure(error: Error, status: u8) -> ExitCode {
     match error {
         // A reader that has seen enough (`glumbra info | head`) is no error.
@@ -173,7 +173,7 @@ fn failure(error: Error, status: u8) -> ExitCode {
     }
 }
 
-/// Writes a line on standard error. Where that is closed or full there is nowhere left to say it.
+/// Writes a line on standard error. If that is closed or full, the line is lost.
 fn say(line: impl std::fmt::Display) {
     use std::io::Write;
     let _ = writeln!(std::io::stderr(), "{line}");

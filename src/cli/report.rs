@@ -191,7 +191,7 @@ fn notes_of(sweeps: &[Sweep]) -> Vec<String> {
     sweeps.iter().flat_map(|sweep| sweep.notes.iter().cloned()).collect()
 }
 
-/// The settings to take, and where the page is.
+/// Prints the recommended settings, and the page's path.
 fn print_answers(report: &Report, goals: &Goals, folder: &Path, out: &mut impl Write) -> Result<(), Error> {
     for scene in &report.scenes {
         writeln!(out, "{}", picks::to_text(scene, goals))?;
@@ -252,7 +252,7 @@ pub(super) fn stop_on_interrupt() -> Arc<AtomicBool> {
     stop
 }
 
-/// Takes up the rows of an earlier run that the journal holds, and says what of it is not believed.
+/// Takes over the rows of an earlier run from the journal, and warns of rejected ones.
 fn take_up(folder: &Path, stamp: &str, sweeps: &[Sweep], report: &mut Report) -> Result<(), Error> {
     let is_known =
         |fingerprint: &str, row: &Row| match sweeps.iter().find(|sweep| sweep.report.fingerprint == fingerprint) {
@@ -326,7 +326,7 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
     scene.claims.iter().try_for_each(|claim| writeln!(out, "#   {claim}"))
 }
 
-/// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
+/// Draws the pictures, and the scene with everything that its plan leaves out.
 fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());

@@ -23,8 +23,8 @@ pub struct Sample {
     pub name: &'static str,
     pub about: &'static str,
     pub scene: Embedded,
-    /// Shadow techniques to choose from, in place of the scene's own; the first is the one to begin with. None: the
-    /// scene's own alone.
+    /// Shadow techniques to choose from, in place of the scene's own; the first is the one to begin with. Empty: only the
+    /// scene's own.
     pub techniques: &'static [&'static str],
 }
 
@@ -43,7 +43,7 @@ struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "headless")]
     capture: Option<PathBuf>,
 
-    /// The picture to begin with; space goes on to the next
+    /// The picture to begin with; space switches to the next
     #[arg(long, value_enum, default_value_t = ModeName::Shadowed)]
     mode: ModeName,
 
@@ -104,7 +104,7 @@ impl From<ModeName> for Mode {
     }
 }
 
-/// Runs a sample program with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+/// Runs a sample program with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.
 pub fn run(sample: &Sample) -> ExitCode {
     let mut command =
         Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help(sample.techniques));

@@ -36,7 +36,7 @@ impl SceneArgs {
         size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
     }
 
-    /// Refuses options that the scene has no use for.
+    /// Refuses options that do not apply to the scene.
     pub fn check(&self) -> Result<(), Error> {
         let is_scene = self.scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
         if self.no_floor && is_scene { Err(Error::NoFloor { scene: self.scene.clone() }) } else { Ok(()) }

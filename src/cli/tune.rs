@@ -1,4 +1,4 @@
-//! `glumbra tune`: which offset, which map size.
+//! `glumbra tune`: finds the polygon offset and the map size.
 
 use clap::Args;
 

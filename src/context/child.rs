@@ -4,7 +4,7 @@
 ///
 /// # Errors
 ///
-/// How it ended: by a signal, or not at all.
+/// The way it ended: by a signal, or not at all.
 #[cfg(unix)]
 pub(super) fn survives(work: impl FnOnce()) -> Result<(), String> {
     // SAFETY: the child goes on with this thread alone, and leaves by _exit. Locks that other threads held stay locked in it;

@@ -48,7 +48,7 @@ pub struct Limits {
     pub uniform_block_bytes: i32,
 }
 
-/// Asks the context, which must be current.
+/// Queries the context, which must be current.
 pub(super) fn describe(loaded: &Loaded) -> ContextInfo {
     let gl = &*loaded.gl;
     // SAFETY: queries of strings that every context has since OpenGL 2.0.

@@ -1,4 +1,4 @@
-//! From a context that is current to its functions: checks what was got before glow, which panics on surprises.
+//! Loads the functions of the current context. Checks the context before glow does, which panics on surprises.
 
 use std::ffi::{CStr, c_char, c_void};
 use std::rc::Rc;
@@ -8,7 +8,7 @@ use glow::HasContext;
 use super::debug_log::{self, DebugLog};
 use super::{ContextRequest, Profile};
 
-/// The functions of a context, and what was found out as they were loaded.
+/// The functions of a context, and its properties.
 pub struct Loaded {
     pub(super) gl: Rc<glow::Context>,
     pub(super) backend: String,
@@ -18,7 +18,7 @@ pub struct Loaded {
     pub(super) address_of: Box<AddressOf>,
 }
 
-/// Answers with a function of the context that it came with, or null.
+/// Looks up a function of its context; null if there is none.
 pub(super) type AddressOf = dyn Fn(&CStr) -> *const c_void;
 
 /// Loads the functions of the context that is current, and refuses one that is older than requested.

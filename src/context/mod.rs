@@ -1,7 +1,7 @@
 //! A current GL context behind one trait: EGL, OSMesa or a window's.
 //!
-//! Owns how a context is found, kept and given up, and what it says of itself. Knows nothing of what is drawn with it.
-//! Loading the driver's libraries happens here and nowhere else; none is linked to.
+//! Opens, keeps and closes contexts, and describes them. Knows nothing of drawing. Loading the driver's libraries happens
+//! here and nowhere else; none is linked to.
 //!
 //! The backends are tried in the order of [`Backend`]. Each that fails says why; the first that works is taken.
 
@@ -34,7 +34,7 @@ pub struct ContextRequest {
     /// An EGL device by its index in [`egl::devices`]; then only [`Backend::EglDevice`] is tried.
     pub device: Option<usize>,
     pub profile: Profile,
-    /// Asks for a debug context, whose errors are collected with their text (KHR_debug).
+    /// True for a debug context, whose errors are collected with their text (KHR_debug).
     pub debug: bool,
 }
 
@@ -55,7 +55,7 @@ pub enum Profile {
     /// OpenGL 3.3 core or later: for rendering.
     #[default]
     Core33,
-    /// With the fixed-function pipeline: for the oracle.
+    /// With the fixed-function pipeline.
     Compatibility,
 }
 

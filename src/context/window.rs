@@ -1,5 +1,5 @@
 //! Contexts of a window on X11 or Wayland, by winit and glutin: a visible one for the sample program, and a hidden one as
-//! the last backend. Sizes are physical pixels; the display's scale factor is not looked at.
+//! the last backend. Sizes are physical pixels; the display's scale factor is ignored.
 
 use std::cell::RefCell;
 use std::num::NonZeroU32;
@@ -101,7 +101,7 @@ impl Context for WindowContext {
 impl Drop for WindowContext {
     fn drop(&mut self) {
         if self.context.is_current() {
-            // What cannot be let go is destroyed as it is.
+            // A context that cannot be released is destroyed as it is.
             let _ = self.context.make_not_current_in_place();
         }
     }
@@ -110,7 +110,7 @@ impl Drop for WindowContext {
 /// A context on a hidden window. The error is this backend's answer.
 pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     thread_local! {
-        /// winit allows one event loop a process. It is kept to the end: tearing it down takes the display along.
+        /// winit allows one event loop a process. It is kept to the end: dropping it would close the display.
         static EVENTS: RefCell<Option<&'static mut EventLoop<()>>> = const { RefCell::new(None) };
     }
     if !display_is_named() {

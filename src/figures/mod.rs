@@ -1,6 +1,6 @@
 //! Figures that show a result in [HSM], [LEC] or [GDC], drawn from our own scenes as contact sheets with captions. A figure
-//! is data (`table.rs`): panels, each a scene with what is changed in it and what of it is shown. Knows scenes, plans and
-//! frames; no technique by more than a scene's keys, no GL.
+//! is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames; no technique by more
+//! than a scene's keys, no GL.
 
 mod sheet;
 mod table;

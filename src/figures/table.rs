@@ -1,4 +1,4 @@
-//! Every figure. Captions say what is to be seen; `tests/figures.rs` holds pixels of them against it.
+//! Every figure. Captions say what can be seen; the test figures checks that against pixels.
 
 use super::{Figure, Panel};
 use crate::scene::Embedded;

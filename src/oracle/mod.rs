@@ -1,4 +1,4 @@
-//! The judges: other ways to make the same picture, each independent of what it judges.
+//! Other ways to make the same picture, each independent of the renderer.
 //!
 //! - [`ray`]: exact visibility in f64 from the scene alone.
 //! - [`semantics`]: GL's own rules, as checks of the driver.

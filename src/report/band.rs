@@ -1,9 +1,9 @@
 //! Pixels near a true shadow edge, in texels of a shadow map of all the light.
 //!
-//! Distances are taken in the map's plane, not in the picture: a pixel is in the band when its point projects to
-//! within k texels of where an edge projects. That is where a map of that size can be wrong by its texels alone,
-//! however the camera foreshortens it and however far the receiver lies behind the caster. An edge is known between two
-//! pixels only, so that it is taken for the whole stretch between their points: both belong to the band at any k.
+//! Distances are taken in the map's plane, not in the picture: a pixel is in the band when its point projects to within k
+//! texels of where an edge projects. That is where a map of that size can be wrong by its texels alone, however the camera
+//! foreshortens it and however far the receiver lies behind the caster. An edge is known between two pixels only, so that
+//! the whole stretch between their points counts: both belong to the band at any k.
 
 use std::collections::HashMap;
 
@@ -19,14 +19,14 @@ pub struct Band {
     pub texels: f64,
     /// Size of a map of the whole light: a spotlight's frustum, each face of a point light's cube, the square around all
     /// the scene across a directional light's rays (see [`crate::oracle::ray::Hit::in_map`]); for a map that covers less,
-    /// of the map that would.
+    /// the size that a map of the whole would have.
     pub map_size: [u32; 2],
 }
 
 /// The pixels of `truth` within `band` of its shadow `edges`.
 pub(super) fn find_band(truth: &Truth, edges: &[Pair], band: &Band) -> Vec<bool> {
     let [width, height] = band.map_size.map(f64::from);
-    // The third coordinate is of cube maps alone, whose faces are square.
+    // Only cube maps, whose faces are square, have a third coordinate.
     let size = DVec3::new(width, height, width);
     let texel = |index: usize| truth.pixels[index].hit.map_or(DVec3::INFINITY, |hit| 0.5 * hit.in_map * size);
     let stretches: Vec<[DVec3; 2]> = edges.iter().map(|edge| [texel(edge.first), texel(edge.second)]).collect();
@@ -38,7 +38,7 @@ pub(super) fn find_band(truth: &Truth, edges: &[Pair], band: &Band) -> Vec<bool>
     in_band
 }
 
-/// Stretches by the square cells that their surroundings reach.
+/// Stretches, by the square cells within their reach.
 struct Cells {
     stretches: Vec<[DVec3; 2]>,
     reach: f64,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::plain;
 
-/// A claim of a document, and what this scene says of it.
+/// A claim of a document, and its result on this scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claimed {
     /// Technique that the claim is about, and its document.
@@ -16,7 +16,7 @@ pub struct Claimed {
     /// Compared quantity, with its unit.
     pub quantity: String,
     pub first: Measurement,
-    /// Between both, in words: "at most 0.5 ×", "more than".
+    /// Relation between both, in words: "at most 0.5 ×", "more than".
     pub relation: String,
     pub second: Measurement,
     pub verdict: Verdict,
@@ -25,10 +25,10 @@ pub struct Claimed {
 /// A number of a claim.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
-    /// In TOML.
+    /// Settings in TOML.
     pub settings: String,
     pub value: Option<f64>,
-    /// Why there is no value.
+    /// Reason why there is no value.
     pub why: Option<String>,
 }
 
@@ -37,7 +37,7 @@ pub struct Measurement {
 pub enum Verdict {
     Holds,
     Fails,
-    /// One of the numbers is not to be had.
+    /// One of the numbers is missing.
     Unknown,
 }
 
@@ -52,7 +52,7 @@ impl Verdict {
 }
 
 impl Claimed {
-    /// The first number over the second, where that says something.
+    /// The first number over the second, if that is meaningful.
     pub fn ratio(&self) -> Option<f64> {
         let (first, second) = (self.first.value?, self.second.value?);
         (second > 0.0).then_some(first / second)

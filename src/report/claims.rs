@@ -17,11 +17,11 @@ use crate::techniques::claims::{Contender, Quantity, Relation};
 /// Slope factors that are tried; a constant offset has none.
 const FACTORS: [f64; 5] = [1.0, 1.5, 2.0, 3.0, 4.0];
 
-/// Holds every claim of the techniques that serve a light against its scene.
+/// Measures every claim of the techniques that serve the light on its scene.
 ///
 /// # Errors
 ///
-/// A frame that cannot be drawn for reasons that are no technique's: see [`tune::Error`].
+/// A frame that cannot be drawn, for reasons other than a technique's: see [`tune::Error`].
 pub fn measure(
     scene: &Scene,
     light: usize,
@@ -87,7 +87,7 @@ struct Contest<'a> {
     seen: Vec<(Contender, Seen)>,
 }
 
-/// One contender: its settings, its offset where it has one, and its errors, or why it has none.
+/// One contender: its settings, its offset where it has one, and its errors, or the reason why it has none.
 #[derive(Clone)]
 struct Seen {
     settings: String,
@@ -163,8 +163,8 @@ impl Contest<'_> {
         metrics::compare(self.truth, &shade.map_err(|e| e.to_string())?, &band).map_err(|e| e.to_string())
     }
 
-    /// Over the lit pixels that face the light, in 2⁻²⁴ of the depth range; `None` without such a pixel, or without a
-    /// frustum whose depth it could be measured in.
+    /// Median offset over the lit pixels that face the light, in 2⁻²⁴ of the depth range; `None` without such a pixel, or
+    /// without a frustum whose depth it could be measured in.
     fn median_offset(&self, point: &Point) -> Option<f64> {
         let window_from_world = window_from_world(self.scene, self.options.light, point.size)?;
         let unit = match self.scene.lights[self.options.light].shadow.get("format").map(|entry| &entry.value) {
@@ -179,7 +179,7 @@ impl Contest<'_> {
     }
 }
 
-/// In texels and depths of [0, 1].
+/// Matrix to texels and depths in [0, 1].
 fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
     let clip_from_world = scene.lights[light].frustum()?.clip_from_world();
     let half = 0.5 * f64::from(size);
@@ -187,7 +187,7 @@ fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
     Some(scale * DMat4::from_translation(DVec3::ONE) * clip_from_world)
 }
 
-/// GL's maximum depth slope of the plane that a pixel shows [GL 4.6, 14.6.5]: a plane stays one through a projection.
+/// GL's maximum depth slope of the plane that a pixel shows [GL 4.6, 14.6.5]: a projection maps planes to planes.
 fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
     let plane: DVec4 = hit.normal.extend(-hit.normal.dot(hit.position));
     let plane = window_from_world.inverse().transpose() * plane;
@@ -202,7 +202,7 @@ fn compared(metrics: &Metrics, quantity: Quantity) -> usize {
     }
 }
 
-/// `None` where nothing that is turned away was compared.
+/// Share of wrong pixels on surfaces turned away; `None` if none was compared.
 fn wrong_away(metrics: &Metrics) -> Option<f64> {
     let count = |split: Split| split.inside + split.outside;
     let wrong = |errors: &metrics::Errors| count(errors.false_shadow) + count(errors.leak);

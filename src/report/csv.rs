@@ -1,8 +1,8 @@
-//! A report as one flat table: a line a row of the grid, for a spreadsheet or a data frame. RFC 4180.
+//! A report as one flat table: one line for each row of the grid, for a spreadsheet or a data frame. RFC 4180.
 //!
-//! Every setting that occurs anywhere has a column, `setting.key`, and `setting.table.key` where it is a table. Texts stand
-//! without TOML's quotes. A cell is empty where a row has no such value; a row
-//! that failed has its reason in the last column and no measures.
+//! Every setting that occurs anywhere has a column, `setting.key`, and `setting.table.key` where it is a table. Texts have
+//! no TOML quotes. A cell is empty where a row has no such value; a row that failed has its reason in the last column and
+//! no measures.
 
 use std::fmt::Write;
 
@@ -25,7 +25,7 @@ pub fn to_csv(report: &Report) -> String {
     text
 }
 
-/// The union over all rows, in the order met.
+/// Union of the keys of all rows, in order of occurrence.
 fn setting_keys(report: &Report) -> Vec<String> {
     let mut keys: Vec<String> = Vec::new();
     for (key, _) in report.scenes.iter().flat_map(|scene| &scene.rows).flat_map(plain_settings) {
@@ -168,7 +168,7 @@ fn push_line(text: &mut String, cells: impl IntoIterator<Item = String>) {
     text.push_str("\r\n");
 }
 
-/// In quotes where a reader would otherwise split it (RFC 4180, 2.6 and 2.7).
+/// Quotes a cell that a reader would otherwise split (RFC 4180, 2.6 and 2.7).
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\r', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
 }

@@ -1,7 +1,7 @@
-//! The truth, and where a picture differs from it, as pictures for a person.
+//! The truth, and a picture's differences from it, as pictures.
 //!
-//! Grays say what the truth is, darker for less light; only what is wrong has a colour. The colours are of the set that
-//! Okabe and Ito chose to be distinguishable with any colour vision, and differ in lightness from what they lie on.
+//! Grays show the truth, darker for less light; only errors have a colour. The colours are of the set that Okabe and Ito
+//! chose to be distinguishable with any colour vision, and differ in lightness from the gray below.
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
@@ -44,7 +44,7 @@ pub fn shade_picture(shade: &ShadeImage) -> RgbImage {
     })
 }
 
-/// The truth, and over it what the picture has wrong.
+/// The truth, and over it the picture's errors.
 ///
 /// # Errors
 ///
@@ -62,7 +62,7 @@ pub fn difference_picture(truth: &Truth, shade: &ShadeImage) -> Result<RgbImage,
     Ok(paint(truth, |index, pixel| match (pixel.answer, shade.covered[index]) {
         (Answer::Ambiguous(_), _) => AMBIGUOUS,
         (Answer::Background, true) | (Answer::Lit | Answer::Shadowed, false) => NOT_COMPARED,
-        // Not known: of a surface that shows no light.
+        // Unknown: a surface that shows no light.
         (_, true) if shade.shade[index].is_nan() => true_color(pixel),
         (Answer::Lit, true) if !is_lit(shade.shade[index]) => FALSE_SHADOW,
         (Answer::Shadowed, true) if is_lit(shade.shade[index]) => LEAK,
@@ -74,7 +74,7 @@ pub fn difference_picture(truth: &Truth, shade: &ShadeImage) -> Result<RgbImage,
 ///
 /// # Errors
 ///
-/// What the encoder says; it knows no error for a picture of at least one pixel.
+/// An error of the encoder; it has none for a picture of at least one pixel.
 pub fn to_png(picture: &RgbImage) -> Result<Vec<u8>, image::ImageError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive).write_image(

@@ -23,8 +23,8 @@ pub struct EdgeDistance {
     pub max_pixels: f64,
 }
 
-/// The neighbours that see one surface inside the light's shape: their points are no farther apart than a pixel's step
-/// on either surface explains. Across a silhouette a change of light is no shadow's edge.
+/// Neighbouring pixels that see one surface inside the light's shape: their points are no farther apart than a pixel's step
+/// on either surface. Across a silhouette a change of light is no shadow's edge.
 pub(super) fn connected_pairs(truth: &Truth) -> Vec<Pair> {
     let (width, height) = (truth.width as usize, truth.height as usize);
     let mut pairs = Vec::new();
@@ -49,7 +49,7 @@ fn is_connected(a: &Pixel, b: &Pixel) -> bool {
     in_light && a.hit.zip(b.hit).is_some_and(|(a, b)| near(&a, &b))
 }
 
-/// From each of `from` to the nearest of `to`; `None` where either is empty.
+/// Distances from each of `from` to the nearest of `to`; `None` where either is empty.
 pub(super) fn distances(size: [u32; 2], from: &[Pair], to: &[Pair]) -> Option<EdgeDistance> {
     if from.is_empty() || to.is_empty() {
         return None;

@@ -1,6 +1,6 @@
-//! Marks of what rows depend on: two marks that are the same stand for the same rows. A fingerprint is of the scene as it
-//! was loaded, with the contents of every mesh, material and picture that it names, and of the grid; a stamp adds the
-//! program, the driver and the machine, on which errors and times depend too. FNV-1a, 64 bits.
+//! Hashes of everything that rows depend on: equal hashes mean the same rows. A fingerprint is a hash of the loaded scene,
+//! with the contents of every mesh, material and picture that it names, and of the grid. A stamp is a hash of the program,
+//! the driver and the machine, on which errors and times depend, too. FNV-1a, 64 bits.
 
 use std::fmt::{self, Write};
 use std::sync::Arc;
@@ -10,8 +10,8 @@ use super::run::Options;
 use crate::geometry::{Material, Mesh, Texture};
 use crate::scene::{LightKind, Scene, Settings};
 
-/// Marks everything that decides what the rows are, but not the machine. Files' names are not in it: the same scene in
-/// another folder has the same.
+/// Hashes everything that decides the rows, but not the machine. File names are not included: the same scene in another
+/// folder has the same fingerprint.
 pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: &Options) -> String {
     let mut mark = Mark::new();
     mark.scene(scene);
@@ -22,7 +22,7 @@ pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: 
     mark.finish()
 }
 
-/// Marks what the rows of one folder's runs share besides: whether they may stand in one report without a word.
+/// Hashes the program, the driver and the machine, which all rows of one report must share.
 pub fn stamp(machine: &Machine, options: &Options) -> String {
     let mut mark = Mark::new();
     mark.debug(&(machine, options.runs));
@@ -32,7 +32,7 @@ pub fn stamp(machine: &Machine, options: &Options) -> String {
     mark.finish()
 }
 
-/// Marks a text.
+/// Hashes a text.
 pub fn of_text(text: &str) -> String {
     let mut mark = Mark::new();
     mark.bytes(text.as_bytes());
@@ -53,7 +53,7 @@ impl Mark {
 
     /// Adds all fields of a value.
     fn debug(&mut self, value: &dyn fmt::Debug) {
-        // A mark takes whatever is written.
+        // Writing to a hash cannot fail.
         let _ = writeln!(self, "{value:?}");
     }
 

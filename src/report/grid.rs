@@ -9,13 +9,13 @@ use crate::techniques::{self, Axis, TABLE, Technique};
 /// The most rows that a grid may have. Each takes a frame's time, some kilobytes of memory and a line of the page.
 pub const MOST_ROWS: usize = 100_000;
 
-/// Why a grid file cannot be used.
+/// Reason why a grid file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The file cannot be read, or is no TOML.
     #[error(transparent)]
     File(#[from] scene::Error),
-    /// A key or a value that cannot be, with its line.
+    /// An unknown key or a wrong value, with its line.
     #[error(transparent)]
     Settings(#[from] SettingsError),
     #[error("{path}: has no [[sweep]]; write one with a technique and an array of values for each key to vary", path = .path.display())]
@@ -82,9 +82,9 @@ fn technique_entry(name: &str) -> Entry {
     Entry { value: Value::String(name.to_owned()), origin: Origin::BuiltIn }
 }
 
-/// A grid of one's own: `[[sweep]]` tables with `technique` and, for each other key, a value or an array of values. The
-/// names of keys are checked here, and how many rows there will be, before any row is made; values are checked with the
-/// scene that they go into.
+/// Reads a grid file: `[[sweep]]` tables with `technique` and, for each other key, a value or an array of values. The names
+/// of keys are checked here, and how many rows there will be, before any row is made; values are checked with the scene
+/// that they go into.
 ///
 /// # Errors
 ///
@@ -149,7 +149,7 @@ fn check_key(technique: &dyn Technique, key: &str, entry: &Entry) -> Result<(), 
     let mut alone = Settings { path: String::from("sweep"), ..Settings::default() };
     alone.set(key, entry.clone());
     let mut keys = alone.read();
-    // Nothing but the unknown key is there to be wrong.
+    // Only the unknown key can be wrong here.
     let _ = technique.check(&mut keys);
     keys.finish()
 }
@@ -227,7 +227,7 @@ mod tests {
         }
     }
 
-    /// Eight keys of ten values: the names are looked at, and the rows counted, before any is made.
+    /// Eight keys of ten values: the names are checked, and the rows counted, before any is made.
     #[test]
     fn a_product_is_counted_before_it_is_made() {
         let values = "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]";

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::results::Row;
 
-/// Why a journal cannot be kept or read.
+/// Reason why a journal cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {reason}", path = .path.display())]
 pub struct Error {
@@ -28,7 +28,7 @@ pub struct Journal {
 struct Line {
     /// Fingerprint of the scene and its grid.
     fingerprint: String,
-    /// Mark of the driver, the machine and the program: see [`super::fingerprint::stamp`].
+    /// Hash of the driver, the machine and the program: see [`super::fingerprint::stamp`].
     #[serde(default)]
     stamp: String,
     row: Row,
@@ -39,12 +39,12 @@ pub fn path_in(folder: &Path) -> PathBuf {
     folder.join("report.journal.jsonl")
 }
 
-/// Rows that a journal holds, and what of it is not believed.
+/// Rows of a journal, and warnings about the rejected ones.
 #[derive(Debug, Default)]
 pub struct Done {
-    /// Each with the fingerprint of its scene; the first of each index.
+    /// Rows, each with the fingerprint of its scene; the first of each index.
     pub rows: Vec<(String, Row)>,
-    /// One sentence each.
+    /// Warnings, one sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -105,7 +105,7 @@ pub enum Known {
     NoSuchRow,
 }
 
-/// Keeps a second report out of the folder while this one runs, and empties a journal that is not gone on with.
+/// Keeps a second report out of the folder while this one runs, and empties a journal that is not continued.
 fn lock(file: &File, resume: bool) -> io::Result<()> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
@@ -130,7 +130,7 @@ impl Journal {
         match options.create(true).open(&path) {
             Ok(mut file) => {
                 lock(&file, resume).map_err(|reason| Error { path: path.clone(), reason })?;
-                // A line that was cut off ends here.
+                // Ends a line that was cut off.
                 let ended = if resume { file.write_all(b"\n") } else { Ok(()) };
                 ended.map_err(|reason| Error { path: path.clone(), reason })?;
                 Ok(Self { path, file, stamp: stamp.to_owned() })
@@ -139,7 +139,7 @@ impl Journal {
         }
     }
 
-    /// Adds a row; it is on its way to the disk when this returns.
+    /// Adds a row; it is written when this returns.
     ///
     /// # Errors
     ///
@@ -153,7 +153,7 @@ impl Journal {
 
     /// Removes the journal of a report that is complete.
     pub fn remove(self) {
-        // The report itself is whole; a journal that stays is only untidy.
+        // The report itself is complete; a remaining journal does no harm.
         let _ = std::fs::remove_file(&self.path);
     }
 }

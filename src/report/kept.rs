@@ -1,5 +1,5 @@
-//! A report's pictures as files beside it, so that parts which are merged still have them: `pictures/` holds each as PNG
-//! under the scene's fingerprint, by which those of another sweep are never taken for this one's.
+//! A report's pictures as files beside it, so that merged parts still have them. `pictures/` holds each as PNG under the
+//! scene's fingerprint, which separates those of different sweeps.
 
 use std::io::{Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use super::html::{DifferencePicture, Goals, Pictures, ScenePictures};
 use super::pictures::rows_that_matter;
 use super::results::{Report, SceneReport};
 
-/// Why the pictures of a part cannot be used.
+/// Reason why the pictures of a part cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be read: {reason}", path = .path.display())]
@@ -31,7 +31,7 @@ pub(super) fn files(folder: &Path, report: &Report, pictures: &Pictures) -> Vec<
         of_scene.truth.iter().for_each(|png| add("truth", png));
         of_scene.differences.iter().for_each(|difference| add(&row(difference.row), &difference.png));
     }
-    // A scene that stands twice in a report has its pictures once.
+    // A scene that occurs twice in a report has its pictures once.
     files.sort();
     files.dedup_by(|a, b| a.0 == b.0);
     files
@@ -57,7 +57,7 @@ fn path_of(folder: &Path, scene: &SceneReport, what: &str) -> PathBuf {
 }
 
 /// The pictures of a merged report, from the folders of its `parts`: of each scene, and of the rows that matter in all of
-/// it. Where no part has a row's picture, because it was measured with other goals, a note of the report says so.
+/// it. If no part has a row's picture, because it was measured with other goals, the report gets a note.
 ///
 /// # Errors
 ///
@@ -89,7 +89,7 @@ pub fn of_parts(parts: &[PathBuf], report: &mut Report, goals: &Goals) -> Result
     Ok(pictures)
 }
 
-/// A part is named by its folder or by the report in it.
+/// The folder of a part, which is named by its folder or by the report in it.
 fn folder_of(part: &Path) -> &Path {
     if part.is_dir() { part } else { part.parent().unwrap_or(part) }
 }

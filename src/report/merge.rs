@@ -1,15 +1,15 @@
 //! Reads reports back and joins the parts of a sweep, wherever they were measured.
 //!
-//! Parts belong together when their scenes have the same fingerprints and one driver drew them: then every number but
-//! the times is the same as if one machine had done it all. Several processors are allowed, since schedulers hand out
-//! what they have, and the report says so. Whatever else does not fit is refused, with the files' names.
+//! Parts belong together when their scenes have the same fingerprints and one driver drew them: then every number but the
+//! times is the same as if one machine had done it all. Several processors are allowed, since schedulers assign any
+//! machine, and the report notes them. Any other mismatch is an error that names the files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::results::{Machine, Measured, Outcome, Report, Row, SceneReport, VERSION};
 
-/// Why a report cannot be read, or parts cannot be joined.
+/// Reason why a report cannot be read, or parts cannot be joined.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be read: {reason}", path = .path.display())]

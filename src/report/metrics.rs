@@ -1,8 +1,7 @@
 //! One picture's errors against the truth: false shadow, leak, and how far its shadow edges lie from the true ones.
 //!
-//! Compared are the pixels that both draw and of which the oracle is sure; the others are counted by why they are left
-//! out. A shade below 0.5 is shadow. All percentages are of the pixels compared, so that false shadow and leak add up
-//! to the total.
+//! Pixels are compared if both draw them and the ray tracer is certain; the others are counted by reason. A shade below 0.5
+//! is shadow. All percentages are of the pixels compared, so that false shadow and leak add up to the total.
 
 pub use super::band::Band;
 use super::band::find_band;
@@ -20,7 +19,7 @@ pub struct ShadeImage {
     /// In pixels.
     pub width: u32,
     pub height: u32,
-    /// `width * height` values, 0: shadow, 1: full light. Looked at only where something is drawn.
+    /// `width * height` values, 0: shadow, 1: full light. Only values of drawn pixels are used.
     pub shade: Vec<f32>,
     /// True if the picture shows a surface there that lies in the light's cone or frustum.
     pub covered: Vec<bool>,
@@ -31,7 +30,7 @@ pub struct ShadeImage {
 pub struct Metrics {
     pub band: Band,
     pub all: Errors,
-    /// Only surfaces whose visible side faces the light: on the others shading leaves no light to be wrong about.
+    /// Only surfaces whose visible side faces the light: on the others shading leaves no light.
     pub facing: Errors,
     pub left_out: LeftOut,
 }
@@ -73,7 +72,7 @@ pub struct Split {
 pub struct LeftOut {
     /// Neither draws anything.
     pub background: usize,
-    /// The oracle is not sure.
+    /// The ray tracer is not certain.
     pub ambiguous: usize,
     /// Outside the light's cone or frustum: unlit in any case.
     pub outside_cone: usize,
@@ -83,7 +82,7 @@ pub struct LeftOut {
     pub only_drawn: usize,
 }
 
-/// Why a picture cannot be compared.
+/// Reason why a picture cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     #[error("the picture has {found:?} pixels, the truth {expected:?}")]
@@ -96,7 +95,7 @@ pub enum Error {
     Band { texels: f64, size: [u32; 2] },
 }
 
-/// Holds a picture against the truth.
+/// Compares a picture with the truth.
 pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics, Error> {
     check(truth, shade, band)?;
     let pairs = connected_pairs(truth);

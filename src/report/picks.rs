@@ -1,7 +1,7 @@
-//! The settings to take: the cheapest below an error, the most exact below a time, and how far the times can be trusted.
+//! Recommended settings: the cheapest below an error, the most exact below a time, and how far the times can be trusted.
 //!
-//! A measured time is the work's own and what else the machine did meanwhile, which only ever adds. Two signs show how much
-//! that is: the runs of one row, and rows whose passes are the same work (their polygon offsets differ, for example). On a
+//! A measured time is the work's own and what else the machine did meanwhile, which only adds. Two signs show how much that
+//! is: the runs of one row, and rows whose passes are the same work (their polygon offsets differ, for example). On a
 //! loaded machine the least of a row's runs is nearest to its own time, otherwise the median is taken. Two times cannot be
 //! distinguished if their bars overlap: a bar reaches from the least to the greatest run of a row and of all of its work.
 
@@ -23,7 +23,7 @@ pub struct Times<'r> {
     /// Measured rows, and those of them whose runs differ much among themselves.
     pub rows: usize,
     pub unsteady: usize,
-    /// Rows of which others do the same work, and those of them whose least times differ much.
+    /// Rows that do the same work as others, and those of them whose least times differ much.
     pub twins: usize,
     pub unlike: usize,
     /// The least and the greatest run of all rows of a work.
@@ -88,7 +88,7 @@ impl<'r> Times<'r> {
     }
 }
 
-/// A setting to take.
+/// A recommended setting.
 #[derive(Debug)]
 pub struct Pick<'r> {
     pub row: &'r Row,
@@ -99,11 +99,11 @@ pub struct Pick<'r> {
     pub bar: [f64; 2],
     /// Rows that the times cannot rule out in its place.
     pub rivals: Vec<&'r Row>,
-    /// True if its bar reaches beyond the time asked for.
+    /// True if its bar reaches beyond the requested time.
     pub may_be_late: bool,
 }
 
-/// Both answers of a scene, and what they rest on.
+/// Both recommendations for a scene, and their basis.
 #[derive(Debug)]
 pub struct Picks<'r> {
     pub times: Times<'r>,
@@ -170,7 +170,7 @@ fn most_exact<'r>(scene: &'r SceneReport, times: &Times<'_>, milliseconds: f64) 
     Some(Pick { row, measured, milliseconds: times.of_row(measured), bar, rivals, may_be_late })
 }
 
-/// So many rows are named, the others counted.
+/// Number of rows that are named; the others are counted.
 const NAMED: usize = 8;
 
 impl Pick<'_> {
@@ -239,7 +239,7 @@ pub fn titles(goals: &Goals) -> [String; 2] {
     ]
 }
 
-/// Why no setting can be named, where too few pixels were compared.
+/// Reason why no setting can be named, if too few pixels were compared.
 pub fn unjudged(scene: &SceneReport) -> Option<String> {
     let most = scene.rows.iter().filter_map(Row::measured).map(|measured| measured.metrics.all.compared).max()?;
     (most < FEWEST_COMPARED).then(|| {

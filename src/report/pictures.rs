@@ -1,4 +1,4 @@
-//! The pictures of a report: the scene, the truth, and what the rows that matter have wrong.
+//! The pictures of a report: the scene, the truth, and the errors of the rows that matter.
 
 use super::difference::{self, difference_picture, truth_picture};
 use super::html::{DifferencePicture, Goals, ScenePictures};
@@ -10,7 +10,7 @@ use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
 
-/// Why a picture could not be drawn.
+/// Reason why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -25,7 +25,7 @@ pub enum Error {
 ///
 /// # Errors
 ///
-/// What the device says; a picture that does not fit its truth.
+/// An error of the device; a picture that does not fit its truth.
 pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Renderer) -> Result<ScenePictures, Error> {
     let mut differences = Vec::new();
     for (row, caption) in rows_that_matter(report, goals) {

@@ -26,7 +26,7 @@ pub struct Report {
 /// The layout that this crate writes and reads.
 pub const VERSION: u32 = 1;
 
-/// On what it was measured.
+/// Machine and driver that it was measured on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
     /// The processor, as the system names it, and its logical cores.
@@ -44,15 +44,15 @@ pub struct Machine {
 /// One scene over the grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneReport {
-    /// As text; what is no UTF-8 in it is replaced.
+    /// Path as text; bytes that are not UTF-8 are replaced.
     #[serde(serialize_with = "as_text")]
     pub path: PathBuf,
-    /// The path's bytes in hexadecimal, where it is no UTF-8.
+    /// The path's bytes in hexadecimal, if it is not UTF-8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path_bytes: Option<String>,
     /// Fingerprint of the scene, the files that it names, the grid, the light and the layout: parts with the same one can be merged.
     pub fingerprint: String,
-    /// Into the scene's lights.
+    /// Index into the scene's lights.
     pub light: usize,
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -66,11 +66,11 @@ pub struct SceneReport {
     pub claims: Vec<Claimed>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.
     pub grid_rows: usize,
-    /// By their place in the grid.
+    /// Rows by their index in the grid.
     pub rows: Vec<Row>,
 }
 
-/// The scene as written, with everything drawn against what its plan leaves out.
+/// Costs of the scene as written, compared with everything drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Saved {
     /// True if both drew the same picture, to the bit. If not, nothing here counts.
@@ -81,7 +81,7 @@ pub struct Saved {
     pub left_out: Vec<crate::techniques::LeftOut>,
 }
 
-/// A frame's price.
+/// Cost of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     pub frame: Spread,
@@ -106,7 +106,7 @@ pub struct TruthSummary {
 /// One setting of one technique.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// In the grid, from 0; row 0 is the scene as it is written.
+    /// Index in the grid, from 0; row 0 is the scene as written.
     pub index: usize,
     pub technique: String,
     /// `key = value` in TOML, without the technique: all keys of `[light.shadow]`, the scene's own among them.
@@ -118,7 +118,7 @@ pub struct Row {
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     Measured(Box<Measured>),
-    /// Why the row could not be drawn or compared.
+    /// Reason why the row could not be drawn or compared.
     Failed(String),
 }
 
@@ -139,7 +139,7 @@ pub struct Measured {
     /// Draws and triangles of a frame with everything drawn.
     pub draw_calls: usize,
     pub triangles: u64,
-    /// Mark of what its passes do: rows with the same one should take the same time. Empty in older reports.
+    /// Hash of the work of its passes: rows with the same one should take the same time. Empty in older reports.
     #[serde(default)]
     pub work: String,
     pub left_out: Vec<crate::techniques::LeftOut>,
@@ -208,12 +208,12 @@ impl Row {
     }
 }
 
-/// JSON has no text that is no UTF-8: see [`SceneReport::path_bytes`].
+/// Replaces bytes that are not UTF-8, which JSON cannot hold: see [`SceneReport::path_bytes`].
 fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&path.to_string_lossy())
 }
 
-/// For [`SceneReport::path_bytes`].
+/// Value of [`SceneReport::path_bytes`].
 pub fn bytes_of(path: &Path) -> Option<String> {
     let hexadecimal = |byte: &u8| format!("{byte:02x}");
     path.to_str().is_none().then(|| path.as_os_str().as_encoded_bytes().iter().map(hexadecimal).collect())
@@ -227,7 +227,7 @@ impl SceneReport {
 }
 
 impl Measured {
-    /// Tests whether enough pixels could be compared to say how wrong it is. A picture that could not is not right, only unjudged.
+    /// Tests whether enough pixels could be compared to say how wrong it is. Otherwise it is not right, only unjudged.
     pub fn is_judged(&self) -> bool {
         self.metrics.all.compared >= FEWEST_COMPARED
     }

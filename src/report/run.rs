@@ -1,4 +1,4 @@
-//! Runs a grid over a scene: each row is drawn, held against the truth and timed, in this order.
+//! Runs a grid over a scene: each row is drawn, compared with the truth and timed, in this order.
 
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -73,8 +73,8 @@ pub struct Sweep {
 ///
 /// # Errors
 ///
-/// A scene that does not load, a light that is not there, a row of one's own grid that cannot be, a truth that the oracle
-/// does not know.
+/// A scene that does not load, a light that is not there, a wrong row of a grid file, a truth that the ray tracer cannot
+/// find.
 pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options) -> Result<Sweep, Error> {
     let (index, shards) = options.shard;
     if index == 0 || index > shards {
@@ -106,7 +106,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options
     Ok(Sweep { scene, truth, report, warnings, notes: left_out, rows })
 }
 
-/// The rows of a scene's grid, and what of the standard grid does not go with the scene's own keys.
+/// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.
 struct Layout {
     rows: Vec<(Row, Settings)>,
     left_out: Vec<String>,
@@ -152,8 +152,8 @@ fn technique_of(settings: &Settings) -> &str {
     }
 }
 
-/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as `render --set` would have it; without what
-/// the technique does not read. Written into the scene file it draws the same.
+/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as with `render --set`; without keys that the
+/// technique does not read. Written into the scene file it draws the same.
 pub fn over(written: &Settings, setting: &Settings) -> Settings {
     let mut merged = setting.clone();
     merged.path.clone_from(&written.path);
@@ -181,8 +181,8 @@ fn readable(settings: &Settings) -> Settings {
     kept
 }
 
-/// Tests whether a scene without objects can be planned with `settings`: whatever is wrong with them alone is found here, by the
-/// reader that a frame's plan has.
+/// Tests whether a scene without objects can be planned with `settings`: so every error of the settings alone is found
+/// here, as for a frame's plan.
 fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<(), plan::Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
     let request = Request { views, sampled_warnings: false, ..Request::default() };
@@ -242,11 +242,11 @@ impl Sweep {
         Row { outcome, ..row.clone() }
     }
 
-    /// Draws the scene as written with and without what its plan leaves out, and compares pixels, time and bytes.
+    /// Draws the scene as written with and without the parts that its plan leaves out, and compares pixels, time and bytes.
     ///
     /// # Errors
     ///
-    /// What the plan or the device says.
+    /// An error of the plan or the device.
     pub fn saved(&self, options: &Options, renderer: &mut Renderer) -> Result<Saved, frame::Error> {
         let mut cost = |keep_all| {
             let plan = renderer.plan(&self.scene, &Request { frames: 100, keep_all, ..Request::default() })?;
@@ -314,8 +314,8 @@ fn measure(
     })
 }
 
-/// A mark of what a frame's passes do, but for their polygon offsets and the values of uniforms: frames of one mark should
-/// take the same time.
+/// A hash of the work of a frame's passes, without their polygon offsets and the values of uniforms: frames with the same
+/// one should take the same time.
 fn work_of(plan: &Plan) -> String {
     let image = |id: ImageId| {
         let desc = plan.list.desc(id);
@@ -344,7 +344,7 @@ fn work_of(plan: &Plan) -> String {
     fingerprint::of_text(&text)
 }
 
-/// Draws the shade and holds it against the truth. A frame is not timed before that.
+/// Draws the shade and compares it with the truth. A frame is not timed before that.
 fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
     let shade = draw_shade(scene, light, renderer).map_err(|error| error.to_string())?;
     metrics::compare(truth, &shade, band).map_err(|error| error.to_string())
@@ -354,7 +354,7 @@ fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut
 ///
 /// # Errors
 ///
-/// What the plan or the device says.
+/// An error of the plan or the device.
 pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, frame::Error> {
     let request = Request { views: vec![ViewRequest { view: View::Shade, light }], ..Request::default() };
     let plan = renderer.plan(scene, &request)?;

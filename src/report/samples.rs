@@ -1,4 +1,4 @@
-//! A made-up report for tests: times grow with the map, errors shrink with it, as they would.
+//! A made-up report for tests: times grow with the map, errors shrink with it.
 
 use super::claimed::{Claimed, Measurement, Verdict};
 use super::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};

@@ -1,4 +1,4 @@
-//! Finds the polygon offset, and the smallest map, that a scene needs: by search, with the oracle as judge.
+//! Finds the polygon offset, and the smallest map, that a scene needs: by search, judged by the ray tracer.
 //!
 //! A larger offset only ever removes false shadow and adds leak. So for each slope factor there is a least number of
 //! units without false shadow, found by bisection over powers of two; of all factors the pair with the least leak wins.
@@ -11,7 +11,7 @@ use crate::oracle::ray::{self, Answer, Pixel, Truth};
 use crate::scene::{self, Scene, Settings, Value};
 use crate::techniques::{TABLE, Technique};
 
-/// Why nothing can be tuned.
+/// Reason why nothing can be tuned.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -52,13 +52,13 @@ pub struct Point {
     pub size: u32,
     pub factor: f64,
     pub units: f64,
-    /// On surfaces that face the light, beyond the edge band, in percent of those compared.
+    /// False shadow on surfaces that face the light, beyond the edge band, in percent of those compared.
     pub false_shadow_percent: f64,
-    /// The same, the band included.
+    /// False shadow on surfaces that face the light, the band included, in percent of those compared.
     pub false_shadow_with_band_percent: f64,
     /// Leak, in percent of all pixels that were compared.
     pub leak_percent: f64,
-    /// On surfaces that face the light, in percent of those compared: what shading does not hide.
+    /// Leak on surfaces that face the light, where shading does not hide it, in percent of those compared.
     pub leak_facing_percent: f64,
     pub wrong_percent: f64,
     /// True if the false shadow is within [`Options::false_per_100_000`].
@@ -76,7 +76,7 @@ pub struct Tuned {
     pub best: Vec<Point>,
     /// The smallest map that leaks no more than it may, or, where none does, the one that leaks least.
     pub chosen: Option<Point>,
-    /// The chosen point as `[light.shadow]`, with all that the scene's own has besides: it takes that table's place.
+    /// The chosen point as `[light.shadow]`, with the other keys of the scene's own: it replaces that table.
     pub chosen_toml: Option<String>,
     /// Pixels of which the truth is sure and which were drawn, those of them that face the light, and those in shadow.
     pub compared: usize,
@@ -110,7 +110,7 @@ const FACTORS: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 /// Powers of two of units that are tried; 0 stands before them.
 const MOST_UNITS_LOG2: i32 = 20;
 
-/// Searches. `tick` is called with each point that was seen.
+/// Searches. `tick` is called with each measured point.
 ///
 /// # Errors
 ///
@@ -299,7 +299,7 @@ impl<'a> Search<'a> {
 }
 
 impl Search<'_> {
-    /// The pixels that may stay falsely dark: single ones at the band's rim are no acne, however small the picture.
+    /// Number of pixels that may stay falsely dark: single ones at the band's rim are no acne, however small the picture.
     fn spare(&self, compared: usize) -> f64 {
         (1e-5 * self.options.false_per_100_000 * compared as f64).max(SPARE_PIXELS)
     }
@@ -321,7 +321,7 @@ fn units_of(exponent: i32) -> f64 {
     if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }
 }
 
-/// `shadow` as a shadow map of another size and offset, which alone keeps its surfaces from shading themselves.
+/// `shadow` as a shadow map of another size and offset, without any other bias.
 fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
     let offset = format!("offset = {{ factor = {factor:?}, units = {units:?} }}");
     let mut written = shadow.clone();

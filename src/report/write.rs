@@ -1,7 +1,7 @@
 //! A report as files in a folder: `report.json`, `report.csv`, `report.html`, `plots/*.svg` and `pictures/*.png`.
 //!
-//! Each is made in memory, written beside its name, brought to the disk and renamed, so that a full disk or a kill
-//! leaves an older report or a newer one and never half of one.
+//! Each is made in memory, written under another name, synced and renamed, so that a full disk or a kill leaves the older
+//! report or the newer one, never half of one.
 
 use std::collections::HashSet;
 use std::fs;
@@ -85,7 +85,7 @@ fn remove_stale(folder: &Path, written: &HashSet<&Path>, is_ours: fn(&str) -> bo
     Ok(())
 }
 
-/// Writes `report.json` only: what a sweep leaves after each row, and goes on from.
+/// Writes `report.json` only, after each row of a sweep, which can continue from it.
 ///
 /// # Errors
 ///

@@ -95,7 +95,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// Why the scene is refused, or why a file cannot be written, as a sentence.
+    /// Reason why the scene is refused, or a file cannot be written, as a sentence.
     pub fn load(&self, folder: &Path) -> Result<Loaded, String> {
         scene::load(&self.write(folder)?, &[]).map_err(|error| error.to_string())
     }

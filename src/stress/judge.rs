@@ -1,22 +1,22 @@
-//! One row of a case: drawn, and held against the truth pixel by pixel.
+//! One row of a case: drawn, and compared with the truth pixel by pixel.
 //!
 //! # The bound
-//! A pixel counts where the oracle is certain and the picture shows the same surface.
+//! A pixel counts if the ray tracer is certain and the picture shows the same surface.
 //!
 //! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
-//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is accounted
-//!   for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone: 1. a silhouette or an open edge, as
-//!   the light sees it, lies within a lookup's reach (the *band*); of the visible surface itself, it counts where a texel
-//!   holds the middle of two layers: past it the second one lies far behind; 2. it is dark, and a caster within that reach
-//!   stands before the visible surface's plane (a crease); 3. it is dark, and a less steep surface within that reach is
-//!   nearer to the light than its own polygon offset makes up for: an offset knows the slope of the surface that is stored,
-//!   not of the one that is compared; 4. it is lit, and its caster in the map lies so close before it that the bias reaches
+//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is explained
+//!   in four ways, all by the map's own numbers ([`MapInfo`]) and the scene: 1. a silhouette or an open edge, as the light
+//!   sees it, lies within a lookup's reach (the *band*); of the visible surface itself, it counts where a texel holds the
+//!   middle of two layers: past it the second one lies far behind; 2. it is dark, and a caster within that reach stands
+//!   before the visible surface's plane (a crease); 3. it is dark, and a less steep surface within that reach is nearer to
+//!   the light than its own polygon offset makes up for: an offset knows the slope of the surface that is stored, not of
+//!   the one that is compared; 4. it is lit, and its caster in the map lies so close before it that the bias reaches
 //!   across.
 //!
 //!   Of a map of middles, in place of 2 and 3: it is dark, and somewhere within that reach the middle between two layers lies
 //!   before it. So thin a caster shades its own lit side, where it falls away from the light.
 //!
-//!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
+//! What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] wrong pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
 
 use std::collections::HashMap;
@@ -35,11 +35,11 @@ use crate::techniques::map::Bias;
 use crate::techniques::views::View;
 use crate::techniques::{MapInfo, MapShape};
 
-/// The greatest part of the pixels compared that may be wrong although each is accounted for. A map whose band is wider
-/// is too coarse for its picture.
+/// The greatest part of the pixels compared that may be wrong although each is explained. A map whose band is wider is too
+/// coarse for its picture.
 pub const MOST_WRONG: f64 = 0.015;
 
-/// Fewer pixels compared than this say nothing about a share.
+/// Fewest compared pixels for a meaningful share.
 const FEWEST_FOR_A_SHARE: usize = 1000;
 
 /// One light's truths.
@@ -78,7 +78,7 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
     }
 
-    /// The truth that rows of these settings are held against.
+    /// The truth that rows of these settings are compared with.
     pub fn truth_of(&self, settings: &RowSettings) -> &Truth {
         if is_volume(settings) { &self.volume_truth } else { &self.truth }
     }
@@ -224,8 +224,8 @@ impl<'a> Judge<'a> {
         self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
     }
 
-    /// Tests whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane of its
-    /// map a picture has light that truth does not speak of.
+    /// Tests whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane
+    /// of its map a picture has light that the truth leaves out.
     fn is_beside(&self, hit: &Hit) -> bool {
         match &self.scene.lights[self.light].kind {
             LightKind::Spot(spot) => match spot.shape {
@@ -290,8 +290,8 @@ fn in_one_light(scene: &Scene, light: usize) -> Scene {
     scene
 }
 
-/// The part of the light that a pixel shows of what it would show without shadow. NaN where there is no light to be
-/// wrong about; 1 for light where there should be none.
+/// The part of the light that a pixel shows of what it would show without shadow. NaN if there is no light to compare; 1
+/// for light where there should be none.
 fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
     match (shown > 0.0, unshadowed > 0.0) {
         (_, true) => shown / unshadowed,
@@ -358,8 +358,8 @@ impl Counts {
 }
 
 enum Failure {
-    /// A clear error before anything was drawn.
+    /// An error before anything was drawn.
     Refused(String),
-    /// An error of the driver or of ours.
+    /// An error of the driver or of glumbra.
     Broken(String),
 }

@@ -16,7 +16,7 @@ pub enum Command {
     NextTweak,
     /// Steps the current tweak.
     Step(f64),
-    /// Shown in the window, or no more.
+    /// Shows or hides the help.
     Help,
     Quit,
 }

@@ -1,6 +1,6 @@
-//! A scene in a window, to walk around in: what the sample programs share. The state of the walk is plain data and
-//! knows no window ([`State`]); [`run`] joins it to winit's events. Each change makes a new plan, and the device leaves
-//! out what that plan has in common with the last: the map stays when only the camera moves.
+//! A scene in a window, to walk around in: what the sample programs share. [`State`] is plain data and knows no window;
+//! [`run`] joins it to winit's events. Each change makes a new plan, and the device skips passes that the last plan had,
+//! too: the map stays when only the camera moves.
 
 mod keys;
 mod orbit;

@@ -79,12 +79,12 @@ pub enum Handle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reaction {
     Redraw,
-    /// Only what is said of the picture has changed.
+    /// Only the title has changed.
     Retitle,
     Quit,
 }
 
-/// A walk through a scene.
+/// State of a window.
 #[derive(Clone, Debug)]
 pub struct State {
     first: Scene,
@@ -98,7 +98,7 @@ pub struct State {
 }
 
 impl State {
-    /// A walk that begins with `scene` as it is.
+    /// A state that begins with `scene` as it is.
     pub fn new(scene: Scene, mode: Mode) -> Self {
         let size = scene.image.size;
         Self {
@@ -256,7 +256,7 @@ impl State {
         self.scene.camera.view_from_world().inverse().transform_vector3(axis)
     }
 
-    /// Moves the object by what `moved` makes of its middle.
+    /// Moves the object by the matrix that `moved` returns for its middle.
     fn place_object(&mut self, moved: impl Fn(DVec3) -> DMat4) {
         let objects = &mut self.scene.objects;
         let index = objects.iter().position(|object| object.lit).unwrap_or(0);

@@ -41,7 +41,7 @@ impl Tweak {
         let value = (self.get(shadow) + steps * self.step).clamp(self.range[0], self.range[1]);
         let mut table = match shadow.get(self.table).map(|entry| &entry.value) {
             Some(Value::Table(table)) => table.clone(),
-            // A table that leaves a key out means 0 by it: write what stood in.
+            // A missing key of an existing table means 0: write the default.
             _ => {
                 TWEAKS.iter().filter(|other| other.table == self.table).fold(Settings::default(), |mut table, other| {
                     table.set(other.key, entry(Value::Float(other.default)));

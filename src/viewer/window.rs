@@ -37,7 +37,7 @@ const PIXELS_A_STEP: f64 = 20.0;
 ///
 /// # Errors
 ///
-/// No display, no context, and whatever a frame can fail of.
+/// No display, no context, and every error of a frame.
 pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
     if !window::display_is_named() {
         return Err(Error::NoDisplay);
@@ -118,7 +118,7 @@ impl App {
         }
     }
 
-    /// Tells the state on the title and on standard output.
+    /// Shows the state in the title and on standard output.
     fn tell(&self) {
         if let Some(live) = &self.live {
             live.context.window().set_title(&self.title());

@@ -1,6 +1,6 @@
-//! Makes the files in `data/` that no one drew: `generate_data [FOLDER]` writes `meshes/dense.obj`, `textures/floor.png`
-//! and `textures/spot.png` into FOLDER (`data` if not given). Uses no function whose last bit differs between platforms:
-//! sums, products, quotients and square roots only. A test makes them again and compares.
+//! Makes the generated files in `data/`: `generate_data [FOLDER]` writes `meshes/dense.obj`, `textures/floor.png` and
+//! `textures/spot.png` into FOLDER (`data` if not given). Uses no function whose last bit differs between platforms: sums,
+//! products, quotients and square roots only. A test makes them again and compares.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 

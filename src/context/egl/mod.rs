@@ -1,6 +1,6 @@
 //! Contexts by EGL without a window: on the surfaceless platform, on a device, or with a pbuffer on the default display.
 //!
-//! Displays are initialised and never terminated: eglTerminate would take the contexts of other threads along.
+//! Displays are initialised and never terminated: eglTerminate would destroy the contexts of other threads.
 
 mod api;
 mod devices;

@@ -9,20 +9,19 @@ use crate::device::compare_code;
 use crate::pass::{Attribute, Batch, Compare, Draw, DrawPass, DrawState, Meaning, PassList, Primitive};
 
 impl FixedFunction {
-    /// Draws one pass and leaves GL as a pass with shaders wants it.
+    /// Draws one pass, and restores the state that passes with shaders need.
     pub(super) fn draw(&mut self, list: &PassList, label: &str, pass: &DrawPass) -> Result<(), Error> {
         self.device.begin(list, label, pass)?;
         // SAFETY: the context is current.
         unsafe {
             self.gl.use_program(None);
-            // Mesa 22.3.6 keeps the fragment program that it made for a framebuffer without colour when the next one
-            // has colour and no texture or fog state has changed: the colour is then undefined. This makes it look
-            // again.
+            // Mesa 22.3.6 keeps the fragment program that it made for a framebuffer without colour when the next one has
+            // colour and no texture or fog state has changed: the colour is then undefined. This makes it choose again.
             self.gl.enable(raw::COLOR_SUM);
             self.gl.disable(raw::COLOR_SUM);
         }
         for batch in &pass.batches {
-            // The list has been found expressible.
+            // The list was checked before.
             for layer in self.layers(batch).unwrap_or_default() {
                 self.set_up(batch, &layer)?;
                 let drawn = batch.draws.iter().try_for_each(|draw| self.draw_one(label, pass, batch, &layer, draw));
@@ -156,8 +155,8 @@ impl FixedFunction {
         }
     }
 
-    /// Projection and modelview, the same for all layers of a batch, so that depth EQUAL agrees to the bit. What knows
-    /// no eye space has all of it in the projection.
+    /// Projection and modelview, the same for all layers of a batch, so that depth EQUAL agrees to the bit. A draw without
+    /// an eye space has everything in the projection.
     fn set_matrices(&self, batch: &Batch, draw: &Draw) {
         let eye = match &batch.meaning {
             Meaning::Lit(lit) => Some(lit.clip_from_eye),

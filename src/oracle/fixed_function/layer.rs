@@ -1,5 +1,5 @@
-//! One drawing of a batch by the fixed-function pipeline, as plain values: what the primary colour is, which texture
-//! units are on and what they combine, and how the result meets the framebuffer. Knows no GL.
+//! One drawing of a batch by the fixed-function pipeline, as plain values: what the primary colour is, which texture units
+//! are on and what they combine, and how the result is blended into the framebuffer. Knows no GL.
 
 use glam::DMat4;
 

@@ -1,4 +1,4 @@
-//! The small textures that say where a light reaches. Made once a context.
+//! The small textures that say where a light reaches. Made once for each context.
 
 use std::collections::HashMap;
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! Reads what a batch means as layers of the fixed-function pipeline, or says why that has none. Knows no GL.
+//! Turns a batch's description into layers of the fixed-function pipeline, or says why that is impossible. Knows no GL.
 //!
 //! A lit batch is drawn in several passes [LEC, "Advice for Shadowed Illumination Model"; Segal 1992, 3.3]: ambient light
 //! first, then each light, added where it reaches; specular light by itself where a decal must not modulate it. A light
@@ -15,7 +15,7 @@ use crate::pass::{Batch, Compare, LightMeaning, Lit, Meaning, Projection, Sample
 ///
 /// # Errors
 ///
-/// Why fixed function cannot draw it.
+/// Reason why fixed function cannot draw it.
 pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
     match &batch.meaning {
         Meaning::Depth(texturing) => Ok(vec![cut_out("depth", batch, texturing)?]),
@@ -172,7 +172,7 @@ fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     stack.surface(&lit.texturing, decal, true)?;
     layer.units = stack.finish();
     layer.alpha_test = tested(&lit.texturing);
-    // The picture's alpha is 1 where it was cleared; what the test was about is none of its business.
+    // The picture's alpha stays 1 as cleared, whatever the alpha test used.
     layer.alpha_write = layer.alpha_test.is_none();
     Ok(layer)
 }

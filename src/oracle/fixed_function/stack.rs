@@ -8,7 +8,7 @@ use crate::pass::{Batch, Projection, Shade, Texturing};
 
 /// Result of the unit before.
 const KEPT: Combine = Combine::Replace(Operand::Previous);
-/// That, by the unit's texture.
+/// The result of the unit before, modulated by the unit's texture.
 const BY_TEXTURE: Combine = Combine::Modulate(Operand::Previous, Operand::Texture);
 
 /// The units so far, and where the next finds their result.
@@ -91,7 +91,7 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// Modulates by the light's shade, or by what a dimmed shadow makes of it.
+    /// Modulates by the light's shade, or by the dimmed shade.
     pub fn shade(&mut self, shade: &Shade, projection: Option<&Projection>, weight: Weight) -> Result<(), String> {
         let name = match shade {
             Shade::Lit => return Ok(()),
@@ -120,7 +120,7 @@ impl<'a> Stack<'a> {
                 (combine, [0.0, 0.0, 0.0, dimming])
             }
         };
-        // The shade first, so that the primary colour is still there to be modulated by what comes of it.
+        // The shade first, so that the primary colour is still available for its result.
         self.push(image, coordinates, combine, KEPT);
         self.constant(constant);
         let by_primary = Combine::Modulate(Operand::Previous, Operand::Primary);

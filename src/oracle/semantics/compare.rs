@@ -38,7 +38,7 @@ fn function_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
         let error = if exact { 0.0 } else { NEAR_TIE };
         tally.add(verify::comparisons(results, f64::from(reference), stored[texel], error), 0.0);
     }
-    // A tie that is only near may go either way; it is not a matter of quality.
+    // A near tie may go either way; quality does not depend on it.
     tally.good += std::mem::take(&mut tally.allowed);
     findings.tally(format!("{}, 8 functions", format.name()), tally, "");
     Ok(())

@@ -85,7 +85,7 @@ fn other_format(subject: &Subject, findings: &mut Findings, from: Format, to: Fo
     for (stored, copied) in surface.depths().iter().zip(subject.bench.image_depths(&image)?) {
         let step = image.encoding.step(0.75);
         let off = (copied - stored) / step;
-        // More than 24 bits cannot be had from arithmetic in f32: there a step of that counts.
+        // f32 arithmetic has no more than 24 bits: there one step of f32 is allowed.
         let allowed = 1.5_f64.max(f64::from(-23).exp2() / step);
         tally.add(verify::within(off, 0.5 + 1e-3, allowed), off);
     }
@@ -163,7 +163,7 @@ pub fn eight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
             let value = f64::from(*value).clamp(0.0, 1.0);
             let due = if encode { srgb(value) } else { value };
             let off = f64::from(color[0]) - due * 255.0;
-            // sRGB is asked for to 0.6 of a code (GL 4.6, 17.3.7, after EXT_framebuffer_sRGB), and gets 1.
+            // sRGB must be exact to 0.6 of a code (GL 4.6, 17.3.7, after EXT_framebuffer_sRGB); 1 is allowed.
             let grade = if encode { verify::within(off, 0.6, 1.5) } else { verify::unorm8(color[0], due) };
             tally.add(grade, off);
         }

@@ -2,7 +2,7 @@
 
 use super::{Rule, TABLE};
 
-/// A pattern that no rule answers to.
+/// A pattern that matches no rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no rule is called `{pattern}`: did you mean {}? The rules are {}", nearest.join(" or "), ids.join(", "))]
 pub struct UnknownFilter {

@@ -8,7 +8,7 @@ use super::verify::{Grade, Tally};
 use super::{Outcome, Rule};
 use crate::device::bench::Error;
 
-/// In the order of their weight.
+/// Verdicts, in order of severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -34,7 +34,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// One question of a rule, and its answer.
+/// One check of a rule, and its result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     pub what: String,

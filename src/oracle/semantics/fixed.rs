@@ -1,4 +1,5 @@
-//! GL-C6, GL-T1 and parts of GL-T2 and GL-I1: what only the fixed-function pipeline does [GL 4.6 compatibility, 8.23, 12.1.3, A.3].
+//! GL-C6, GL-T1 and parts of GL-T2 and GL-I1: rules of the fixed-function pipeline only [GL 4.6 compatibility, 8.23,
+//! 12.1.3, A.3].
 
 use glam::{DMat4, DVec3, DVec4};
 

@@ -104,7 +104,7 @@ fn missed(subject: &Subject, format: Format, again: &Again, mesh: &[Vertex]) -> 
     Ok((pairs.clone().filter(|(color, _)| color[0] != 255).count(), pairs.count()))
 }
 
-/// GL-I1.
+/// GL-I1: repeated passes meet the same depths.
 pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     let mesh_before = mesh(false);
     for format in [Format::Depth16, Format::Depth24Stencil8, Format::Depth32F] {

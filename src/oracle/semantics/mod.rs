@@ -1,5 +1,5 @@
-//! GL's rules for shadows as checks of the driver at hand: [`TABLE`] has them, [`run`] runs them on a
-//! [`mod@bench`]. Knows no scene and no technique.
+//! GL's rules for shadows as checks of a driver: [`TABLE`] has them, [`run`] runs them on a [`mod@bench`]. Knows no scene
+//! and no technique.
 //!
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
 //! To add a rule: one row in the table, one function in the file of its kind.
@@ -80,14 +80,14 @@ pub struct Outcome {
     pub section: &'static str,
     pub says: &'static str,
     pub tolerance: &'static str,
-    /// The worst of the findings'.
+    /// The worst verdict of the findings.
     pub verdict: Verdict,
     pub findings: Vec<Finding>,
     pub facts: Vec<Fact>,
     pub seconds: f64,
 }
 
-/// All that came of a run.
+/// Results of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Checked {
     pub context: ContextInfo,

@@ -1,4 +1,4 @@
-//! GL-T3's planes: stored depths against the plane through a triangle's corners in f64, near the framebuffer's origin and
+//! Planes of GL-T3: stored depths against the plane through a triangle's corners in f64, near the framebuffer's origin and
 //! far from it; and the weights of interpolation with perspective.
 
 use super::verify::{self, Tally};

@@ -6,7 +6,7 @@ use comfy_table::{ColumnConstraint, ContentArrangement, Table, Width, presets};
 
 use super::{Checked, Finding, Outcome, Verdict};
 
-/// The whole text. `width` in columns; `all` lists what passes too.
+/// The whole text. `width` in columns; `all` lists checks that pass, too.
 pub fn print(checked: &Checked, width: u16, all: bool) -> String {
     let mut table = Table::new();
     table

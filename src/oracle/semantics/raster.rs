@@ -99,8 +99,8 @@ fn centers(subject: &Subject, findings: &mut Findings, surface: &Surface, random
     Ok(())
 }
 
-/// An edge that rises by 1 in 1024 pixels, raised by 1/1024 pixel 64 times: how many different crossings there are says
-/// to what vertices are snapped.
+/// An edge that rises by 1 in 1024 pixels, raised by 1/1024 pixel 64 times: the number of different crossings shows the
+/// grid to which vertices are snapped.
 fn subpixel_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     const WIDTH: u32 = 1024;
     const STEPS: u32 = 64;

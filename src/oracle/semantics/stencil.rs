@@ -10,7 +10,7 @@ use crate::device::bench::{
 const OLD: [u8; 8] = [0, 1, 0x0F, 0x7F, 0x80, 0xAB, 254, 255];
 const FORMAT: Format = Format::Depth24Stencil8;
 
-/// A surface of `rows`, each with all of [`OLD`]. Depth is cleared first: what comes of another order is [`clears`]' question.
+/// A surface of `rows`, each with all of [`OLD`]. Depth is cleared first; [`clears`] tests the other order.
 fn prepared(subject: &Subject, rows: usize) -> Result<Surface, Error> {
     let surface = subject.bench.surface([OLD.len() as u32, rows as u32], None, Some(FORMAT))?;
     surface.clear_depth(0.5);

@@ -1,4 +1,4 @@
-//! GL-S3: closed shadow volumes to infinity [GL 4.6, 13.7, 14.6.1]: what enters leaves, and the far cap lies at 1.
+//! GL-S3: closed shadow volumes to infinity [GL 4.6, 13.7, 14.6.1]: ways in and out cancel, and the far cap lies at 1.
 
 use super::random::Random;
 use super::verify::{self, Grade, Tally};

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{Outcome, Verdict};
 use crate::context::ContextInfo;
 
-/// The file that is shipped.
+/// The built-in file.
 const SHIPPED: &str = include_str!("../../../data/waivers.toml");
 
 /// One known deviation.
@@ -27,7 +27,7 @@ pub struct Waiver {
     pub rule: String,
     /// Name of the check, to the letter; any measurement there is waived.
     pub finding: String,
-    /// Why it is let pass.
+    /// Reason for the waiver.
     pub reason: String,
 }
 
@@ -72,7 +72,7 @@ struct File {
     waiver: Vec<Waiver>,
 }
 
-/// Why a waiver file is refused.
+/// Reason why a waiver file is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{}: {error}", .path.display())]

@@ -1,4 +1,4 @@
-//! A run for machines: JSON, and JUnit's XML for continuous integration.
+//! Machine-readable results: JSON, and JUnit's XML for continuous integration.
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 

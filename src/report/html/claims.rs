@@ -5,7 +5,7 @@ use super::super::numbers::plain;
 use super::super::results::SceneReport;
 use super::tags::escape;
 
-/// Nothing where no claim was measured.
+/// The section; empty if no claim was measured.
 pub(super) fn section(scene: &SceneReport) -> String {
     if scene.claims.is_empty() {
         return String::new();

@@ -35,7 +35,7 @@ pub(super) const GROUPS: [(&str, &str); 6] = [
 ];
 
 impl Column {
-    /// A dash where the row has no such value.
+    /// The value as text; a dash if the row has none.
     pub fn text(&self, measured: Option<&Measured>) -> String {
         measured.and_then(self.value).map_or_else(|| "–".to_owned(), |value| fixed(value, self.decimals))
     }

@@ -15,7 +15,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Over values not below zero; `None` where there are none.
+    /// An axis over values not below zero; `None` if there are none.
     pub fn over(values: impl Iterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.filter(|value| value.is_finite() && *value >= 0.0).collect();
         let positive = || values.iter().copied().filter(|value| *value > 0.0);

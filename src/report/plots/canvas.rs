@@ -179,12 +179,12 @@ impl Canvas<'_> {
         Ok(())
     }
 
-    /// Around a marker.
+    /// Draws a ring around a marker.
     pub fn ring(&self, at: Place, radius: i32) -> Result<(), Error> {
         self.root.draw(&Circle::new(at, radius, TEXT.stroke_width(1))).map_err(failed)
     }
 
-    /// `kind`: `None` for black.
+    /// Draws a line. `kind`: `None` for black.
     pub fn line(&self, places: Vec<Place>, kind: Option<usize>) -> Result<(), Error> {
         let color = kind.map_or(TEXT, |kind| COLORS[kind % COLORS.len()]);
         self.root.draw(&PathElement::new(places, color.stroke_width(2))).map_err(failed)

@@ -1,7 +1,7 @@
 //! Plots of a scene's errors, as SVG: against the time of a frame, and against the size of the map.
 //!
-//! Both axes are logarithmic. A picture without any wrong pixel has no place there, so that it lies on a marked floor.
-//! Knows a report's values only.
+//! Both axes are logarithmic. A picture without any wrong pixel has no place there, so it is drawn on a marked floor. Knows
+//! a report's values only.
 
 pub(crate) mod axis;
 pub(crate) mod canvas;
@@ -79,7 +79,7 @@ impl<'a> Points<'a> {
         all
     }
 
-    /// Larger for a larger map.
+    /// Radius of a marker, larger for a larger map.
     fn radius(&self, size: Option<f64>) -> i32 {
         match size.and_then(|size| self.sizes.iter().position(|known| *known == size)) {
             Some(rank) if self.sizes.len() > 1 => 3 + (4 * rank / (self.sizes.len() - 1)) as i32,
