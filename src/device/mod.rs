@@ -1,7 +1,7 @@
 //! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan.
 //!
 //! GL objects are made when a list first needs them and kept while later lists do; programs are kept longer, up to
-//! [`MOST_PROGRAMS`]. A pass whose target already holds its result is skipped
+//! a fixed number. A pass whose target already holds its result is skipped
 //! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 pub mod bench;

@@ -1,6 +1,6 @@
-//! Figures that show a result in [HSM], [LEC] or [GDC], drawn from our own scenes as contact sheets with captions. A figure
-//! is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames; no technique by more
-//! than a scene's keys, no GL.
+//! Figures of the documents in data/documents.md that show a result, drawn from our own scenes as contact sheets with
+//! captions. A figure is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames;
+//! no technique by more than a scene's keys, no GL.
 
 mod sheet;
 mod table;

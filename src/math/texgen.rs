@@ -88,8 +88,9 @@ pub fn set_up(spaces: &Spaces, set_up: SetUp, split: Split) -> Option<Texgen> {
     })
 }
 
-/// `S`: halves and shifts clip coordinates into [0, 1]; `r` scaled and biased by its own pair, (0.5, 0.5) in [HSM] and
-/// stepped by 1/65535 in the sample program. Negative `r_scale`: a map drawn with its depth reversed.
+/// `S`: halves and shifts clip coordinates into [0, 1]; `r` scaled and biased by its own pair, (0.5, 0.5) in [HSM, "Setting
+/// Up the Transformations"] and stepped by 1/65535 in the sample program. Negative `r_scale`: a map drawn with its depth
+/// reversed.
 pub fn scale_bias(r_scale: f64, r_bias: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(0.5, 0.5, r_bias)) * DMat4::from_scale(DVec3::new(0.5, 0.5, r_scale))
 }

@@ -1,4 +1,4 @@
-//! Plans against the documents: numbers, formats, order of passes.
+//! Plans against [GDC], [LEC] and [HSM]: numbers, formats, order of passes.
 
 use std::path::Path;
 

@@ -3,20 +3,21 @@
 //! # The bound
 //! A pixel counts if the ray tracer is certain and the picture shows the same surface.
 //!
-//! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
+//! - **Shadow volumes**: no pixel may be wrong. The ray tracer's certainty then grants the depth buffer's rounding, too.
 //! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is explained
-//!   in four ways, all by the map's own numbers ([`MapInfo`]) and the scene: 1. a silhouette or an open edge, as the light
-//!   sees it, lies within a lookup's reach (the *band*); of the visible surface itself, it counts where a texel holds the
-//!   middle of two layers: past it the second one lies far behind; 2. it is dark, and a caster within that reach stands
-//!   before the visible surface's plane (a crease); 3. it is dark, and a less steep surface within that reach is nearer to
-//!   the light than its own polygon offset makes up for: an offset knows the slope of the surface that is stored, not of
-//!   the one that is compared; 4. it is lit, and its caster in the map lies so close before it that the bias reaches
-//!   across.
+//!   in four ways, all by the map's own numbers ([`MapInfo`]) and the scene:
+//!   1. A silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*). An edge of the
+//!      visible surface itself counts if a texel holds the middle of two layers: past it the second one lies far behind.
+//!   2. The pixel is dark, and a caster within that reach lies before the visible surface's plane (a crease).
+//!   3. The pixel is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset
+//!      compensates: an offset uses the slope of the surface that is stored, not of the one that is compared.
+//!   4. The pixel is lit, and its caster in the map lies so close before it that the bias reaches across.
 //!
-//!   Of a map of middles, in place of 2 and 3: it is dark, and somewhere within that reach the middle between two layers lies
-//!   before it. So thin a caster shades its own lit side, where it falls away from the light.
+//!   For a midpoint map, instead of 2 and 3: the pixel is dark, and somewhere within that reach the middle between two
+//!   layers lies before it. So thin a caster shades its own lit side, where it falls away from the light.
 //!
-//! What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] wrong pixels.
+//!   A wrong pixel that none of these explains is beyond the bound. So is a picture with more than [`MOST_WRONG`] wrong
+//!   pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
 
 use std::collections::HashMap;

@@ -1,19 +1,19 @@
 //! Woo's midpoint map, in two passes by depth peeling [Woo 1992; HSM, "Advantages and Limitations"].
 //!
 //! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (by the
-//! texture unit's comparison as in [HSM], or in the shader: [`settings::Peel`]), and stores the middle between the nearest
-//! depth and its own; the nearest fragment that is left is the second layer. A surface's own depth then lies half a
-//! caster's thickness before what it is compared with, and no polygon offset is needed.
+//! texture unit's comparison as in [HSM, "Advantages and Limitations"], or in the shader: [`settings::Peel`]), and stores
+//! the middle between the nearest depth and its own; the nearest fragment that is left is the second layer. A surface's own
+//! depth then lies half a caster's thickness before what it is compared with, and no polygon offset is needed.
 //!
-//! # Pitfalls that [HSM] does not mention
+//! # Pitfalls that the white paper does not mention
 //! - A depth is rounded when it is stored, but the compared depth is not [GL 4.6, 8.23.1]: half of a first layer lies
 //!   behind itself. So it is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
 //!   rounding reaches: nor that by which two triangles in one plane differ.
-//! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
-//!   `tests/layers.rs`) and costs nothing. It is right if everything that can be shadowed is a layer. So the second layer
-//!   has objects that cast no shadow, too. If something lies beyond the far plane, both are drawn under GL_DEPTH_CLAMP: it
-//!   is then a second layer at depth 1. An object that casts nothing is never a first layer: before the nearest caster it
-//!   is peeled away with it, and lit.
+//! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured by
+//!   the test layers) and costs nothing. It is right if everything that can be shadowed is a layer. So the second layer has
+//!   objects that cast no shadow, too. If something lies beyond the far plane, both are drawn under GL_DEPTH_CLAMP: it is
+//!   then a second layer at depth 1. An object that casts nothing is never a first layer: before the nearest caster it is
+//!   peeled away with it, and lit.
 //! - A caster whose shadow is not seen is left out of a plain map, but may be the second layer of another caster: see
 //!   [`second::needed`].
 
