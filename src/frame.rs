@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
+use crate::conformance::probe;
 use crate::context::{self, Context, ContextRequest};
-use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
+use crate::device::{self, Device, Measure, PassTime, Pixels};
 use crate::geometry::Texture;
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};

@@ -10,7 +10,7 @@
 //! 6. [`device::Device`] turns the pass list into GL, the only room that does,
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY.
-//! 9. [`oracle::ray`] finds the same shadows by ray casting in f64 from the scene alone, [`oracle::fixed_function`] draws
+//! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone, [`fixed_function`] draws
 //!    the same passes by the driver's own fixed-function pipeline, and
 //! 10. [`report`] says how far apart they are, and what that cost; [`stress`] does so for scenes made to break them.
 //!
@@ -30,13 +30,16 @@
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod cli;
+pub mod compositions;
+pub mod conformance;
 pub mod context;
 pub mod device;
 pub mod figures;
+pub mod fixed_function;
 pub mod frame;
 pub mod geometry;
+pub mod lights;
 pub mod math;
-pub mod oracle;
 pub mod output;
 pub mod pass;
 pub mod plan;
@@ -44,5 +47,8 @@ pub mod process;
 pub mod report;
 pub mod scene;
 pub mod stress;
+pub mod surfaces;
 pub mod techniques;
+pub mod truth;
 pub mod viewer;
+pub mod views;

@@ -6,9 +6,11 @@
 //! The roads are tried in the order of [`Road`]; each that fails says why, and the first that answers is taken.
 
 mod child;
+pub mod compatibility;
 mod debug_log;
 pub mod egl;
 mod error;
+mod gl_error;
 mod heap;
 mod info;
 mod load;
@@ -21,6 +23,7 @@ use std::rc::Rc;
 
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
+pub(crate) use gl_error::error_name;
 pub use info::{ContextInfo, Limits};
 pub use load::Loaded;
 

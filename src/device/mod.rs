@@ -3,15 +3,13 @@
 //! GL objects are made when a list first needs them and kept while later lists do; programs longer, up to a number. A pass that would draw again what
 //! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
-pub mod bench;
 pub mod debug;
 mod error;
+mod for_fixed_function;
 mod framebuffer;
 mod image;
 mod mesh;
-mod parts;
 mod present;
-pub mod probe;
 mod program;
 pub mod queries;
 mod readback;
@@ -25,6 +23,7 @@ use std::sync::Arc;
 
 use glow::HasContext;
 
+use crate::conformance::probe;
 use crate::context::Context;
 use crate::geometry::Mesh;
 use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};

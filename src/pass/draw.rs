@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{DrawState, Face, Input, Meaning, Program, Uniform};
+use super::{DrawState, Face, FixedFunctionDesc, Input, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -32,7 +32,7 @@ impl Deref for MeshRef {
 pub struct Batch {
     pub program: Program,
     /// What the program computes, for readers without shaders.
-    pub meaning: Meaning,
+    pub meaning: FixedFunctionDesc,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, beside those of the pass's own state.

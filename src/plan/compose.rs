@@ -2,16 +2,16 @@
 
 use glam::DMat4;
 
-use super::builder::Builder;
-use super::lens::Lens;
 use super::{Error, Plan, Request, Subject, ViewRequest};
+use crate::compositions::passes::Builder;
+use crate::compositions::projection::CameraProjection;
+use crate::lights::drawable::{items, note_clear};
+use crate::lights::guard::Guard;
+use crate::lights::{Drawable, LightTerm, LightView, Notes, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{Light, Scene};
-use crate::techniques::guard::Guard;
-use crate::techniques::items::{items, note_clear};
-use crate::techniques::surface::Viewer;
-use crate::techniques::{self, Item, LightTerm, LightView, Notes};
+use crate::techniques;
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
@@ -24,7 +24,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
-    let camera = Lens::of_scene(scene).camera;
+    let camera = CameraProjection::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
@@ -57,7 +57,7 @@ pub struct PlannedLight {
 /// errors do not depend on where the camera looks.
 fn light_terms(
     scene: &Scene,
-    items: &[Item],
+    items: &[Drawable],
     camera: &Viewer,
     request: &Request,
     list: &mut PassList,
@@ -97,15 +97,16 @@ fn light_terms(
 }
 
 /// The items that the camera may see.
-fn visible<'a>(items: &'a [Item], camera: &Viewer) -> Vec<&'a Item> {
+fn visible<'a>(items: &'a [Drawable], camera: &Viewer) -> Vec<&'a Drawable> {
     let clip_from_world = camera.clip_from_world();
-    let seen =
-        |item: &&Item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let seen = |item: &&Drawable| {
+        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
+    };
     items.iter().filter(seen).collect()
 }
 
 /// Why a light adds nothing to the picture, if so.
-fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Option<&'static str> {
+fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Drawable]) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
         return Some("its colours are black");
@@ -122,7 +123,7 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
         return Some("its cone and the camera's frustum do not meet");
     }
     let touched =
-        |item: &&Item| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+        |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 

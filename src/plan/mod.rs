@@ -1,9 +1,6 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
-mod builder;
-mod compose;
-mod counted;
-mod lens;
+pub(crate) mod compose;
 mod print;
 mod prune;
 #[cfg(test)]
@@ -11,9 +8,10 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{Chosen, LeftOut, MapInfo, views::View};
+use crate::views::View;
 
 /// What a caller wants of a frame.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::components::{self, Component};
 use super::planes::Planes;
-use super::shells::{self, Shell};
 use crate::geometry::Mesh;
 use crate::geometry::topology::weld;
 
@@ -22,7 +22,7 @@ pub struct Caster {
     /// Places of each triangle's corners, in the order in which the mesh has them.
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) planes: Planes,
-    pub(super) shells: Vec<Shell>,
+    pub(super) shells: Vec<Component>,
     /// Edges of exactly two triangles that run through them in opposite directions.
     pub(super) plain: PlainEdges,
     /// All other edges.
@@ -87,7 +87,7 @@ impl Caster {
 
     fn from_places(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
         let mut uses = uses(&triangles);
-        let order = shells::sorted_by_shell(triangles.len(), uses.chunk_by(|a, b| a.places == b.places));
+        let order = components::sorted_by_shell(triangles.len(), uses.chunk_by(|a, b| a.places == b.places));
         let triangles: Vec<[u32; 3]> = order.iter().map(|(_, triangle)| triangles[*triangle as usize]).collect();
         if !order.is_sorted_by_key(|(_, triangle)| *triangle) {
             renumber(&mut uses, &order);
@@ -95,7 +95,7 @@ impl Caster {
         let (plain, other) = find_edges(&uses);
         let planes = Planes::new(&positions, &triangles);
         let mut caster = Self { positions, triangles, planes, shells: Vec::new(), plain, other };
-        caster.shells = shells::describe(&caster, &order);
+        caster.shells = components::describe(&caster, &order);
         caster
     }
 
@@ -109,7 +109,7 @@ impl Caster {
     }
 
     /// The caster's edge-connected pieces.
-    pub fn shells(&self) -> &[Shell] {
+    pub fn shells(&self) -> &[Component] {
         &self.shells
     }
 

@@ -9,11 +9,11 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
 use super::bias;
 use super::casters::may_cast;
 use super::settings::{Bias, Fit, Mipmaps, Settings};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Drawable, FrustumView, Notes};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
-use crate::techniques::projector::Rays;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, Notes};
 
 /// A rectangle of a light's normalised device coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl Crop {
 
 /// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
 /// frustum the map covers.
-pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
     // A map of one side's faces needs closed casters: what shadows nothing need not be one.
     if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {
@@ -124,7 +124,7 @@ fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let seen =
-        |item: &&Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+        |item: &&Drawable| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     let points = view
         .items
         .iter()

@@ -1,11 +1,12 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
 use super::fit::Crop;
+use crate::lights::guard::Guard;
+pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
-use crate::techniques::guard::Guard;
 
 /// How the depth texture gets its texels [techniques A2].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,19 +53,6 @@ pub enum Mipmaps {
     All,
     /// Two levels, and halfway between them everywhere: eight taps.
     EightTaps,
-}
-
-/// What keeps a surface from shading itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bias {
-    /// glPolygonOffset while the map is drawn [techniques A8].
-    Offset,
-    /// The reference follows the receiver's plane to each tap, and gives way by the reach of the tap's filter.
-    ReceiverPlane,
-    /// The receiver is looked up a little off its surface.
-    NormalOffset,
-    /// The reference is the receiver's plane at each texel's centre [Dou et al. 2014].
-    Adaptive,
 }
 
 /// What of the light's frustum the map covers.

@@ -3,9 +3,9 @@
 use super::choice::Way;
 use super::settings::Settings;
 use super::shapes::Shape;
+use crate::lights::LightView;
+use crate::lights::light::{CountPass, Counted, Layer, VolumeDraw};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
-use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
 /// The passes for all shapes, way by way. Sums modulo 256 do not care for their order; where counts stop at 0, all that
 /// count up come before all that count down.

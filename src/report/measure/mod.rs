@@ -1,0 +1,11 @@
+//! Measuring: pictures of many settings against exact visibility, and their times.
+
+mod band;
+pub mod claims;
+pub mod difference;
+mod edges;
+pub mod grid;
+pub mod metrics;
+pub mod picks;
+pub mod run;
+pub mod tune;
