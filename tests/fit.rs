@@ -48,7 +48,8 @@ fn fitted_maps_are_right_and_finer() {
     ] {
         for (light, cone) in [([6.0, 14.0, 4.0], 70.0), ([-16.0, 6.0, 2.0], 50.0), ([0.3, 3.0, 0.2], 150.0)] {
             let scene = field(eye, target, light, cone);
-            let Ok(truth) = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 0.2, ..truth::Options::default() })
+            let Ok(truth) =
+                truth::trace(&scene, 0, &truth::Options { most_ambiguous: 0.2, ..truth::Options::default() })
             else {
                 panic!("no truth from {eye:?}, light {light:?}")
             };

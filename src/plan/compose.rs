@@ -2,15 +2,17 @@
 
 use glam::DMat4;
 
+use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
-use crate::compositions::passes::Builder;
+use crate::compositions::passes::Passes;
 use crate::compositions::projection::CameraProjection;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
-use crate::lights::{Drawable, LightTerm, LightView, Notes, Viewer};
+use crate::lights::{Drawable, LightView, Notes, Viewer};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{ImageId, PassList};
+use crate::pass::PassList;
 use crate::scene::{Light, Scene};
+use crate::surfaces;
 use crate::techniques;
 
 /// The unpruned plan.
@@ -29,28 +31,30 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
-    let mut builder = Builder { scene, items: &items, kept, counted, list: &mut list, notes: &mut notes, request };
-    let target = match request.subject {
-        Subject::Camera => builder.camera_picture(&terms)?,
-        Subject::Light(index) => builder.light_picture(index)?,
+    let passes = Passes {
+        scene,
+        items: &items,
+        kept,
+        counted,
+        list: &mut list,
+        notes: &mut notes,
+        surface: surfaces::batches,
+        frames: request.frames,
+        keep_all: request.keep_all,
+    };
+    let mut pictures = Pictures { passes, request };
+    let buffers = match request.subject {
+        Subject::Camera => pictures.of_camera(&terms)?,
+        Subject::Light(index) => pictures.of_light(index)?,
     };
     let mut views = Vec::new();
     for wanted in &request.views {
-        let image = builder.view(wanted, &terms, target)?;
+        let image = pictures.view(wanted, &terms, buffers)?;
         views.push((*wanted, image));
     }
-    let picture = target.color.unwrap_or(ImageId(0));
     let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    Ok(Plan { list, picture, views, left_out, chosen, warnings, maps })
-}
-
-/// A light's term, and whether the picture needs it.
-pub struct PlannedLight {
-    pub term: LightTerm,
-    pub contributes: bool,
-    /// Whether the picture or a view needs it.
-    pub is_drawn: bool,
+    Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps })
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that

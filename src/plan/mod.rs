@@ -1,6 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
-pub(crate) mod compose;
+mod compose;
+mod pictures;
 mod print;
 mod prune;
 #[cfg(test)]
@@ -8,6 +9,7 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::compositions;
 use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
@@ -102,14 +104,14 @@ pub struct Plan {
 pub enum Error {
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    #[error(transparent)]
+    Composition(#[from] compositions::Error),
     #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
     NoSuchLight { view: String, count: usize },
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
-    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
-    NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
@@ -118,16 +120,6 @@ pub enum Error {
         "guard = \"clip-plane\" of lights {lights:?}: at most {most} may choose it, as what lies across all their planes is drawn once for each combination of sides"
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
-    #[error(
-        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
-    )]
-    CutDepths { light: usize, counted: usize },
-    #[error(
-        "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
-    )]
-    TwoLedges { first: usize, second: usize },
-    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
-    Singular { light: usize },
 }
 
 /// Plans a frame of `scene`.

@@ -3,9 +3,11 @@
 //! [lecture; techniques A20], and its light where the count is 0, with depth EQUAL. Or, for one light, the talk's two
 //! passes: depth, its count, then the scene with that light where the count is 0 and without it where it is not.
 
-use crate::compositions::passes::{Builder, Onto};
-use crate::compositions::projection::CameraProjection;
+use super::passes::{Buffers, Onto, Passes};
+use super::projection::CameraProjection;
+use super::{Composition, Error};
 use crate::lights::drawable::depth_batches;
+use crate::lights::guard::Guard;
 use crate::lights::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
@@ -13,7 +15,6 @@ use crate::pass::{
     Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade, Stencil,
     StencilOps, Target, Texturing, Uniform, glsl,
 };
-use crate::plan::Error;
 use crate::scene::Scene;
 use crate::views::{self, View};
 
@@ -30,14 +31,65 @@ const LIT: Stencil = Stencil {
 /// Passes where the count is not 0, and leaves it.
 const UNLIT: Stencil = Stencil { test: Compare::NotEqual, ..LIT };
 
-impl Builder<'_> {
-    /// The surfaces in all lights, of which some are counted.
-    pub fn counted_picture(
-        &mut self,
+/// Pictures in which some lights are counted.
+pub struct StencilCounted;
+
+impl Composition for StencilCounted {
+    fn name(&self) -> &'static str {
+        "stencil_counted"
+    }
+
+    fn serves(&self, terms: &[&LightTerm]) -> bool {
+        terms.iter().any(|term| term.counting.is_some())
+    }
+
+    fn needs_stencil(&self) -> bool {
+        true
+    }
+
+    fn check(&self, terms: &[&LightTerm]) -> Result<(), Error> {
+        let cutting = terms.iter().find(|term| term.guard == Guard::ClipPlane);
+        let counted = terms.iter().find(|term| term.counting.is_some());
+        if let (Some(cutting), Some(counted)) = (cutting, counted) {
+            return Err(Error::CutDepths { light: cutting.index, counted: counted.index });
+        }
+        check_ledges(terms)
+    }
+
+    fn picture(
+        &self,
+        passes: &mut Passes<'_>,
         target: Target,
         lens: &CameraProjection,
         terms: &[&LightTerm],
     ) -> Result<(), Error> {
+        passes.counted_picture(target, lens, terms)
+    }
+
+    fn view(
+        &self,
+        passes: &mut Passes<'_>,
+        view: View,
+        label: &str,
+        term: &LightTerm,
+    ) -> Result<Option<ImageId>, Error> {
+        term.counting.as_ref().map(|counting| passes.counted_view(view, label, term, counting)).transpose()
+    }
+}
+
+/// Volumes of several lights are counted in one depth buffer, before one ledge.
+fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
+    let ledge =
+        |term: &&LightTerm| term.counting.as_ref().and_then(|counting| counting.ledge).map(|ledge| (term.index, ledge));
+    let mut ledges = terms.iter().filter_map(ledge);
+    let Some((first, depths)) = ledges.next() else { return Ok(()) };
+    let other = ledges.find(|(_, other)| *other != depths);
+    other.map_or(Ok(()), |(second, _)| Err(Error::TwoLedges { first, second }))
+}
+
+impl Passes<'_> {
+    /// The surfaces in all lights, of which some are counted.
+    fn counted_picture(&mut self, target: Target, lens: &CameraProjection, terms: &[&LightTerm]) -> Result<(), Error> {
         let counted: Vec<&LightTerm> = terms.iter().filter(|term| term.counting.is_some()).copied().collect();
         let keeps = self.keeps_count(&counted);
         if let Some(chosen) = counted.iter().find(|term| lighting(term) == Lighting::LitAndUnlit) {
@@ -112,7 +164,7 @@ impl Builder<'_> {
     fn keeps_count(&self, counted: &[&LightTerm]) -> bool {
         let [term] = counted else { return false };
         let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
-        may && self.request.frames > 1 && !self.request.keep_all
+        may && self.frames > 1 && !self.keep_all
     }
 
     /// Depth alone; by [`Redraw::WhenChanged`] kept from frame to frame.
@@ -234,7 +286,7 @@ impl Builder<'_> {
     }
 
     /// A view of a counted light.
-    pub fn counted_view(
+    fn counted_view(
         &mut self,
         view: View,
         label: &str,
@@ -242,22 +294,27 @@ impl Builder<'_> {
         counting: &Counting,
     ) -> Result<ImageId, Error> {
         let lens = CameraProjection::for_counts(self.scene, std::iter::once(counting));
-        let target = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
+        let buffers = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
+        let target = buffers.target();
         match view {
             View::Volume | View::Silhouette if counting.volumes.is_empty() => {
                 return Err(Error::NoCount { view: view.name(), light: term.index });
             }
-            View::Volume | View::Silhouette => return self.volume_view(view, label, target, &lens, term, counting),
+            View::Volume | View::Silhouette => {
+                return self.volume_view(view, label, buffers, &lens, term, counting);
+            }
             View::StencilCount | View::StencilColors => {
                 let onto = self.first(label, target, &lens, [0.0; 4]);
                 self.surfaces(self.scene, &onto, &[], &Ending::Lit)?;
                 self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
-                return Ok(target.depth.unwrap_or(ImageId(0)));
+                return Ok(buffers.depth);
             }
             _ => {}
         }
         let lit = once_counted(self.scene, term);
-        let Some((ending, lit)) = views::camera_pass(view, &lit) else { return Ok(ImageId(0)) };
+        let Some((ending, lit)) = views::camera_pass(view, &lit) else {
+            return Err(Error::NoCount { view: view.name(), light: term.index });
+        };
         let shadowed = term.under(self.scene, glsl!("common/shadowed.frag"), Shade::Dark);
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
@@ -266,7 +323,7 @@ impl Builder<'_> {
         let label = format!("{label}: where the count is 0");
         let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
         self.surfaces(self.scene, &onto, &[lit], &ending)?;
-        Ok(target.color.unwrap_or(ImageId(0)))
+        Ok(buffers.color)
     }
 
     /// Volumes, translucent, or their silhouettes over the unshadowed scene (C11).
@@ -274,11 +331,12 @@ impl Builder<'_> {
         &mut self,
         view: View,
         label: &str,
-        target: Target,
+        buffers: Buffers,
         lens: &CameraProjection,
         term: &LightTerm,
         counting: &Counting,
     ) -> Result<ImageId, Error> {
+        let target = buffers.target();
         let unshadowed = unshadowed(self.scene, term);
         let onto = self.first(label, target, lens, self.background());
         self.surfaces(self.scene, &onto, &[unshadowed], &Ending::Lit)?;
@@ -309,7 +367,7 @@ impl Builder<'_> {
             batches: batches.collect(),
         };
         self.push(&format!("{label}: {name}"), Redraw::Always, pass);
-        Ok(target.color.unwrap_or(ImageId(0)))
+        Ok(buffers.color)
     }
 }
 
