@@ -28,13 +28,21 @@
 
 // Where standard output or standard error is closed or full, these panic.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
+// Input never panics.
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::unimplemented)]
+// Calls of C: GL's and the system's. Nowhere but in the modules below that allow it.
+#![deny(unsafe_code)]
 
 pub mod cli;
 pub mod compositions;
+#[allow(unsafe_code)]
 pub mod conformance;
+#[allow(unsafe_code)]
 pub mod context;
+#[allow(unsafe_code)]
 pub mod device;
 pub mod figures;
+#[allow(unsafe_code)]
 pub mod fixed_function;
 pub mod frame;
 pub mod geometry;
@@ -43,6 +51,7 @@ pub mod math;
 pub mod output;
 pub mod pass;
 pub mod plan;
+#[allow(unsafe_code)] // signal handlers, locks on files, the allocator
 pub mod process;
 pub mod report;
 pub mod scene;

@@ -4,7 +4,7 @@
 //!
 //! 1. A folder here with a type that implements [`Composition`]; its shaders in a folder of the same name under `glsl/`.
 //! 2. Its row in [`TABLE`].
-//! 3. Its row in `COVERED` of `tests/architecture.rs`: the case folder that draws by it.
+//! 3. A case folder of the same name under `data/cases/`.
 //!
 //! A composition reads light terms, never a technique; surfaces come to it as a function, [`passes::Surfaces`].
 
@@ -21,7 +21,7 @@ use crate::views::View;
 
 /// A way to make a picture of lights and surfaces.
 pub trait Composition: Sync {
-    /// The folder's name.
+    /// The name; of its folders too, with underscores in `src/` and `glsl/`.
     fn name(&self) -> &'static str;
 
     /// Whether it draws pictures in which these lights meet.

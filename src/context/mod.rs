@@ -10,7 +10,7 @@ pub mod compatibility;
 mod debug_log;
 pub mod egl;
 mod error;
-mod gl_error;
+mod gl_names;
 mod heap;
 mod info;
 mod load;
@@ -23,7 +23,7 @@ use std::rc::Rc;
 
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
-pub(crate) use gl_error::error_name;
+pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};
 pub use info::{ContextInfo, Limits};
 pub use load::Loaded;
 

@@ -6,7 +6,7 @@ use glow::HasContext;
 
 use super::Error;
 use super::state::compare_code;
-use crate::context::error_name;
+use crate::context::{DEPTH_COMPONENT32, error_name};
 use crate::pass::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
 /// A texture or renderbuffer, deleted on drop.
@@ -75,7 +75,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
                 DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
-                DepthFormat::Depth32 => crate::conformance::bench::DEPTH_COMPONENT32,
+                DepthFormat::Depth32 => DEPTH_COMPONENT32,
                 DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)

@@ -23,10 +23,9 @@ use std::sync::Arc;
 
 use glow::HasContext;
 
-use crate::conformance::probe;
 use crate::context::Context;
 use crate::geometry::Mesh;
-use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
+use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
 pub use readback::Pixels;
@@ -89,16 +88,10 @@ impl Device {
         unsafe { self.gl.finish() };
     }
 
-    /// What the driver makes of a depth format, measured; `None` for a format that is not measured.
-    ///
-    /// # Errors
-    ///
-    /// A driver that cannot even measure.
-    pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
+    /// GL itself, for calls beside the device's. The next pass sets all its state, whatever they leave.
+    pub fn raw_gl(&mut self) -> &Rc<glow::Context> {
         self.state = None;
-        let name = format.to_string();
-        let known = probe::FORMATS.iter().find(|known| known.name() == name);
-        known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
+        &self.gl
     }
 
     /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever

@@ -1,7 +1,7 @@
 //! The options in front of an MTL map's file: what can be applied, and what is left out. Format: Wavefront's "MTL material
 //! format", version 4.2, "Options for texture map statements".
 
-use super::obj::scan::shorten;
+use super::obj::corner::shorten;
 use super::{Placement, Texture};
 
 /// No scale or offset of texture coordinates is larger.

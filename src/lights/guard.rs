@@ -5,7 +5,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{Drawable, LightTerm, Viewer};
+use super::{Coordinates, Drawable, Viewer};
 use crate::math::texgen;
 use crate::scene::{Reader, SettingsError};
 
@@ -84,8 +84,8 @@ pub struct LightPlane {
 
 impl LightPlane {
     /// `None`: of a light without one, and where its coordinates cannot be generated.
-    pub fn of(term: &LightTerm, bounded: bool, viewer: &Viewer) -> Option<Self> {
-        let coordinates = term.coordinates.as_ref().filter(|_| bounded)?;
+    pub fn of(coordinates: Option<&Coordinates>, bounded: bool, viewer: &Viewer) -> Option<Self> {
+        let coordinates = coordinates.filter(|_| bounded)?;
         let texgen = texgen::set_up(&coordinates.spaces(viewer.eye_from_world), coordinates.set_up, coordinates.split)?;
         let sizes = abs(&texgen.texture_matrix) * abs(&texgen.eye_planes);
         Some(Self { q_from_eye: (texgen.texture_matrix * texgen.eye_planes).row(3), sizes: sizes.row(3) })

@@ -4,6 +4,7 @@
 pub mod alpha;
 pub mod camera_visibility;
 pub mod caster_culling;
+mod coordinates;
 pub mod cut;
 pub mod drawable;
 mod ending;
@@ -15,9 +16,10 @@ pub mod projector;
 pub mod sides;
 mod viewer;
 
+pub use coordinates::Coordinates;
 pub use drawable::Drawable;
 pub use ending::Ending;
-pub use light::{Coordinates, FrustumView, LightTerm, LightView};
+pub use light::{FrustumView, LightTerm, LightView};
 pub use map::{MapInfo, MapShape};
 pub use notes::{Chosen, LeftOut, Notes};
 pub use viewer::Viewer;

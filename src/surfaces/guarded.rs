@@ -54,7 +54,7 @@ pub fn pieces(scene: &Scene, items: &[Drawable], viewer: &Viewer, terms: &[Light
 
 pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPlane> {
     let bounded = scene.lights.get(term.index).is_some_and(|source| source.spot().is_some());
-    LightPlane::of(term, bounded, viewer)
+    LightPlane::of(term.coordinates.as_ref(), bounded, viewer)
 }
 
 /// What becomes of `piece` under one more light.

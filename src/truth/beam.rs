@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::world::Tube;
+use super::tube::Tube;
 
 /// Where a line crosses a triangle, if it does.
 ///

@@ -33,6 +33,7 @@ mod shadow;
 mod shells;
 mod slivers;
 mod solid;
+mod tube;
 mod volumes;
 mod wave;
 mod world;

@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::answers::Reason;
 use super::beam::{Beam, Meeting, Side};
 use super::primary::Seen;
-use super::world::{Segment, Triangle, Tube};
+use super::tube::Tube;
+use super::world::{Segment, Triangle};
 use super::{ENOUGH, Tracer, doubt};
 
 /// What one triangle does to a shadow ray.

@@ -14,6 +14,7 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction}
 use super::beam::crossing;
 use super::cutout::{Alpha, Cutout};
 use super::solid::{OPEN, Solid};
+use super::tube::Tube;
 use super::{Error, wave};
 use crate::geometry::{Material, Mesh};
 use crate::scene::{Object, Scene};
@@ -58,20 +59,6 @@ pub(super) struct Segment {
     pub direction: DVec3,
     pub start: f64,
     pub end: f64,
-}
-
-/// What is near to a segment.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tube {
-    /// Where the segment's parameter is 1.
-    pub radius: f64,
-    /// Whether the radius grows from 0 with the segment's parameter.
-    pub tapers: bool,
-}
-
-impl Tube {
-    /// The segment alone.
-    pub const LINE: Self = Self { radius: 0.0, tapers: false };
 }
 
 impl<'a> World<'a> {

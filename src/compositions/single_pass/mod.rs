@@ -10,7 +10,7 @@ pub struct SinglePass;
 
 impl Composition for SinglePass {
     fn name(&self) -> &'static str {
-        "single_pass"
+        "single-pass"
     }
 
     fn serves(&self, terms: &[&LightTerm]) -> bool {

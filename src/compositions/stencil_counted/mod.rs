@@ -36,7 +36,7 @@ pub struct StencilCounted;
 
 impl Composition for StencilCounted {
     fn name(&self) -> &'static str {
-        "stencil_counted"
+        "stencil-counted"
     }
 
     fn serves(&self, terms: &[&LightTerm]) -> bool {

@@ -6,9 +6,8 @@ use glow::HasContext;
 
 use super::state::Compare;
 use super::{Bench, Error};
+use crate::context::DEPTH_COMPONENT32;
 
-/// GL_DEPTH_COMPONENT32, which OpenGL ES and so glow do not know.
-pub const DEPTH_COMPONENT32: u32 = 0x81A7;
 /// GL_CLAMP, which only a compatibility context knows.
 const CLAMP: u32 = 0x2900;
 

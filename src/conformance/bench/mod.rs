@@ -19,7 +19,7 @@ use std::rc::Rc;
 use glow::HasContext;
 
 pub use draw::{Draw, Uniform, Vertex, full, rectangle, triangle};
-pub use image::{DEPTH_COMPONENT32, Encoding, Format, Image, Sampling, Wrap};
+pub use image::{Encoding, Format, Image, Sampling, Wrap};
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;

@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::super::text::logical_lines;
+use super::corner::{Corner, Counts, read_corner};
 use super::place::Places;
-use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
+use super::scan::{Scan, statement_value};
 
 /// The name of a material that is named by nothing.
 pub(super) const UNNAMED: &str = "unnamed";

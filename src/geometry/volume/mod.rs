@@ -25,6 +25,8 @@
 
 mod caster;
 mod components;
+mod counting;
+mod edges;
 mod extrude;
 mod loops;
 mod near_cap;
@@ -37,7 +39,8 @@ mod source;
 pub use caster::Caster;
 pub use components::{Component, Counting, Kind};
 pub use extrude::{Caps, Extent, Volume, light_touches};
+pub use loops::OutlineEdge;
 pub use near_cap::{CappedVolume, Landing};
-pub use outline::{Outline, OutlineEdge};
+pub use outline::Outline;
 pub use seen::{Casting, Viewer, scissor};
 pub use source::Source;

@@ -4,7 +4,7 @@
 use glam::{DMat4, DVec3, DVec4};
 
 use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, Split};
-use super::run::{draw_shade, with_shadow};
+use super::run::{draw_shade, size_of, with_shadow};
 use super::tune::{self, Point, Search};
 use crate::frame::Renderer;
 use crate::report::numbers::plain;
@@ -29,7 +29,7 @@ pub fn measure(
     band_texels: f64,
     renderer: &mut Renderer,
 ) -> Result<Vec<Claimed>, tune::Error> {
-    let size = tune::size_of(&scene.lights[light].shadow);
+    let size = size_of(&scene.lights[light].shadow);
     let options = tune::Options { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
     let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
     let kind = &scene.lights[light].kind;

@@ -6,6 +6,7 @@ pub mod difference;
 mod edges;
 pub mod grid;
 pub mod metrics;
+pub mod options;
 pub mod picks;
 pub mod run;
 pub mod tune;

@@ -9,8 +9,23 @@ use std::collections::HashMap;
 
 use super::metrics::FEWEST_COMPARED;
 use crate::report::numbers::{grouped, plain};
-use crate::report::show::html::Goals;
 use crate::report::store::results::{Measured, Row, SceneReport, Spread};
+
+/// What is asked of a setting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goals {
+    /// The cheapest setting that is wrong in at most so many percent is named.
+    pub wrong_percent: f64,
+    /// The most exact setting whose redrawn frame takes at most so long is named.
+    pub milliseconds: f64,
+}
+
+impl Default for Goals {
+    /// One percent; a frame of 60 a second.
+    fn default() -> Self {
+        Self { wrong_percent: 1.0, milliseconds: 16.7 }
+    }
+}
 
 /// Beyond this ratio of times that should be the same, a row is unsteady.
 const UNSTEADY: f64 = 1.25;

@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics, ShadeImage};
-use super::tune;
-use crate::context::{self, ContextRequest};
+pub use super::options::Options;
+use crate::context;
 use crate::device::{Measure, PassTime, Pixels};
 use crate::frame::{self, Renderer};
 use crate::pass::{DrawState, ImageId, Pass, Work};
@@ -39,21 +39,6 @@ pub enum Error {
     NoLight { index: usize, count: usize },
     #[error("--shard {index}/{count}: write I/N with 1 <= I <= N")]
     Shard { index: usize, count: usize },
-}
-
-/// How a grid is run.
-#[derive(Clone, Debug)]
-pub struct Options {
-    pub light: usize,
-    /// Timed frames a row, at least 1.
-    pub runs: usize,
-    /// Rows measured at once.
-    pub jobs: usize,
-    /// The I-th of N parts, I from 1.
-    pub shard: (usize, usize),
-    /// The edge band's half width in texels of the map.
-    pub band_texels: f64,
-    pub context: ContextRequest,
 }
 
 /// A scene ready to be swept.
@@ -152,6 +137,17 @@ fn technique_of(settings: &Settings) -> &str {
     }
 }
 
+/// The side of a map by default, by which the edge band of techniques without one is measured.
+const DEFAULT_SIZE: u32 = 1024;
+
+/// The side of a light's map.
+pub(super) fn size_of(shadow: &Settings) -> u32 {
+    match shadow.get("size").map(|entry| &entry.value) {
+        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
+        _ => DEFAULT_SIZE,
+    }
+}
+
 /// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as `render --set` would have it; without what
 /// the technique does not read. Written into the scene file it draws the same.
 pub fn over(written: &Settings, setting: &Settings) -> Settings {
@@ -234,7 +230,7 @@ impl Sweep {
     fn row(&self, index: usize, options: &Options, renderer: &mut Renderer) -> Row {
         let (row, settings) = &self.rows[index];
         let scene = with_shadow(&self.scene, options.light, settings);
-        let band = Band { texels: options.band_texels, map_size: [tune::size_of(settings); 2] };
+        let band = Band { texels: options.band_texels, map_size: [size_of(settings); 2] };
         let outcome = match measure(&scene, &self.truth, &band, options, renderer) {
             Ok(measured) => Outcome::Measured(Box::new(measured)),
             Err(why) => Outcome::Failed(why),

@@ -5,9 +5,9 @@
 
 use super::grid;
 use super::metrics::{self, Band, FEWEST_COMPARED, Metrics};
-use super::run::{draw_shade, over, with_shadow};
+use super::run::{draw_shade, over, size_of, with_shadow};
 use crate::frame::{self, Renderer};
-use crate::scene::{self, Scene, Settings, Value};
+use crate::scene::{self, Scene, Settings};
 use crate::techniques::{TABLE, Technique};
 use crate::truth::{self, Answer, Pixel, Truth};
 
@@ -311,9 +311,6 @@ fn plainest(technique: &dyn Technique) -> String {
     format!("technique = \"{}\"{}", technique.name(), firsts.collect::<String>())
 }
 
-/// The side of a map by default, by which the edge band of techniques without one is measured.
-pub(super) const DEFAULT_SIZE: u32 = 1024;
-
 /// See [`Search::spare`].
 const SPARE_PIXELS: f64 = 2.0;
 
@@ -327,14 +324,6 @@ fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Sett
     let mut written = shadow.clone();
     written.entries.retain(|(key, _)| key != "bias");
     Ok(over(&written, &scene::shadow_settings(&format!("technique = \"shadow-map\", size = {size}, {offset}"))?))
-}
-
-/// The side of a light's map.
-pub(super) fn size_of(shadow: &Settings) -> u32 {
-    match shadow.get("size").map(|entry| &entry.value) {
-        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
-        _ => DEFAULT_SIZE,
-    }
 }
 
 /// `shadow` with another technique, size and `keys`, which are not its own.

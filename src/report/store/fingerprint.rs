@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::results::{Machine, Row, VERSION};
 use crate::geometry::{Material, Mesh, Texture};
-use crate::report::measure::run::Options;
+use crate::report::measure::options::Options;
 use crate::scene::{LightKind, Scene, Settings};
 
 /// Marks everything that decides what the rows are, but not the machine. Files' names are not in it: the same scene in

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::pictures::rows_that_matter;
 use super::results::{Report, SceneReport};
-use crate::report::show::html::{DifferencePicture, Goals, Pictures, ScenePictures};
+use crate::report::measure::picks::Goals;
+use crate::report::show::html::{DifferencePicture, Pictures, ScenePictures};
 
 /// Why the pictures of a part cannot be used.
 #[derive(Debug, thiserror::Error)]

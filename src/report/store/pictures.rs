@@ -6,9 +6,9 @@ use crate::frame::{self, Renderer};
 use crate::plan::Request;
 use crate::report::measure::difference::{self, difference_picture, truth_picture};
 use crate::report::measure::metrics;
-use crate::report::measure::picks::{Pick, Picks};
+use crate::report::measure::picks::{Goals, Pick, Picks};
 use crate::report::measure::run::{Sweep, draw_shade};
-use crate::report::show::html::{DifferencePicture, Goals, ScenePictures};
+use crate::report::show::html::{DifferencePicture, ScenePictures};
 
 /// Why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]

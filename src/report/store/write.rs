@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use super::results::{Report, SceneReport};
 use super::{csv, picture_files};
 use crate::output::atomic_write;
-use crate::report::show::html::{Goals, Pictures, to_html};
+use crate::report::measure::picks::Goals;
+use crate::report::show::html::{Pictures, to_html};
 use crate::report::show::plots::{self, Links};
 
 /// Why a report could not be written.

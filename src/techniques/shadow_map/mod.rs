@@ -3,6 +3,7 @@
 
 pub(super) mod bias;
 pub(super) mod casters;
+mod crop;
 mod cube;
 pub(super) mod depth;
 pub(super) mod fit;

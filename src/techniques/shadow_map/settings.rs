@@ -1,6 +1,6 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
-use super::fit::Crop;
+use super::crop::Crop;
 use crate::lights::guard::Guard;
 pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};

@@ -30,7 +30,7 @@ fn anything_behind(view: &LightView<'_>, term: &LightTerm) -> bool {
     let camera = &view.scene.camera;
     let viewer =
         Viewer { clip_from_eye: camera.clip_from_view(view.scene.aspect()), eye_from_world: camera.view_from_world() };
-    let Some(plane) = LightPlane::of(term, true, &viewer) else { return true };
+    let Some(plane) = LightPlane::of(term.coordinates.as_ref(), true, &viewer) else { return true };
     let clip_from_world = viewer.clip_from_world();
     view.items.iter().any(|item| {
         frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3, Vec4};
 
-use super::fit::Crop;
+use super::crop::Crop;
 use super::map::map_info;
 use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
 use super::{bias, tag};

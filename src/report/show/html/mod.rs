@@ -9,24 +9,9 @@ mod scene;
 mod table;
 pub(crate) mod tags;
 
+use crate::report::measure::picks::Goals;
 use crate::report::store::results::{Machine, Report};
 use tags::{escape, list};
-
-/// What is asked of a setting.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Goals {
-    /// The cheapest setting that is wrong in at most so many percent is named.
-    pub wrong_percent: f64,
-    /// The most exact setting whose redrawn frame takes at most so long is named.
-    pub milliseconds: f64,
-}
-
-impl Default for Goals {
-    /// One percent; a frame of 60 a second.
-    fn default() -> Self {
-        Self { wrong_percent: 1.0, milliseconds: 16.7 }
-    }
-}
 
 /// All pictures of a report, in the order of its scenes. Scenes without an entry are shown without pictures.
 #[derive(Clone, Debug, Default, PartialEq)]

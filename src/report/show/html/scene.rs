@@ -2,10 +2,10 @@
 
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
-use super::{Goals, ScenePictures, claims};
+use super::{ScenePictures, claims};
 use crate::report::measure::difference::LEGEND;
 use crate::report::measure::metrics::Band;
-use crate::report::measure::picks::{Picks, Times, pareto, titles, unjudged};
+use crate::report::measure::picks::{Goals, Picks, Times, pareto, titles, unjudged};
 use crate::report::numbers::{bytes, grouped, plain};
 use crate::report::show::plots::{self, Links};
 use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport};

@@ -1,4 +1,7 @@
-//! Names of GL's error codes.
+//! GL's constants and names that glow does not have.
+
+/// GL_DEPTH_COMPONENT32, which OpenGL ES and so glow do not know.
+pub const DEPTH_COMPONENT32: u32 = 0x81A7;
 
 /// GL's name of an error code.
 pub fn error_name(code: u32) -> String {
