@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
+use crate::conformance::probe;
 use crate::context::{self, Context, ContextRequest};
-use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
+use crate::device::{self, Device, Measure, PassTime, Pixels};
 use crate::geometry::Texture;
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};
@@ -208,9 +209,12 @@ impl Renderer {
             if !plan.list.images.iter().any(|desc| desc.format == format) {
                 continue;
             }
-            let facts = self.device.depth_facts(format)?;
-            let facts = facts.filter(|facts| format == depth32 || !follows_the_picture(facts));
-            plan.warnings.extend(facts.map(|facts| facts.in_words()));
+            let name = format.to_string();
+            let Some(&measured) = probe::FORMATS.iter().find(|known| known.name() == name) else { continue };
+            let facts = probe::depth_format(self.device.raw_gl(), measured)?;
+            if format == depth32 || !follows_the_picture(&facts) {
+                plan.warnings.push(facts.in_words());
+            }
         }
         Ok(())
     }

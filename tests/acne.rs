@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Hit, Truth};
-use glumbra::report::metrics::{Band, Errors, ShadeImage, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Errors, ShadeImage, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Hit, Truth};
 
 #[allow(dead_code, reason = "tests of other scenes ask for more")]
 #[path = "support/rims.rs"]
@@ -43,7 +43,7 @@ struct Judge {
 impl Judge {
     fn new(scale: f64) -> Self {
         let scene = scene(scale);
-        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         Self { scene, truth }
     }
 

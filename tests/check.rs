@@ -5,16 +5,15 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use assert_cmd::cargo::CommandCargoExt;
+use glumbra::conformance::bench::{Format, Mutation};
+use glumbra::conformance::{self, Outcome, Subject, Verdict, probe, waivers};
 use glumbra::context::{self, ContextRequest, Profile};
-use glumbra::device::bench::{Format, Mutation};
-use glumbra::device::probe;
-use glumbra::oracle::semantics::{self, Outcome, Subject, Verdict, waivers};
 
 /// All rules on the default context of a profile, with one mistake or none; known deviations waived.
 fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<Outcome> {
     let context = context::open(&ContextRequest { profile, ..ContextRequest::default() }).unwrap();
     let subject = Subject::new(context.as_ref(), mutation).unwrap();
-    let mut outcomes = semantics::run(&subject, &semantics::choose(&[]).unwrap(), |_| {});
+    let mut outcomes = conformance::run(&subject, &conformance::choose(&[]).unwrap(), |_| {});
     waivers::apply(&waivers::load(None).unwrap(), &subject.info, &mut outcomes);
     outcomes
 }

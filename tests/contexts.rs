@@ -5,11 +5,11 @@ use std::sync::{Arc, Barrier};
 
 use assert_cmd::cargo::CommandCargoExt;
 use glow::HasContext;
-use glumbra::context::{self, Backend, Choice, Context, ContextRequest, Error, Profile, egl};
+use glumbra::conformance::probe;
+use glumbra::context::compatibility::{Binding, BindingError, raw};
+use glumbra::context::{self, Choice, Context, ContextRequest, Error, Profile, Road, egl};
 use glumbra::device::debug::Debug;
-use glumbra::device::probe;
 use glumbra::device::queries::Timer;
-use glumbra::oracle::fixed_function::{Binding, BindingError, raw};
 
 mod support;
 use support::xvfb::Xvfb;

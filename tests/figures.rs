@@ -7,11 +7,11 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::figures::{FIGURES, Figure};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Answer};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::Scene;
-use glumbra::techniques::views::View;
+use glumbra::truth::{self, Answer};
+use glumbra::views::View;
 
 fn figure(name: &str) -> &'static Figure {
     FIGURES.iter().find(|figure| figure.name == name).unwrap()
@@ -244,7 +244,7 @@ fn saturating_counts_lose_shadows() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let shades = [0, 1].map(|panel| draw_shade(&scene("stencil-width", panel), 0, &mut renderer).unwrap());
-    let truth = ray::trace(&scene("stencil-width", 0), 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene("stencil-width", 0), 0, &truth::Options::default()).unwrap();
     let (mut lost, mut wrapped) = (0, 0);
     let shadowed = truth.pixels.iter().enumerate().filter(|(_, pixel)| pixel.answer == Answer::Shadowed);
     for (index, _) in shadowed {

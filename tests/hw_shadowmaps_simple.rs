@@ -13,8 +13,8 @@ use glumbra::math::frustum;
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
 use glumbra::viewer::Mode;
+use glumbra::views::View;
 
 mod support;
 use support::xvfb::Xvfb;

@@ -6,7 +6,7 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
 const SIZE: u32 = 32;

@@ -3,7 +3,7 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::plan::Request;
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
 fn scene(shadow: &str) -> Scene {

@@ -9,15 +9,15 @@ use std::time::{Duration, Instant};
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::Answer;
-use glumbra::report::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
-use glumbra::report::fingerprint;
-use glumbra::report::grid::{self, Grid};
-use glumbra::report::merge::{self, equal_but_for_times};
-use glumbra::report::metrics::{Band, compare};
-use glumbra::report::results::{Report, Row, SceneReport};
-use glumbra::report::run::{self, Options, draw_shade};
+use glumbra::report::measure::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
+use glumbra::report::measure::grid::{self, Grid};
+use glumbra::report::measure::metrics::{Band, compare};
+use glumbra::report::measure::run::{self, Options, draw_shade};
+use glumbra::report::store::fingerprint;
+use glumbra::report::store::merge::{self, equal_but_for_times};
+use glumbra::report::store::results::{Report, Row, SceneReport};
 use glumbra::scene;
+use glumbra::truth::Answer;
 use lit_box::SCENE;
 
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
@@ -418,7 +418,8 @@ fn a_fingerprint_is_of_every_file_that_a_row_depends_on() {
 fn a_stamp_is_of_the_driver_and_the_machine() {
     let machine = run::machine(&options()).unwrap();
     let stamp = |renderer: &str, jobs, runs| {
-        let machine = glumbra::report::results::Machine { renderer: renderer.to_owned(), jobs, ..machine.clone() };
+        let machine =
+            glumbra::report::store::results::Machine { renderer: renderer.to_owned(), jobs, ..machine.clone() };
         fingerprint::stamp(&machine, &Options { runs, ..options() })
     };
     assert_eq!(stamp("a", 1, 1), stamp("a", 1, 1));

@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::pass::Redraw;
 use glumbra::plan::{self, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 /// A scene of `data/` with overrides.
 fn load(path: &str, set: &[&str]) -> Scene {

@@ -7,8 +7,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{ContextArgs, Error};
+use crate::conformance::{self, Checked, Subject, waivers};
 use crate::context::{self, Context, Profile};
-use crate::oracle::semantics::{self, Checked, Subject, waivers};
 use crate::output;
 
 /// Runs GL's rules for shadows on the driver at hand: does it do what the specification says?
@@ -80,7 +80,7 @@ pub fn run(arguments: &CheckArgs) -> ExitCode {
 
 fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
     refuse_one_file_for_two(arguments)?;
-    let rules = semantics::choose(&arguments.filter)?;
+    let rules = conformance::choose(&arguments.filter)?;
     let waivers = waivers::load(arguments.waivers.as_deref())?;
     let context = open(arguments)?;
     let subject = Subject::new(context.as_ref(), None)?;
@@ -88,7 +88,7 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
         bar.set_style(style);
     }
-    let mut outcomes = semantics::run(&subject, &rules, |outcome| {
+    let mut outcomes = conformance::run(&subject, &rules, |outcome| {
         bar.inc(1);
         bar.set_message(format!("{} {}: {}", outcome.id, outcome.title, outcome.verdict));
     });
@@ -113,7 +113,7 @@ fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
 fn print(checked: &Checked, verbose: bool) -> Result<(), Error> {
     const UNKNOWN_WIDTH: u16 = 160;
     let width = terminal_size::terminal_size().map_or(UNKNOWN_WIDTH, |(width, _)| width.0);
-    super::print(&semantics::print(checked, width, verbose))
+    super::print(&conformance::print(checked, width, verbose))
 }
 
 fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
@@ -132,12 +132,12 @@ fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
 fn write(arguments: &CheckArgs, checked: &Checked) -> Result<(), Error> {
     let mut files: Vec<(&Path, String)> = Vec::new();
     if let Some(path) = &arguments.json {
-        files.push((path, semantics::json(checked)?));
+        files.push((path, conformance::json(checked)?));
     }
     if let Some(path) = &arguments.junit {
-        files.push((path, semantics::junit(checked)?));
+        files.push((path, conformance::junit(checked)?));
     }
     let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
-    let written = output::whole::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
+    let written = output::atomic_write::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
     written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })
 }

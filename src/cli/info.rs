@@ -6,8 +6,8 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{ContextArgs, Error};
+use crate::conformance::probe::{self, DepthFacts, Measured, OffsetUnit};
 use crate::context::{self, ContextInfo, Profile, egl};
-use crate::device::probe::{self, DepthFacts, Measured, OffsetUnit};
 use crate::process;
 
 #[derive(Clone, Debug, Args)]

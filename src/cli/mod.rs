@@ -20,8 +20,8 @@ use clap::{Parser, Subcommand};
 
 pub use context_args::ContextArgs;
 
+use crate::conformance::probe;
 use crate::context;
-use crate::device::probe;
 
 /// A headless OpenGL reference renderer of shadows and projected light.
 #[derive(Debug, Parser)]
@@ -52,7 +52,7 @@ pub enum Error {
     #[error("--pipeline fixed-function needs OpenGL's compatibility profile. {0}")]
     NoFixedFunction(context::Error),
     #[error(transparent)]
-    FixedFunction(#[from] crate::oracle::fixed_function::Error),
+    FixedFunction(#[from] crate::fixed_function::Error),
     #[error(transparent)]
     Probe(#[from] probe::Error),
     #[error(transparent)]
@@ -68,21 +68,21 @@ pub enum Error {
     #[error(transparent)]
     Figures(#[from] crate::figures::Error),
     #[error(transparent)]
-    Tune(#[from] crate::report::tune::Error),
+    Tune(#[from] crate::report::measure::tune::Error),
     #[error(transparent)]
-    Grid(#[from] crate::report::grid::Error),
+    Grid(#[from] crate::report::measure::grid::Error),
     #[error(transparent)]
-    Report(#[from] crate::report::run::Error),
+    Report(#[from] crate::report::measure::run::Error),
     #[error(transparent)]
-    Journal(#[from] crate::report::journal::Error),
+    Journal(#[from] crate::report::store::journal::Error),
     #[error(transparent)]
-    Pictures(#[from] crate::report::pictures::Error),
+    Pictures(#[from] crate::report::store::pictures::Error),
     #[error(transparent)]
-    KeptPictures(#[from] crate::report::kept::Error),
+    KeptPictures(#[from] crate::report::store::picture_files::Error),
     #[error(transparent)]
-    Merge(#[from] crate::report::merge::Error),
+    Merge(#[from] crate::report::store::merge::Error),
     #[error(transparent)]
-    ReportFiles(#[from] crate::report::write::Error),
+    ReportFiles(#[from] crate::report::store::write::Error),
     #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
     NoSuchCase { name: String },
     #[error(transparent)]
@@ -98,9 +98,9 @@ pub enum Error {
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]
-    Filter(#[from] crate::oracle::semantics::UnknownFilter),
+    Filter(#[from] crate::conformance::UnknownFilter),
     #[error(transparent)]
-    Waivers(#[from] crate::oracle::semantics::waivers::Error),
+    Waivers(#[from] crate::conformance::waivers::Error),
     #[error("JUnit: {0}")]
     JUnit(#[from] quick_junit::SerializeError),
     #[error("{path}: cannot be written: {error}", path = .path.display())]

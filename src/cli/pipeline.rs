@@ -6,8 +6,8 @@ use clap::ValueEnum;
 
 use super::{ContextArgs, Error};
 use crate::context::{self, Context, Profile};
+use crate::fixed_function::FixedFunction;
 use crate::frame::{Frame, Renderer, Times};
-use crate::oracle::fixed_function::FixedFunction;
 use crate::plan::Plan;
 use crate::process;
 

@@ -12,12 +12,14 @@ use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::grid::{self, Grid};
-use crate::report::html::{Goals, Pictures};
-use crate::report::journal::{self, Journal, Known};
-use crate::report::results::{Outcome, Report, Row, SceneReport, VERSION};
-use crate::report::run::{self, Options, Sweep};
-use crate::report::{claims, fingerprint, kept, merge, picks, pictures, write};
+use crate::report::measure::grid::{self, Grid};
+use crate::report::measure::picks::Goals;
+use crate::report::measure::run::{self, Options, Sweep};
+use crate::report::measure::{claims, picks};
+use crate::report::show::html::Pictures;
+use crate::report::store::journal::{self, Journal, Known};
+use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
+use crate::report::store::{fingerprint, merge, picture_files, pictures, write};
 
 /// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
 #[derive(Debug, Args)]
@@ -343,7 +345,7 @@ fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let parts = arguments.parts.iter().map(load).collect::<Result<Vec<_>, _>>()?;
     let mut report = merge::merge(parts)?;
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
-    let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
+    let pictures = picture_files::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
     write::write_all(&arguments.output, &report, &pictures, &goals)?;
     print_answers(&report, &goals, &arguments.output, &mut std::io::stdout().lock())?;

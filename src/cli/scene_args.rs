@@ -7,7 +7,7 @@ use clap::Args;
 use super::Error;
 use crate::plan::ViewRequest;
 use crate::scene::{self, Loaded};
-use crate::techniques::views::VIEWS;
+use crate::views::VIEWS;
 
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]

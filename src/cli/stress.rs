@@ -13,7 +13,7 @@ use super::report::{parse_shard, stop_on_interrupt};
 use super::{ContextArgs, Error, spinner};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::output::whole;
+use crate::output::atomic_write;
 use crate::stress::{self, Case, CaseResult, Options, Verdict, named, random};
 use crate::techniques::TABLE;
 
@@ -122,7 +122,7 @@ fn stress(arguments: &StressArgs) -> Result<bool, Error> {
     }
     if let Some(path) = &arguments.json {
         let json = stress::to_json(arguments.seed, &results)?;
-        let written = whole::write_all(&[path], |_, path| std::fs::write(path, &json));
+        let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &json));
         written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
     }
     print(arguments, &results)?;

@@ -6,7 +6,7 @@ use super::scene_args::SceneArgs;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::tune::{self, Options, Point, Tuned};
+use crate::report::measure::tune::{self, Options, Point, Tuned};
 
 /// Finds the polygon offset and the smallest map that a scene needs, with ray-traced truth as the judge.
 #[derive(Debug, Args)]

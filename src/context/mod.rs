@@ -6,9 +6,11 @@
 //! The backends are tried in the order of [`Backend`]. Each that fails says why; the first that works is taken.
 
 mod child;
+pub mod compatibility;
 mod debug_log;
 pub mod egl;
 mod error;
+mod gl_names;
 mod heap;
 mod info;
 mod load;
@@ -21,6 +23,7 @@ use std::rc::Rc;
 
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
+pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};
 pub use info::{ContextInfo, Limits};
 pub use load::Loaded;
 

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
-use crate::context::{Context, DebugLog};
+use crate::context::{Context, DebugLog, error_name};
 
 /// GL's errors since the last check.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -56,20 +56,5 @@ impl Debug {
             code => Some(error_name(code)),
         };
         std::iter::from_fn(next).take(MOST_FLAGS).collect()
-    }
-}
-
-/// GL's name of an error code.
-pub(super) fn error_name(code: u32) -> String {
-    match code {
-        glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
-        glow::INVALID_VALUE => "GL_INVALID_VALUE".to_owned(),
-        glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
-        glow::STACK_OVERFLOW => "GL_STACK_OVERFLOW".to_owned(),
-        glow::STACK_UNDERFLOW => "GL_STACK_UNDERFLOW".to_owned(),
-        glow::OUT_OF_MEMORY => "GL_OUT_OF_MEMORY".to_owned(),
-        glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
-        glow::CONTEXT_LOST => "GL_CONTEXT_LOST".to_owned(),
-        _ => format!("GL error {code:#06x}"),
     }
 }

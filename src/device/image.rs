@@ -5,8 +5,8 @@ use std::rc::Rc;
 use glow::HasContext;
 
 use super::Error;
-use super::debug::error_name;
 use super::state::compare_code;
+use crate::context::{DEPTH_COMPONENT32, error_name};
 use crate::pass::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
 /// A texture or renderbuffer, deleted on drop.
@@ -75,7 +75,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
                 DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
-                DepthFormat::Depth32 => super::bench::DEPTH_COMPONENT32,
+                DepthFormat::Depth32 => DEPTH_COMPONENT32,
                 DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)

@@ -4,15 +4,13 @@
 //! a fixed number. A pass whose target already holds its result is skipped
 //! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
-pub mod bench;
 pub mod debug;
 mod error;
+mod for_fixed_function;
 mod framebuffer;
 mod image;
 mod mesh;
-mod parts;
 mod present;
-pub mod probe;
 mod program;
 pub mod queries;
 mod readback;
@@ -28,7 +26,7 @@ use glow::HasContext;
 
 use crate::context::Context;
 use crate::geometry::Mesh;
-use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
+use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
 pub use readback::Pixels;
@@ -91,16 +89,10 @@ impl Device {
         unsafe { self.gl.finish() };
     }
 
-    /// Measurements of a depth format; `None` for a format that is not measured.
-    ///
-    /// # Errors
-    ///
-    /// A driver that cannot even measure.
-    pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
+    /// GL itself, for calls beside the device's. The next pass sets all its state, whatever they leave.
+    pub fn raw_gl(&mut self) -> &Rc<glow::Context> {
         self.state = None;
-        let name = format.to_string();
-        let known = probe::FORMATS.iter().find(|known| known.name() == name);
-        known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
+        &self.gl
     }
 
     /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, in case other

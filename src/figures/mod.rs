@@ -10,7 +10,7 @@ use crate::frame::{self, Renderer};
 use crate::output::{self, canvas::Canvas};
 use crate::plan::{Request, ViewRequest};
 use crate::scene::{self, Embedded, Scene};
-use crate::techniques::views::View;
+use crate::views::View;
 
 pub use table::FIGURES;
 

@@ -2,7 +2,7 @@
 
 use super::{Figure, Panel};
 use crate::scene::Embedded;
-use crate::techniques::views::View;
+use crate::views::View;
 
 macro_rules! embedded {
     ($name:literal) => {

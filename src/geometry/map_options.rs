@@ -1,7 +1,7 @@
 //! Options before an MTL map's file name: those that are applied, and those that are ignored. Format: Wavefront's "MTL
 //! material format", version 4.2, "Options for texture map statements".
 
-use super::obj::scan::shorten;
+use super::obj::corner::shorten;
 use super::{Placement, Texture};
 
 /// Greatest scale or offset of texture coordinates.

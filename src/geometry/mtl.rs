@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::map_options::{MapOptions, Values};
-use super::obj::scan::shorten;
+use super::obj::corner::shorten;
 use super::tally::Tally;
 use super::{Error, Material, Placement, Texture, Warning, text, texture};
 

@@ -1,10 +1,10 @@
-//! Pictures as files: PNG for viewing, EXR and NPY with exact 32-bit values. Every file is written under another name and
-//! renamed when it is complete (`whole.rs`).
+//! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
+//! renamed when it is whole (`atomic_write.rs`).
 
+pub(crate) mod atomic_write;
 pub mod canvas;
 mod counts;
 mod density;
-pub(crate) mod whole;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -14,7 +14,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::device::Pixels;
-use crate::techniques::views::View;
+use crate::views::View;
 
 /// Reason why a file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -102,7 +102,7 @@ pub struct Output<'a> {
 /// The first file that could not be written; what was written beside is removed.
 pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
     let paths: Vec<&Path> = outputs.iter().map(|output| output.path).collect();
-    whole::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
+    atomic_write::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
         .map_err(|(index, error)| failed(paths[index], &error))
 }
 
@@ -195,7 +195,7 @@ pub fn densities(size: [u32; 2], data: &[f32], one: &str) -> canvas::Canvas {
 pub fn write_sheets(sheets: &[(PathBuf, canvas::Canvas)], texts: &[(PathBuf, String)]) -> Result<(), Error> {
     let paths: Vec<&Path> =
         sheets.iter().map(|(path, _)| path.as_path()).chain(texts.iter().map(|(path, _)| path.as_path())).collect();
-    let written = whole::write_all(&paths, |index, temporary| match sheets.get(index) {
+    let written = atomic_write::write_all(&paths, |index, temporary| match sheets.get(index) {
         Some((_, sheet)) => {
             let [width, height] = sheet.size();
             let file = BufWriter::new(fs::File::create(temporary)?);

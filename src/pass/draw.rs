@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{DrawState, Face, Input, Meaning, Program, Uniform};
+use super::{DrawState, Face, FixedFunctionDesc, Input, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -31,8 +31,8 @@ impl Deref for MeshRef {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     pub program: Program,
-    /// The program's computation, for readers without shaders.
-    pub meaning: Meaning,
+    /// What the program computes, for readers without shaders.
+    pub meaning: FixedFunctionDesc,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, in addition to those of the pass's state.

@@ -2,16 +2,18 @@
 //! run by more than one reader. Knows meshes and the math of texture coordinates; no scene, no technique, no GL.
 
 mod draw;
+mod fixed_function_desc;
 mod image;
-mod meaning;
 mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
+pub use fixed_function_desc::{
+    AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing,
+};
 pub use image::{
     Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
 };
-pub use meaning::{AlphaTest, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 

@@ -2,16 +2,18 @@
 
 use glam::DMat4;
 
-use super::builder::Builder;
-use super::lens::Lens;
+use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
+use crate::compositions::passes::Passes;
+use crate::compositions::projection::CameraProjection;
+use crate::lights::drawable::{items, note_clear};
+use crate::lights::guard::Guard;
+use crate::lights::{Drawable, LightView, Notes, Viewer};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{ImageId, PassList};
+use crate::pass::PassList;
 use crate::scene::{Light, Scene};
-use crate::techniques::guard::Guard;
-use crate::techniques::items::{items, note_clear};
-use crate::techniques::surface::Viewer;
-use crate::techniques::{self, Item, LightTerm, LightView, Notes};
+use crate::surfaces;
+use crate::techniques;
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
@@ -24,40 +26,42 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
-    let camera = Lens::of_scene(scene).camera;
+    let camera = CameraProjection::of_scene(scene).camera;
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
-    let mut builder = Builder { scene, items: &items, kept, counted, list: &mut list, notes: &mut notes, request };
-    let target = match request.subject {
-        Subject::Camera => builder.camera_picture(&terms)?,
-        Subject::Light(index) => builder.light_picture(index)?,
+    let passes = Passes {
+        scene,
+        items: &items,
+        kept,
+        counted,
+        list: &mut list,
+        notes: &mut notes,
+        surface: surfaces::batches,
+        frames: request.frames,
+        keep_all: request.keep_all,
+    };
+    let mut pictures = Pictures { passes, request };
+    let buffers = match request.subject {
+        Subject::Camera => pictures.of_camera(&terms)?,
+        Subject::Light(index) => pictures.of_light(index)?,
     };
     let mut views = Vec::new();
     for wanted in &request.views {
-        let image = builder.view(wanted, &terms, target)?;
+        let image = pictures.view(wanted, &terms, buffers)?;
         views.push((*wanted, image));
     }
-    let picture = target.color.unwrap_or(ImageId(0));
     let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    Ok(Plan { list, picture, views, left_out, chosen, warnings, maps })
-}
-
-/// A light's term, and whether the picture needs it.
-pub struct PlannedLight {
-    pub term: LightTerm,
-    pub contributes: bool,
-    /// True if the picture or a view needs it.
-    pub is_drawn: bool,
+    Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps })
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
 /// errors do not depend on where the camera looks.
 fn light_terms(
     scene: &Scene,
-    items: &[Item],
+    items: &[Drawable],
     camera: &Viewer,
     request: &Request,
     list: &mut PassList,
@@ -97,15 +101,16 @@ fn light_terms(
 }
 
 /// The items that the camera may see.
-fn visible<'a>(items: &'a [Item], camera: &Viewer) -> Vec<&'a Item> {
+fn visible<'a>(items: &'a [Drawable], camera: &Viewer) -> Vec<&'a Drawable> {
     let clip_from_world = camera.clip_from_world();
-    let seen =
-        |item: &&Item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let seen = |item: &&Drawable| {
+        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
+    };
     items.iter().filter(seen).collect()
 }
 
-/// Reason why a light adds nothing to the picture, if there is one.
-fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Option<&'static str> {
+/// Why a light adds nothing to the picture, if so.
+fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Drawable]) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
         return Some("its colours are black");
@@ -122,7 +127,7 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
         return Some("its cone and the camera's frustum do not meet");
     }
     let touched =
-        |item: &&Item| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+        |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 

@@ -1,9 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
-mod builder;
 mod compose;
-mod counted;
-mod lens;
+mod pictures;
 mod print;
 mod prune;
 #[cfg(test)]
@@ -11,9 +9,11 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::compositions;
+use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{Chosen, LeftOut, MapInfo, views::View};
+use crate::views::View;
 
 /// A request for a frame.
 #[derive(Clone, Debug)]
@@ -104,14 +104,14 @@ pub struct Plan {
 pub enum Error {
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    #[error(transparent)]
+    Composition(#[from] compositions::Error),
     #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
     NoSuchLight { view: String, count: usize },
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
-    #[error("--aov {view}: light {light} counts no shadow volumes: give it technique = \"shadow-volume\"")]
-    NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
@@ -120,16 +120,6 @@ pub enum Error {
         "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
-    #[error(
-        "guard = \"clip-plane\" (light {light}) cannot be combined with a stencil-counted light (light {counted}): clipping changes depth values, and that light is drawn with depth EQUAL. Choose another guard."
-    )]
-    CutDepths { light: usize, counted: usize },
-    #[error(
-        "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
-    )]
-    TwoLedges { first: usize, second: usize },
-    #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
-    Singular { light: usize },
 }
 
 /// Plans a frame of `scene`.

@@ -4,11 +4,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Plan, Request};
+use crate::lights::LeftOut;
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage, Target, Work,
 };
-use crate::techniques::LeftOut;
 
 /// Prunes in place.
 pub fn prune(plan: &mut Plan, request: &Request) {

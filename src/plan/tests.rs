@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Plan, Request, ViewRequest, make};
 use crate::pass::{Blend, Compare, DepthFormat, DrawPass, Format, Work};
 use crate::scene;
-use crate::techniques::views::View;
+use crate::views::View;
 
 fn plan(scene: &str, set: &[&str]) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(scene);

@@ -1,10 +1,25 @@
 //! The driver's current work, for the message of a crash. Several threads may work at once.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Current steps, each with a unique number.
 static STEPS: Mutex<Vec<(u64, String)>> = Mutex::new(Vec::new());
+
+/// Called when the first step begins (`true`) and when the last one ends (`false`).
+static WATCH: OnceLock<fn(bool)> = OnceLock::new();
+
+/// Has `watch` called from now on when the first step begins and when the last one ends.
+#[cfg(unix)]
+pub(super) fn watch_by(watch: fn(bool)) {
+    WATCH.get_or_init(|| watch);
+}
+
+fn tell_watch(begins: bool) {
+    if let Some(watch) = WATCH.get() {
+        watch(begins);
+    }
+}
 
 /// A step that lasts until this is dropped.
 #[must_use]
@@ -17,8 +32,7 @@ pub(crate) fn doing(what: impl Into<String>) -> Doing {
     let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
     steps.push((number, what.into()));
     if steps.len() == 1 {
-        #[cfg(unix)]
-        super::signals::watch(true);
+        tell_watch(true);
     }
     Doing(number)
 }
@@ -28,8 +42,7 @@ impl Drop for Doing {
         let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
         steps.retain(|(number, _)| *number != self.0);
         if steps.is_empty() {
-            #[cfg(unix)]
-            super::signals::watch(false);
+            tell_watch(false);
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
-use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicI64, AtomicU32, Ordering};
 
 use libc::{c_int, c_void, siginfo_t};
 
@@ -30,9 +30,7 @@ const MOST_IDLE_TICKS: u32 = 6;
 /// Processor time between two checks that counts as none, in microseconds; the check itself uses some.
 const IDLE_MICROSECONDS: i64 = 1_000;
 
-/// True if SIGALRM has our handler.
-static WATCHES: AtomicBool = AtomicBool::new(false);
-/// Successive checks that found no processor time used.
+/// Looks in a row that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
 
 pub(super) fn install() {
@@ -40,18 +38,16 @@ pub(super) fn install() {
         handle(signal, on_end);
     }
     handle(libc::SIGALRM, on_alarm);
-    WATCHES.store(true, Ordering::Relaxed);
+    doing::watch_by(watch);
     // SAFETY: an ignored SIGXFSZ makes a write beyond the limit fail with EFBIG.
     unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
 }
 
-/// Starts or stops the checks of the processor time. Alarms come only while the driver is at work.
-pub(super) fn watch(begins: bool) {
-    if WATCHES.load(Ordering::Relaxed) {
-        IDLE_TICKS.store(0, Ordering::Relaxed);
-        // SAFETY: takes a number; 0 takes the alarm back.
-        unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
-    }
+/// Begins or ends to look at the processor time. Alarms come only while the driver is at work.
+fn watch(begins: bool) {
+    IDLE_TICKS.store(0, Ordering::Relaxed);
+    // SAFETY: takes a number; 0 takes the alarm back.
+    unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
 }
 
 /// In a child made by fork: the parent reports a crash.

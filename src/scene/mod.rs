@@ -2,9 +2,10 @@
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
+mod camera_framing;
+mod default_scene;
 mod error;
 mod files;
-mod frame;
 mod model;
 mod overrides;
 mod parse;
@@ -13,18 +14,17 @@ mod ranges;
 mod resolve;
 mod settings;
 mod sight;
-mod supply;
 mod views;
 
 use std::fs;
 use std::path::Path;
 
+pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
-pub use supply::{Floor, framing};
 
 use crate::math::Aabb;
 use assets::{Assets, has_extension};
@@ -137,8 +137,8 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     check_size(path, &bounds)?;
     let floor = match &object {
         _ if !is_floor_wanted => Floor::Absent,
-        Some(object) if supply::has_floor(object) => {
-            let hair = supply::hair(&bounds);
+        Some(object) if default_scene::has_floor(object) => {
+            let hair = default_scene::hair(&bounds);
             let below = Plain(format!("{hair:.1e}").parse().unwrap_or(hair));
             let what = "has a floor of its own: the supplied one lies";
             assets.warn(format!("{}: {what} {below} below it; --no-floor leaves it out", path.display()));
@@ -154,8 +154,8 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
 
 /// Refuses a model too large or too small for a camera and a light around it.
 fn check_size(path: &Path, bounds: &Aabb) -> Result<(), Error> {
-    let radius = frame::working_radius(bounds);
-    let [least, most] = supply::RADII;
+    let radius = camera_framing::working_radius(bounds);
+    let [least, most] = default_scene::RADII;
     if (least..=most).contains(&radius) {
         return Ok(());
     }

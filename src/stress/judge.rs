@@ -26,15 +26,15 @@ use super::results::{Row, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
+use crate::lights::map::Bias;
+use crate::lights::{MapInfo, MapShape};
 use crate::pass::{DepthFormat, Face};
 use crate::plan::{Plan, Request, ViewRequest};
-use crate::report::metrics::ShadeImage;
-use crate::report::run::with_shadow;
+use crate::report::measure::metrics::ShadeImage;
+use crate::report::measure::run::with_shadow;
 use crate::scene::{self, LightKind, LightShape, Scene};
-use crate::techniques::map::Bias;
-use crate::techniques::views::View;
-use crate::techniques::{MapInfo, MapShape};
+use crate::truth::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
+use crate::views::View;
 
 /// The greatest part of the pixels compared that may be wrong although each is explained. A map whose band is wider is too
 /// coarse for its picture.
@@ -70,12 +70,12 @@ impl<'a> Judge<'a> {
     /// # Errors
     ///
     /// A scene that the oracle cannot read.
-    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, ray::Error> {
-        let options = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
+    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, truth::Error> {
+        let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         let surroundings = Surroundings::new(scene, light, &options)?;
         let truth = surroundings.truth()?;
-        let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
-        let volume_truth = ray::trace(scene, light, &doubtful)?;
+        let doubtful = truth::Options { depth_buffer_bits: Some(24), ..options };
+        let volume_truth = truth::trace(scene, light, &doubtful)?;
         Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
     }
 

@@ -4,9 +4,9 @@ use super::judge::MOST_WRONG;
 use super::plot::SweepPlot;
 use super::results::{CaseResult, Row, RowPictures, Verdict, tally};
 use super::table::{shares, techniques_of};
-use crate::report::difference::LEGEND;
-use crate::report::html::STYLE;
-use crate::report::html::tags::{escape, figure};
+use crate::report::measure::difference::LEGEND;
+use crate::report::show::html::STYLE;
+use crate::report::show::html::tags::{escape, figure};
 
 /// Cases shown with pictures at most: those that fail come first.
 const MOST_CASES: usize = 80;

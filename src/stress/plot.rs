@@ -2,9 +2,9 @@
 
 use super::results::CaseResult;
 use super::table::techniques_of;
-use crate::report::plots::Error;
-use crate::report::plots::axis::Axis;
-use crate::report::plots::canvas::{self, Marker, Words};
+use crate::report::show::plots::Error;
+use crate::report::show::plots::axis::Axis;
+use crate::report::show::plots::canvas::{self, Marker, Words};
 
 /// A named sweep and its plot as SVG.
 pub struct SweepPlot {

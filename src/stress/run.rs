@@ -11,8 +11,8 @@ use super::results::{CaseResult, Row, RowPictures, Verdict};
 use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::Truth;
-use crate::report::difference;
+use crate::report::measure::difference;
+use crate::truth::Truth;
 
 /// Options of a run.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use super::case::Case;
 use super::results::CaseResult;
 use super::{page, plot};
-use crate::output::whole;
-use crate::report::plots;
+use crate::output::atomic_write;
+use crate::report::show::plots;
 
 /// Reason why a run's results could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -64,7 +64,7 @@ pub fn write(folder: &Path, seed: u64, results: &[CaseResult], reduced: &[Case])
         (folder.join("stress.html"), page::to_html(results, &plots).into_bytes()),
     ];
     let paths: Vec<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
-    let written = whole::write_all(&paths, |index, path| fs::write(path, &files[index].1));
+    let written = atomic_write::write_all(&paths, |index, path| fs::write(path, &files[index].1));
     written.map_err(|(index, reason)| Error::Write { path: paths[index].to_owned(), reason })
 }
 

@@ -1,4 +1,4 @@
-//! Shadow techniques and views, each describing passes as data. Knows scene, pass, geometry and math; no GL.
+//! Shadow techniques, each describing passes as data. Knows scene, pass, geometry and math; no GL.
 //!
 //! # How to add a technique
 //!
@@ -8,32 +8,17 @@
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
-mod alpha;
 pub mod claims;
-pub mod cut;
-mod forecast;
-pub mod guard;
-pub mod guides;
-pub mod items;
-pub mod light;
-pub mod map;
 mod midpoint;
-mod projector;
+mod none;
 mod second_depth;
-mod seen;
 mod shadow_map;
 mod shadow_volume;
-pub mod surface;
-mod unseen;
-mod unshadowed;
-pub mod views;
 
 use self::claims::Claim;
+use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, Scene, Settings, SettingsError, suggest};
-pub use items::Item;
-pub use light::{Coordinates, FrustumView, LightTerm, LightView};
-pub use map::{MapInfo, MapShape};
 
 /// A way to find which points a light reaches.
 pub trait Technique: Sync {
@@ -105,46 +90,12 @@ pub struct Axis {
 
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[
-    &unshadowed::Unshadowed,
+    &none::Unshadowed,
     &shadow_map::ShadowMap,
     &midpoint::Midpoint,
     &second_depth::SecondDepth,
     &shadow_volume::ShadowVolume,
 ];
-
-/// Notes of a plan: what was left out and why, choices, and warnings.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Notes {
-    pub left_out: Vec<LeftOut>,
-    /// Choices that a technique made, and why.
-    pub chosen: Vec<Chosen>,
-    pub warnings: Vec<String>,
-}
-
-/// Something that this frame does not draw.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct LeftOut {
-    pub what: String,
-    pub why: String,
-}
-
-/// A choice among several ways.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct Chosen {
-    pub of: String,
-    pub choice: String,
-    pub why: String,
-}
-
-impl Notes {
-    pub fn left_out(&mut self, what: impl Into<String>, why: impl Into<String>) {
-        self.left_out.push(LeftOut { what: what.into(), why: why.into() });
-    }
-
-    pub fn chosen(&mut self, of: impl Into<String>, choice: impl Into<String>, why: impl Into<String>) {
-        self.chosen.push(Chosen { of: of.into(), choice: choice.into(), why: why.into() });
-    }
-}
 
 /// Checks the keys that only other techniques read: they may stand, so that `technique` alone can be switched.
 ///

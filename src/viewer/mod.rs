@@ -3,13 +3,15 @@
 //! too: the map stays when only the camera moves.
 
 mod keys;
+mod mode;
 mod orbit;
 mod state;
 mod tweak;
 mod window;
 
 pub use keys::{Command, help};
-pub use state::{Handle, Mode, Reaction, State};
+pub use mode::{Handle, Mode};
+pub use state::{Reaction, State};
 pub use tweak::{TWEAKS, Tweak};
 pub use window::{Shown, run};
 

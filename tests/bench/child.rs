@@ -10,7 +10,7 @@ use glumbra::output::{self, Output};
 use glumbra::pass::{Attribute, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene;
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 use serde::{Deserialize, Serialize};
 
 use super::floor::Floor;

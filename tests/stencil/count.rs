@@ -3,10 +3,10 @@
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{Count, Options, VolumeCounts, volume_count};
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::truth::{Count, Options, VolumeCounts, volume_count};
+use glumbra::views::View;
 
 /// Every method, and those that claim to be right wherever the eye stands.
 pub const RIGHT: [&str; 4] = ["auto", "z-fail", "z-fail-clamped", "z-pass-capped"];

@@ -3,8 +3,8 @@
 use glam::{DMat4, DVec3};
 use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Landing, Outline, Source, Volume};
 use glumbra::math::spaces::view_from_world;
-use glumbra::oracle::ray::{Answer, Count, Options, trace, volume_count, volume_count_at};
 use glumbra::scene::{Object, Scene};
+use glumbra::truth::{Answer, Count, Options, trace, volume_count, volume_count_at};
 
 use crate::homogeneous::{Random, corners, entries, exits, triangles};
 use crate::scenes::{cuboid, floor, frustum_of, light, mesh, object, point_light, scene, sphere, square, sun};

@@ -3,6 +3,7 @@
 //! ([`super::normals`]). Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons
 //! only.
 
+pub(super) mod corner;
 mod place;
 mod polygon;
 mod rewrite;
@@ -35,7 +36,7 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
     }
     let mut warnings: Vec<Warning> = scan.oddities.warnings().collect();
-    if let Some((line, message)) = place::warning(&scan, &text) {
+    if let Some((line, message)) = place::warning(&scan.places, scan.origin, &text) {
         warnings.push(Warning { path: path.to_owned(), line, message });
     }
     let library = load_libraries(&scan, path, &mut warnings)?;

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::scan::{Counts, Scan, read_corner};
+use super::corner::{Counts, read_corner};
 use crate::geometry::text::logical_lines;
 use crate::math::Aabb;
 
@@ -119,9 +119,9 @@ impl Places {
     }
 }
 
-/// Warning about a file whose faces f32 does not hold: the line, and why.
-pub(super) fn warning(scan: &Scan, text: &str) -> Option<(usize, String)> {
-    let (line, [length, off], count) = scan.places.lost(text, scan.origin)?;
+/// What is to be said of a file whose faces f32 does not hold: the line, and why.
+pub(super) fn warning(places: &Places, origin: DVec3, text: &str) -> Option<(usize, String)> {
+    let (line, [length, off], count) = places.lost(text, origin)?;
     let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };
     let message = format!(
         "{faces} too fine for 32-bit floats so far from the file's middle: it is {length:.3e} long, and an edge is off by {off:.1e}"

@@ -8,8 +8,9 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::super::text::logical_lines;
+use super::corner::{Corner, Counts, read_corner};
 use super::place::Places;
-use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
+use super::scan::{Scan, statement_value};
 
 /// Name of a material without a name.
 pub(super) const UNNAMED: &str = "unnamed";

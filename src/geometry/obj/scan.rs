@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::super::Error;
 use super::super::tally::Tally;
 use super::super::text::logical_lines;
+use super::corner::{Corner, Counts, Wrong, read_corner, shorten};
 use super::place::Places;
 
 /// Contents of the text.
@@ -30,22 +31,6 @@ pub(super) struct Scan {
     pub oddities: Tally,
 }
 
-/// Counts of statements, so far or in total.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Counts {
-    pub v: usize,
-    pub vt: usize,
-    pub vn: usize,
-}
-
-/// A corner of a face: its indices, from 1; `None`: missing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Corner {
-    pub v: usize,
-    pub vt: Option<usize>,
-    pub vn: Option<usize>,
-}
-
 /// The largest numbers that faces name, of those that had not been read by then, with their lines.
 struct Forward {
     line: usize,
@@ -63,9 +48,6 @@ struct Scanner<'a> {
     corners_with_texcoord: usize,
     corners_with_normal: usize,
 }
-
-/// Error in a line.
-type Wrong = String;
 
 /// Reads `text`, the file at `path`.
 pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
@@ -281,39 +263,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last one read.
-pub(super) fn read_corner(word: &str, counts: Counts) -> Result<Corner, Wrong> {
-    if !word.as_bytes().contains(&b'/')
-        && let Some(v) = read_index(word, "vertex", counts.v, word)?
-    {
-        return Ok(Corner { v, vt: None, vn: None });
-    }
-    let mut parts = word.split('/');
-    let v = read_index(parts.next().unwrap_or_default(), "vertex", counts.v, word)?;
-    let vt = read_index(parts.next().unwrap_or_default(), "texture coordinate", counts.vt, word)?;
-    let vn = read_index(parts.next().unwrap_or_default(), "normal", counts.vn, word)?;
-    match v {
-        Some(v) if parts.next().is_none() => Ok(Corner { v, vt, vn }),
-        _ => Err(format!("'{}' is not a corner of a face", shorten(word))),
-    }
-}
-
-fn read_index(digits: &str, kind: &str, count: usize, word: &str) -> Result<Option<usize>, Wrong> {
-    if digits.is_empty() {
-        return Ok(None);
-    }
-    let index: i64 = digits.parse().map_err(|_| format!("'{}' is not a corner of a face", shorten(word)))?;
-    match index {
-        0 => Err(format!("the face names {kind} 0; they count from 1")),
-        1.. => Ok(usize::try_from(index).ok()),
-        _ => match usize::try_from(index.unsigned_abs()).ok().and_then(|back| count.checked_sub(back)) {
-            Some(at) => Ok(Some(at + 1)),
-            None => Err(format!("the face names {kind} {index}, but {count} stand before it")),
-        },
-    }
-}
-
-/// Refuses a word that is not a finite f32.
+/// Refuses what is no number, and no finite one as f32.
 fn check_coordinate(statement: &str, word: &str) -> Result<(), Wrong> {
     if is_plain_number(word) {
         return Ok(());
@@ -351,12 +301,4 @@ fn is_plain_number(word: &str) -> bool {
 /// Text after the keyword of a statement, to the line's end.
 pub(super) fn statement_value<'a>(line: &'a str, keyword: &str) -> &'a str {
     line.trim().strip_prefix(keyword).unwrap_or_default().trim()
-}
-
-/// `word`, shortened for a message.
-pub(in super::super) fn shorten(word: &str) -> String {
-    match word.char_indices().nth(40) {
-        Some((end, _)) => format!("{}...", &word[..end]),
-        None => word.to_owned(),
-    }
 }

@@ -24,6 +24,9 @@
 //! their volume *in model space*: under a mirroring transform front faces run clockwise, as they do for the mesh itself.
 
 mod caster;
+mod components;
+mod counting;
+mod edges;
 mod extrude;
 mod loops;
 mod near_cap;
@@ -31,13 +34,13 @@ mod near_plane;
 mod outline;
 mod planes;
 mod seen;
-mod shells;
 mod source;
 
 pub use caster::Caster;
+pub use components::{Component, Counting, Kind};
 pub use extrude::{Caps, Extent, Volume, light_touches};
+pub use loops::OutlineEdge;
 pub use near_cap::{CappedVolume, Landing};
-pub use outline::{Outline, OutlineEdge};
+pub use outline::Outline;
 pub use seen::{Casting, Viewer, scissor};
-pub use shells::{Counting, Kind, Shell};
 pub use source::Source;

@@ -1,7 +1,8 @@
 //! The possible silhouette [GDC, "Computing Shadow Volumes For Polygonal Models"]: the boundary of the triangles that
 //! count, as directed edges with multiplicity. All buffers are kept from one light or frame to the next.
 
-use super::{Caster, Counting, Source, loops};
+use super::loops::{self, OutlineEdge};
+use super::{Caster, Counting, Source};
 
 /// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
@@ -16,16 +17,6 @@ pub struct Outline {
     exact_tests: usize,
 }
 
-/// An edge of the outline. Seen from the light, the counted triangle lies on the left of `from` to `to`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OutlineEdge {
-    /// Places of the caster.
-    pub from: u32,
-    pub to: u32,
-    /// Number of times that it is part of the boundary; at least 1.
-    pub multiplicity: u32,
-}
-
 impl Outline {
     /// Finds the counted triangles of `caster` and their boundary, for a light in the caster's model space.
     pub fn find(&mut self, caster: &Caster, source: Source) {
@@ -35,7 +26,8 @@ impl Outline {
         self.exact_tests = 0;
         for shell in &caster.shells {
             let range = shell.triangles.start as usize..shell.triangles.end as usize;
-            self.exact_tests += caster.planes.sides(caster, range.clone(), source, &mut self.weights);
+            self.exact_tests +=
+                caster.planes.sides(|triangle| caster.corners(triangle), range.clone(), source, &mut self.weights);
             let counting = caster.counting(shell, source);
             if counting == Counting::Facing {
                 self.weights[range].iter_mut().for_each(|weight| *weight = (*weight).max(0));

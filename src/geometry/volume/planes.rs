@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{Caster, Source};
+use super::Source;
 use crate::math::exact;
 
 /// Unit roundoff of f64.
@@ -68,9 +68,15 @@ impl Planes {
     }
 
     /// Writes the side of the triangles in `range` to the same range of `sides`: 1 where the light sees the corners run
-    /// counter-clockwise, -1 clockwise, 0 if it lies in the plane or there is none. Exact. Returns how many needed exact
-    /// arithmetic.
-    pub fn sides(&self, caster: &Caster, range: Range<usize>, source: Source, sides: &mut [i8]) -> usize {
+    /// counter-clockwise, -1 clockwise, 0 where it stands in the plane or there is none. Exact. Returns how many needed
+    /// exact arithmetic.
+    pub fn sides(
+        &self,
+        corners: impl Fn(usize) -> [DVec3; 3],
+        range: Range<usize>,
+        source: Source,
+        sides: &mut [i8],
+    ) -> usize {
         let light = match source {
             Source::Point(position) => position - self.center,
             Source::Direction(direction) => direction,
@@ -86,7 +92,7 @@ impl Planes {
             if out.contains(&0) {
                 for (side, triangle) in out.iter_mut().zip(block).filter(|(side, _)| **side == 0) {
                     exact += usize::from(!self.is_flat(triangle));
-                    *side = self.exact_side(caster, triangle, source);
+                    *side = self.exact_side(&corners(triangle), triangle, source);
                 }
             }
             start += BLOCK;
@@ -108,12 +114,12 @@ impl Planes {
         [&self.x, &self.y, &self.z].iter().all(|array| array[triangle] == 0.0)
     }
 
-    pub fn exact_side(&self, caster: &Caster, triangle: usize, source: Source) -> i8 {
-        let corners = caster.corners(triangle);
+    /// The side of one triangle, whose `corners` these are. Exact.
+    pub fn exact_side(&self, corners: &[DVec3; 3], triangle: usize, source: Source) -> i8 {
         match source {
-            _ if self.is_flat(triangle) && exact::are_collinear(&corners) => 0,
-            Source::Point(position) => exact::side_of_point(&corners, position),
-            Source::Direction(direction) => exact::side_of_direction(&corners, direction),
+            _ if self.is_flat(triangle) && exact::are_collinear(corners) => 0,
+            Source::Point(position) => exact::side_of_point(corners, position),
+            Source::Direction(direction) => exact::side_of_direction(corners, direction),
         }
     }
 }

@@ -3,10 +3,9 @@
 use glam::DVec3;
 
 use crate::math::Aabb;
-use crate::scene::frame;
 use crate::scene::settings::{Plain, Settings, SettingsError};
 use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
-use crate::scene::{Camera, Image, Object};
+use crate::scene::{Camera, Image, Object, camera_framing};
 
 /// `[camera]` as written; values that depend on the objects follow later.
 pub(super) struct Written {
@@ -28,7 +27,8 @@ pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
         (Some(eye), Some(target)) => reader.up(["eye", "target"], eye, target).map(drop)?,
         _ => reader.vector("up").map(drop)?,
     }
-    let fov_y_radians = reader.angle_between("fov_y", 1.0, 179.0)?.unwrap_or(frame::FOV_Y_DEGREES.to_radians());
+    let fov_y_radians =
+        reader.angle_between("fov_y", 1.0, 179.0)?.unwrap_or(camera_framing::FOV_Y_DEGREES.to_radians());
     let [near, far] = reader.near_and_far()?;
     reader.finish()?;
     Ok(Written { eye, target, fov_y_radians, near, far, settings })
@@ -45,7 +45,7 @@ impl Written {
     ) -> Result<Camera, SettingsError> {
         let corners: Vec<DVec3> = objects.iter().flat_map(|object| object.world_bounds().corners()).collect();
         let bounds = Aabb::from_points(corners.iter().copied());
-        let radius = frame::working_radius(&bounds);
+        let radius = camera_framing::working_radius(&bounds);
         let (eye, target) = self.eye_and_target(&corners, &bounds, radius, image.aspect());
         let mut reader = self.settings.read();
         let up = reader.up(["eye", "target"], eye, target)?;
@@ -53,7 +53,7 @@ impl Written {
         let pyramid = Pyramid::of_camera(&camera, image.aspect());
         let spans: Vec<Span> = objects.iter().map(|object| pyramid.span(object)).collect();
         let seen = spans.iter().copied().fold(Span::EMPTY, Span::union);
-        let [near, far] = frame::depth_range(&corners, &camera, seen, radius);
+        let [near, far] = camera_framing::depth_range(&corners, &camera, seen, radius);
         camera.near = self.near.unwrap_or_else(|| self.far.map_or(near, |far| near.min(far / 2.0)));
         camera.far = self.far.unwrap_or_else(|| far.max(2.0 * camera.near));
         reader.check_far(camera.near, camera.far)?;
@@ -70,13 +70,15 @@ impl Written {
         }
         let reach = |target: DVec3| corners.iter().map(|corner| corner.distance(target)).fold(radius, f64::max);
         match (self.eye, self.target) {
-            (Some(eye), _) if eye == bounds.center() => (eye, eye - frame::THREE_QUARTER * radius),
+            (Some(eye), _) if eye == bounds.center() => (eye, eye - camera_framing::THREE_QUARTER * radius),
             (Some(eye), _) => (eye, bounds.center()),
             (None, Some(target)) => {
-                let distance = frame::sphere_distance(reach(target), self.fov_y_radians, aspect);
-                (target + frame::THREE_QUARTER.normalize() * distance, target)
+                let distance = camera_framing::sphere_distance(reach(target), self.fov_y_radians, aspect);
+                (target + camera_framing::THREE_QUARTER.normalize() * distance, target)
             }
-            (None, None) => frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius),
+            (None, None) => {
+                camera_framing::fit(corners, camera_framing::THREE_QUARTER, self.fov_y_radians, aspect, radius)
+            }
         }
     }
 }
@@ -138,7 +140,7 @@ impl View<'_> {
     /// Warning about depths that a buffer of 24 bits cannot resolve behind so near a plane.
     fn coarse(&self) -> Option<Said> {
         let Camera { near, far, .. } = *self.camera;
-        let last = frame::last_depth([near, far]);
+        let last = camera_framing::last_depth([near, far]);
         let seen = self.seen();
         // There is always a strip of it before the far plane; less than half a row of pixels is none.
         let row = 0.5 * f64::from(self.size[0].max(self.size[1]));
@@ -170,7 +172,7 @@ impl View<'_> {
         let what = format!(
             "= {} is so near that a depth buffer of 24 bits tells apart no less than {} at `{}`, {} away",
             Plain(brief(near)),
-            Plain(brief(frame::depth_step(near, span.least))),
+            Plain(brief(camera_framing::depth_step(near, span.least))),
             object.name,
             Plain(brief(span.least)),
         );
@@ -184,7 +186,7 @@ impl View<'_> {
         let pixel = self.camera.pixel_at(span.least, self.size);
         // Without back faces only what is all at one depth is lost.
         let room = if object.closed { long } else { thin };
-        thin > 0.0 && long > pixel && frame::depth_step(self.camera.near, span.least) > room / STEPS
+        thin > 0.0 && long > pixel && camera_framing::depth_step(self.camera.near, span.least) > room / STEPS
     }
 
     /// Objects in view behind the near plane, the nearest first.

@@ -3,10 +3,9 @@
 use glam::DVec3;
 
 use crate::scene::assets::Assets;
-use crate::scene::frame;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot};
+use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
@@ -62,9 +61,11 @@ impl Written {
     pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
         let Self { settings, mut light, near: written_near, far: written_far } = self;
         let (found, near, far) = match &mut light.kind {
-            LightKind::Point(point) => (frame::cube_range(point.position, objects), &mut point.near, &mut point.far),
+            LightKind::Point(point) => {
+                (camera_framing::cube_range(point.position, objects), &mut point.near, &mut point.far)
+            }
             LightKind::Spot(Spot { frustum, .. }) => {
-                (frame::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
+                (camera_framing::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
             }
             LightKind::Directional { .. } => return Ok(light),
         };

@@ -24,16 +24,17 @@ mod single;
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Alone, Stored};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
-use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
+use crate::techniques::shadow_map::forecast::{self, Alone, Stored};
 
 pub struct Midpoint;
 
@@ -120,7 +121,7 @@ impl Technique for Midpoint {
         note_chosen(view, &layers, notes);
         let mut draw = |name, image, ending: Option<Ending>, offset, shared_alone| {
             let is_second = ending.is_some();
-            let receivers: &[&Item] = if is_second { &layers.receivers } else { &[] };
+            let receivers: &[&Drawable] = if is_second { &layers.receivers } else { &[] };
             let layer = Layer { ending, clamped, receivers, ..Layer::plain(name, image, offset, &layers.casters) };
             let layer = match shared_alone && !view.keep_all {
                 true => Layer {
@@ -168,7 +169,7 @@ fn forecast_of<'a>(
     view: &FrustumView<'_>,
     settings: &'a Settings,
     single: Single,
-    casters: &'a [&'a Item],
+    casters: &'a [&'a Drawable],
 ) -> forecast::Map<'a> {
     let polygon = if single == Single::FirstOffset { bias::offset(&settings.map).polygon } else { NO_OFFSET };
     let stored = Stored::Middle {

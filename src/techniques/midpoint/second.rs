@@ -4,13 +4,13 @@
 use glam::{DMat4, DVec3};
 
 use crate::geometry::volume;
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Drawable, FrustumView, Notes};
 use crate::math::{Aabb, frustum};
-use crate::techniques::projector::Rays;
 use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, Notes};
 
 /// Left, bottom, right and top, in texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,21 +52,21 @@ pub struct Shared<'a> {
 /// Items drawn there.
 #[derive(Default)]
 pub struct Drawn<'a> {
-    /// Items drawn under the scissor of all such texels.
-    pub whole: Vec<&'a Item>,
-    /// Flat items, each under the scissors of the items that it may share texels with: for example a large floor with many
-    /// small objects on it.
+    /// Under the scissor of all such texels.
+    pub whole: Vec<&'a Drawable>,
+    /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
+    /// on.
     pub in_parts: Vec<InParts<'a>>,
 }
 
 /// Items of the two layers.
 pub struct Layers<'a> {
-    /// Items drawn into both layers.
-    pub casters: Vec<&'a Item>,
-    /// Items drawn into the second layer only, before which the middle must lie: items that cast no shadow but may be
-    /// shadowed, and items beyond the light's far plane, all at one depth.
-    pub receivers: Vec<&'a Item>,
-    /// Name of an item beyond the far plane, if there is one. Without clipping it is a second layer at depth 1.
+    /// Drawn into both.
+    pub casters: Vec<&'a Drawable>,
+    /// Drawn into the second alone, before which the middle must lie: what casts no shadow but may be shadowed, and what
+    /// lies beyond the light's far plane, where it is all of one depth.
+    pub receivers: Vec<&'a Drawable>,
+    /// Something lies beyond the far plane: its name. Without clipping it is a second layer at depth 1.
     pub beyond_far: Option<String>,
 }
 
@@ -106,23 +106,23 @@ const MOST_TRIANGLES: usize = 4096;
 /// surfaces before it.
 pub fn needed<'a>(
     view: &FrustumView<'_>,
-    casters: Vec<&'a Item>,
+    casters: Vec<&'a Drawable>,
     settings: &Settings,
     notes: &mut Notes,
-) -> Vec<&'a Item> {
+) -> Vec<&'a Drawable> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
     let unseen = Unseen::new(view, settings.size, reach(settings));
-    let (unseen, seen): (Vec<&Item>, Vec<&Item>) = casters.iter().partition(|item| unseen.shadow_of(item));
-    let seen: Vec<(&Item, Rectangle)> =
+    let (unseen, seen): (Vec<&Drawable>, Vec<&Drawable>) = casters.iter().partition(|item| unseen.shadow_of(item));
+    let seen: Vec<(&Drawable, Rectangle)> =
         seen.into_iter().map(|item| (item, covered(view, item, &clip_from_world, settings))).collect();
-    let is_idle = |item: &Item| {
+    let is_idle = |item: &Drawable| {
         let own = covered(view, item, &clip_from_world, settings);
-        let may_follow = |(first, covered): &(&Item, Rectangle)| {
+        let may_follow = |(first, covered): &(&Drawable, Rectangle)| {
             own.within(*covered).area() > 0 && !lies_before(item, first, &view.projector.rays)
         };
         !seen.iter().any(may_follow)
     };
-    let idle: Vec<&Item> = unseen.into_iter().filter(|item| is_idle(item)).collect();
+    let idle: Vec<&Drawable> = unseen.into_iter().filter(|item| is_idle(item)).collect();
     for item in &idle {
         let why = "the camera sees nothing that it shadows, and it is no second layer of what it sees the shadow of";
         notes.left_out(in_the_map(item, view), why);
@@ -130,7 +130,7 @@ pub fn needed<'a>(
     casters.into_iter().filter(|item| !idle.iter().any(|other| std::ptr::eq(*other, *item))).collect()
 }
 
-fn covered(view: &FrustumView<'_>, item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
+fn covered(view: &FrustumView<'_>, item: &Drawable, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
     // Near the light, a small thing is wide.
     if is_before_near(view, item) {
         return Rectangle([0, 0, settings.size, settings.size]);
@@ -139,12 +139,12 @@ fn covered(view: &FrustumView<'_>, item: &Item, clip_from_world: &DMat4, setting
     scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle([x, y, x + width, y + height]))
 }
 
-fn corners(item: &Item) -> [DVec3; 8] {
+fn corners(item: &Drawable) -> [DVec3; 8] {
     item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner))
 }
 
-/// Tests whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
-fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
+/// Whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
+fn lies_before(item: &Drawable, other: &Drawable, rays: &Rays) -> bool {
     let (own, others) = (corners(item), corners(other));
     let scale = own.iter().chain(&others).map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
     // Error of f32 transforms.
@@ -180,7 +180,7 @@ fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
 /// with casters.
 pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: &Settings) -> Shared<'a> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
-    let covered = |items: &[&'a Item]| -> Vec<Rectangle> {
+    let covered = |items: &[&'a Drawable]| -> Vec<Rectangle> {
         items.iter().map(|item| covered(view, item, &clip_from_world, settings)).collect()
     };
     let (of_casters, of_receivers) = (covered(&layers.casters), covered(&layers.receivers));
@@ -202,8 +202,13 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
 }
 
 impl<'a> Drawn<'a> {
-    /// Adds rectangles that cover `own` where it meets `others`; returns a rectangle around all these places.
-    fn share<'r>(&mut self, item: &'a Item, own: &Rectangle, others: impl Iterator<Item = &'r Rectangle>) -> Rectangle {
+    /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
+    fn share<'r>(
+        &mut self,
+        item: &'a Drawable,
+        own: &Rectangle,
+        others: impl Iterator<Item = &'r Rectangle>,
+    ) -> Rectangle {
         let parts: Vec<Rectangle> = others.map(|other| own.within(*other)).filter(|part| part.area() > 0).collect();
         let together = parts.iter().fold(Rectangle::NOTHING, |sum, part| sum.with(*part));
         let triangles = item.indices.len() / 3 * parts.len();

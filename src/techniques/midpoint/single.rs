@@ -6,11 +6,11 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec4};
 
 use crate::geometry::{Mesh, primitive};
+use crate::lights::FrustumView;
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, Meaning, MeshRef,
-    Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId, IndexOrder, Input,
+    MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
-use crate::techniques::FrustumView;
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
 
@@ -33,11 +33,11 @@ pub fn fill(
         program: Program {
             label: String::from("single layer"),
             defines,
-            vertex: vec![glsl!("common/position.vert"), glsl!("depth/depth.vert")],
+            vertex: vec![glsl!("common/position.vert"), glsl!("common/depth.vert")],
             fragment: vec![glsl!("midpoint/single.frag")],
             attributes: vec![Attribute::Position],
         },
-        meaning: Meaning::Shader("one map where another has no second layer"),
+        meaning: FixedFunctionDesc::Shader("one map where another has no second layer"),
         uniforms: Vec::new(),
         inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
         cull: None,

@@ -9,14 +9,15 @@
 use std::sync::Arc;
 
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Stored};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
-use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::{Drawable, LightTerm, LightView, Notes};
 use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{LightKind, Reader, SettingsError};
+use crate::techniques::shadow_map::forecast::{self, Stored};
 
 pub struct SecondDepth;
 
@@ -117,8 +118,8 @@ fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
 }
 
-/// Tests whether an item has a far side all over: each mesh is examined once.
-fn closed_test() -> impl FnMut(&Item) -> bool {
+/// Answers whether an item has a far side all over: each mesh is looked at once.
+fn closed_test() -> impl FnMut(&Drawable) -> bool {
     let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
     move |item| {
         if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) {
@@ -136,8 +137,8 @@ fn closed_test() -> impl FnMut(&Item) -> bool {
 
 /// Refuses casters without a far side, and names each.
 fn refuse_open(
-    casters: &[&Item],
-    is_closed: &mut dyn FnMut(&Item) -> bool,
+    casters: &[&Drawable],
+    is_closed: &mut dyn FnMut(&Drawable) -> bool,
     keys: &Reader<'_>,
 ) -> Result<(), SettingsError> {
     let mut open: Vec<&str> = Vec::new();

@@ -3,8 +3,8 @@
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::settings::{Bias, Mipmaps, Offset, Settings};
+use crate::lights::projector::{Projector, Rays};
 use crate::pass::{DepthFormat, Filter, PolygonOffset};
-use crate::techniques::projector::{Projector, Rays};
 
 /// Reach of a lookup from its place along each axis, in texels: the kernel's taps and each tap's filter, which is the half
 /// texel to its centre, or with GL_LINEAR the whole one to its farthest texel's.

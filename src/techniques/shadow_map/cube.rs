@@ -6,24 +6,23 @@
 
 use glam::{DMat4, DVec3, Vec2};
 
-use super::bias;
 use super::casters::{in_the_map, may_cast};
 use super::depth::{self, Layer};
+use super::forecast::{self, Stored};
+use super::map::map_info;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
-use super::tag;
 use super::term::{sampler, texture_from_light_clip};
-use super::texel;
+use super::{bias, simplified_casters, tag};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::guard::Guard;
+use crate::lights::projector::{Projector, Rays};
+use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform, Work,
     glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
-use crate::techniques::forecast::{self, Stored};
-use crate::techniques::guard::Guard;
-use crate::techniques::projector::{Projector, Rays};
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, MapInfo, Notes};
 
 /// Distance beyond a face's sides within which a point may look it up across a seam, in texels: a filter's neighbour and
 /// rounding.
@@ -57,7 +56,7 @@ pub fn describe(
     notes: &mut Notes,
 ) -> LightTerm {
     let casters = casters(view, point, settings, notes);
-    let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Item>)> =
+    let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Drawable>)> =
         CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
     if faces.is_empty() {
         return super::without_casters(view, settings, notes);
@@ -75,7 +74,7 @@ pub fn describe(
 }
 
 /// The items whose shadow can be seen.
-fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Drawable> {
     let any_face = seen_from(view, point, CubeFace::PositiveX);
     let unseen = (!view.shown_whole && !view.keep_all)
         .then(|| Unseen::new(&any_face, settings.size, bias::kernel_reach(settings)));
@@ -97,14 +96,14 @@ fn needed<'a>(
     view: &LightView<'a>,
     point: &Point,
     face: CubeFace,
-    casters: &[&'a Item],
+    casters: &[&'a Drawable],
     settings: &Settings,
     notes: &mut Notes,
-) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Item>)> {
+) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Drawable>)> {
     let face_view = seen_from(view, point, face);
     let what = format!("face {} of the map of light {}", face.name(), view.index);
-    let holds = |item: &&&Item| view.keep_all || may_cast(&face_view, item);
-    let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
+    let holds = |item: &&&Drawable| view.keep_all || may_cast(&face_view, item);
+    let inside: Vec<&Drawable> = casters.iter().filter(holds).copied().collect();
     if inside.is_empty() {
         notes.left_out(what, "no caster that matters stands in it");
         return None;
@@ -124,7 +123,7 @@ fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Setti
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
-    let in_both = |item: &Item| {
+    let in_both = |item: &Drawable| {
         [&face_clip, &camera_clip]
             .iter()
             .all(|clip| frustum::overlap(&(**clip * item.world_from_model), &item.bounds) != Overlap::Outside)
@@ -161,7 +160,7 @@ pub fn projectors(point: &Point) -> Vec<Projector> {
 /// Draws the faces and, with `transfer = "copy"`, copies each from one depth buffer. Returns the cube.
 fn draw(
     view: &LightView<'_>,
-    faces: &[(CubeFace, FrustumView<'_>, Vec<&Item>)],
+    faces: &[(CubeFace, FrustumView<'_>, Vec<&Drawable>)],
     settings: &Settings,
     list: &mut PassList,
     notes: &mut Notes,
@@ -175,9 +174,12 @@ fn draw(
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
     for (face, face_view, casters) in faces {
-        let fewer =
-            if settings.simplified { texel::simplified(face_view, casters, settings, notes) } else { Vec::new() };
-        let fewer: Vec<&Item> = fewer.iter().collect();
+        let fewer = if settings.simplified {
+            simplified_casters::simplified(face_view, casters, settings, notes)
+        } else {
+            Vec::new()
+        };
+        let fewer: Vec<&Drawable> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
         let layer = Layer::plain("depth", "map", offset, casters);
         let clamped = depth::is_clamped(face_view, &layer, &format!("face {}", face.name()), notes);
@@ -244,7 +246,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
     let offset = bias::offset(settings);
-    let info = MapInfo::new(&seen_from(view, point, CubeFace::PositiveX), settings, offset.texels);
+    let info = map_info(&seen_from(view, point, CubeFace::PositiveX), settings, offset.texels);
     term.map_info = Some(MapInfo { polygon: offset.polygon, ..info });
     term
 }

@@ -6,14 +6,14 @@ use super::bias;
 use super::casters::is_before_near;
 use super::settings::{Order, Settings, Transfer};
 use super::term::raster_from_clip;
+use crate::lights::cut::Cutter;
+use crate::lights::drawable::depth_batches;
+use crate::lights::projector::Rays;
+use crate::lights::{Chosen, Drawable, FrustumView, LightView, Notes};
 use crate::pass::{
-    Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
-    PolygonOffset, Storage, Target, Uniform, Work,
+    Batch, Chunk, Clear, Compare, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input, Pass,
+    PassList, PolygonOffset, Storage, Target, Uniform, Work,
 };
-use crate::techniques::cut::Cutter;
-use crate::techniques::items::depth_batches;
-use crate::techniques::projector::Rays;
-use crate::techniques::{Chosen, FrustumView, Item, LightView, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
@@ -29,17 +29,17 @@ pub struct Layer<'a> {
     pub clamped: bool,
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
-    pub casters: &'a [&'a Item],
-    /// Casters that are drawn only in parts of these texels, once in each.
+    pub casters: &'a [&'a Drawable],
+    /// Casters that are drawn in parts of these texels alone, once in each.
     pub in_parts: &'a [InParts<'a>],
-    /// Items that cast nothing, drawn after the casters with both faces, whichever faces the map leaves out.
-    pub receivers: &'a [&'a Item],
+    /// Drawn after them, both faces whatever the map leaves out: what casts nothing.
+    pub receivers: &'a [&'a Drawable],
     pub receivers_in_parts: &'a [InParts<'a>],
 }
 
 impl<'a> Layer<'a> {
-    /// A layer of the depth of `casters`, all over the map.
-    pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Item]) -> Self {
+    /// The depth of `casters`, all over the map.
+    pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Drawable]) -> Self {
         Self {
             name,
             image,
@@ -57,7 +57,7 @@ impl<'a> Layer<'a> {
 
 /// A caster, and the scissors under which it is drawn.
 pub struct InParts<'a> {
-    pub item: &'a Item,
+    pub item: &'a Drawable,
     pub scissors: Vec<[u32; 4]>,
 }
 
@@ -153,7 +153,7 @@ pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: 
 }
 
 /// The first caster of the layer that may lie before the near plane.
-fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Item> {
+fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Drawable> {
     let in_parts = layer.in_parts.iter().map(|part| part.item);
     layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item))
 }
@@ -194,7 +194,7 @@ const LAST: f64 = 1.0 - 1.0 / 32_768.0;
 fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {
     let PolygonOffset { factor, units } = layer.offset;
     let clip_from_world = map_clip_from_world(view, settings);
-    let is_held = |item: &&Item| {
+    let is_held = |item: &&Drawable| {
         let clip_from_model = clip_from_world * item.world_from_model;
         item.bounds.corners().into_iter().all(|corner| (clip_from_model * corner.extend(1.0)).z.abs() <= LAST)
     };
@@ -227,11 +227,11 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
     let clamped = layer.clamped || clamps_near(view, layer).is_some();
     let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped);
     let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
-    let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+    let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);
     for InParts { item, scissors } in layer.in_parts {
         let cut = cutter.cut(item);
-        let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+        let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
         let whole = depth_batches(&cut, &clip_from_world, list);
         for scissor in scissors {
             batches.extend(whole.iter().map(|batch| Batch { scissor: Some(*scissor), ..batch.clone() }));
@@ -239,7 +239,7 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
     }
     let Some(ending) = &layer.ending else { return batches };
     for batch in &mut batches {
-        batch.meaning = Meaning::Shader(ending.label);
+        batch.meaning = FixedFunctionDesc::Shader(ending.label);
         batch.program.label = ending.label.to_owned();
         batch.program.fragment.pop();
         batch.program.fragment.push(ending.fragment.clone());

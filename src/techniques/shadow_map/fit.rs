@@ -4,69 +4,21 @@
 //! A lookup beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE). They lie more than a filter's reach from
 //! every caster and hold nothing, or nothing visible and lit lies there.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
+use glam::{DVec3, DVec4};
 
 use super::bias;
 use super::casters::may_cast;
+use super::crop::Crop;
 use super::settings::{Bias, Fit, Mipmaps, Settings};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Drawable, FrustumView, Notes};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
-use crate::techniques::projector::Rays;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, Notes};
 
-/// A rectangle of a light's normalised device coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crop {
-    min: DVec2,
-    max: DVec2,
-}
-
-impl Crop {
-    pub const WHOLE: Self = Self { min: DVec2::NEG_ONE, max: DVec2::ONE };
-    const NOTHING: Self = Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
-
-    fn center(&self) -> DVec2 {
-        0.5 * (self.min + self.max)
-    }
-
-    /// Converts the map's normalised device coordinates to the light's.
-    pub fn light_clip(&self, map: DVec2) -> DVec2 {
-        self.center() + self.half() * map
-    }
-
-    /// Half its size; (1, 1) for the whole.
-    pub fn half(&self) -> DVec2 {
-        0.5 * (self.max - self.min)
-    }
-
-    fn with(self, point: DVec2) -> Self {
-        Self { min: self.min.min(point), max: self.max.max(point) }
-    }
-
-    fn within(self, other: Self) -> Self {
-        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.min.cmpge(self.max).any()
-    }
-
-    /// Matrix from the light's clip space to the map's.
-    pub fn map_clip_from_light_clip(&self) -> DMat4 {
-        DMat4::from_scale(self.half().recip().extend(1.0)) * DMat4::from_translation(-self.center().extend(0.0))
-    }
-
-    /// Scale and offset from (s, t) over the cropped square to (s, t) over the frustum's.
-    pub fn frustum_from_map(&self) -> Vec4 {
-        let (scale, offset) = (self.half(), 0.5 + 0.5 * self.min);
-        Vec4::new(scale.x as f32, scale.y as f32, offset.x as f32, offset.y as f32)
-    }
-}
-
-/// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
-/// covers.
-pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+/// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
+/// frustum the map covers.
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
     // A map of one side's faces needs closed casters; a caster that shadows nothing need not be closed.
     if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {
@@ -124,7 +76,7 @@ fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera = &view.scene.camera;
     let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
     let seen =
-        |item: &&Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+        |item: &&Drawable| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     let points = view
         .items
         .iter()

@@ -1,25 +1,29 @@
 //! Shadow maps by the depth comparison of the texture unit [Williams 1978; HSM, "How To Do It"]. Every technique with a map
 //! uses its parts.
 
-mod behind;
 pub(super) mod bias;
 pub(super) mod casters;
+mod crop;
 mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
+pub(super) mod forecast;
+mod map;
 mod parallel;
 pub(super) mod settings;
+mod simplified_casters;
+mod stencil_guard;
 mod tag;
 pub(super) mod term;
-mod texel;
 
 use self::casters::casters;
 use self::depth::Layer;
+use self::forecast::Stored;
 use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Stored};
-use super::projector::Projector;
-use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::projector::Projector;
+use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -124,8 +128,9 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
         projectors: vec![view.projector.clone()],
     };
     forecast::warn(view, &forecast, notes);
-    let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
-    let fewer: Vec<&Item> = fewer.iter().collect();
+    let fewer =
+        if settings.simplified { simplified_casters::simplified(view, &casters, &settings, notes) } else { Vec::new() };
+    let fewer: Vec<&Drawable> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, &settings, list, notes);
@@ -143,7 +148,7 @@ pub(super) fn looked_up(
     notes: &mut Notes,
 ) -> LightTerm {
     let mut term = term::term(view, map, settings, texels);
-    behind::guard(view, settings, &mut term, notes);
+    stencil_guard::guard(view, settings, &mut term, notes);
     term
 }
 
@@ -183,6 +188,6 @@ pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: 
     notes.left_out(format!("the map of light {}", view.index), why);
     let mut term = LightTerm::unshadowed(view.scene, view.index);
     term.dimming = settings.dimming;
-    behind::guard(view, settings, &mut term, notes);
+    stencil_guard::guard(view, settings, &mut term, notes);
     term
 }

@@ -13,12 +13,12 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
+use crate::lights::guard::Guard;
+use crate::lights::projector::{Projector, Rays};
+use crate::lights::{Drawable, LightView, Notes};
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
-use crate::techniques::guard::Guard;
-use crate::techniques::projector::{Projector, Rays};
-use crate::techniques::{Item, LightView, Notes};
 
 /// Widths of a texel in a factor of 2.
 const STEPS: f64 = 8.0;
@@ -75,9 +75,9 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
     Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
 }
 
-/// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
-/// bounds of these casters as a whole; z falls along the rays.
-fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
+/// Around every caster as far as other items, or itself where it is not flat, reach behind it; in light space, where z
+/// falls along the rays. In z, around the whole of these casters.
+fn needed(items: &[Drawable], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
         let own = boxes[index];
@@ -104,7 +104,7 @@ const BESIDE: f64 = 0.5;
 
 /// The sides of a box that holds no more of the casters' depth than they have within it: an oblique floor is as deep as it
 /// is long. `None` where `needed` is not deep, or nothing is gained.
-fn shallow(items: &[Item], light_from_world: &DMat4, needed: &Aabb, settings: &Settings) -> Option<(DVec3, DVec3)> {
+fn shallow(items: &[Drawable], light_from_world: &DMat4, needed: &Aabb, settings: &Settings) -> Option<(DVec3, DVec3)> {
     let extent = needed.max - needed.min;
     let longer = extent.x.max(extent.y);
     if longer == 0.0 || extent.z <= DEEP * longer {
@@ -156,8 +156,8 @@ fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::drawable::items;
     use crate::scene;
-    use crate::techniques::items::items;
 
     fn scene_of(objects: &str, shadow: &str) -> scene::Scene {
         let folder = tempfile::tempdir().unwrap();

@@ -1,11 +1,12 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
-use super::fit::Crop;
+use super::crop::Crop;
+use crate::lights::guard::Guard;
+pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
-use crate::techniques::guard::Guard;
 
 /// Way in which the depth texture gets its texels [HSM, "Why Is Polygon Offset Needed?"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,21 +55,7 @@ pub enum Mipmaps {
     EightTaps,
 }
 
-/// Bias: keeps a surface from shading itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bias {
-    /// glPolygonOffset while the map is drawn [HSM, "Why Is Polygon Offset Needed?"].
-    Offset,
-    /// The reference follows the receiver's plane to each tap, and is moved back by the reach of the tap's filter [Isidoro
-    /// 2006].
-    ReceiverPlane,
-    /// The receiver is looked up a little off its surface.
-    NormalOffset,
-    /// The reference is the receiver's plane at each texel's centre [Dou 2014].
-    Adaptive,
-}
-
-/// Part of the light's frustum that the map covers.
+/// What of the light's frustum the map covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// All of it.

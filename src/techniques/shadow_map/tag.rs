@@ -4,10 +4,9 @@
 //! main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
+use crate::lights::light::{CountPass, Counted, Counting, Layer, Lighting};
+use crate::lights::{LightView, camera_visibility};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
-use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Counted, Counting, Layer, Lighting};
-use crate::techniques::seen;
 
 /// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
@@ -33,7 +32,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         casters: Vec::new(),
         ledge: None,
         lighting: Lighting::Added,
-        scissor: if view.keep_all { None } else { seen::scissor(view) },
+        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
         volumes: Vec::new(),
         silhouettes: Vec::new(),
     })

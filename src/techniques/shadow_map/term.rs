@@ -2,14 +2,14 @@
 
 use glam::{DMat4, DVec3, Vec4};
 
-use super::bias;
-use super::fit::Crop;
+use super::crop::Crop;
+use super::map::map_info;
 use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
-use super::tag;
+use super::{bias, tag};
+use crate::lights::projector::Rays;
+use crate::lights::{Coordinates, FrustumView, LightTerm};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
-use crate::techniques::projector::Rays;
-use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
 /// Light term that compares against `map`, with receivers moved towards the light by `texels`.
 pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
@@ -40,7 +40,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
-    term.map_info = Some(MapInfo::new(view, settings, texels));
+    term.map_info = Some(map_info(view, settings, texels));
     look_up(&mut term, &coordinates, view, settings);
     term.coordinates = Some(coordinates);
     term

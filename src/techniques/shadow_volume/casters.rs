@@ -7,8 +7,8 @@ use glam::DMat4;
 
 use crate::geometry::Mesh;
 use crate::geometry::volume::Caster;
+use crate::lights::Drawable;
 use crate::math::Aabb;
-use crate::techniques::Item;
 
 /// An object that casts.
 pub struct Casting {
@@ -24,7 +24,7 @@ pub struct Casting {
 }
 
 /// The objects of `items` that cast, each with all its parts: a surface may be closed only across them.
-pub fn casting(items: &[Item]) -> Vec<Casting> {
+pub fn casting(items: &[Drawable]) -> Vec<Casting> {
     let mut casting = Vec::new();
     for parts in items.chunk_by(|a, b| a.object == b.object) {
         let [first, ..] = parts else { continue };
@@ -38,7 +38,7 @@ pub fn casting(items: &[Item]) -> Vec<Casting> {
             caster: adjacency(&first.mesh.0, ranges),
             world_from_model: first.world_from_model,
             bounds: parts.iter().fold(Aabb::EMPTY, |bounds, part| bounds.union(part.bounds)),
-            has_holes: parts.iter().any(Item::needs_alpha_test),
+            has_holes: parts.iter().any(Drawable::needs_alpha_test),
         });
     }
     casting

@@ -3,10 +3,10 @@
 
 use super::casters::Casting;
 use super::settings::{Method, Settings};
-use super::{ends, source};
+use super::{extent, source};
 use crate::geometry::volume::{self, Viewer};
+use crate::lights::{LightView, Notes};
 use crate::math::frustum::{self, Overlap};
-use crate::techniques::{LightView, Notes};
 
 /// Way in which one caster's volume is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ fn why_unneeded(
     if !volume.may_shadow_view(viewer) {
         return Some("its shadow falls outside the view");
     }
-    ends::is_flat_before_all(view, caster, source(view))
+    extent::is_flat_before_all(view, caster, source(view))
         .then_some("it is flat, and all that is seen is on its lit side")
 }
 

@@ -4,9 +4,9 @@
 use super::choice::Way;
 use super::settings::Settings;
 use super::shapes::Shape;
+use crate::lights::LightView;
+use crate::lights::light::{CountPass, Counted, Layer, VolumeDraw};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
-use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
 /// The passes for all shapes, way by way. Sums modulo 256 do not depend on the order; if counts stop at 0, all passes that
 /// count up come before all that count down.

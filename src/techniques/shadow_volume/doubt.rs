@@ -10,7 +10,7 @@ use super::points::{Point, World};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
 use crate::geometry::volume::Kind;
-use crate::techniques::{Item, LightView, Notes};
+use crate::lights::{Drawable, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
@@ -83,7 +83,7 @@ const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 /// casters' vertices, so that these cannot be cut before. With per-vertex lighting no item is cut.
 fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
     let camera = &view.scene.camera;
-    let most_moved = |item: &Item| {
+    let most_moved = |item: &Drawable| {
         let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
         match way {
             _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),

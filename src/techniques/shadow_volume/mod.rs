@@ -5,7 +5,7 @@ mod casters;
 mod choice;
 mod counts;
 mod doubt;
-mod ends;
+mod extent;
 mod points;
 mod settings;
 mod shapes;
@@ -14,9 +14,10 @@ use self::casters::{Casting, casting};
 use self::choice::Way;
 use self::settings::Settings;
 use self::shapes::Shape;
-use super::light::Counting;
-use super::{Axis, LightTerm, LightView, Notes, Technique, seen};
+use super::{Axis, Technique};
 use crate::geometry::volume::{Kind, Source};
+use crate::lights::light::Counting;
+use crate::lights::{LightTerm, LightView, Notes, camera_visibility};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -89,7 +90,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped).then_some(settings.ledge),
         lighting: settings.lighting,
-        scissor: if view.keep_all { None } else { seen::scissor(view) },
+        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }

@@ -7,8 +7,8 @@ use super::casters::Casting;
 use super::source;
 use crate::geometry::rays::{Ray, Triangles};
 use crate::geometry::volume::{Outline, Source};
+use crate::lights::{LightView, alpha};
 use crate::scene::{LightKind, LightShape};
-use crate::techniques::{LightView, alpha};
 
 /// Distance from a point's own plane within which a surface counts as in it, relative to the segment from the light.
 const IN_PLANE: f64 = 1e-9;

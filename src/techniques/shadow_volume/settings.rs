@@ -1,10 +1,10 @@
 //! The keys of `[light.shadow]` that shadow volumes read.
 
+use crate::lights::light::{LedgeDepths, Lighting};
 use crate::math::ledge::GUARD_CODES;
 use crate::pass::Redraw;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
-use crate::techniques::light::{LedgeDepths, Lighting};
 
 /// Way in which volumes are counted [GDC, "Stenciled Shadow Volumes"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,13 +8,13 @@ use glam::{DMat4, DVec3};
 
 use super::casters::Casting;
 use super::choice::Way;
-use super::ends;
+use super::extent;
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
+use crate::lights::light::{VolumeDraw, VolumeSpace};
+use crate::lights::{LightView, Notes};
 use crate::pass::{MeshRef, Primitive};
-use crate::techniques::light::{VolumeDraw, VolumeSpace};
-use crate::techniques::{LightView, Notes};
 
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
@@ -66,7 +66,7 @@ pub fn shapes(
         }
         shapes.push(if way == Way::ZPassCapped {
             let view_from_model = camera.view_from_world() * caster.world_from_model;
-            let beyond = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all);
+            let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
             let end = beyond.map(|plane| in_view(&camera.view_from_world(), plane));
             capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
@@ -101,7 +101,9 @@ fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Ex
 /// End of a volume that is counted only before visible surfaces: a plane beyond all that is seen and the eye. Sides that go
 /// on behind the floor would be wasted fragments.
 fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
-    let Some(end) = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all) else { return Extent::Infinite };
+    let Some(end) = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all) else {
+        return Extent::Infinite;
+    };
     let model_from_world = caster.world_from_model.transpose();
     let normal = model_from_world.transform_vector3(end.normal);
     let distance = end.distance - end.normal.dot(caster.world_from_model.w_axis.truncate());
@@ -109,7 +111,7 @@ fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
 }
 
 /// The same plane in view space: normal and distance.
-fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
+fn in_view(view_from_world: &DMat4, plane: extent::Plane) -> (DVec3, f64) {
     let normal = view_from_world.transform_vector3(plane.normal);
     (normal, plane.distance + normal.dot(view_from_world.w_axis.truncate()))
 }

@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::pass::{Clear, DrawPass, DrawState, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 use super::picture::Picture;
 

@@ -1,0 +1,25 @@
+//! What techniques, surfaces, compositions and views share: parts of objects to draw, a light as a technique sees it, what
+//! it answers, and which of the scene is seen. Knows no technique and no GL.
+
+pub mod alpha;
+pub mod camera_visibility;
+pub mod caster_culling;
+mod coordinates;
+pub mod cut;
+pub mod drawable;
+mod ending;
+pub mod guard;
+pub mod light;
+pub mod map;
+mod notes;
+pub mod projector;
+pub mod sides;
+mod viewer;
+
+pub use coordinates::Coordinates;
+pub use drawable::Drawable;
+pub use ending::Ending;
+pub use light::{FrustumView, LightTerm, LightView};
+pub use map::{MapInfo, MapShape};
+pub use notes::{Chosen, LeftOut, Notes};
+pub use viewer::Viewer;
