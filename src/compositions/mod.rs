@@ -1,4 +1,4 @@
-//! Compositions: in which passes light becomes a picture. Each is a row of [`TABLE`].
+//! Compositions: the passes in which light becomes a picture. Each is a row of [`TABLE`].
 //!
 //! # How to add a composition
 //!
@@ -6,7 +6,7 @@
 //! 2. Its row in [`TABLE`].
 //! 3. A case folder of the same name under `data/cases/`.
 //!
-//! A composition reads light terms, never a technique; surfaces come to it as a function, [`passes::Surfaces`].
+//! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
 pub mod passes;
 pub mod projection;
@@ -24,10 +24,10 @@ pub trait Composition: Sync {
     /// The name; of its folders too, with underscores in `src/` and `glsl/`.
     fn name(&self) -> &'static str;
 
-    /// Whether it draws pictures in which these lights meet.
+    /// Tests whether it draws pictures in which these lights meet.
     fn serves(&self, terms: &[&LightTerm]) -> bool;
 
-    /// Whether its picture has a stencil buffer.
+    /// Tests whether its picture has a stencil buffer.
     fn needs_stencil(&self) -> bool {
         false
     }
@@ -74,7 +74,7 @@ pub trait Composition: Sync {
 /// Every composition.
 pub const TABLE: &[&dyn Composition] = &[&single_pass::SinglePass, &stencil_counted::StencilCounted];
 
-/// Why lights make no picture.
+/// Reason why lights cannot be drawn together.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("no composition draws lights {lights:?} in one picture")]

@@ -1,4 +1,4 @@
-//! What a composition adds passes to, and the passes that draw surfaces.
+//! The pass list that compositions extend, and the passes that draw surfaces.
 
 use std::borrow::Cow;
 
@@ -15,21 +15,21 @@ use crate::scene::Scene;
 /// The batches that draw surfaces as a viewer sees them, lit by the terms. `None` where a light's transform has no inverse.
 pub type Surfaces = fn(&Scene, &[Drawable], &Viewer, &[LightTerm], &Ending, &mut PassList) -> Option<Vec<Batch>>;
 
-/// The passes of a frame, as they are added.
+/// Builder of a frame's passes.
 pub struct Passes<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
-    /// Objects whose meshes volumes' caps meet, into the scene's: they are drawn as they are.
+    /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
     pub kept: Vec<usize>,
-    /// Volumes are counted in the picture.
+    /// True if volumes are counted in the picture.
     pub counted: bool,
     pub list: &'a mut PassList,
     pub notes: &'a mut Notes,
-    /// Draws surfaces.
+    /// Function that makes the batches of surfaces.
     pub surface: Surfaces,
     /// Frames to be drawn. Decides whether passes that keep their result are worth it.
     pub frames: u32,
-    /// Draws even what no picture can show.
+    /// True if things that no picture can show are drawn, too.
     pub keep_all: bool,
 }
 
@@ -41,13 +41,13 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Both, to be drawn into.
+    /// Both as the target of a pass.
     pub fn target(self) -> Target {
         Target { color: Some(self.color), depth: Some(self.depth), level: 0, face: None }
     }
 }
 
-/// Where surfaces are drawn, for whom, and how.
+/// Target, viewer and state of a pass that draws surfaces.
 pub struct Onto<'a> {
     pub label: &'a str,
     pub target: Target,
@@ -127,7 +127,7 @@ impl Passes<'_> {
         Ok(())
     }
 
-    /// Where nothing clips at the scene's far plane and something reaches beyond it, fragments there are discarded.
+    /// Discards fragments beyond the scene's far plane if nothing else clips there and something reaches beyond.
     pub fn cut_at_far(&self, lens: &CameraProjection, batches: &mut [Batch]) {
         let camera = &self.scene.camera;
         let reaches_beyond = |item: &Drawable| {

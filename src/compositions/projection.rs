@@ -12,9 +12,9 @@ use crate::scene::Scene;
 /// The bits of the depth buffer that volumes are counted against.
 const DEPTH_BITS: u32 = 24;
 
-/// How the camera's picture is projected.
+/// Projection and depth ranges of the camera's picture.
 pub struct CameraProjection {
-    /// Surfaces, and volumes on [`Layer::Scene`].
+    /// Viewer of surfaces, and of volumes on [`Layer::Scene`].
     pub camera: Viewer,
     depth_range: [f32; 2],
     /// True if the far plane is at infinity.
@@ -26,7 +26,7 @@ pub struct CameraProjection {
 }
 
 impl CameraProjection {
-    /// The scene's own.
+    /// The lens of the scene's camera.
     pub fn of_scene(scene: &Scene) -> Self {
         let camera = Viewer {
             clip_from_eye: scene.camera.clip_from_view(scene.aspect()),
@@ -40,8 +40,8 @@ impl CameraProjection {
         Self { camera, depth_range: [0.0, 1.0], infinite: false, clamped: false, ledge: None }
     }
 
-    /// What all of `countings` can be counted under. Where one needs the ledge, no far plane is at infinity: the others
-    /// clamp their depth instead (see [`CameraProjection::state`]).
+    /// A projection under which all of `countings` can be counted. If one needs the ledge, the far plane is not at
+    /// infinity: the others clamp their depth instead (see [`CameraProjection::state`]).
     pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a Counting> + Clone) -> Self {
         let mut lens = Self::of_scene(scene);
         let camera = &scene.camera;

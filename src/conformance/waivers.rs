@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{Outcome, Verdict};
 use crate::context::ContextInfo;
 
-/// The file that is shipped.
+/// The built-in file.
 const SHIPPED: &str = include_str!("../../data/waivers.toml");
 
 /// One known deviation.

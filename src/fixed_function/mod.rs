@@ -1,10 +1,10 @@
 //! The same passes that the device draws with shaders, through the driver's own fixed-function pipeline in a
 //! compatibility context [GL 4.6 compatibility, 12 and 16]: the second reader of every pass list.
 //!
-//! It reads what a batch *means* ([`crate::pass::FixedFunctionDesc`]) and never its shaders: [`reading`] turns that into layers
-//! of primary colour, texture units and combiners, [`FixedFunction`] draws them. Texture coordinates are left to
-//! glTexGen with the planes and the modelview of the scene's set-up, so that GL itself multiplies by the inverse;
-//! lighting to glLight. What the pipeline has no words for is an error with the pass's name.
+//! It reads what a batch *means* ([`crate::pass::FixedFunctionDesc`]) and never its shaders: [`reading`] turns that into
+//! layers of primary colour, texture units and combiners, [`FixedFunction`] draws them. Texture coordinates are left to
+//! glTexGen with the planes and the modelview of the scene's set-up, so that GL itself multiplies by the inverse; lighting
+//! to glLight. Anything that the pipeline cannot express is an error with the pass's name.
 //!
 //! Images, framebuffers and raster state are the device's own; so are copies.
 

@@ -142,7 +142,7 @@ fn product(a: [f32; 3], b: [f32; 3]) -> Vec3 {
     Vec3::from(a) * Vec3::from(b)
 }
 
-/// What a light's ambient colour comes to: what the scene's leaves below 1 bounds it.
+/// Ambient colour of a light, bounded by what the scene's ambient light leaves below 1.
 fn own_ambient(lit: &Lit, light: &FixedFunctionLight) -> Vec3 {
     let room = (Vec3::ONE - Vec3::from(lit.scene_ambient)).max(Vec3::ZERO);
     let most = product(light.ambient, lit.ambient);

@@ -25,7 +25,7 @@ pub fn passes(item: &Drawable, triangle: u32, corners: &[DVec3; 3], point: DVec3
     f64::from(material.opacity) * decal * alpha >= 0.5
 }
 
-/// The three of an item's triangle, into its mesh's arrays.
+/// Three vertex indices of an item's triangle, into its mesh's arrays.
 pub fn vertices(item: &Drawable, triangle: u32) -> [usize; 3] {
     let first = (item.indices.start + 3 * triangle) as usize;
     [0, 1, 2].map(|k| item.mesh.indices[first + k] as usize)

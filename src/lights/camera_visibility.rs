@@ -14,7 +14,7 @@ pub fn bounds(view: &LightView<'_>) -> Aabb {
     items(view).fold(start, |bounds, item| bounds.union(item.bounds.transformed(&item.world_from_model)))
 }
 
-/// What is in view.
+/// Items in view.
 pub fn items<'a>(view: &LightView<'a>) -> impl Iterator<Item = &'a Drawable> {
     let clip_from_world = clip_from_world(view);
     let is_seen = move |item: &&Drawable| {

@@ -38,7 +38,7 @@ impl Unseen {
         }
     }
 
-    /// Whether `item` and all that it can shadow lie outside the camera's frustum.
+    /// Tests whether `item` and all that it can shadow lie outside the camera's frustum.
     pub fn shadow_of(&self, item: &Drawable) -> bool {
         let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
         let Some(end) = self.end_of_shadow(&corners) else { return false };
@@ -68,7 +68,7 @@ impl Unseen {
         }
     }
 
-    /// Whether `item` is flat and nothing of the scene lies behind it: what it could shadow is itself, and that it cannot.
+    /// Tests whether `item` is flat and nothing lies behind it: it cannot shadow itself.
     pub fn shadows_nothing(&self, item: &Drawable) -> bool {
         let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
         let is_flat = item.bounds.flat_axis().is_some();

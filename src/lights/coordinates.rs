@@ -1,16 +1,16 @@
-//! How texture coordinates of a light's map are made.
+//! Texture coordinates of a light's map.
 
 use glam::DMat4;
 
 use crate::math::texgen::{SetUp, Spaces, Split, scale_bias};
 use crate::scene::Frustum;
 
-/// Eye-linear texture coordinates: the matrices that they are made of, and where the planes stand.
+/// Eye-linear texture coordinates: the matrices that they are made of, and the space that the planes are specified in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinates {
     /// `S`: texture space from the light's clip space.
     pub texture_from_light_clip: DMat4,
-    /// What receivers are moved by before that, in the light's clip space, so that they do not shade themselves.
+    /// Movement of receivers before that, in the light's clip space, so that they do not shade themselves.
     pub receiver_bias: DMat4,
     /// `P_light`, of whatever the technique draws from the light.
     pub light_clip_from_light: DMat4,
@@ -21,7 +21,7 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// The documents' ordinary ones: (s/q, t/q, r/q) in [0, 1] inside the frustum.
+    /// Coordinates of a frustum [HSM, Appendix A]: (s/q, t/q, r/q) in [0, 1] inside it.
     pub fn of_frustum(frustum: &Frustum) -> Self {
         Self {
             texture_from_light_clip: scale_bias(0.5, 0.5),
@@ -33,7 +33,7 @@ impl Coordinates {
         }
     }
 
-    /// What texgen makes them from, for an eye.
+    /// Matrices for texture coordinate generation, for an eye.
     pub fn spaces(&self, eye_from_world: DMat4) -> Spaces {
         Spaces {
             texture_from_light_clip: self.texture_from_light_clip * self.receiver_bias,

@@ -124,7 +124,7 @@ impl Cutter {
         })
     }
 
-    /// All of `items`, of which those that reach too far are cut, but for those of the objects `kept`.
+    /// All of `items`. Those that reach too far are cut, except those of the objects `kept`.
     pub fn cut_all<'a>(&self, items: &'a [Drawable], kept: &[usize]) -> Cow<'a, [Drawable]> {
         let may_cut = |item: &Drawable| !kept.contains(&item.object);
         let cut_one = |item| if may_cut(item) { self.cut(item) } else { vec![Cow::Borrowed(item)] };
@@ -141,8 +141,7 @@ impl Cutter {
         most.max(ORDINARY * w)
     }
 
-    /// `item`, or what is shown of it where it reaches too far, nearest part first. Waves are left: the vertex stage moves
-    /// them.
+    /// `item`, or its visible pieces if it reaches too far, nearest first. Waves are not cut: the vertex stage moves them.
     pub fn cut<'a>(&self, item: &'a Drawable) -> Vec<Cow<'a, Drawable>> {
         let clip_from_model = self.clip_from_world * item.world_from_model;
         let most = self.most(self.nearest);
@@ -167,7 +166,8 @@ impl Cutter {
         cut.into_iter().map(part).collect()
     }
 
-    /// Kept as long as the mesh lives: a plan is made for every frame, and a pass that draws the same is not drawn again.
+    /// Cut meshes, kept as long as their mesh lives: a plan is made for every frame, and a pass that draws the same meshes
+    /// is not redrawn.
     fn cached(&self, item: &Drawable, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let key = Key {
             mesh: Arc::as_ptr(&item.mesh.0) as usize,
@@ -190,7 +190,7 @@ impl Cutter {
         cut
     }
 
-    /// The cut meshes, each about an origin of its own in the item's space; none where nothing needs to be cut, or is left.
+    /// Cut meshes, each with an origin of its own in the item's space; none if nothing needs to be cut, or nothing is left.
     fn cut_mesh(&self, item: &Drawable, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let mesh = &item.mesh;
         let range = item.indices.start as usize..item.indices.end as usize;

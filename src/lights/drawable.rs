@@ -34,8 +34,8 @@ pub struct Drawable {
     pub closed: bool,
 }
 
-/// The scene's items, in its order. Parts of a mesh that share a material and follow one another are one item; what
-/// the alpha test would discard whole is left out. With `moved`, vertices that a wave moves are moved already.
+/// The scene's items, in its order. Successive parts of a mesh with one material are one item. Parts that the alpha test
+/// would discard completely are left out. With `moved`, vertices that a wave moves are moved already.
 pub fn items(scene: &Scene, moved: bool) -> Vec<Drawable> {
     let mut materials = Materials::default();
     let mut items: Vec<Drawable> = Vec::new();
@@ -160,7 +160,7 @@ impl Drawable {
     }
 }
 
-/// What fixed function has no words for.
+/// Description of a batch that fixed function cannot express.
 pub const WAVES: FixedFunctionDesc = FixedFunctionDesc::Shader("a surface that waves in the vertex stage");
 
 /// The part of a shader variant that decides which fragments exist: shared by depth and lit passes.

@@ -1,8 +1,8 @@
-//! What fragments of a surface show.
+//! Content of a surface's fragments.
 
 use crate::pass::Chunk;
 
-/// What a fragment of the surface shows.
+/// Content of a surface's fragments.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// The illumination formula.

@@ -82,7 +82,7 @@ pub struct LightPlane {
 }
 
 impl LightPlane {
-    /// `None`: of a light without one, and where its coordinates cannot be generated.
+    /// The plane of a light; `None` for a light without one, or whose coordinates cannot be generated.
     pub fn of(coordinates: Option<&Coordinates>, bounded: bool, viewer: &Viewer) -> Option<Self> {
         let coordinates = coordinates.filter(|_| bounded)?;
         let texgen = texgen::set_up(&coordinates.spaces(viewer.eye_from_world), coordinates.set_up, coordinates.split)?;

@@ -21,7 +21,7 @@ use crate::scene::{Light, Scene};
 pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
-    /// Into [`Scene::lights`].
+    /// Index into [`Scene::lights`].
     pub index: usize,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
     pub shown_whole: bool,
@@ -59,7 +59,7 @@ impl FrustumView<'_> {
     }
 }
 
-/// How the lit pass asks for a light's shade.
+/// A light in the lit pass: its shade, its reach, and what they need.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
     /// Index into [`Scene::lights`].
@@ -68,7 +68,8 @@ pub struct LightTerm {
     pub shade: Chunk,
     /// Description of the shade in the terms of fixed function.
     pub meaning: Shade,
-    /// Beside what [`crate::surfaces`] adds for every light; names end in the light's index, a value may follow.
+    /// Defines in addition to those that [`crate::surfaces`] adds for every light. Names end in the light's index; a value
+    /// may follow.
     pub defines: Vec<String>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
@@ -91,8 +92,8 @@ pub struct LightTerm {
     pub counting: Option<Counting>,
 }
 
-/// A light's shadow as a count in the stencil buffer [GDC, "Stenciled Shadow Volumes"]: plain data, for any target and eye.
-/// The plan draws the surfaces' depth first.
+/// A light's shadow as a count in the stencil buffer [GDC, "Review: Stenciled Shadow Volumes"]: plain data, for any target
+/// and eye. The plan draws the surfaces' depth first.
 #[derive(Clone, Debug)]
 pub struct Counting {
     pub passes: Vec<CountPass>,

@@ -42,12 +42,13 @@ pub enum MapShape {
     Parallel { depth: f64 },
 }
 
-/// What keeps a surface from shading itself.
+/// Bias: keeps a surface from shading itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bias {
-    /// glPolygonOffset while the map is drawn [techniques A8].
+    /// glPolygonOffset while the map is drawn [HSM, "Why Is Polygon Offset Needed?"].
     Offset,
-    /// The reference follows the receiver's plane to each tap, and gives way by the reach of the tap's filter.
+    /// The reference follows the receiver's plane to each tap, and is moved back by the reach of the tap's filter [Isidoro
+    /// 2006].
     ReceiverPlane,
     /// The receiver is looked up a little off its surface.
     NormalOffset,

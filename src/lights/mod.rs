@@ -1,5 +1,5 @@
-//! What techniques, surfaces, compositions and views share: parts of objects to draw, a light as a technique sees it, what
-//! it answers, and which of the scene is seen. Knows no technique and no GL.
+//! Types that techniques, surfaces, compositions and views share: drawable parts of objects, a light as a technique sees
+//! it, the light term, guards, and the visible part of the scene. Knows no technique and no GL.
 
 pub mod alpha;
 pub mod camera_visibility;

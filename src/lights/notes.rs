@@ -1,10 +1,10 @@
-//! What a plan says of itself: what it leaves out, what it chose, what it warns of.
+//! Notes of a plan: what it leaves out, its choices, and its warnings.
 
-/// What was left out and why, and what the reader of a plan should know besides.
+/// Notes of a plan: what was left out and why, choices, and warnings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notes {
     pub left_out: Vec<LeftOut>,
-    /// What a technique chose by itself, and why.
+    /// Choices that a technique made, and why.
     pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
 }

@@ -31,7 +31,7 @@ impl Deref for MeshRef {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     pub program: Program,
-    /// What the program computes, for readers without shaders.
+    /// The program's computation, for readers without shaders.
     pub meaning: FixedFunctionDesc,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,

@@ -14,7 +14,7 @@ use crate::math::texgen::Texgen;
 /// Description of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FixedFunctionDesc {
-    /// Depth alone.
+    /// Depth only.
     Depth(Texturing),
     /// One colour, RGBA.
     Constant([f32; 4]),
@@ -74,7 +74,7 @@ pub struct Lit {
 /// One light of [`Lit`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixedFunctionLight {
-    /// Into the scene's lights.
+    /// Index into the scene's lights.
     pub index: usize,
     /// Position in eye space, homogeneous like GL_POSITION: w = 0 for parallel light, whose direction is towards it.
     pub position: [f32; 4],

@@ -109,7 +109,7 @@ fn visible<'a>(items: &'a [Drawable], camera: &Viewer) -> Vec<&'a Drawable> {
     items.iter().filter(seen).collect()
 }
 
-/// Why a light adds nothing to the picture, if so.
+/// Reason why a light adds nothing to the picture, if there is one.
 fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Drawable]) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {

@@ -1,5 +1,5 @@
-//! The pictures of a frame: the camera's or a light's, and the views beside it. Which passes light takes to become a
-//! picture is left to the table of [compositions].
+//! The pictures of a frame: the camera's or a light's, and the views beside it. The passes in which light becomes a picture
+//! are left to the table of [compositions].
 
 use super::{Error, Request, ViewRequest};
 use crate::compositions;
@@ -16,7 +16,7 @@ use crate::views::{self, View, frustum_lines};
 pub struct PlannedLight {
     pub term: LightTerm,
     pub contributes: bool,
-    /// Whether the picture or a view needs it.
+    /// True if the picture or a view needs it.
     pub is_drawn: bool,
 }
 

@@ -30,7 +30,7 @@ const MOST_IDLE_TICKS: u32 = 6;
 /// Processor time between two checks that counts as none, in microseconds; the check itself uses some.
 const IDLE_MICROSECONDS: i64 = 1_000;
 
-/// Looks in a row that found no processor time used.
+/// Successive checks that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
 
 pub(super) fn install() {
@@ -43,7 +43,7 @@ pub(super) fn install() {
     unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
 }
 
-/// Begins or ends to look at the processor time. Alarms come only while the driver is at work.
+/// Starts or stops the checks of the processor time. Alarms come only while the driver is at work.
 fn watch(begins: bool) {
     IDLE_TICKS.store(0, Ordering::Relaxed);
     // SAFETY: takes a number; 0 takes the alarm back.

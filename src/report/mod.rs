@@ -1,5 +1,5 @@
-//! Errors against run time: how far a rendered shade is from the oracle's truth, over a grid of settings, and what each
-//! costs. Drives frames and the oracle; names no technique and makes no GL call of its own.
+//! Errors against run time: how far a rendered shade is from ray-traced truth, over a grid of settings, and what each
+//! costs. Drives frames and the ray tracer; names no technique and makes no GL call of its own.
 
 pub mod measure;
 mod numbers;

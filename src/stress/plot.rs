@@ -16,7 +16,7 @@ pub struct SweepPlot {
 ///
 /// # Errors
 ///
-/// What the plotting library says.
+/// An error of the plotting library.
 pub fn sweeps(results: &[CaseResult]) -> Result<Vec<SweepPlot>, Error> {
     let mut names: Vec<String> = Vec::new();
     for name in results.iter().filter_map(base_name) {

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 /// Names that a sentence lists before it counts.
 const MOST_NAMES: usize = 3;
 
-/// What the items that `viewer` sees need of each light, and what is left out for them.
+/// Notes the guards that the items in `viewer`'s view need for each light, and what is left out for them.
 pub fn explain_guards(scene: &Scene, items: &[Drawable], viewer: &Viewer, terms: &[&LightTerm], notes: &mut Notes) {
     let clip_from_world = viewer.clip_from_world();
     let seen = |item: &&Drawable| {
@@ -64,7 +64,7 @@ fn explain(
     }
 }
 
-/// How many triangles of `items` cross the plane, of how many; `None` where some are not known before they are drawn.
+/// Number of triangles of `items` that cross the plane, and of all; `None` if some are not known before they are drawn.
 fn triangles(items: &[&Drawable], plane: &LightPlane, viewer: &Viewer) -> Option<[u32; 2]> {
     let mut sum = [0, 0];
     let count = |item: &Drawable| (item.indices.end - item.indices.start) / 3;

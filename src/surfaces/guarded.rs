@@ -32,7 +32,7 @@ impl Reach {
 #[derive(Clone, Debug)]
 pub struct Piece {
     pub item: Drawable,
-    /// Of each light.
+    /// Reach of each light.
     pub reaches: Vec<Reach>,
     /// Half-spaces that it is cut to, in eye space: kept points have a product >= 0.
     pub clip_planes: Vec<Vec4>,

@@ -1,5 +1,6 @@
-//! What each light brings to the shader variants of the lit pass, by how much of it an item is drawn with: chunks, defines,
-//! uniforms, textures [techniques A5–A7, A12, A13]. Knows lights and terms; no item's material.
+//! Parts of the lit pass's shader variants for each light: chunks, defines, uniforms, textures [LEC, "Advice for Shadowed
+//! Illumination Model"]. They depend on how much of the light an item is drawn with. Knows lights and terms; no item's
+//! material.
 
 use glam::{DMat4, Vec3, Vec4};
 
@@ -14,7 +15,7 @@ use crate::pass::{
 };
 use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
 
-/// What one light brings to every variant.
+/// Parts of one light in every variant.
 pub struct LightParts {
     pub index: usize,
     pub defines: Vec<String>,
@@ -39,12 +40,12 @@ pub struct Variants<'a> {
     term: &'a LightTerm,
     /// A light's plane, times a power of two: see [`Reach::Texture`].
     side_plane: Vec4,
-    /// In the order of [`Reach::ALL`], each once it is asked for; `None` within: nothing is left of the light.
+    /// Parts in the order of [`Reach::ALL`], each made on first use; `None` within: nothing is left of the light.
     made: [Option<Option<LightParts>>; Reach::ALL.len()],
 }
 
-/// The side map's coordinate at the greatest q, as a power of two: what a driver rounds to whole texels must stay below
-/// 2^31, and the texels meet at 1/2, which is so far nearer to q = 0 than f32 tells apart.
+/// The side map's coordinate at the greatest q, as a power of two: a driver's texel coordinates must stay below 2^31, and
+/// the texels meet at 1/2, which is closer to q = 0 than f32 resolves.
 const SIDE_EXPONENT: f64 = 28.0;
 
 impl<'a> Variants<'a> {
@@ -156,7 +157,7 @@ fn light_parts(
     Some(parts)
 }
 
-/// What stands in for the fragment's test of q.
+/// Adds the guard that replaces the fragment's test of q.
 fn add_guard(parts: &mut LightParts, reach: Reach, list: &mut PassList) {
     let index = parts.index;
     if reach != Reach::Fragment {
@@ -199,7 +200,7 @@ fn meaning(
     }
 }
 
-/// Homogeneous: of an infinitely far light, the unit vector to it, and w = 0.
+/// Homogeneous position; for an infinitely far light, the unit vector to it, and w = 0.
 fn eye_position(source: &Light, viewer: &Viewer) -> Vec4 {
     let position = match &source.kind {
         LightKind::Spot(spot) => spot.frustum.position,

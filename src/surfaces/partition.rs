@@ -1,4 +1,4 @@
-//! Parts an item's triangles by a plane: those before it, those across it and those behind it, each a range of one mesh
+//! Splits an item's triangles by a plane: those before it, those across it and those behind it, each a range of one mesh
 //! [LEC, "Careful about Back Projecting Shadow Maps"].
 
 use std::ops::Range;
@@ -13,7 +13,7 @@ use crate::math::Aabb;
 use crate::pass::MeshRef;
 
 /// The item's triangles before, across and behind the plane; `None` for a part without any. `None` for an item whose
-/// vertices move after they are looked at.
+/// vertices the vertex stage moves.
 pub fn partition(item: &Drawable, plane: &ModelPlane) -> Option<[Option<Drawable>; 3]> {
     if item.wave.is_some() {
         return None;

@@ -13,20 +13,20 @@ use crate::pass::{
 };
 use crate::scene::Scene;
 
-/// What an item's picture depends on.
+/// Features that an item's picture depends on.
 #[derive(Clone, Copy)]
 struct Needs {
     specular: bool,
     normals: bool,
     per_vertex: bool,
-    /// Of the point, in the fragment stage.
+    /// True if the fragment stage needs the point's position.
     position: bool,
     ambient: bool,
-    /// No normal is seen from behind, so that none needs to be turned.
+    /// True if no normal is seen from behind, so that none must be reversed.
     one_sided: bool,
 }
 
-/// What draws an item.
+/// The shader variant of an item, with its uniforms and inputs.
 pub struct Variant {
     pub program: Program,
     pub meaning: FixedFunctionDesc,

@@ -97,7 +97,7 @@ pub const TABLE: &[&dyn Technique] = &[
     &shadow_volume::ShadowVolume,
 ];
 
-/// Checks the keys that only other techniques read: they may stand, so that `technique` alone can be switched.
+/// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
 ///
 /// # Errors
 ///

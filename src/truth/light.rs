@@ -163,7 +163,8 @@ impl Lamp {
         }
     }
 
-    /// Where a map that holds all of the light has the point, in half sides of the map (see [`crate::truth::Hit::in_map`]).
+    /// Place of the point in a map that holds all of the light, in half sides of the map (see
+    /// [`crate::truth::Hit::in_map`]).
     pub fn in_map(&self, point: DVec3) -> DVec3 {
         match &self.shape {
             Shape::Spot { axes, half_angle_radians, .. } => {

@@ -159,8 +159,8 @@ impl Doubts {
 /// A cosine below which diffuse light is less than a code of eight bits.
 const FAINT: f64 = 1.0 / 256.0;
 
-/// Once one point of a beam is doubtful, only this many of its other triangles are examined: where f32 may move surfaces by
-/// more than a mesh is large, each beam meets all of its triangles.
+/// Once one point of a beam is doubtful, only this many of its other triangles are examined: if f32 may move surfaces by
+/// more than a mesh's size, each beam meets all of its triangles.
 const ENOUGH: u32 = 1024;
 
 /// Everything that an answer for a pixel needs.

@@ -1,11 +1,11 @@
-//! What is near to a segment of a ray.
+//! Neighbourhood of a segment of a ray.
 
-/// What is near to a segment.
+/// Neighbourhood of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tube {
-    /// Where the segment's parameter is 1.
+    /// Radius where the segment's parameter is 1.
     pub radius: f64,
-    /// Whether the radius grows from 0 with the segment's parameter.
+    /// True if the radius grows from 0 with the segment's parameter.
     pub tapers: bool,
 }
 

@@ -1,9 +1,9 @@
-//! What a window shows of a scene, and what its mouse holds.
+//! Display modes of a window, and the thing that its mouse moves.
 
 use crate::plan::{Request, Subject};
 use crate::scene::Scene;
 
-/// The sample's display modes [techniques E].
+/// Display modes of the sample program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// From the camera, without shadows.
@@ -16,14 +16,14 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// In the order in which space goes through them, with their names on the command line.
+    /// All modes in the order of the space key, with their names on the command line.
     pub const ALL: [(&str, Self); 3] = [("camera", Self::Camera), ("shadowed", Self::Shadowed), ("light", Self::Light)];
 
     fn place(self) -> usize {
         Self::ALL.iter().position(|(_, mode)| *mode == self).unwrap_or(0)
     }
 
-    /// What it shows.
+    /// Description of the mode.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Camera => "without shadows",
@@ -57,7 +57,7 @@ impl Mode {
     }
 }
 
-/// What the mouse turns and moves.
+/// Thing that the mouse turns and moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Handle {
     #[default]

@@ -11,7 +11,7 @@ use crate::math::{Aabb, frustum};
 use crate::plan::Request;
 use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
 
-/// What a command comes to.
+/// Reaction to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reaction {
     Redraw,

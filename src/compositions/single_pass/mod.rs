@@ -1,4 +1,4 @@
-//! The single pass: every surface once, in the light of all lights [lecture, "Advice for Shadowed Illumination Model"].
+//! The single pass: every surface once, in the light of all lights [LEC, "Advice for Shadowed Illumination Model"].
 
 use super::passes::Passes;
 use super::projection::CameraProjection;

@@ -78,7 +78,7 @@ impl Composition for StencilCounted {
     }
 }
 
-/// Volumes of several lights are counted in one depth buffer, before one ledge.
+/// Refuses lights with different ledges: all volumes are counted in one depth buffer.
 fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
     let ledge =
         |term: &&LightTerm| term.counting.as_ref().and_then(|counting| counting.ledge).map(|ledge| (term.index, ledge));
@@ -168,7 +168,7 @@ impl Passes<'_> {
         may && self.frames > 1 && !self.keep_all
     }
 
-    /// Depth alone; by [`Redraw::WhenChanged`] kept from frame to frame.
+    /// A pass of depth only; with [`Redraw::WhenChanged`] it is kept from frame to frame.
     fn depth_first(&mut self, target: Target, lens: &CameraProjection, redraw: Redraw) {
         let clip_from_world = lens.camera.clip_from_world();
         // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.

@@ -8,7 +8,7 @@ use glow::HasContext;
 
 use crate::context::{Context, Profile};
 
-/// What the generator wrote: `Gl` with a method a function (without the prefix gl), and the constants (without GL_).
+/// The generator's output: `Gl` with a method a function (without the prefix gl), and the constants (without GL_).
 #[allow(clippy::all, clippy::panic, missing_docs, unsafe_op_in_unsafe_fn)]
 pub mod raw {
     include!(concat!(env!("OUT_DIR"), "/fixed_function.rs"));

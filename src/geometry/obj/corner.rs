@@ -1,9 +1,9 @@
-//! Corners of faces, and the numbers that they name.
+//! Corners of faces, and their indices.
 
-/// What is wrong with a line.
+/// Error in a line.
 pub(super) type Wrong = String;
 
-/// Numbers of a kind so far, or in all.
+/// Counts of statements, so far or in total.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counts {
     pub v: usize,
@@ -11,7 +11,7 @@ pub(super) struct Counts {
     pub vn: usize,
 }
 
-/// A corner of a face: what it names, counted from 1; `None`: left out.
+/// A corner of a face: its indices, from 1; `None`: missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {
     pub v: usize,
@@ -51,7 +51,7 @@ fn read_index(digits: &str, kind: &str, count: usize, word: &str) -> Result<Opti
     }
 }
 
-/// `word`, cut where it would drown the message.
+/// `word`, shortened for a message.
 pub(in super::super) fn shorten(word: &str) -> String {
     match word.char_indices().nth(40) {
         Some((end, _)) => format!("{}...", &word[..end]),

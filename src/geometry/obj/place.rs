@@ -119,7 +119,7 @@ impl Places {
     }
 }
 
-/// What is to be said of a file whose faces f32 does not hold: the line, and why.
+/// Warning about a file whose faces f32 does not hold: the line, and why.
 pub(super) fn warning(places: &Places, origin: DVec3, text: &str) -> Option<(usize, String)> {
     let (line, [length, off], count) = places.lost(text, origin)?;
     let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };

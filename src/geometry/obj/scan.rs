@@ -263,7 +263,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Refuses what is no number, and no finite one as f32.
+/// Refuses a word that is not a finite f32.
 fn check_coordinate(statement: &str, word: &str) -> Result<(), Wrong> {
     if is_plain_number(word) {
         return Ok(());

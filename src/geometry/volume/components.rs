@@ -1,5 +1,4 @@
-//! Shells: the pieces of a caster that hang together across edges. Which of them are closed, and which way they
-//! look.
+//! Shells: the pieces of a caster that are connected across edges; whether each is closed, and which way it looks.
 
 use std::ops::Range;
 
@@ -12,17 +11,17 @@ use crate::math::Aabb;
 /// far below any body.
 const LEAST_VOLUME: f64 = 1.0 / (1u64 << 30) as f64;
 
-/// A piece of a caster whose triangles hang together across edges.
+/// A piece of a caster whose triangles are connected across edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Component {
-    /// Of [`Caster::triangles`](super::Caster::triangles).
+    /// Range of [`Caster::triangles`](super::Caster::triangles).
     pub triangles: Range<u32>,
     pub kind: Kind,
-    /// In model space.
+    /// Bounds in model space.
     pub bounds: Aabb,
 }
 
-/// What a shell is as a surface.
+/// Kind of a shell's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Every edge has exactly two triangles, in opposite directions, and the normals look outwards: the signed volume is
@@ -40,12 +39,12 @@ impl Kind {
     }
 }
 
-/// Which triangles of a shell make its volume, under one light.
+/// Triangles of a shell that make its volume, under one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counting {
     /// Those that face the light.
     Facing,
-    /// All but those in whose plane the light stands; averted ones turned over.
+    /// All except those in whose plane the light lies; averted ones are reversed.
     All,
 }
 
@@ -74,7 +73,7 @@ fn find(parents: &mut [u32], mut item: u32) -> u32 {
     item
 }
 
-/// The shells of a caster whose triangles stand as [`sorted_by_shell`] has ordered them.
+/// The shells of a caster whose triangles are in the order of [`sorted_by_shell`].
 pub(super) fn describe(
     order: &[(u32, u32)],
     other: &OtherEdges,

@@ -1,4 +1,4 @@
-//! How a component counts under a light, and whether the light stands inside of it.
+//! Way in which a component counts under a light, and whether the light is inside of it.
 
 use glam::DVec3;
 use robust::{Coord, orient2d};
@@ -7,9 +7,9 @@ use super::{Caster, Component, Counting, Kind, Source};
 use crate::math::Aabb;
 
 impl Caster {
-    /// How a shell counts under a light: [`Counting::Facing`] only where it is [`Kind::Closed`] and does not hold the light,
-    /// inside or on its surface. Then each crossing of the surface outwards has one inwards before it, so that facing
-    /// triangles alone miss no shadow; elsewhere they may.
+    /// Chooses the way in which a shell counts under a light: [`Counting::Facing`] only if it is [`Kind::Closed`] and does
+    /// not hold the light, inside or on its surface. Then each crossing of the surface outwards has one inwards before it,
+    /// so that facing triangles alone miss no shadow; elsewhere they may.
     pub fn counting(&self, shell: &Component, source: Source) -> Counting {
         match (shell.kind, source) {
             (Kind::Closed, Source::Direction(_)) => Counting::Facing,
@@ -24,7 +24,7 @@ impl Caster {
         in_box && (self.winding(shell, light) != 0 || shell.triangles.clone().any(|index| self.has_on_it(index, light)))
     }
 
-    /// Whether a point lies on a triangle, its edges included. Exact.
+    /// Tests whether a point lies on a triangle, its edges included. Exact.
     fn has_on_it(&self, triangle: u32, point: DVec3) -> bool {
         let corners = self.corners(triangle as usize);
         let (min, max) = (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
@@ -42,7 +42,7 @@ impl Caster {
         })
     }
 
-    /// How often the shell winds around a point that is not on it, by the triangles that a ray in +x crosses. Exact: an
+    /// Winding number of the shell around a point that is not on it, by the triangles that a ray in +x crosses. Exact: an
     /// edge or corner that the ray meets belongs to one of its triangles, whichever way the predicates' signs fall.
     fn winding(&self, shell: &Component, point: DVec3) -> i32 {
         let at = Coord { x: point.y, y: point.z };

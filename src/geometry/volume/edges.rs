@@ -1,4 +1,4 @@
-//! Edges of triangles, and who uses them.
+//! Edges of triangles, and the triangles that use them.
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlainEdges {
@@ -24,7 +24,7 @@ pub(super) struct Use {
     /// The smaller place above the larger.
     pub places: u64,
     pub triangle: u32,
-    /// Whether the triangle runs from the smaller to the larger.
+    /// True if the triangle runs from the smaller to the larger.
     forward: bool,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn uses(triangles: &[[u32; 3]]) -> Vec<Use> {
     uses
 }
 
-/// For triangles in another order.
+/// Renumbers the uses for triangles in another order.
 pub(super) fn renumber(uses: &mut [Use], order: &[(u32, u32)]) {
     let mut new_from_old = vec![0; order.len()];
     for (new, (_, old)) in (0u32..).zip(order) {

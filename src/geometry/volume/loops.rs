@@ -8,7 +8,7 @@ pub struct OutlineEdge {
     /// Places of the caster.
     pub from: u32,
     pub to: u32,
-    /// How often it is part of the boundary; at least 1.
+    /// Number of times that it is part of the boundary; at least 1.
     pub multiplicity: u32,
 }
 

@@ -68,8 +68,8 @@ impl Planes {
     }
 
     /// Writes the side of the triangles in `range` to the same range of `sides`: 1 where the light sees the corners run
-    /// counter-clockwise, -1 clockwise, 0 where it stands in the plane or there is none. Exact. Returns how many needed
-    /// exact arithmetic.
+    /// counter-clockwise, -1 clockwise, 0 if it lies in the plane or there is none. Exact. Returns how many needed exact
+    /// arithmetic.
     pub fn sides(
         &self,
         corners: impl Fn(usize) -> [DVec3; 3],

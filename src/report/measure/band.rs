@@ -17,9 +17,9 @@ use crate::truth::Truth;
 pub struct Band {
     /// k, not below 0. Pixels next to the edge belong to the band at any k.
     pub texels: f64,
-    /// Of a map of the whole light: a spotlight's frustum, each face of a point light's cube, the square around all the
-    /// scene across a directional light's rays (see [`crate::truth::Hit::in_map`]); for a map that covers less, of
-    /// the map that would.
+    /// Size of a map of the whole light: a spotlight's frustum, each face of a point light's cube, the square around all
+    /// the scene across a directional light's rays (see [`crate::truth::Hit::in_map`]); for a map that covers less, the
+    /// size that a map of the whole would have.
     pub map_size: [u32; 2],
 }
 

@@ -1,12 +1,12 @@
-//! How a grid is run.
+//! Options of a run.
 
 use crate::context::ContextRequest;
 
-/// How a grid is run.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     pub light: usize,
-    /// Timed frames a row, at least 1.
+    /// Timed frames for each row, at least 1.
     pub runs: usize,
     /// Rows measured at once.
     pub jobs: usize,

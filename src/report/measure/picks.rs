@@ -11,7 +11,7 @@ use super::metrics::FEWEST_COMPARED;
 use crate::report::numbers::{grouped, plain};
 use crate::report::store::results::{Measured, Row, SceneReport, Spread};
 
-/// What is asked of a setting.
+/// Limits for the recommended settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
     /// The cheapest setting that is wrong in at most so many percent is named.

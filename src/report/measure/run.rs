@@ -148,8 +148,8 @@ pub(super) fn size_of(shadow: &Settings) -> u32 {
     }
 }
 
-/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as `render --set` would have it; without what
-/// the technique does not read. Written into the scene file it draws the same.
+/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as with `render --set`; without keys that the
+/// technique does not read. Written into the scene file it draws the same.
 pub fn over(written: &Settings, setting: &Settings) -> Settings {
     let mut merged = setting.clone();
     merged.path.clone_from(&written.path);

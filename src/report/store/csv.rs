@@ -145,7 +145,7 @@ fn left_out_columns(measured: Option<&Measured>) -> [(&'static str, Option<Strin
     ]
 }
 
-/// Of all passes; `None` where the driver does not count them in every pass.
+/// Fragments of all passes; `None` if the driver does not count them in every pass.
 pub(crate) fn total_fragments(measured: &Measured) -> Option<u64> {
     if measured.passes.is_empty() {
         return None;

@@ -28,7 +28,7 @@ pub struct Journal {
 struct Line {
     /// Fingerprint of the scene and its grid.
     fingerprint: String,
-    /// Mark of the driver, the machine and the program: see [`crate::report::store::fingerprint::stamp`].
+    /// Hash of the driver, the machine and the program: see [`crate::report::store::fingerprint::stamp`].
     #[serde(default)]
     stamp: String,
     row: Row,

@@ -52,21 +52,21 @@ pub struct Shared<'a> {
 /// Items drawn there.
 #[derive(Default)]
 pub struct Drawn<'a> {
-    /// Under the scissor of all such texels.
+    /// Items drawn under the scissor of all such texels.
     pub whole: Vec<&'a Drawable>,
-    /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
-    /// on.
+    /// Flat items, each under the scissors of the items that it may share texels with: for example a large floor with many
+    /// small objects on it.
     pub in_parts: Vec<InParts<'a>>,
 }
 
 /// Items of the two layers.
 pub struct Layers<'a> {
-    /// Drawn into both.
+    /// Items drawn into both layers.
     pub casters: Vec<&'a Drawable>,
-    /// Drawn into the second alone, before which the middle must lie: what casts no shadow but may be shadowed, and what
-    /// lies beyond the light's far plane, where it is all of one depth.
+    /// Items drawn into the second layer only, before which the middle must lie: items that cast no shadow but may be
+    /// shadowed, and items beyond the light's far plane, all at one depth.
     pub receivers: Vec<&'a Drawable>,
-    /// Something lies beyond the far plane: its name. Without clipping it is a second layer at depth 1.
+    /// Name of an item beyond the far plane, if there is one. Without clipping it is a second layer at depth 1.
     pub beyond_far: Option<String>,
 }
 
@@ -143,7 +143,7 @@ fn corners(item: &Drawable) -> [DVec3; 8] {
     item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner))
 }
 
-/// Whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
+/// Tests whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
 fn lies_before(item: &Drawable, other: &Drawable, rays: &Rays) -> bool {
     let (own, others) = (corners(item), corners(other));
     let scale = own.iter().chain(&others).map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
@@ -202,7 +202,7 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
 }
 
 impl<'a> Drawn<'a> {
-    /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
+    /// Adds rectangles that cover `own` where it meets `others`; returns a rectangle around all these places.
     fn share<'r>(
         &mut self,
         item: &'a Drawable,

@@ -118,7 +118,7 @@ fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
 }
 
-/// Answers whether an item has a far side all over: each mesh is looked at once.
+/// Tests whether an item has a far side all over: each mesh is examined once.
 fn closed_test() -> impl FnMut(&Drawable) -> bool {
     let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
     move |item| {

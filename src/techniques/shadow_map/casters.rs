@@ -7,7 +7,7 @@ use crate::lights::projector::Rays;
 use crate::lights::{Drawable, FrustumView, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 
-/// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
+/// Items that can block light inside its frustum, and whose shadow can be seen.
 pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Drawable> {
     let mut casters = in_frustum(view, notes);
     if !view.shown_whole && !view.keep_all {
@@ -34,7 +34,7 @@ pub fn reach(settings: &Settings) -> f64 {
     }
 }
 
-/// The items that can stand in the light's way inside its frustum's sides, up to its far plane.
+/// Items that can block light inside its frustum's sides, up to its far plane.
 pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Drawable> {
     let mut casters = Vec::new();
     for item in view.items {
@@ -49,13 +49,13 @@ pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Draw
     casters
 }
 
-/// Whether some of the item may lie in the light's frustum, or between it and the light.
+/// Tests whether some of the item may lie in the light's frustum, or between it and the light.
 pub fn may_cast(view: &FrustumView<'_>, item: &Drawable) -> bool {
     let clip_from_model = view.clip_from_world() * item.world_from_model;
     frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
 }
 
-/// Whether some of the item may lie between the light and its near plane. Parallel light has none.
+/// Tests whether some of the item may lie between the light and its near plane. Parallel light has no near plane.
 pub fn is_before_near(view: &FrustumView<'_>, item: &Drawable) -> bool {
     let Rays::From { .. } = view.projector.rays else { return false };
     frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)

@@ -17,12 +17,12 @@ impl Crop {
         0.5 * (self.min + self.max)
     }
 
-    /// The light's normalised device coordinates of those over the map.
+    /// Converts the map's normalised device coordinates to the light's.
     pub fn light_clip(&self, map: DVec2) -> DVec2 {
         self.center() + self.half() * map
     }
 
-    /// Half its size; (1, 1) of the whole.
+    /// Half its size; (1, 1) for the whole.
     pub fn half(&self) -> DVec2 {
         0.5 * (self.max - self.min)
     }
@@ -39,7 +39,7 @@ impl Crop {
         self.min.cmpge(self.max).any()
     }
 
-    /// The map's clip space from the light's.
+    /// Matrix from the light's clip space to the map's.
     pub fn map_clip_from_light_clip(&self) -> DMat4 {
         DMat4::from_scale(self.half().recip().extend(1.0)) * DMat4::from_translation(-self.center().extend(0.0))
     }

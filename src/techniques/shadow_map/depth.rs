@@ -30,15 +30,15 @@ pub struct Layer<'a> {
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
     pub casters: &'a [&'a Drawable],
-    /// Casters that are drawn in parts of these texels alone, once in each.
+    /// Casters that are drawn only in parts of these texels, once in each.
     pub in_parts: &'a [InParts<'a>],
-    /// Drawn after them, both faces whatever the map leaves out: what casts nothing.
+    /// Items that cast nothing, drawn after the casters with both faces, whichever faces the map leaves out.
     pub receivers: &'a [&'a Drawable],
     pub receivers_in_parts: &'a [InParts<'a>],
 }
 
 impl<'a> Layer<'a> {
-    /// The depth of `casters`, all over the map.
+    /// A layer of the depth of `casters`, all over the map.
     pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Drawable]) -> Self {
         Self {
             name,

@@ -16,8 +16,8 @@ use crate::lights::{Drawable, FrustumView, Notes};
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, clip_polygon};
 
-/// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
-/// frustum the map covers.
+/// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
+/// covers.
 pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
     // A map of one side's faces needs closed casters; a caster that shadows nothing need not be closed.

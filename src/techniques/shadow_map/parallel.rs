@@ -75,8 +75,8 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
     Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
 }
 
-/// Around every caster as far as other items, or itself where it is not flat, reach behind it; in light space, where z
-/// falls along the rays. In z, around the whole of these casters.
+/// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
+/// bounds of these casters as a whole; z falls along the rays.
 fn needed(items: &[Drawable], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {

@@ -55,14 +55,14 @@ pub enum Mipmaps {
     EightTaps,
 }
 
-/// What of the light's frustum the map covers.
+/// Part of the light's frustum that the map covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// All of it.
     None,
     /// The part that holds casters.
     Casters,
-    /// Of that, the part that is lit and seen: the map then follows the camera.
+    /// The part that holds casters and is lit and seen: the map then follows the camera.
     View,
 }
 

@@ -12,7 +12,7 @@ use crate::pass::MeshRef;
 /// Fewest triangles that are worth simplifying.
 const FEWEST: u32 = 200;
 
-/// `casters` with fewer triangles, where that moves their surface by less than half a texel.
+/// `casters` with fewer triangles, if that moves their surface by less than half a texel.
 pub fn simplified(
     view: &FrustumView<'_>,
     casters: &[&Drawable],
@@ -46,10 +46,10 @@ pub fn simplified(
     casters.iter().map(of).collect()
 }
 
-/// An eleventh of a texel by quadrics, which take the mean of what bends: a sixth of one at most places. A silhouette
-/// that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's hundred models had
-/// 0.037 points more of wrong pixels than full ones, with this 0.007 (`ci/bench --techniques --scene s2 --only resolution`).
-/// In the item's own units: of the texels that it meets, those nearest to the light are the smallest.
+/// Greatest error: an eleventh of a texel by quadrics, which average over curved parts; at most places that is below a
+/// sixth. A silhouette that moves by a share of a texel makes that share of its pixels wrong: with a quarter, the bench's
+/// hundred models had 0.037 percentage points more wrong pixels than full ones, with this 0.007 (`ci/bench --techniques
+/// --scene s2 --only resolution`). In the item's own units, for the smallest texels that it meets, nearest to the light.
 fn allowed_error(view: &FrustumView<'_>, item: &Drawable, settings: &Settings) -> f64 {
     let projector = &view.projector;
     let light_from_model = projector.light_from_world * item.world_from_model;
@@ -75,7 +75,7 @@ struct Entry {
 
 static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
-/// With the error rounded down to a power of two, so that casters at all distances share a few meshes.
+/// A simplified mesh. The error is rounded down to a power of two, so that casters at all distances share a few meshes.
 fn cached(item: &Drawable, error: f64) -> Arc<Mesh> {
     let exponent = error.log2().floor().clamp(-120.0, 120.0) as i32;
     let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -42,9 +42,9 @@ pub struct Map<'a> {
     pub settings: &'a Settings,
     pub offset: Offset,
     pub stored: Stored,
-    /// What the map is drawn from.
+    /// Casters in the map.
     pub casters: &'a [&'a Drawable],
-    /// One, or a cube's six.
+    /// One projector, or a cube's six.
     pub projectors: Vec<Projector>,
 }
 
