@@ -4,6 +4,7 @@ use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
+use super::camera_visibility::CameraView;
 use super::coordinates::Coordinates;
 use super::guard::Guard;
 use super::map::MapInfo;
@@ -21,6 +22,7 @@ use crate::scene::{Light, Scene};
 pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
+    pub camera: &'a CameraView<'a>,
     /// Into [`Scene::lights`].
     pub index: usize,
     /// Whether a view shows what the light's passes draw: then they draw all of it, not only what the picture needs.
