@@ -28,11 +28,7 @@ pub struct CameraProjection {
 impl CameraProjection {
     /// The lens of the scene's camera.
     pub fn of_scene(scene: &Scene) -> Self {
-        let camera = Viewer {
-            clip_from_eye: scene.camera.clip_from_view(scene.aspect()),
-            eye_from_world: scene.camera.view_from_world(),
-        };
-        Self::of_viewer(camera)
+        Self::of_viewer(Viewer::of_camera(scene))
     }
 
     /// The lens of a viewer, for pictures in which nothing is counted.

@@ -28,12 +28,10 @@ pub struct Unseen {
 impl Unseen {
     /// A test for a map of `texels` a side, looked up within `reach` texels beside a filter's own.
     pub fn new(view: &FrustumView<'_>, texels: u32, reach: f64) -> Self {
-        let camera = &view.scene.camera;
-        let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
         Self {
-            scene_bounds: view.items.iter().map(world_bounds).fold(Aabb::EMPTY, Aabb::union),
+            scene_bounds: view.camera.scene_bounds,
             rays: view.projector.rays,
-            camera_planes: planes(&clip_from_world),
+            camera_planes: planes(&view.camera.clip_from_world),
             reach: (REACH_TEXELS + reach) * view.projector.extent(1.0) / f64::from(texels),
         }
     }
@@ -91,8 +89,4 @@ impl Unseen {
         });
         ends.min_by(f64::total_cmp).filter(|end| end.is_finite())
     }
-}
-
-fn world_bounds(item: &Drawable) -> Aabb {
-    Aabb::from_points(item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)))
 }

@@ -4,6 +4,7 @@ use std::ops::{Deref, Range};
 
 use glam::{DMat4, Vec4};
 
+use super::camera_visibility::CameraView;
 use super::coordinates::Coordinates;
 use super::guard::Guard;
 use super::map::MapInfo;
@@ -21,7 +22,8 @@ use crate::scene::{Light, Scene};
 pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
-    /// Index into [`Scene::lights`].
+    pub camera: &'a CameraView<'a>,
+    /// Into [`Scene::lights`].
     pub index: usize,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
     pub shown_whole: bool,

@@ -5,6 +5,7 @@ pub mod alpha;
 pub mod camera_visibility;
 pub mod caster_culling;
 mod coordinates;
+mod crop;
 pub mod cut;
 pub mod drawable;
 mod ending;
@@ -16,7 +17,9 @@ pub mod projector;
 pub mod sides;
 mod viewer;
 
+pub use camera_visibility::CameraView;
 pub use coordinates::Coordinates;
+pub use crop::Crop;
 pub use drawable::Drawable;
 pub use ending::Ending;
 pub use light::{FrustumView, LightTerm, LightView};

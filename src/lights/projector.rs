@@ -3,6 +3,7 @@
 
 use glam::{DMat4, DVec3};
 
+use super::Crop;
 use crate::scene::Frustum;
 
 /// One map's view of the scene.
@@ -13,6 +14,8 @@ pub struct Projector {
     /// `L⁻¹`; the light looks along -z.
     pub light_from_world: DMat4,
     pub rays: Rays,
+    /// The part of its square that the map covers.
+    pub crop: Crop,
 }
 
 /// Position or direction of the light's rays.
@@ -30,6 +33,7 @@ impl Projector {
             clip_from_light: frustum.clip_from_view(),
             light_from_world: frustum.view_from_world(),
             rays: Rays::From { position: frustum.position, near: frustum.near },
+            crop: Crop::WHOLE,
         }
     }
 

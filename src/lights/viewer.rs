@@ -2,7 +2,9 @@
 
 use glam::DMat4;
 
-/// Viewer that the surfaces are drawn for.
+use crate::scene::Scene;
+
+/// Whose picture the surfaces are drawn for.
 #[derive(Clone, Copy, Debug)]
 pub struct Viewer {
     pub clip_from_eye: DMat4,
@@ -10,6 +12,12 @@ pub struct Viewer {
 }
 
 impl Viewer {
+    /// The scene's camera.
+    pub fn of_camera(scene: &Scene) -> Self {
+        let camera = &scene.camera;
+        Self { clip_from_eye: camera.clip_from_view(scene.aspect()), eye_from_world: camera.view_from_world() }
+    }
+
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_eye * self.eye_from_world
     }

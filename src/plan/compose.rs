@@ -5,10 +5,9 @@ use glam::DMat4;
 use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::compositions::passes::Passes;
-use crate::compositions::projection::CameraProjection;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
-use crate::lights::{Drawable, LightView, Notes, Viewer};
+use crate::lights::{CameraView, Drawable, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::PassList;
 use crate::scene::{Light, Scene};
@@ -26,7 +25,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
-    let camera = CameraProjection::of_scene(scene).camera;
+    let camera = CameraView::new(scene, &items);
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
@@ -62,12 +61,11 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 fn light_terms(
     scene: &Scene,
     items: &[Drawable],
-    camera: &Viewer,
+    camera: &CameraView<'_>,
     request: &Request,
     list: &mut PassList,
     notes: &mut Notes,
 ) -> Result<Vec<PlannedLight>, Error> {
-    let visible = visible(items, camera);
     let mut planned = Vec::new();
     for (index, source) in scene.lights.iter().enumerate() {
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
@@ -77,8 +75,8 @@ fn light_terms(
         let shown_whole = shown_whole || request.subject != Subject::Camera;
         let keep_all = request.keep_all;
         let sampled_warnings = request.sampled_warnings;
-        let view = LightView { scene, items, index, shown_whole, keep_all, sampled_warnings };
-        let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
+        let view = LightView { scene, items, camera, index, shown_whole, keep_all, sampled_warnings };
+        let absent = why_absent(&view).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
@@ -100,17 +98,8 @@ fn light_terms(
     Ok(planned)
 }
 
-/// The items that the camera may see.
-fn visible<'a>(items: &'a [Drawable], camera: &Viewer) -> Vec<&'a Drawable> {
-    let clip_from_world = camera.clip_from_world();
-    let seen = |item: &&Drawable| {
-        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
-    };
-    items.iter().filter(seen).collect()
-}
-
-/// Reason why a light adds nothing to the picture, if there is one.
-fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Drawable]) -> Option<&'static str> {
+/// Why a light adds nothing to the picture, if so.
+fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
         return Some("its colours are black");
@@ -119,16 +108,16 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Drawable]) -> O
         return None; // ambient light is not bound by the cone
     }
     let Some(light_clip) = reach(source) else {
-        return visible.is_empty().then_some("nothing that is seen is there for it to light");
+        return view.camera.visible.is_empty().then_some("nothing that is seen is there for it to light");
     };
-    let camera_clip = camera.clip_from_world();
+    let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
     }
     let touched =
         |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
-    if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
+    if view.camera.visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
 /// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position. Near and far bound the

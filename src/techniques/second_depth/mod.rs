@@ -84,12 +84,13 @@ impl Technique for SecondDepth {
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let (mut settings, is_assumed) = read(keys)?;
-        let Some(view) = &shadow_map::one_view(view, &settings, keys, notes)? else {
+        let (settings, is_assumed) = read(keys)?;
+        let Some(mut view) = shadow_map::one_view(view, &settings, keys, notes)? else {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         };
-        let mut casters = casters(view, &settings, notes);
-        settings.crop = fit::crop(view, &mut casters, &settings, notes);
+        let mut casters = casters(&view, &settings, notes);
+        view.projector.crop = fit::crop(&view, &mut casters, &settings, notes);
+        let view = &view;
         if !is_assumed {
             refuse_open(&casters, &mut closed_test(), keys)?;
         }

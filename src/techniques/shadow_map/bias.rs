@@ -84,7 +84,7 @@ pub fn texel_at_one(projector: &Projector, settings: &Settings) -> f64 {
 /// The same as [`texel_at_one`] along both sides.
 pub fn texel_sides_at_one(projector: &Projector, settings: &Settings) -> DVec2 {
     let clip = &projector.clip_from_light;
-    2.0 * settings.crop.half() / (DVec2::new(clip.x_axis.x, clip.y_axis.y) * f64::from(settings.size))
+    2.0 * projector.crop.half() / (DVec2::new(clip.x_axis.x, clip.y_axis.y) * f64::from(settings.size))
 }
 
 /// Matrix in light clip space that moves every point towards the light, along its ray, by `texels` widths of a texel there:

@@ -120,16 +120,12 @@ fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Setti
     let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
     let face_clip = frustum.unbounded().clip_from_world();
-    let camera = &view.scene.camera;
-    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
-    let in_both = |item: &Drawable| {
-        [&face_clip, &camera_clip]
-            .iter()
-            .all(|clip| frustum::overlap(&(**clip * item.world_from_model), &item.bounds) != Overlap::Outside)
-    };
+    let in_face =
+        |item: &&Drawable| frustum::overlap(&(face_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     frustum::may_meet(&face_clip, &corners(&face_clip), &camera_clip, &corners(&camera_clip))
-        && view.items.iter().any(in_both)
+        && view.camera.visible.iter().any(in_face)
 }
 
 /// The frustum of a face, turned as cube maps have their texels [GL 4.6, table 8.19].

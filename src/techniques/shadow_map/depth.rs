@@ -129,7 +129,7 @@ pub fn draw(
 
 /// Product of raster, crop, and the light's clip space.
 pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
-    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
+    raster_from_clip(settings) * view.projector.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
 /// An image of the map's size and format. A depth buffer that is copied is always sized: an unsized texture must follow it.

@@ -8,13 +8,12 @@ use glam::{DVec3, DVec4};
 
 use super::bias;
 use super::casters::may_cast;
-use super::crop::Crop;
 use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::lights::caster_culling::Unseen;
 use crate::lights::projector::Rays;
-use crate::lights::{Drawable, FrustumView, Notes};
+use crate::lights::{Crop, Drawable, FrustumView, Notes};
 use crate::math::Aabb;
-use crate::math::frustum::{self, Overlap, clip_polygon};
+use crate::math::frustum::{self, clip_polygon};
 
 /// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
 /// covers.
@@ -73,14 +72,11 @@ fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
 /// A crop around the lit part of the scene's bounds that the camera sees. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
 fn of_sight(view: &FrustumView<'_>) -> Crop {
-    let camera = &view.scene.camera;
-    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let seen =
-        |item: &&Drawable| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let camera_clip = view.camera.clip_from_world;
     let points = view
-        .items
+        .camera
+        .visible
         .iter()
-        .filter(seen)
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
     let bounds = Aabb::from_points(points);
     let slack = DVec3::splat(1e-6 * bounds.radius());

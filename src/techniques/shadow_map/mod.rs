@@ -3,7 +3,6 @@
 
 pub(super) mod bias;
 pub(super) mod casters;
-mod crop;
 mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
@@ -106,22 +105,23 @@ impl Technique for ShadowMap {
             return Ok(cube::describe(view, point, &settings, list, notes));
         }
         match one_view(view, &settings, keys, notes)? {
-            Some(view) => Ok(one_map(&view, settings, list, notes)),
+            Some(view) => Ok(one_map(view, &settings, list, notes)),
             None => Ok(without_casters(view, &settings, notes)),
         }
     }
 }
 
 /// A light with one square map.
-fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, notes: &mut Notes) -> LightTerm {
-    let mut casters = casters(view, &settings, notes);
-    settings.crop = fit::crop(view, &mut casters, &settings, notes);
+fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, notes: &mut Notes) -> LightTerm {
+    let mut casters = casters(&view, settings, notes);
+    view.projector.crop = fit::crop(&view, &mut casters, settings, notes);
+    let view = &view;
     if casters.is_empty() && !view.keep_all {
-        return without_casters(view, &settings, notes);
+        return without_casters(view, settings, notes);
     }
-    let offset = bias::offset(&settings);
+    let offset = bias::offset(settings);
     let forecast = forecast::Map {
-        settings: &settings,
+        settings,
         offset,
         stored: Stored::Nearest,
         casters: &casters,
@@ -129,12 +129,12 @@ fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, 
     };
     forecast::warn(view, &forecast, notes);
     let fewer =
-        if settings.simplified { simplified_casters::simplified(view, &casters, &settings, notes) } else { Vec::new() };
+        if settings.simplified { simplified_casters::simplified(view, &casters, settings, notes) } else { Vec::new() };
     let fewer: Vec<&Drawable> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
-    let map = depth::draw(view, &layer, &settings, list, notes);
-    let mut term = looked_up(view, map, &settings, offset.texels, notes);
+    let map = depth::draw(view, &layer, settings, list, notes);
+    let mut term = looked_up(view, map, settings, offset.texels, notes);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
     term
 }

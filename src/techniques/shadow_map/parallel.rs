@@ -15,7 +15,7 @@ use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
 use crate::lights::guard::Guard;
 use crate::lights::projector::{Projector, Rays};
-use crate::lights::{Drawable, LightView, Notes};
+use crate::lights::{Crop, Drawable, LightView, Notes};
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
@@ -72,7 +72,7 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
         "around what casts, as far as something lies behind it",
     );
     let clip_from_light = spaces::orthographic(min, max);
-    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
+    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction), crop: Crop::WHOLE })
 }
 
 /// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
@@ -156,6 +156,7 @@ fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::CameraView;
     use crate::lights::drawable::items;
     use crate::scene;
 
@@ -174,7 +175,16 @@ mod tests {
         let items = items(&scene, false);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
         let (shown_whole, keep_all, sampled_warnings) = (false, false, false);
-        let view = LightView { scene: &scene, items: &items, index: 0, shown_whole, keep_all, sampled_warnings };
+        let camera = CameraView::new(&scene, &items);
+        let view = LightView {
+            scene: &scene,
+            items: &items,
+            camera: &camera,
+            index: 0,
+            shown_whole,
+            keep_all,
+            sampled_warnings,
+        };
         let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;
         Some(Aabb::from_points(crate::math::frustum::corners(&found.clip_from_world().inverse())))
     }

@@ -1,6 +1,5 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
-use super::crop::Crop;
 use crate::lights::guard::Guard;
 pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};
@@ -105,8 +104,6 @@ pub struct Settings {
     pub fit: Fit,
     /// True if casters are drawn with no more triangles than the map's texels show.
     pub simplified: bool,
-    /// Result of `fit` in a scene; the whole map until [`super::fit::crop`] has found it.
-    pub crop: Crop,
     pub cull: Option<Face>,
     pub set_up: SetUp,
     pub split: Split,
@@ -231,7 +228,6 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
             .choice("fit", &[("none", Fit::None), ("casters", Fit::Casters), ("view", Fit::View)])?
             .unwrap_or(Fit::None),
         simplified: keys.choice("casters", &[("full", false), ("texel", true)])?.unwrap_or(false),
-        crop: Crop::WHOLE,
         cull: keys
             .choice("cull", &[("none", None), ("back", Some(Face::Back)), ("front", Some(Face::Front))])?
             .unwrap_or(None),

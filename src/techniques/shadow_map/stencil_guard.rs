@@ -8,8 +8,7 @@ use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::light::{CountPass, Counted, Counting, Layer, Lighting, VolumeDraw, VolumeSpace};
-use crate::lights::{LightTerm, LightView, Notes, Viewer};
-use crate::math::frustum::{self, Overlap};
+use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::{Compare, DrawState, MeshRef, Primitive, Redraw, Stencil, StencilOp, StencilOps};
 use crate::scene::Frustum;
 
@@ -27,15 +26,9 @@ pub fn guard(view: &LightView<'_>, settings: &Settings, term: &mut LightTerm, no
 }
 
 fn anything_behind(view: &LightView<'_>, term: &LightTerm) -> bool {
-    let camera = &view.scene.camera;
-    let viewer =
-        Viewer { clip_from_eye: camera.clip_from_view(view.scene.aspect()), eye_from_world: camera.view_from_world() };
-    let Some(plane) = LightPlane::of(term.coordinates.as_ref(), true, &viewer) else { return true };
-    let clip_from_world = viewer.clip_from_world();
-    view.items.iter().any(|item| {
-        frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
-            && plane.side(item, &viewer) != Side::Before
-    })
+    let viewer = &view.camera.viewer;
+    let Some(plane) = LightPlane::of(term.coordinates.as_ref(), true, viewer) else { return true };
+    view.camera.visible.iter().any(|item| plane.side(item, viewer) != Side::Before)
 }
 
 /// The count of the volume by z-fail, so that the eye may be in it; its end is at infinity, and so is the far plane.

@@ -2,12 +2,11 @@
 
 use glam::{DMat4, DVec3, Vec4};
 
-use super::crop::Crop;
 use super::map::map_info;
 use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
 use super::{bias, tag};
 use crate::lights::projector::Rays;
-use crate::lights::{Coordinates, FrustumView, LightTerm};
+use crate::lights::{Coordinates, Crop, FrustumView, LightTerm};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
 
@@ -23,7 +22,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     let mut coordinates = Coordinates {
-        texture_from_light_clip: texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip(),
+        texture_from_light_clip: texture_from_light_clip(settings) * view.projector.crop.map_clip_from_light_clip(),
         receiver_bias: DMat4::IDENTITY,
         light_clip_from_light: view.projector.clip_from_light,
         light_from_world: view.projector.light_from_world,
@@ -35,7 +34,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     }
     // Parallel light reaches everywhere: no frustum bounds it.
     if let Rays::From { .. } = view.projector.rays {
-        term.frustum_from_map = frustum_from_map(settings);
+        term.frustum_from_map = frustum_from_map(view.projector.crop, settings);
     }
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
@@ -47,15 +46,15 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
 }
 
 /// Scale and offset from (s, t) of the map to those of the light's whole frustum, where they differ.
-fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
-    let crop = settings.crop.frustum_from_map();
+fn frustum_from_map(covered: Crop, settings: &Settings) -> Option<Vec4> {
+    let crop = covered.frustum_from_map();
     match settings.addressing {
         Addressing::Direct3d(way) => {
             let half_texel = matrix_half_texel(way, settings) as f32;
             let [x, y] = [-half_texel, 1.0 + half_texel];
             Some(Vec4::new(crop.x, -crop.y, crop.x * x + crop.z, crop.y * y + crop.w))
         }
-        Addressing::OpenGl => (settings.crop != Crop::WHOLE).then_some(crop),
+        Addressing::OpenGl => (covered != Crop::WHOLE).then_some(crop),
     }
 }
 

@@ -23,9 +23,7 @@ pub enum Way {
 
 /// Chooses a way for each caster.
 pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, notes: &mut Notes) -> Vec<Way> {
-    let camera = &view.scene.camera;
-    let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let viewer = Viewer::new(&clip_from_world);
+    let viewer = Viewer::new(&view.camera.clip_from_world);
     let one = |caster: &Casting| {
         let volume = volume::Casting::new(&caster.bounds, &caster.world_from_model, source(view));
         if let Some(why) = why_unneeded(view, caster, &volume, &viewer).filter(|_| !view.keep_all) {

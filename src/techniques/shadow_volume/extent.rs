@@ -5,8 +5,7 @@ use glam::DVec3;
 
 use super::casters::Casting;
 use crate::geometry::volume::Source;
-use crate::lights::{LightView, camera_visibility};
-use crate::math::frustum::corners;
+use crate::lights::LightView;
 
 /// `normal · x = distance`; beyond it is where the dot product is greater.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +27,7 @@ const MARGIN: f64 = 1e-3;
 /// A plane beyond the eye, the near rectangle and all that is seen, which every ray from the light through the caster's
 /// box crosses: the one of six that cuts the volume shortest. `None`: none of the six does.
 pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Option<Plane> {
-    let bounds = camera_visibility::bounds(view);
+    let bounds = view.camera.seen_bounds;
     let rounding = SLACK * bounds.min.abs().max(bounds.max.abs()).max_element();
     let box_corners = caster.bounds.corners().map(|corner| caster.world_from_model.transform_point3(corner));
     let faces = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
@@ -63,9 +62,12 @@ pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source
     let slack = |point: DVec3| SLACK * (point.abs().max_element() + middle.abs().max_element());
     let is_before = |point: DVec3| side * height(point) >= -slack(point);
     let clear = |point: DVec3| side * height(point) > slack(point);
-    let near = corners(&camera_visibility::clip_from_world(view).inverse()).into_iter().take(4);
     let light_is_clear = side * above > SLACK * source.away(middle).length();
-    let others = camera_visibility::items(view)
+    let others = view
+        .camera
+        .visible
+        .iter()
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
-    light_is_clear && clear(view.scene.camera.eye) && { near }.all(clear) && { others }.all(is_before)
+    light_is_clear && clear(view.scene.camera.eye) && view.camera.near.into_iter().all(clear) && { others }
+        .all(is_before)
 }

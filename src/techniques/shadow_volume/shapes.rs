@@ -48,7 +48,7 @@ pub fn shapes(
     notes: &mut Notes,
 ) -> Vec<Shape> {
     let camera = &view.scene.camera;
-    let viewer = Viewer::new(&(camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()));
+    let viewer = Viewer::new(&view.camera.clip_from_world);
     let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
     let mut shapes = Vec::new();
     for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut) {
@@ -65,9 +65,9 @@ pub fn shapes(
             notes.chosen(format!("{} for light {}", caster.label, view.index), "z-fail-clamped", why);
         }
         shapes.push(if way == Way::ZPassCapped {
-            let view_from_model = camera.view_from_world() * caster.world_from_model;
+            let view_from_model = view.camera.viewer.eye_from_world * caster.world_from_model;
             let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
-            let end = beyond.map(|plane| in_view(&camera.view_from_world(), plane));
+            let end = beyond.map(|plane| in_view(&view.camera.viewer.eye_from_world, plane));
             capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
         } else {

@@ -143,9 +143,8 @@ impl<'a> Forecast<'a> {
     fn sample(&mut self, step: u32) {
         (self.step, self.reached) = (step, 0);
         self.wrong.clear();
-        let camera = &self.view.scene.camera;
         let size = self.view.scene.image.size;
-        let world_from_clip = (camera.clip_from_view(self.view.scene.aspect()) * camera.view_from_world()).inverse();
+        let world_from_clip = self.view.camera.clip_from_world.inverse();
         let ray = |x: u32, y: u32| {
             let [x, y] =
                 [(x, size[0]), (y, size[1])].map(|(at, size)| (2.0 * f64::from(at) + 1.0) / f64::from(size) - 1.0);
@@ -154,8 +153,8 @@ impl<'a> Forecast<'a> {
         let middles = |size: u32| (step / 2..size).step_by(step as usize);
         for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
             let [near, far] = ray(x, y);
-            let Some(point) = seen(self.items, camera.eye, near, far - near) else { continue };
-            // Points where the rays of the neighbouring pixels meet the same plane.
+            let Some(point) = seen(self.items, self.view.scene.camera.eye, near, far - near) else { continue };
+            // Where the rays of the pixels beside meet the same plane.
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
             });

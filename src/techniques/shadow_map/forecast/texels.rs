@@ -90,7 +90,7 @@ impl<'a> Texels<'a> {
     /// Place where a point in light space is looked up, in texels of level 0 from a corner of the map, and its window
     /// depth.
     pub fn place(&self, light: DVec3) -> (DVec2, f64) {
-        let crop = raster_from_clip(self.settings) * self.settings.crop.map_clip_from_light_clip();
+        let crop = raster_from_clip(self.settings) * self.projector.crop.map_clip_from_light_clip();
         let clip = crop * self.projector.clip_from_light * light.extend(1.0);
         let ndc = clip.truncate() / clip.w;
         let size = f64::from(self.settings.size);
@@ -163,7 +163,7 @@ impl<'a> Texels<'a> {
         let map = 2.0 * place / f64::from(self.size(level)) - 1.0;
         let clip_from_raster = raster_from_clip(self.settings).inverse();
         let map = clip_from_raster.transform_point3(map.extend(0.0)).truncate();
-        let light = self.settings.crop.light_clip(map);
+        let light = self.projector.crop.light_clip(map);
         let scale = DVec2::new(clip.x_axis.x, clip.y_axis.y);
         let (from, to) = match self.projector.rays {
             Rays::From { .. } => {
