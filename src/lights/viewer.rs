@@ -4,7 +4,7 @@ use glam::DMat4;
 
 use crate::scene::Scene;
 
-/// Whose picture the surfaces are drawn for.
+/// Viewer that the surfaces are drawn for.
 #[derive(Clone, Copy, Debug)]
 pub struct Viewer {
     pub clip_from_eye: DMat4,

@@ -98,7 +98,7 @@ fn light_terms(
     Ok(planned)
 }
 
-/// Why a light adds nothing to the picture, if so.
+/// Reason why a light adds nothing to the picture, if there is one.
 fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {

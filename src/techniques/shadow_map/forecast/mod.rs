@@ -154,7 +154,7 @@ impl<'a> Forecast<'a> {
         for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
             let [near, far] = ray(x, y);
             let Some(point) = seen(self.items, self.view.scene.camera.eye, near, far - near) else { continue };
-            // Where the rays of the pixels beside meet the same plane.
+            // Points where the rays of the neighbouring pixels meet the same plane.
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
             });
