@@ -1,5 +1,5 @@
-// The stencil buffer is told of light @'s shadow by the fragments that are left [lecture, "Combining Shadow Mapping with
-// other Techniques"; techniques A20]. A tag is one bit: a filtered shade of one half or more is lit.
+// Discards lit fragments of light @; those that are left mark its shadow in the stencil buffer [LEC, "Combining Shadow
+// Mapping with other Techniques"]. The mark is one bit: a filtered shade of one half or more is lit.
 void main()
 {
 #ifdef ALPHA_TEST

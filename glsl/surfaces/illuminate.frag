@@ -1,4 +1,4 @@
-// What light @ adds [lecture, "Advice for Shadowed Illumination Model"]:
+// Adds light @ [LEC, "Advice for Shadowed Illumination Model"]:
 // diffuse by diffuseShade = dimming + (1 - dimming) shade, specular by shade.
 #ifdef SPOT_IMAGE_@
 uniform sampler2D spot_image_@;

@@ -1,5 +1,5 @@
-// Where spotlight @ can light at all: before it (q > 0, no back projection [techniques A13 f]), inside its frustum's sides
-// and, for a cone, inside the circle inscribed in them.
+// Tests whether spotlight @ can light a point: it is before the light (q > 0, no back projection), inside the sides of its
+// frustum and, for a cone, inside the circle inscribed in them.
 #ifdef MAP_ADDRESSING_@
 // The frustum's [0, 1] square from the map's s and t: scale, then offset.
 uniform vec4 frustum_from_map_@;

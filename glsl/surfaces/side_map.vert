@@ -1,5 +1,5 @@
-// The planar texgen of light @'s plane [lecture, "Careful about Back Projecting Shadow Maps"; techniques A13 b]: q times a
-// power of two, which rounds as q itself does. What is left of 1/2 is behind the light, or on its plane.
+// The planar texgen of light @'s plane [LEC, "Careful about Back Projecting Shadow Maps"]: q times a power of
+// two, which rounds as q does. Values below 1/2 are behind the light, or on its plane.
 uniform vec4 side_plane_@;
 
 out float side_s_@;

@@ -1,4 +1,4 @@
-// Eye-linear texture coordinates of light @ [Hardware Shadow Mapping, Eq. 1]: (s, t, r, q) = T E_e x_eye.
+// Eye-linear texture coordinates of light @ [HSM, Equation 1]: (s, t, r, q) = T E_e x_eye.
 uniform vec4 eye_planes_@[4];
 #ifdef TEXTURE_MATRIX_@
 uniform mat4 texture_matrix_@;

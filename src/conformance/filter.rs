@@ -30,7 +30,7 @@ pub fn choose(patterns: &[String]) -> Result<Vec<&'static Rule>, UnknownFilter> 
 fn matches(rule: &Rule, pattern: &str) -> bool {
     let pattern = pattern.trim().to_lowercase();
     let (id, title) = (short_id(rule), rule.title.to_lowercase());
-    // An id is compared whole: C1 is not C10.
+    // An id is compared whole: one may begin with another.
     !pattern.is_empty()
         && (id == pattern.strip_prefix("gl-").unwrap_or(&pattern)
             || (pattern.len() == 1 && id.starts_with(&pattern))
