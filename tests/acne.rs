@@ -103,12 +103,12 @@ fn biases(scale: f64, size: u32, format: &str) -> Vec<String> {
 ///
 /// The edge band knows the shadow edges that the picture shows. Where a silhouette, as the light sees it, hides behind
 /// another surface of the picture, the band does not know it; GL_LINEAR does, and darkens lit pixels within half a texel
-/// of it: four pixels at 512, whose occluder is 12 to 17 texels' widths nearer to the light. The oracle, looking from
-/// the light, tells those by the surface that breaks off beside them.
+/// of it: four pixels at 512, whose occluder is 12 to 17 texels' widths nearer to the light. The ray
+/// tracer, looking from the light, knows those by the surface that breaks off beside them.
 ///
-/// Beside it the documents' offset: what it leaves lies on facets that are steeper than the neighbours whose depth
-/// their texel holds. Adaptive bias without what its neighbours' slope asks for. And none at all, which must show acne,
-/// or nothing is shown by this.
+/// Three more settings must show acne, or the test shows nothing. The offset of [HSM, "Why Is Polygon Offset Needed?"]
+/// leaves it on facets that are steeper than the neighbours whose depth their texel holds; adaptive bias, where it lacks
+/// the slope of its neighbours; no offset at all, on most of the surface.
 fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());

@@ -1,6 +1,6 @@
 //! Pixel cases, one test a folder of `data/cases/<row>/`, the row of a technique or a composition. How a case is written: `tests/support/cases/file.rs`.
 //!
-//! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` draws goldens anew.
+//! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` regenerates golden images.
 
 use std::fs;
 use std::path::{Path, PathBuf};

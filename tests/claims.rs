@@ -1,4 +1,4 @@
-//! What the documents claim of techniques, as a report measures it on a dense model and on the sample program's teapot.
+//! Published claims of techniques, as a report measures them on a dense model and on the sample program's teapot.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
 //! What the camera sees in extreme scenes, moved, scaled and with stiff planes: each pixel shows the object that the ray
-//! oracle sees, or a warning says why not.
+//! ray tracer sees, or a warning says why not.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -90,7 +90,7 @@ fn drawn(scene: &Scene, renderer: &mut Renderer) -> Vec<i64> {
     }
 }
 
-/// Pixels of whose object the oracle is sure and the picture has another.
+/// Pixels whose object is certain to the ray tracer, and is another in the picture.
 fn count_wrong(truth: &Truth, drawn: &[i64]) -> usize {
     let of_view = [Reason::Silhouette, Reason::DepthTie, Reason::GrazingView, Reason::ClipPlane].map(Answer::Ambiguous);
     let is_wrong = |(pixel, drawn): &(&truth::Pixel, &i64)| {

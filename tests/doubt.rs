@@ -83,7 +83,7 @@ fn the_share_that_is_foretold_is_the_share_that_is_wrong() {
             let measured = 100.0 * row.wrong as f64 / row.compared as f64;
             let Some(about) = row.why.split("about ").nth(1).and_then(|rest| rest.split(' ').next()) else {
                 untold += 1;
-                // The oracle leaves out what it cannot tell; a forecast does not.
+                // The ray tracer leaves out what it cannot decide; a forecast does not.
                 assert!(measured < 1.7, "{index} {keys}: {measured} %, and no warning: {}", row.why);
                 continue;
             };

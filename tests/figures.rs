@@ -204,7 +204,7 @@ fn with_the_eye_inside_light_and_shadow_change_places() {
     assert!(lit > 10_000 && shadowed > 10_000, "{lit} {shadowed}");
 }
 
-/// What the documents' own figures and headings are called.
+/// Names of the cited documents' figures and headings.
 const HEADINGS: &[&str] = &[
     "Hardware Shadow Mapping, title picture",
     "Hardware Shadow Mapping, Figure 2",
@@ -225,7 +225,7 @@ const HEADINGS: &[&str] = &[
 ];
 
 #[test]
-fn figures_name_what_is_in_the_documents_and_fit_their_sheets() {
+fn figures_name_what_is_in_documents_and_fit_their_sheets() {
     for figure in FIGURES {
         let quoted: Vec<&str> = figure.source.split('"').skip(1).step_by(2).collect();
         let named = if quoted.is_empty() { vec![figure.source] } else { quoted };

@@ -91,7 +91,7 @@ fn load(text: &str) -> Scene {
 /// Draws a scene under each of the keys in turn.
 struct Judge {
     renderer: Renderer,
-    /// Whether picture and oracle must see the same surfaces: floors without end round otherwise.
+    /// True if picture and ray tracer must see the same surfaces: floors without end round otherwise.
     same_surfaces: bool,
     /// Current as long as it lives.
     _context: Box<dyn context::Context>,
@@ -255,7 +255,7 @@ fn alpha(random: &mut Random, kind: u32, x: f64, y: f64, count: f64) -> f64 {
     }
 }
 
-/// Holes are where the oracle has them, for the eye and for the light, however small or large a texel is on either's
+/// Holes are where the ray tracer has them, for the eye and for the light, however small or large a texel is on either's
 /// picture. What is smaller than the map's texels it can only show by chance: that is in the band of the true edges.
 #[test]
 fn holes_of_any_texture_are_the_same_to_eye_light_and_oracle() {

@@ -1,4 +1,4 @@
-//! Back projection (A13): every guard shows the picture of the test per fragment, over all kinds of spotlights and of
+//! Back projection: every guard shows the picture of the test per fragment, over all kinds of spotlights and of
 //! places that things can have; without any guard the picture is wrong; and the plan's own choice leaves out what it says.
 
 use std::path::Path;

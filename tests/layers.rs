@@ -1,5 +1,5 @@
 //! Maps of more than the nearest layer: Woo's midpoint and second depth. What the midpoint pass stores, by formula; what
-//! the white paper claims of both techniques, with figures against ray-traced truth.
+//! [HSM] and [Woo 1992] claim of both techniques, with figures against ray-traced truth.
 
 use std::fmt::Write as _;
 

@@ -165,7 +165,7 @@ fn a_cube_has_the_faces_that_are_needed() {
     let light = "light.0={ kind = \"point\", position = [0.0, 6.0, 0.0], shadow = { technique = \"shadow-map\" } }";
     let below = ["object.0.scale=[3.0, 1.0, 3.0]", light].map(String::from);
     assert_eq!(faces_drawn(&load("box.toml", &below)), ["light 0: depth, face -y"]);
-    // By the copy road it is drawn and copied.
+    // With `transfer = "copy"` it is drawn and copied.
     let copied = [below.as_slice(), &[String::from("light.shadow.transfer=copy")]].concat();
     let expected = ["light 0: depth, face -y", "light 0: depth, face -y, copied"];
     assert_eq!(faces_drawn(&load("box.toml", &copied)), expected);
@@ -203,7 +203,7 @@ fn faces_that_are_left_out_change_no_pixel() {
     assert!(fewer > 26, "only {fewer} faces were left out");
 }
 
-/// All faces are copied from one depth buffer, which holds the last one's depths: where a cube is made anew, for other bits or
+/// All faces are copied from one depth buffer, which holds the last one's depths: where a cube is made again, for other bits or
 /// other faces, each face is drawn again before it is copied.
 #[test]
 fn faces_are_drawn_again_before_they_are_copied_again() {

@@ -82,7 +82,7 @@ fn a_placed_texture_is_one_whose_coordinates_are_placed() {
     }
 }
 
-/// Holes are where the oracle has them, for sight and for light.
+/// Holes are where the ray tracer has them, for sight and for light.
 #[test]
 fn holes_are_where_truth_has_them() {
     let context = context::open(&ContextRequest::default()).unwrap();

@@ -100,9 +100,9 @@ fn a_report_says_how_wrong_and_for_what_price() {
     assert!(!work.path("out/report.journal.jsonl").exists());
 }
 
-/// Without a grid of one's own: every technique has a row that was drawn, and its documents' claims their numbers.
+/// Without a grid of one's own: every technique has a row that was drawn, and published claims of it have their numbers.
 #[test]
-fn a_report_tells_what_the_documents_claim() {
+fn a_report_measures_published_claims() {
     let work = Work::new();
     let mut command = Command::new(GLUMBRA);
     command.current_dir(work.folder.path());

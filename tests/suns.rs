@@ -166,7 +166,7 @@ fn floors_as_large_as_may_be() {
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\nrotate = {{ axis = [0, 1, 0], angle = {angle:?} }}\n\
                  [[object]]\nmesh = \"box\"\nscale = 0.5\ntranslate = [0.0, 0.5, 0.0]\n",
             ));
-            // The oracle grants the floor the errors of GL's clipping, and is of two minds about much of it.
+            // The ray tracer grants the floor the errors of GL's clipping, and is of two minds about much of it.
             let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
             let square =
                 ["bias = \"receiver-plane\"", "bias = \"normal-offset\"", "bias = \"adaptive\"", "into = \"stencil\""];

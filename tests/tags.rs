@@ -1,4 +1,4 @@
-//! Shadow maps as tags in the stencil buffer (A20) against the shade that a shader asks for: every kind of light, holes,
+//! Shadow maps as tags in the stencil buffer against the shade that a shader looks up: every kind of light, holes,
 //! kernels and filters, counts of volumes beside them; and what has no tag is refused by name.
 
 use std::path::Path;

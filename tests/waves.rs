@@ -1,4 +1,4 @@
-//! Casters that the vertex stage moves (A19): their shadows against ray-traced truth, which moves vertices by itself, for
+//! Casters that the vertex stage moves: their shadows against ray-traced truth, which moves vertices by itself, for
 //! every technique; depth EQUAL passes to the bit; normals against the surface's own slopes.
 
 use std::path::Path;

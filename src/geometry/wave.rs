@@ -1,6 +1,6 @@
 //! A surface that waves [HSM, "Advantages and Limitations": geometry that is made or altered where it is drawn; [HSM,
 //! "Advantages and Limitations"]: what a scene says of it, the box that holds it, and the moved mesh for techniques that
-//! read vertices. The vertex stage has its own arithmetic (`glsl/common/position.vert`), the ray oracle another.
+//! read vertices. The vertex stage has its own arithmetic (`glsl/common/position.vert`), the ray tracer another.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError, Weak};

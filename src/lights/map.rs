@@ -52,6 +52,6 @@ pub enum Bias {
     ReceiverPlane,
     /// The receiver is looked up a little off its surface.
     NormalOffset,
-    /// The reference is the receiver's plane at each texel's centre [Dou et al. 2014].
+    /// The reference is the receiver's plane at each texel's centre [Dou 2014].
     Adaptive,
 }

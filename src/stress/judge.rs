@@ -69,7 +69,7 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     ///
-    /// A scene that the oracle cannot read.
+    /// A scene that the ray tracer cannot read.
     pub fn new(scene: &'a Scene, light: usize) -> Result<Self, truth::Error> {
         let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         let surroundings = Surroundings::new(scene, light, &options)?;

@@ -99,7 +99,7 @@ pub struct CaseResult {
     pub why: String,
     /// The stiff parameter of a sweep and its value.
     pub sweep: Option<(String, f64)>,
-    /// Drawn pixels of which the oracle is certain, in [0, 1], over all lights.
+    /// Drawn pixels of which the ray tracer is certain, in [0, 1], over all lights.
     pub decided: f64,
     pub seconds: f64,
     /// Reason why the case has no rows: the scene was refused.

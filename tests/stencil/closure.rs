@@ -1,4 +1,4 @@
-//! With every fragment counted and the eye outside, a closed volume's ways in and out cancel on every pixel (S3).
+//! With every fragment counted and the eye outside, a closed volume's ways in and out cancel on every pixel (rule GL-S3).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Draws a scene's stencil count and holds it against the oracle's.
+//! Draws a scene's stencil count and compares it with the ray tracer's.
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::device::Pixels;
@@ -11,7 +11,7 @@ use glumbra::views::View;
 /// Every method, and those that claim to be right wherever the eye stands.
 pub const RIGHT: [&str; 4] = ["auto", "z-fail", "z-fail-clamped", "z-pass-capped"];
 
-/// The oracle's band may be any share of these pictures, which are made to be hard; what it tells is told exactly.
+/// The ray tracer's band may be any share of these pictures, which are made to be hard; what it decides is exact.
 pub fn truth(scene: &Scene) -> VolumeCounts {
     volume_count(scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap()
 }
@@ -19,7 +19,7 @@ pub fn truth(scene: &Scene) -> VolumeCounts {
 /// What a picture and the truth say of each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Held {
-    /// Pixels at which the oracle is sure.
+    /// Pixels at which the ray tracer is certain.
     pub told: usize,
     /// Of these, pixels in some volume.
     pub inside: usize,

@@ -1,4 +1,4 @@
-//! The oracle's counts: against known scenes, against its own visibility, against volumes that were built.
+//! The ray tracer's counts: against known scenes, against its own visibility, against volumes that were built.
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Landing, Outline, Source, Volume};

@@ -68,7 +68,7 @@ pub fn driver() -> String {
 }
 
 /// Draws `frames` frames of `scene` with `set` applied, and reads what is wanted from the last. Nothing of an earlier
-/// picture is left to be met again: every image is overwritten and every pass drawn anew.
+/// picture is left to be met again: every image is overwritten and every pass drawn again.
 ///
 /// # Errors
 ///
