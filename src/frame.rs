@@ -5,15 +5,16 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
+use crate::conformance::probe;
 use crate::context::{self, Context, ContextRequest};
-use crate::device::{self, Device, Measure, PassTime, Pixels, probe};
+use crate::device::{self, Device, Measure, PassTime, Pixels};
 use crate::geometry::Texture;
 use crate::pass::{DepthFormat, Format};
 use crate::plan::{self, Limits, Plan, Request};
 use crate::process::doing;
 use crate::scene::Scene;
 
-/// Why a frame could not be drawn.
+/// Reason why a frame could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
@@ -24,7 +25,7 @@ pub enum Error {
     Probe(#[from] probe::Error),
 }
 
-/// What a crash of the driver is said to have come in.
+/// Name of this work in the message of a crash.
 const DRAWING: &str = "drawing";
 
 /// Draws scenes on one context.
@@ -33,8 +34,8 @@ pub struct Renderer {
     limits: Limits,
 }
 
-/// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done or
-/// `stop` is set. `finished` is called on the caller's thread with each number and what came of it, in no order.
+/// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done
+/// or `stop` is set. `finished` is called on the caller's thread with each number and its result, in no order.
 ///
 /// # Errors
 ///
@@ -81,16 +82,16 @@ pub fn on_contexts<T: Send>(
 #[derive(Clone, Debug)]
 pub struct Frame {
     pub picture: Pixels,
-    /// In the request's order.
+    /// Views in the request's order.
     pub views: Vec<Pixels>,
 }
 
-/// How long frames took.
+/// Times of frames.
 #[derive(Clone, Debug, Default)]
 pub struct Times {
     /// Each frame from its first call to the return of glFinish, in milliseconds. The first one uploads and compiles.
     pub frames_ms: Vec<f64>,
-    /// The passes of one more frame, drawn anew and each waited for.
+    /// The passes of one more frame, redrawn, each waited for.
     pub passes: Vec<PassTime>,
 }
 
@@ -195,28 +196,31 @@ impl Renderer {
         Ok(self.device.read_window(window)?)
     }
 
-    /// The device, for what only it can do.
+    /// The device, for its own functions.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
 
-    /// Says what this driver makes of DEPTH_COMPONENT32, which is optional, and of the unsized DEPTH_COMPONENT, where that does
-    /// not follow the picture's depth buffer.
+    /// Warns if the driver changes DEPTH_COMPONENT32, which is optional, or if the unsized DEPTH_COMPONENT does not follow
+    /// the picture's depth buffer.
     fn warn_of_formats(&mut self, plan: &mut Plan) -> Result<(), Error> {
         let depth32 = Format::Depth(DepthFormat::Depth32);
         for format in [depth32, Format::UnsizedDepth] {
             if !plan.list.images.iter().any(|desc| desc.format == format) {
                 continue;
             }
-            let facts = self.device.depth_facts(format)?;
-            let facts = facts.filter(|facts| format == depth32 || !follows_the_picture(facts));
-            plan.warnings.extend(facts.map(|facts| facts.in_words()));
+            let name = format.to_string();
+            let Some(&measured) = probe::FORMATS.iter().find(|known| known.name() == name) else { continue };
+            let facts = probe::depth_format(self.device.raw_gl(), measured)?;
+            if format == depth32 || !follows_the_picture(&facts) {
+                plan.warnings.push(facts.in_words());
+            }
         }
         Ok(())
     }
 }
 
-/// Whether a format has the bits of the picture's depth buffer, which are of fixed point.
+/// Tests whether a format has the bits of the picture's depth buffer, which is fixed-point.
 fn follows_the_picture(facts: &probe::DepthFacts) -> bool {
     let bits = DepthFormat::Depth24.bits();
     facts.measured.as_ref().is_some_and(|measured| measured.depth_bits == bits && !measured.float)

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Hit, Truth};
-use glumbra::report::metrics::{Band, Errors, ShadeImage, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Errors, ShadeImage, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Hit, Truth};
 
 #[allow(dead_code, reason = "tests of other scenes ask for more")]
 #[path = "support/rims.rs"]
@@ -43,7 +43,7 @@ struct Judge {
 impl Judge {
     fn new(scale: f64) -> Self {
         let scene = scene(scale);
-        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         Self { scene, truth }
     }
 
@@ -103,12 +103,12 @@ fn biases(scale: f64, size: u32, format: &str) -> Vec<String> {
 ///
 /// The edge band knows the shadow edges that the picture shows. Where a silhouette, as the light sees it, hides behind
 /// another surface of the picture, the band does not know it; GL_LINEAR does, and darkens lit pixels within half a texel
-/// of it: four pixels at 512, whose occluder is 12 to 17 texels' widths nearer to the light. The oracle, looking from
-/// the light, tells those by the surface that breaks off beside them.
+/// of it: four pixels at 512, whose occluder is 12 to 17 texels' widths nearer to the light. The ray
+/// tracer, looking from the light, knows those by the surface that breaks off beside them.
 ///
-/// Beside it the documents' offset: what it leaves lies on facets that are steeper than the neighbours whose depth
-/// their texel holds. Adaptive bias without what its neighbours' slope asks for. And none at all, which must show acne,
-/// or nothing is shown by this.
+/// Three more settings must show acne, or the test shows nothing. The offset of [HSM, "Why Is Polygon Offset Needed?"]
+/// leaves it on facets that are steeper than the neighbours whose depth their texel holds; adaptive bias, where it lacks
+/// the slope of its neighbours; no offset at all, on most of the surface.
 fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
@@ -133,7 +133,7 @@ fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
             }
             if scale == 1.0 && *format == "depth24" {
                 let (bare, _) = measure(", offset = {}");
-                assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (semantics T4)");
+                assert!(bare.false_shadow.outside_percent > 40.0, "a lit surface shades itself (rule GL-T4)");
                 let (documents, acne) = measure(", offset = { factor = 1.1, units = 4 }");
                 assert!(documents.false_shadow.outside_percent < 0.02 && acne > 0);
                 let (_, acne) = measure(", bias = \"adaptive\", offset = { texels = 0.5, units = 4 }");

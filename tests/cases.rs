@@ -1,6 +1,6 @@
-//! Pixel cases, one test a folder of `data/cases/<technique>/`. How a case is written: `tests/support/cases/file.rs`.
+//! Pixel cases, one test a folder of `data/cases/<row>/`, the row of a technique or a composition. How a case is written: `tests/support/cases/file.rs`.
 //!
-//! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` draws goldens anew.
+//! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` regenerates golden images.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,9 +27,9 @@ fn main() -> ExitCode {
 
 fn trials() -> Vec<Trial> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases");
-    let mut trials = vec![Trial::test("every_technique_has_a_case", {
+    let mut trials = vec![Trial::test("every_row_has_a_case", {
         let root = root.clone();
-        move || every_technique_has_a_case(&root).map_err(Into::into)
+        move || every_row_has_a_case(&root).map_err(Into::into)
     })];
     for technique in folders(&root).into_iter().filter(|folder| name(folder) != SHARED) {
         for folder in folders(&technique) {
@@ -43,16 +43,17 @@ fn trials() -> Vec<Trial> {
     trials
 }
 
-/// A technique without a case is untested, and a folder without a technique is never looked for.
-fn every_technique_has_a_case(root: &Path) -> Result<(), String> {
-    let known: Vec<&str> = glumbra::techniques::TABLE.iter().map(|technique| technique.name()).collect();
-    for technique in &known {
-        if folders(&root.join(technique)).is_empty() {
-            return Err(format!("the technique \"{technique}\" has no case in {}/{technique}", root.display()));
+/// A technique or composition without a case is untested, and a folder without either is never looked for.
+fn every_row_has_a_case(root: &Path) -> Result<(), String> {
+    let techniques = glumbra::techniques::TABLE.iter().map(|row| row.name());
+    let known: Vec<&str> = techniques.chain(glumbra::compositions::TABLE.iter().map(|row| row.name())).collect();
+    for row in &known {
+        if folders(&root.join(row)).is_empty() {
+            return Err(format!("the row \"{row}\" has no case in {}/{row}", root.display()));
         }
     }
     match folders(root).iter().map(|folder| name(folder)).find(|name| name != SHARED && !known.contains(&&**name)) {
-        Some(name) => Err(format!("{}/{name} is the folder of no technique", root.display())),
+        Some(name) => Err(format!("{}/{name} is the folder of no technique and no composition", root.display())),
         None => Ok(()),
     }
 }

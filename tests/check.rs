@@ -5,16 +5,15 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use assert_cmd::cargo::CommandCargoExt;
+use glumbra::conformance::bench::{Format, Mutation};
+use glumbra::conformance::{self, Outcome, Subject, Verdict, probe, waivers};
 use glumbra::context::{self, ContextRequest, Profile};
-use glumbra::device::bench::{Format, Mutation};
-use glumbra::device::probe;
-use glumbra::oracle::semantics::{self, Outcome, Subject, Verdict, waivers};
 
 /// All rules on the default context of a profile, with one mistake or none; known deviations waived.
 fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<Outcome> {
     let context = context::open(&ContextRequest { profile, ..ContextRequest::default() }).unwrap();
     let subject = Subject::new(context.as_ref(), mutation).unwrap();
-    let mut outcomes = semantics::run(&subject, &semantics::choose(&[]).unwrap(), |_| {});
+    let mut outcomes = conformance::run(&subject, &conformance::choose(&[]).unwrap(), |_| {});
     waivers::apply(&waivers::load(None).unwrap(), &subject.info, &mut outcomes);
     outcomes
 }
@@ -25,7 +24,7 @@ fn with(outcomes: &[Outcome], verdict: Verdict) -> Vec<&'static str> {
 
 #[test]
 fn without_a_mistake_no_rule_fails() {
-    for (profile, untestable) in [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["C6", "T1"])] {
+    for (profile, untestable) in [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["GL-C6", "GL-T1"])] {
         let outcomes = outcomes(profile, None);
         let failing: Vec<_> = outcomes
             .iter()
@@ -39,23 +38,23 @@ fn without_a_mistake_no_rule_fails() {
     }
 }
 
-/// Each mistake, and exactly the rules that it turns red. Where a unit of polygon offset is one code, O2 cannot tell one
+/// Each mistake, and exactly the rules that it turns red. Where a unit of polygon offset is one code, GL-O2 cannot tell one
 /// unit less from a rounded code.
 const MUTATIONS: [(Mutation, &[&str]); 14] = [
-    (Mutation::CompareSwapped, &["C1", "C2"]),
-    (Mutation::IncrementForIncrementWrap, &["S1", "S3"]),
-    (Mutation::OneOffsetUnitLess, &["O1", "O2"]),
-    (Mutation::OffsetClampIgnored, &["O1"]),
-    (Mutation::PlanesTransposed, &["T1"]),
-    (Mutation::PlanesUnderWrongModelview, &["T1"]),
-    (Mutation::FilterThenCompare, &["C2", "C3", "C4", "C5", "C6", "T1", "T2"]),
-    (Mutation::FrontAndBackSwapped, &["O2", "S2"]),
-    (Mutation::DepthRangeReversed, &["T3", "T4", "D2", "D3", "D5", "O1", "S3"]),
-    (Mutation::DepthClampIgnored, &["D3"]),
-    (Mutation::StencilMaskIgnored, &["S1"]),
-    (Mutation::CopyShifted, &["F1"]),
-    (Mutation::ClipPlanesIgnored, &["R2"]),
-    (Mutation::BlendIgnored, &["F4"]),
+    (Mutation::CompareSwapped, &["GL-C1", "GL-C2"]),
+    (Mutation::IncrementForIncrementWrap, &["GL-S1", "GL-S3"]),
+    (Mutation::OneOffsetUnitLess, &["GL-O1", "GL-O2"]),
+    (Mutation::OffsetClampIgnored, &["GL-O1"]),
+    (Mutation::PlanesTransposed, &["GL-T1"]),
+    (Mutation::PlanesUnderWrongModelview, &["GL-T1"]),
+    (Mutation::FilterThenCompare, &["GL-C2", "GL-C3", "GL-C4", "GL-C5", "GL-C6", "GL-T1", "GL-T2"]),
+    (Mutation::FrontAndBackSwapped, &["GL-O2", "GL-S2"]),
+    (Mutation::DepthRangeReversed, &["GL-T3", "GL-T4", "GL-D2", "GL-D3", "GL-D5", "GL-O1", "GL-S3"]),
+    (Mutation::DepthClampIgnored, &["GL-D3"]),
+    (Mutation::StencilMaskIgnored, &["GL-S1"]),
+    (Mutation::CopyShifted, &["GL-F1"]),
+    (Mutation::ClipPlanesIgnored, &["GL-R2"]),
+    (Mutation::BlendIgnored, &["GL-F4"]),
 ];
 
 #[test]
@@ -72,7 +71,7 @@ fn every_mistake_turns_its_rules_red() {
         .map(|(mutation, mut due, mut red)| {
             let untold = unit_is_a_code && *mutation == Mutation::OneOffsetUnitLess;
             for rules in [&mut due, &mut red] {
-                rules.retain(|id| !(untold && *id == "O2"));
+                rules.retain(|id| !(untold && *id == "GL-O2"));
             }
             (mutation, due, red)
         })
@@ -95,20 +94,20 @@ fn a_run_is_printed_and_written() {
     let folder = tempfile::tempdir().unwrap();
     let output = check(
         folder.path(),
-        &["--verbose", "--filter", "C1", "--filter", "o1", "--json", "c.json", "--junit", "c.xml"],
+        &["--verbose", "--filter", "GL-C1", "--filter", "o1", "--json", "c.json", "--junit", "c.xml"],
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let table = text(&output.stdout);
-    for part in ["C1 compare", "8 functions", "tolerance", "r, one unit of polygon offset", "2 rules: "] {
+    for part in ["GL-C1 compare", "8 functions", "tolerance", "r, one unit of polygon offset", "2 rules: "] {
         assert!(table.contains(part), "no `{part}` in {table}");
     }
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     let json: serde_json::Value = serde_json::from_str(&read("c.json")).unwrap();
     let ids: Vec<_> = json["outcomes"].as_array().unwrap().iter().map(|outcome| outcome["id"].clone()).collect();
-    assert_eq!(ids, ["C1", "O1"]);
+    assert_eq!(ids, ["GL-C1", "GL-O1"]);
     assert!(json["context"]["renderer"].is_string());
     let xml = read("c.xml");
-    for part in ["<testsuite ", "tests=\"2\"", "failures=\"0\"", "name=\"C1 compare function\""] {
+    for part in ["<testsuite ", "tests=\"2\"", "failures=\"0\"", "name=\"GL-C1 compare function\""] {
         assert!(xml.contains(part), "no `{part}` in {xml}");
     }
 }
@@ -116,14 +115,14 @@ fn a_run_is_printed_and_written() {
 #[test]
 fn a_run_that_tests_nothing_ends_with_2() {
     let folder = tempfile::tempdir().unwrap();
-    let output = check(folder.path(), &["--core", "--filter", "C6"]);
+    let output = check(folder.path(), &["--core", "--filter", "GL-C6"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stdout).contains("core profile"), "{}", text(&output.stdout));
     let cases: [(&[&str], &str); 5] = [
-        (&["--filter", "C9"], "no rule is called `C9`: did you mean C1"),
+        (&["--filter", "C9"], "no rule is called `C9`: did you mean GL-C1"),
         (&["--filter", ""], "no rule is called ``"),
         (&["--waivers", "none.toml"], "none.toml: "),
-        (&["--filter", "C1", "--json", "no/such/folder.json"], "no/such/folder.json: "),
+        (&["--filter", "GL-C1", "--json", "no/such/folder.json"], "no/such/folder.json: "),
         (&["--context", "window"], "no OpenGL context can be had"),
     ];
     for (arguments, error) in cases {
@@ -148,17 +147,17 @@ fn a_run_that_tests_nothing_ends_with_2() {
 fn waivers_decide_the_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let stale =
-        "[[waiver]]\nrenderer = \"\"\nversion = \"\"\nrule = \"C1\"\nfinding = \"no such\"\nreason = \"none\"\n";
+        "[[waiver]]\nrenderer = \"\"\nversion = \"\"\nrule = \"GL-C1\"\nfinding = \"no such\"\nreason = \"none\"\n";
     std::fs::write(folder.path().join("stale.toml"), stale).unwrap();
     std::fs::write(folder.path().join("empty.toml"), "").unwrap();
-    let output = check(folder.path(), &["--filter", "C1", "--waivers", "stale.toml", "--junit", "c.xml"]);
+    let output = check(folder.path(), &["--filter", "GL-C1", "--waivers", "stale.toml", "--junit", "c.xml"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stdout).contains("no longer applies"), "{}", text(&output.stdout));
     assert!(std::fs::read_to_string(folder.path().join("c.xml")).unwrap().contains("failures=\"1\""));
     // The rule that it names is not run: nothing can be said of it.
-    let output = check(folder.path(), &["--filter", "S2", "--waivers", "stale.toml"]);
+    let output = check(folder.path(), &["--filter", "GL-S2", "--waivers", "stale.toml"]);
     assert_eq!(output.status.code(), Some(0));
-    let output = check(folder.path(), &["--filter", "O1", "--waivers", "empty.toml"]);
+    let output = check(folder.path(), &["--filter", "GL-O1", "--waivers", "empty.toml"]);
     let said = text(&output.stdout);
     if said.contains("llvmpipe") {
         assert_eq!(output.status.code(), Some(1));

@@ -1,20 +1,19 @@
-//! What the documents claim of techniques, as a report measures it on a dense model and on the sample program's teapot.
+//! Published claims of techniques, as a report measures them on a dense model and on the sample program's teapot.
 
 use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
-use glumbra::report::claimed::{Claimed, Verdict};
-use glumbra::report::claims;
-use glumbra::scene;
+use glumbra::report::measure::claims;
+use glumbra::report::store::claimed::{Claimed, Verdict};
+use glumbra::{scene, truth};
 
 fn measure(name: &str) -> Vec<Claimed> {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
     let scene = scene::load(&path, &[]).unwrap().scene;
-    let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
     let claims = claims::measure(&scene, 0, &truth, 2.0, &mut renderer).unwrap();
     claims.iter().for_each(|claim| println!("{name}: {claim}"));
     claims

@@ -1,15 +1,15 @@
-//! Every road to a context, what is said when none can be had, and `glumbra info`.
+//! Every backend of contexts, what is said when none can be had, and `glumbra info`.
 
 use std::process::Command;
 use std::sync::{Arc, Barrier};
 
 use assert_cmd::cargo::CommandCargoExt;
 use glow::HasContext;
+use glumbra::conformance::probe;
+use glumbra::context::compatibility::{Binding, BindingError, raw};
 use glumbra::context::{self, Choice, Context, ContextRequest, Error, Profile, Road, egl};
 use glumbra::device::debug::Debug;
-use glumbra::device::probe;
 use glumbra::device::queries::Timer;
-use glumbra::oracle::fixed_function::{Binding, BindingError, raw};
 
 mod support;
 use support::xvfb::Xvfb;
@@ -40,11 +40,11 @@ fn cleared_pixel(context: &dyn Context, color: [f32; 4]) -> [u8; 4] {
     pixel
 }
 
-/// The road works: it draws, twice in turn, in both profiles.
-fn check_road(road: Road, name: &str) {
+/// The backend works: it draws, twice in turn, in both profiles.
+fn check_backend(backend: Backend, name: &str) {
     for (request, profile) in [(CORE, "core"), (COMPATIBILITY, "compatibility"), (CORE, "core")] {
-        let context = context::open_road(road, &request).unwrap();
-        assert!(context.road().starts_with(name), "{} is not {name}", context.road());
+        let context = context::open_backend(backend, &request).unwrap();
+        assert!(context.backend().starts_with(name), "{} is not {name}", context.backend());
         assert_eq!(context.describe().profile, profile);
         assert_eq!(cleared_pixel(&*context, [1.0, 0.0, 0.2, 1.0]), [255, 0, 51, 255]);
         Debug::new(&*context).check(name).unwrap();
@@ -53,12 +53,12 @@ fn check_road(road: Road, name: &str) {
 
 #[test]
 fn egl_surfaceless_draws() {
-    check_road(Road::EglSurfaceless, "EGL surfaceless");
+    check_backend(Backend::EglSurfaceless, "EGL surfaceless");
 }
 
 #[test]
 fn egl_device_draws() {
-    check_road(Road::EglDevice, "EGL device 0");
+    check_backend(Backend::EglDevice, "EGL device 0");
 }
 
 #[test]
@@ -68,25 +68,25 @@ fn each_egl_device_can_be_chosen() {
     for device in devices {
         let request = ContextRequest { device: Some(device.index), ..CORE };
         let context = context::open(&request).unwrap();
-        assert_eq!(context.road(), format!("EGL device {}", device.index));
+        assert_eq!(context.backend(), format!("EGL device {}", device.index));
     }
 }
 
 #[test]
 fn osmesa_draws() {
-    match context::open_road(Road::OsMesa, &CORE) {
+    match context::open_backend(Backend::OsMesa, &CORE) {
         // Mesa 25.1 dropped it; ci/setup installs it where there is one.
         Err(error) if error.to_string().contains("libOSMesa.so.8: cannot open shared object file") => {
             println!("skipped: this machine has no libOSMesa");
         }
-        _ => check_road(Road::OsMesa, "OSMesa"),
+        _ => check_backend(Backend::OsMesa, "OSMesa"),
     }
 }
 
 #[test]
 fn contexts_of_one_thread_take_turns() {
     let first = context::open(&CORE).unwrap();
-    let second = context::open_road(Road::EglDevice, &COMPATIBILITY).unwrap();
+    let second = context::open_backend(Backend::EglDevice, &COMPATIBILITY).unwrap();
     for _ in 0..3 {
         first.make_current().unwrap();
         assert_eq!(first.describe().profile, "core");
@@ -108,8 +108,8 @@ fn contexts_of_several_threads_work_at_the_same_time() {
         let all_open = all_open.clone();
         move || {
             for round in 0..8 {
-                let road = [Road::EglSurfaceless, Road::EglDevice][(index + round) % 2];
-                let context = context::open_road(road, &CORE).unwrap();
+                let backend = [Backend::EglSurfaceless, Backend::EglDevice][(index + round) % 2];
+                let context = context::open_backend(backend, &CORE).unwrap();
                 if round == 0 {
                     all_open.wait();
                 }
@@ -199,7 +199,7 @@ fn a_device_that_is_not_there_is_told() {
     assert!(output.stderr.contains("chooses among EGL devices"), "{}", output.stderr);
 }
 
-/// With empty files in place of the libraries, every road fails in its own words.
+/// With empty files in place of the libraries, every backend fails with a message of its own.
 #[test]
 fn a_machine_without_drivers_is_told_about_every_road() {
     let folder = tempfile::tempdir().unwrap();
@@ -210,9 +210,9 @@ fn a_machine_without_drivers_is_told_about_every_road() {
     command.env("LD_LIBRARY_PATH", folder.path());
     let output = run(command);
     assert_eq!(output.code, 1, "{}", output.stderr);
-    for road in ["EGL surfaceless", "EGL device", "EGL pbuffer", "OSMesa"] {
-        let line = output.stderr.lines().find(|line| line.trim_start().starts_with(road));
-        assert!(line.is_some_and(|line| line.contains("file too short")), "{road}: {}", output.stderr);
+    for backend in ["EGL surfaceless", "EGL device", "EGL pbuffer", "OSMesa"] {
+        let line = output.stderr.lines().find(|line| line.trim_start().starts_with(backend));
+        assert!(line.is_some_and(|line| line.contains("file too short")), "{backend}: {}", output.stderr);
     }
     for part in ["apt-get install libegl1", "ci/demo"] {
         assert!(output.stderr.contains(part), "no `{part}` in {}", output.stderr);
@@ -270,19 +270,19 @@ fn window_and_pbuffer_draw_under_xvfb() {
         println!("skipped: this machine has no Xvfb");
         return;
     };
-    for (kind, road) in [("window", "window"), ("egl", "EGL surfaceless")] {
+    for (kind, backend) in [("window", "window"), ("egl", "EGL surfaceless")] {
         let mut command = command(&["info", "--json", "--context", kind]);
         command.env("DISPLAY", server.display());
         let output = run(command);
         assert_eq!(output.code, 0, "{kind}: {}", output.stderr);
         let json: serde_json::Value = serde_json::from_str(&output.stdout).unwrap();
-        assert_eq!(json["context"]["road"], road);
+        assert_eq!(json["context"]["backend"], backend);
         assert_eq!(json["context"]["profile"], "core");
     }
-    // The roads that `--context` does not name run in a copy of this test, which has the display in its environment.
+    // The backends that `--context` does not name run in a copy of this test, which has the display in its environment.
     let exe = std::env::current_exe().unwrap();
     let mut command = Command::new(exe);
-    command.args(["--exact", "roads_of_a_display", "--ignored", "--nocapture"]).env("DISPLAY", server.display());
+    command.args(["--exact", "backends_of_a_display", "--ignored", "--nocapture"]).env("DISPLAY", server.display());
     let output = run(command);
     assert_eq!(output.code, 0, "{}{}", output.stdout, output.stderr);
     assert!(output.stdout.contains("1 passed"), "{}", output.stdout);
@@ -291,17 +291,17 @@ fn window_and_pbuffer_draw_under_xvfb() {
 /// Run by `window_and_pbuffer_draw_under_xvfb`.
 #[test]
 #[ignore = "needs a display; another test gives it one"]
-fn roads_of_a_display() {
-    check_road(Road::EglPbuffer, "EGL pbuffer");
-    check_road(Road::Window, "window");
-    let first = context::open_road(Road::Window, &CORE).unwrap();
-    let second = context::open_road(Road::Window, &COMPATIBILITY).unwrap();
+fn backends_of_a_display() {
+    check_backend(Backend::EglPbuffer, "EGL pbuffer");
+    check_backend(Backend::Window, "window");
+    let first = context::open_backend(Backend::Window, &CORE).unwrap();
+    let second = context::open_backend(Backend::Window, &COMPATIBILITY).unwrap();
     first.make_current().unwrap();
     assert_eq!(cleared_pixel(&*first, [1.0; 4]), [255; 4]);
     drop(second);
     assert_eq!(cleared_pixel(&*first, [0.0; 4]), [0; 4]);
     // winit has one event loop a process: another thread is told, and does not hang.
-    let other = std::thread::spawn(|| context::open_road(Road::Window, &CORE).map(|_| ()));
+    let other = std::thread::spawn(|| context::open_backend(Backend::Window, &CORE).map(|_| ()));
     assert!(matches!(other.join().unwrap(), Err(Error::NoContext(_))));
 }
 
@@ -356,5 +356,5 @@ fn every_compatibility_context_has_the_fixed_function_pipeline() {
 fn a_core_context_has_no_fixed_function_pipeline_and_says_so() {
     let context = context::open(&CORE).unwrap();
     let error = Binding::load(&*context).err().unwrap();
-    assert_eq!(error, BindingError::Core { road: context.road().to_owned() });
+    assert_eq!(error, BindingError::Core { backend: context.backend().to_owned() });
 }

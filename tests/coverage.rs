@@ -1,5 +1,5 @@
 //! What the camera sees in extreme scenes, moved, scaled and with stiff planes: each pixel shows the object that the ray
-//! oracle sees, or a warning says why not.
+//! ray tracer sees, or a warning says why not.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -9,9 +9,9 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::geometry::{self, Material};
-use glumbra::oracle::ray::{self, Answer, Reason, Truth};
 use glumbra::plan::Request;
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Answer, Reason, Truth};
 
 #[path = "support/random.rs"]
 mod random;
@@ -90,10 +90,10 @@ fn drawn(scene: &Scene, renderer: &mut Renderer) -> Vec<i64> {
     }
 }
 
-/// Pixels of whose object the oracle is sure and the picture has another.
+/// Pixels whose object is certain to the ray tracer, and is another in the picture.
 fn count_wrong(truth: &Truth, drawn: &[i64]) -> usize {
     let of_view = [Reason::Silhouette, Reason::DepthTie, Reason::GrazingView, Reason::ClipPlane].map(Answer::Ambiguous);
-    let is_wrong = |(pixel, drawn): &(&ray::Pixel, &i64)| {
+    let is_wrong = |(pixel, drawn): &(&truth::Pixel, &i64)| {
         !of_view.contains(&pixel.answer) && pixel.hit.map_or(-1, |hit| i64::from(hit.object)) != **drawn
     };
     truth.pixels.iter().zip(drawn).filter(is_wrong).count()
@@ -112,9 +112,9 @@ fn every_pixel_shows_what_a_ray_meets_or_a_warning_says_why_not() {
         let text = || std::fs::read_to_string(&path).unwrap();
         let loaded = scene::load(&path, &[]).unwrap_or_else(|error| panic!("{round}: {error}\n{}", text()));
         let most_ambiguous = if is_automatic { 0.03 } else { 1.0 };
-        let options = ray::Options { most_ambiguous, ..ray::Options::default() };
+        let options = truth::Options { most_ambiguous, ..truth::Options::default() };
         let truth =
-            ray::trace(&loaded.scene, 0, &options).unwrap_or_else(|error| panic!("{round}: {error}\n{}", text()));
+            truth::trace(&loaded.scene, 0, &options).unwrap_or_else(|error| panic!("{round}: {error}\n{}", text()));
         let wrong = count_wrong(&truth, &drawn(&loaded.scene, &mut renderer));
         let warnings = &loaded.warnings;
         assert!(wrong == 0 || !warnings.is_empty(), "{round}: {wrong} pixels are wrong\n{}", text());

@@ -2,12 +2,12 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
-use glumbra::report::metrics::{Band, compare};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::metrics::{Band, compare};
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 use glumbra::stress::{Judge, RowSettings, random};
+use glumbra::truth;
 
 /// README's camera, and what else a scene has.
 fn loaded(rest: &str) -> Scene {
@@ -28,7 +28,7 @@ fn wrong_and_warned(cone: f64, near: f64, far: f64, keys: &str, renderer: &mut R
          [[object]]\nmesh = \"box\"\nscale = [0.3, 1.0, 0.3]\ntranslate = [-1.0, 1.0, -1.0]\n"
     );
     let scene = loaded(&text);
-    let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
     let shade = draw_shade(&scene, 0, renderer).unwrap();
     let errors = compare(&truth, &shade, &Band { texels: 2.0, map_size: [1024; 2] }).unwrap().facing;
     (errors.wrong_percent, plan::make(&scene, &Request::default()).unwrap().warnings)
@@ -83,7 +83,7 @@ fn the_share_that_is_foretold_is_the_share_that_is_wrong() {
             let measured = 100.0 * row.wrong as f64 / row.compared as f64;
             let Some(about) = row.why.split("about ").nth(1).and_then(|rest| rest.split(' ').next()) else {
                 untold += 1;
-                // The oracle leaves out what it cannot tell; a forecast does not.
+                // The ray tracer leaves out what it cannot decide; a forecast does not.
                 assert!(measured < 1.7, "{index} {keys}: {measured} %, and no warning: {}", row.why);
                 continue;
             };

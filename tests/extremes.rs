@@ -8,10 +8,10 @@ use std::path::PathBuf;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
+use glumbra::truth;
 
 /// A box and a sphere on a floor, `scale` times as large and moved by `shift`.
 struct Case {
@@ -85,7 +85,7 @@ fn open() -> Box<dyn Context> {
 /// The errors of a case, and that its shade is a number in [0, 1] everywhere.
 fn measure(name: &str, case: &Case, renderer: &mut Renderer) -> Metrics {
     let scene = case.scene();
-    let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
     let shade = draw_shade(&scene, 0, renderer).unwrap();
     assert!(shade.shade.iter().all(|value| (0.0..=1.0).contains(value)), "{name}");
     let found = compare(&truth, &shade, &Band { texels: 2.0, map_size: [1024; 2] }).unwrap();

@@ -7,11 +7,11 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::figures::{FIGURES, Figure};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Answer};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::Scene;
-use glumbra::techniques::views::View;
+use glumbra::truth::{self, Answer};
+use glumbra::views::View;
 
 fn figure(name: &str) -> &'static Figure {
     FIGURES.iter().find(|figure| figure.name == name).unwrap()
@@ -204,7 +204,7 @@ fn with_the_eye_inside_light_and_shadow_change_places() {
     assert!(lit > 10_000 && shadowed > 10_000, "{lit} {shadowed}");
 }
 
-/// What the documents' own figures and headings are called.
+/// Names of the cited documents' figures and headings.
 const HEADINGS: &[&str] = &[
     "Hardware Shadow Mapping, title picture",
     "Hardware Shadow Mapping, Figure 2",
@@ -225,7 +225,7 @@ const HEADINGS: &[&str] = &[
 ];
 
 #[test]
-fn figures_name_what_is_in_the_documents_and_fit_their_sheets() {
+fn figures_name_what_is_in_documents_and_fit_their_sheets() {
     for figure in FIGURES {
         let quoted: Vec<&str> = figure.source.split('"').skip(1).step_by(2).collect();
         let named = if quoted.is_empty() { vec![figure.source] } else { quoted };
@@ -244,7 +244,7 @@ fn saturating_counts_lose_shadows() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     let shades = [0, 1].map(|panel| draw_shade(&scene("stencil-width", panel), 0, &mut renderer).unwrap());
-    let truth = ray::trace(&scene("stencil-width", 0), 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene("stencil-width", 0), 0, &truth::Options::default()).unwrap();
     let (mut lost, mut wrapped) = (0, 0);
     let shadowed = truth.pixels.iter().enumerate().filter(|(_, pixel)| pixel.answer == Answer::Shadowed);
     for (index, _) in shadowed {

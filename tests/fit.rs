@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
 use glumbra::plan::{Plan, Request};
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth;
 
 /// Boxes and spheres on a floor, wider than the camera sees.
 fn field(eye: [f64; 3], target: [f64; 3], light: [f64; 3], cone: f64) -> Scene {
@@ -48,7 +48,8 @@ fn fitted_maps_are_right_and_finer() {
     ] {
         for (light, cone) in [([6.0, 14.0, 4.0], 70.0), ([-16.0, 6.0, 2.0], 50.0), ([0.3, 3.0, 0.2], 150.0)] {
             let scene = field(eye, target, light, cone);
-            let Ok(truth) = ray::trace(&scene, 0, &ray::Options { most_ambiguous: 0.2, ..ray::Options::default() })
+            let Ok(truth) =
+                truth::trace(&scene, 0, &truth::Options { most_ambiguous: 0.2, ..truth::Options::default() })
             else {
                 panic!("no truth from {eye:?}, light {light:?}")
             };
@@ -95,7 +96,7 @@ fn casters_at_the_map_s_resolution_cast_the_same_shadow() {
         ("point", [keys.to_vec(), vec![String::from(point)]].concat(), vec![512, 1024]),
     ] {
         let scene = scene::load(format!("{root}scenes/example.toml").as_ref(), &keys).unwrap().scene;
-        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         for size in &sizes {
             let size = *size;
             let [full, texel] = ["full", "texel"].map(|casters| {

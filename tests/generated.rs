@@ -6,13 +6,13 @@ use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Answer};
 use glumbra::pass::Work;
 use glumbra::plan::{Plan, Request};
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
 use glumbra::stress;
+use glumbra::truth::{self, Answer};
 
 /// Of a filter of two texels, and one for what lies askew.
 const BAND_TEXELS: f64 = 3.0;
@@ -91,7 +91,7 @@ fn load(text: &str) -> Scene {
 /// Draws a scene under each of the keys in turn.
 struct Judge {
     renderer: Renderer,
-    /// Whether picture and oracle must see the same surfaces: floors without end round otherwise.
+    /// True if picture and ray tracer must see the same surfaces: floors without end round otherwise.
     same_surfaces: bool,
     /// Current as long as it lives.
     _context: Box<dyn context::Context>,
@@ -106,8 +106,8 @@ impl Judge {
     fn judge(&mut self, text: &str, techniques: &[&str], mut check: impl FnMut(&str, &Plan, &Metrics)) {
         let scene = load(text);
         // Floors without end and cut-outs leave much in doubt; what is certain is compared.
-        let options = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
-        let truth = ray::trace(&scene, 0, &options).unwrap();
+        let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
+        let truth = truth::trace(&scene, 0, &options).unwrap();
         for keys in techniques {
             let scene = with_shadow(&scene, 0, &scene::shadow_settings(keys).unwrap());
             let plan = self.renderer.plan(&scene, &Request::default()).unwrap();
@@ -225,7 +225,7 @@ fn the_sample_program_has_no_acne_without_offset() {
     let mut judge = Judge::new();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/hw_shadowmaps_simple.toml");
     let scene = scene::load(path.as_ref(), &[]).unwrap().scene;
-    let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
     let keys = "technique = \"midpoint\", size = 1024, offset = { factor = 0.0 }";
     let scene = with_shadow(&scene, 0, &scene::shadow_settings(keys).unwrap());
     let shade = draw_shade(&scene, 0, &mut judge.renderer).unwrap();
@@ -255,7 +255,7 @@ fn alpha(random: &mut Random, kind: u32, x: f64, y: f64, count: f64) -> f64 {
     }
 }
 
-/// Holes are where the oracle has them, for the eye and for the light, however small or large a texel is on either's
+/// Holes are where the ray tracer has them, for the eye and for the light, however small or large a texel is on either's
 /// picture. What is smaller than the map's texels it can only show by chance: that is in the band of the true edges.
 #[test]
 fn holes_of_any_texture_are_the_same_to_eye_light_and_oracle() {

@@ -1,4 +1,4 @@
-//! Back projection (A13): every guard shows the picture of the test per fragment, over all kinds of spotlights and of
+//! Back projection: every guard shows the picture of the test per fragment, over all kinds of spotlights and of
 //! places that things can have; without any guard the picture is wrong; and the plan's own choice leaves out what it says.
 
 use std::path::Path;
@@ -151,7 +151,7 @@ fn without_a_guard_the_picture_is_wrong() {
         assert!(changed > 0, "no shader has the test");
         let (right, wrong) = (picture(&mut renderer, &right), picture(&mut renderer, &unguarded));
         let none = plan(&mut renderer, &guarded(set, "none"), false);
-        assert!(none.warnings.iter().any(|warning| warning.contains("it lights what lies behind it")));
+        assert!(none.warnings.iter().any(|warning| warning.contains("surfaces behind it are lit by mistake")));
         assert!(wrong == picture(&mut renderer, &none), "{set:?}: guard = none is another picture");
         let differ = differing(&right, &wrong, 20);
         println!("{set:?}: {differ} pixels of {}", right.len() / 4);
@@ -205,7 +205,7 @@ fn the_plan_chooses_what_the_scene_needs() {
         away.map(|(index, _)| format!("object.{index}.translate=[0.0, -500.0, 0.0]")).collect::<Vec<_>>()
     };
     let table: &[(&[&str], &str, &str, usize)] = &[
-        (&["right wall", "before"], "none", "nothing that is seen lies behind the light", 0),
+        (&["right wall", "before"], "none", "nothing visible lies behind the light", 0),
         (&["right wall", "left wall", "before", "behind"], "leave-out", "2 of 4 items that are seen lie behind", 2),
         (&["left wall"], "leave-out", "1 of 1 items", 1),
         (

@@ -13,8 +13,8 @@ use glumbra::math::frustum;
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
 use glumbra::viewer::Mode;
+use glumbra::views::View;
 
 mod support;
 use support::xvfb::Xvfb;
@@ -212,10 +212,10 @@ impl Files {
         self.0.path().join(name)
     }
 
-    /// Runs the program, which must write the file that `road` names, and reads that.
-    fn picture(&self, road: &[&str], arguments: &[&str], display: Option<&str>) -> image::RgbImage {
+    /// Runs the program, which must write the file that `output` names, and reads that.
+    fn picture(&self, output: &[&str], arguments: &[&str], display: Option<&str>) -> image::RgbImage {
         let path = self.path("picture.png");
-        let arguments = [road, &[path.to_str().unwrap()], arguments].concat();
+        let arguments = [output, &[path.to_str().unwrap()], arguments].concat();
         let run = sample(&arguments, display);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
         let picture = image::open(&path).unwrap().into_rgb8();

@@ -31,10 +31,10 @@ fn command(display: Option<&str>) -> Command {
 }
 
 /// The picture that the program writes.
-fn written(road: &[&str], arguments: &[&str], display: Option<&str>) -> Vec<u8> {
+fn written(names: &[&str], arguments: &[&str], display: Option<&str>) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("picture.png");
-    let run = command(display).args(road).arg(&path).args(arguments).output().unwrap();
+    let run = command(display).args(names).arg(&path).args(arguments).output().unwrap();
     assert!(run.status.success() && run.stderr.is_empty(), "{arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
     image::open(path).unwrap().into_rgb8().into_raw()
 }

@@ -2,11 +2,11 @@
 //!
 //! The light stands straight above a floor, a square ends at a known texel coordinate of its map, and the camera looks
 //! straight down from between the square and the floor: which texels are dark, and where in the map a pixel lies, are
-//! products of similar triangles. [GL 4.6, 8.14.3 and 8.23.1; techniques A10, A11.]
+//! products of similar triangles. [GL 4.6, 8.14.3 and 8.23.1]
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
 const SIZE: u32 = 32;

@@ -1,18 +1,18 @@
 //! Maps of more than the nearest layer: Woo's midpoint and second depth. What the midpoint pass stores, by formula; what
-//! the white paper claims of both techniques, with figures against ray-traced truth.
+//! [HSM] and [Woo 1992] claim of both techniques, with figures against ray-traced truth.
 
 use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Truth};
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::truth::{self, Truth};
+use glumbra::views::View;
 
 fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
@@ -134,7 +134,7 @@ struct Judge {
 
 impl Judge {
     fn new(scene: Scene) -> Self {
-        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         Self { scene, truth }
     }
 
@@ -199,7 +199,7 @@ fn second_depth_moves_the_error_to_faces_turned_away() {
     assert!(second.facing.leak_percent <= tuned.facing.leak_percent + 0.01);
     // Half of what looks away is lit by its own acne.
     let away = |found: &Metrics| {
-        let count = |split: glumbra::report::metrics::Split| split.inside + split.outside;
+        let count = |split: glumbra::report::measure::metrics::Split| split.inside + split.outside;
         let (all, facing) = (count(found.all.leak), count(found.facing.leak));
         (all - facing) as f64 / (found.all.compared - found.facing.compared) as f64
     };

@@ -8,7 +8,7 @@ use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 /// A field of boxes and spheres on a floor, wider than the camera and the light see.
 fn field(eye: [f64; 3], light: [f64; 3], cone: f64, shadow: &str) -> Scene {

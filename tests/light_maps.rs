@@ -6,11 +6,11 @@ use std::path::Path;
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth;
 
 #[path = "support/rims.rs"]
 mod rims;
@@ -22,7 +22,7 @@ fn load(name: &str, set: &[String]) -> Scene {
 
 /// Where the shade differs from the truth, within two texels of the map around edges and beyond.
 fn errors(scene: &Scene, texels: u32, renderer: &mut Renderer) -> Metrics {
-    let truth = ray::trace(scene, 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(scene, 0, &truth::Options::default()).unwrap();
     let mut shade = draw_shade(scene, 0, renderer).unwrap();
     // Steeper than ten to one no offset helps (tests/acne.rs): what all but grazes the light is not compared.
     for (covered, pixel) in shade.covered.iter_mut().zip(&truth.pixels) {
@@ -59,7 +59,7 @@ fn a_cube_is_right_on_every_face_edge_and_corner() {
                 String::from("light.shadow.size=128"),
             ];
             let scene = load("room.toml", &set);
-            let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+            let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
             let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
             let band = Band { texels: 2.0, map_size: [128; 2] };
             let found = compare(&truth, &shade, &band).unwrap().all;
@@ -165,7 +165,7 @@ fn a_cube_has_the_faces_that_are_needed() {
     let light = "light.0={ kind = \"point\", position = [0.0, 6.0, 0.0], shadow = { technique = \"shadow-map\" } }";
     let below = ["object.0.scale=[3.0, 1.0, 3.0]", light].map(String::from);
     assert_eq!(faces_drawn(&load("box.toml", &below)), ["light 0: depth, face -y"]);
-    // By the copy road it is drawn and copied.
+    // With `transfer = "copy"` it is drawn and copied.
     let copied = [below.as_slice(), &[String::from("light.shadow.transfer=copy")]].concat();
     let expected = ["light 0: depth, face -y", "light 0: depth, face -y, copied"];
     assert_eq!(faces_drawn(&load("box.toml", &copied)), expected);
@@ -203,7 +203,7 @@ fn faces_that_are_left_out_change_no_pixel() {
     assert!(fewer > 26, "only {fewer} faces were left out");
 }
 
-/// All faces are copied from one depth buffer, which holds the last one's depths: where a cube is made anew, for other bits or
+/// All faces are copied from one depth buffer, which holds the last one's depths: where a cube is made again, for other bits or
 /// other faces, each face is drawn again before it is copied.
 #[test]
 fn faces_are_drawn_again_before_they_are_copied_again() {

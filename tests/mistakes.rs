@@ -3,12 +3,12 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Truth};
 use glumbra::pass::{UniformValue, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::report::metrics::{Band, Metrics, ShadeImage, compare};
+use glumbra::report::measure::metrics::{Band, Metrics, ShadeImage, compare};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::truth::{self, Truth};
+use glumbra::views::View;
 
 fn scene(changes: &[&str]) -> Scene {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
@@ -57,7 +57,7 @@ fn change_planes(plan: &mut Plan, change: impl Fn(&mut Vec<glam::Vec4>)) {
 fn mistakes_are_seen() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
-    let truth = ray::trace(&scene(&[]), 0, &ray::Options::default()).unwrap();
+    let truth = truth::trace(&scene(&[]), 0, &truth::Options::default()).unwrap();
     let right_plan = plan(&mut renderer, &[]);
     let right = measure(&mut renderer, &right_plan, &truth);
     println!("right: wrong {} %, beyond the band {} %", right.all.wrong_percent, right.all.wrong_outside_percent);

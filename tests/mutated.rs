@@ -8,9 +8,8 @@ mod random;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
-use glumbra::scene;
+use glumbra::{scene, truth};
 
 use random::Random;
 
@@ -140,7 +139,7 @@ fn scenes_with_other_numbers_are_refused_or_traced() {
             Ok(loaded) => {
                 let _ = plan::make(&loaded.scene, &Request::default()).map(|plan| plan.summary().to_string());
                 for light in 0..loaded.scene.lights.len() {
-                    if let Ok(truth) = ray::trace(&loaded.scene, light, &ray::Options::default()) {
+                    if let Ok(truth) = truth::trace(&loaded.scene, light, &truth::Options::default()) {
                         assert_eq!([truth.width, truth.height], SIZE, "{text}");
                         traced += 1;
                     }

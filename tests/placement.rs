@@ -6,12 +6,12 @@ use std::path::Path;
 
 use glumbra::context::{self, ContextRequest, Profile};
 use glumbra::device::Pixels;
+use glumbra::fixed_function::FixedFunction;
 use glumbra::frame::Renderer;
-use glumbra::oracle::fixed_function::FixedFunction;
-use glumbra::oracle::ray::{self, Answer};
 use glumbra::plan::Request;
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Answer};
 
 /// Texels of all colours, 8 by 8; green tells a disc off centre from its surroundings.
 fn write_picture(folder: &Path) {
@@ -82,14 +82,14 @@ fn a_placed_texture_is_one_whose_coordinates_are_placed() {
     }
 }
 
-/// Holes are where the oracle has them, for sight and for light.
+/// Holes are where the ray tracer has them, for sight and for light.
 #[test]
 fn holes_are_where_truth_has_them() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(context.as_ref());
     for (options, ..) in &ROWS[2..] {
         let scene = scene(&format!("{options} a.png\n"), [1.0; 2], [0.0; 2]);
-        let truth = ray::trace(&scene, 0, &ray::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
         let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
         let (mut compared, mut shadowed, mut wrong) = (0, 0, 0);
         for (pixel, shade) in truth.pixels.iter().zip(&shade.shade) {

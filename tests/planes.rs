@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Answer};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Answer};
 
 #[path = "support/random.rs"]
 mod random;
@@ -67,13 +67,13 @@ fn no_bias_leaves_a_plane_dark_wherever_it_stands_and_however_large_it_is() {
         // Every third as the light's unit is; the others from the smallest to the largest.
         let unit = if seed % 3 == 0 { 1.0 } else { 10.0_f64.powf(random.within(-15.5, 16.0)) };
         let scene = plane(random, unit);
-        let truth = ray::trace(&scene, 0, &ray::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
         for keys in &lookups {
             let keys = format!("{keys}, size = {}", if seed % 2 == 0 { 256 } else { 1024 });
             let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
             let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
             let is_lit =
-                |pixel: &ray::Pixel| pixel.answer == Answer::Lit && pixel.hit.is_some_and(|hit| hit.faces_light());
+                |pixel: &truth::Pixel| pixel.answer == Answer::Lit && pixel.hit.is_some_and(|hit| hit.faces_light());
             let pixels = truth.pixels.iter().enumerate().filter(|(_, pixel)| is_lit(pixel));
             let dark = pixels.clone().filter(|(index, _)| shade.covered[*index] && shade.shade[*index] < 1.0).count();
             if dark > 0 {

@@ -3,7 +3,7 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::plan::Request;
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
 fn scene(shadow: &str) -> Scene {
@@ -34,7 +34,7 @@ fn scenes_in_turn_do_not_take_over_each_others_maps() {
     }
 }
 
-/// The map stays as long as nothing of its pass changes; a caster that moves is drawn anew.
+/// The map stays as long as nothing of its pass changes; a caster that moves is drawn again.
 #[test]
 fn a_map_is_drawn_again_when_its_pass_changes() {
     let context = context::open(&ContextRequest::default()).unwrap();

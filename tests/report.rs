@@ -9,15 +9,15 @@ use std::time::{Duration, Instant};
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::Answer;
-use glumbra::report::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
-use glumbra::report::fingerprint;
-use glumbra::report::grid::{self, Grid};
-use glumbra::report::merge::{self, equal_but_for_times};
-use glumbra::report::metrics::{Band, compare};
-use glumbra::report::results::{Report, Row, SceneReport};
-use glumbra::report::run::{self, Options, draw_shade};
+use glumbra::report::measure::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
+use glumbra::report::measure::grid::{self, Grid};
+use glumbra::report::measure::metrics::{Band, compare};
+use glumbra::report::measure::run::{self, Options, draw_shade};
+use glumbra::report::store::fingerprint;
+use glumbra::report::store::merge::{self, equal_but_for_times};
+use glumbra::report::store::results::{Report, Row, SceneReport};
 use glumbra::scene;
+use glumbra::truth::Answer;
 use lit_box::SCENE;
 
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
@@ -100,16 +100,14 @@ fn a_report_says_how_wrong_and_for_what_price() {
     assert!(!work.path("out/report.journal.jsonl").exists());
 }
 
-/// Without a grid of one's own: every technique has a row that was drawn, and its documents' claims their numbers.
+/// Without a grid of one's own: every technique has a row that was drawn, and published claims of it have their numbers.
 #[test]
-fn a_report_tells_what_the_documents_claim() {
+fn a_report_measures_published_claims() {
     let work = Work::new();
     let mut command = Command::new(GLUMBRA);
     command.current_dir(work.folder.path());
     let told = succeed(command.args(["report", "scene.toml", "--quick", "--runs", "1", "-o", "out"]));
-    assert!(
-        told.contains("What the documents claim, on scene.toml:") && told.contains("second-depth: moves the error")
-    );
+    assert!(told.contains("Published claims, on scene.toml:") && told.contains("second-depth: moves the error"));
     let report = work.load("out");
     let scene = only_scene(&report);
     for technique in ["none", "shadow-map", "midpoint", "second-depth", "shadow-volume"] {
@@ -121,7 +119,7 @@ fn a_report_tells_what_the_documents_claim() {
     assert!(sides().all(|side| side.value.is_some() != side.why.is_some()), "{told}");
     assert!(sides().filter(|side| side.value.is_some()).count() >= 18, "{told}");
     let page = std::fs::read_to_string(work.path("out/report.html")).unwrap();
-    assert!(page.contains("What the documents claim, on this scene"));
+    assert!(page.contains("Published claims, on this scene"));
 }
 
 #[test]
@@ -420,7 +418,8 @@ fn a_fingerprint_is_of_every_file_that_a_row_depends_on() {
 fn a_stamp_is_of_the_driver_and_the_machine() {
     let machine = run::machine(&options()).unwrap();
     let stamp = |renderer: &str, jobs, runs| {
-        let machine = glumbra::report::results::Machine { renderer: renderer.to_owned(), jobs, ..machine.clone() };
+        let machine =
+            glumbra::report::store::results::Machine { renderer: renderer.to_owned(), jobs, ..machine.clone() };
         fingerprint::stamp(&machine, &Options { runs, ..options() })
     };
     assert_eq!(stamp("a", 1, 1), stamp("a", 1, 1));

@@ -155,7 +155,7 @@ fn steep_faces_in_one_plane_do_not_shade_each_other() {
 
 /// A steep side far behind in the box of a sun, before a floor beyond the box: its offset is as deep as what is left of the
 /// box.
-/// Sides of volumes that the eye sees edge-on: the oracle calls the one or two samples that they cover uncertain.
+/// Sides of volumes that the eye sees edge-on: the ray tracer calls the one or two samples that they cover uncertain.
 #[test]
 fn sides_seen_edge_on_are_in_doubt() {
     let keys = "method = \"z-fail-truncated\"";

@@ -2,10 +2,10 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Truth};
-use glumbra::report::metrics::{Band, Errors, compare};
-use glumbra::report::run::{draw_shade, with_shadow};
+use glumbra::report::measure::metrics::{Band, Errors, compare};
+use glumbra::report::measure::run::{draw_shade, with_shadow};
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Truth};
 
 #[path = "support/random.rs"]
 mod random;
@@ -83,7 +83,7 @@ fn warnings(scene: &Scene, keys: &str) -> Vec<String> {
 }
 
 fn truth(scene: &Scene) -> Option<Truth> {
-    ray::trace(scene, 0, &ray::Options { most_ambiguous: 0.2, ..Default::default() }).ok()
+    truth::trace(scene, 0, &truth::Options { most_ambiguous: 0.2, ..Default::default() }).ok()
 }
 
 const LOOKUPS: &[&str] = &[
@@ -166,8 +166,8 @@ fn floors_as_large_as_may_be() {
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\nrotate = {{ axis = [0, 1, 0], angle = {angle:?} }}\n\
                  [[object]]\nmesh = \"box\"\nscale = 0.5\ntranslate = [0.0, 0.5, 0.0]\n",
             ));
-            // The oracle grants the floor the errors of GL's clipping, and is of two minds about much of it.
-            let truth = ray::trace(&scene, 0, &ray::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
+            // The ray tracer grants the floor the errors of GL's clipping, and is of two minds about much of it.
+            let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
             let square =
                 ["bias = \"receiver-plane\"", "bias = \"normal-offset\"", "bias = \"adaptive\"", "into = \"stencil\""];
             let all = ["bias = \"offset\"", "kernel = \"5x5\"", "compare = \"gequal\", format = \"depth32f\""];

@@ -1,4 +1,4 @@
-//! Shadow maps as tags in the stencil buffer (A20) against the shade that a shader asks for: every kind of light, holes,
+//! Shadow maps as tags in the stencil buffer against the shade that a shader looks up: every kind of light, holes,
 //! kernels and filters, counts of volumes beside them; and what has no tag is refused by name.
 
 use std::path::Path;
@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::pass::Redraw;
 use glumbra::plan::{self, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 /// A scene of `data/` with overrides.
 fn load(path: &str, set: &[&str]) -> Scene {
@@ -99,7 +99,7 @@ fn a_tag_is_no_volume_to_look_at() {
     for view in [View::Volume, View::Silhouette] {
         let views = vec![ViewRequest { view, light: 0 }];
         let error = plan::make(&scene, &Request { views, ..Request::default() }).unwrap_err().to_string();
-        assert!(error.contains("light 0 counts no volumes"), "{error}");
+        assert!(error.contains("light 0 counts no shadow volumes"), "{error}");
     }
 }
 

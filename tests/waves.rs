@@ -1,4 +1,4 @@
-//! Casters that the vertex stage moves (A19): their shadows against ray-traced truth, which moves vertices by itself, for
+//! Casters that the vertex stage moves: their shadows against ray-traced truth, which moves vertices by itself, for
 //! every technique; depth EQUAL passes to the bit; normals against the surface's own slopes.
 
 use std::path::Path;
@@ -9,11 +9,11 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::geometry::{Wave, primitive};
-use glumbra::oracle::ray;
 use glumbra::plan::{self, Request};
-use glumbra::report::metrics::{Band, compare};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::metrics::{Band, compare};
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
+use glumbra::truth;
 
 #[path = "support/rims.rs"]
 mod rims;
@@ -52,7 +52,7 @@ fn what_waves_casts_its_moved_shadow() {
     let mut renderer = Renderer::new(context.as_ref());
     for (set, texels) in TABLE {
         let scene = load(set);
-        let truth = ray::trace(&scene, 0, &ray::Options::default()).unwrap();
+        let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         let mut shade = draw_shade(&scene, 0, &mut renderer).unwrap();
         // Steeper than ten to one no offset helps (tests/acne.rs); the side of a sheet that is turned away from the light
         // lies behind itself by nothing, and no map shadows it.

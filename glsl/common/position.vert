@@ -8,7 +8,7 @@ uniform mat4 clip_from_model;
 invariant gl_Position;
 
 #ifdef WAVE
-// The vertex moves to p + reach sin(2 pi (vector . p + phase)); the phase, in turns, is the vector's w [techniques A19].
+// The vertex moves to p + reach sin(2 pi (vector . p + phase)); the phase, in turns, is the vector's w.
 uniform vec3 wave_reach;
 uniform vec4 wave_vector;
 

@@ -1,4 +1,4 @@
-// The second pass of Woo's midpoint map [Hardware Shadow Mapping, "Advantages and Limitations"]: the nearest layer is
+// The second pass of Woo's midpoint map [HSM, "Advantages and Limitations"]: the nearest layer is
 // peeled away at the fragment's own texel; what is left writes the middle between its own depth and the nearest one, and
 // the depth test keeps the least.
 uniform sampler2D nearest;
@@ -22,12 +22,12 @@ void main()
     alpha_test();
 #endif
 #ifdef CLAMPED
-    // As the depth test has it, which comes later [GL 4.6, 17.3.4].
+    // The depth test, which comes later, clamps alike [GL 4.6, 17.3.4].
     own = clamp(own, 0.0, 1.0);
 #endif
     float first = texelFetch(nearest, ivec2(gl_FragCoord.xy), 0).r;
 #ifdef COMPARE
-    // The document's way: by the texture unit.
+    // By the texture unit, as the document does it.
     vec2 texel_centre = gl_FragCoord.xy / vec2(textureSize(nearest, 0));
     bool is_behind = texture(nearest_compared, vec3(texel_centre, own - apart)) != 0.0;
 #elif defined(REVERSED)

@@ -1,6 +1,6 @@
-// Adaptive bias [Dou et al. 2014]: each texel is compared with the receiver's own plane where the light's ray through the
-// texel's centre meets it. GL_LINEAR's one reference cannot be right for four texels, so that the texels are asked for one
-// by one (GL_NEAREST), and its weights are applied here.
+// Adaptive bias [Dou 2014]: each texel is compared with the receiver's own plane where the light's ray through the
+// texel's centre meets it. GL_LINEAR's one reference cannot be right for four texels, so the texels are read one by one
+// (GL_NEAREST), and its weights are applied here.
 uniform sampler2DShadow shadow_map_@;
 uniform float towards_light_@; // 1, or -1 where depth is reversed
 

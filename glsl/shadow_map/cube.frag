@@ -1,5 +1,5 @@
-// A point light's cube map [Hardware Shadow Mapping; techniques A16]: the way from the light chooses face and texel, and
-// is compared with the depth that the face's projection gives to its largest component; 1 lit, 0 shadowed, between them
+// Cube map of a point light: the direction from the light chooses face and texel. The depth that the face's projection
+// gives to its largest component is compared with the map; 1 lit, 0 shadowed, between them
 // what GL_LINEAR makes of four comparisons, across seams too.
 uniform samplerCubeShadow shadow_map_@;
 uniform vec2 face_depth_@; // r = x - y / depth

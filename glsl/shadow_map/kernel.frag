@@ -1,5 +1,5 @@
 // Percentage-closer filtering by KERNEL_@ x KERNEL_@ comparisons of the texture unit, one texel apart, each weighted alike
-// [Reeves et al. 1987; lecture, "Hardware Shadow Map Filtering"]. With GL_LINEAR each of them is four, so that the
+// [Reeves 1987; LEC, "Hardware Shadow Map Filtering"]. With GL_LINEAR each of them is four, so that the
 // weights are a box's and a tent's together.
 uniform sampler2DShadow shadow_map_@;
 

@@ -6,7 +6,7 @@ float shade_@()
 {
     vec4 coord = light_coord_@;
 #ifdef CLAMP_REFERENCE_@
-    // Fixed-point maps clamp the reference to [0, 1]; floating-point ones leave it to us, or all beyond far goes dark.
+    // Fixed-point maps clamp the reference to [0, 1]; for floating-point maps the shader does, or all beyond far is dark.
     coord.z = clamp(coord.z, 0.0, coord.w);
 #endif
     return textureProj(shadow_map_@, coord);

@@ -1,4 +1,4 @@
-// Each sample's planar distance from the light, r/q [Hardware Shadow Mapping, Fig. 4, middle].
+// Planar distance of each sample from the light, r/q [HSM, Figure 4, middle].
 out vec4 fragment;
 
 void main()

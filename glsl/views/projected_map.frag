@@ -1,4 +1,4 @@
-// The map's depths projected onto the scene [Hardware Shadow Mapping, Fig. 4, right].
+// Depths of the map, projected onto the scene [HSM, Figure 4, right].
 uniform sampler2D depth_map_@;
 
 out vec4 fragment;

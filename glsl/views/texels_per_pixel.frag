@@ -1,5 +1,4 @@
-// How much of the map a pixel of this picture shows [Hardware Shadow Mapping, Fig. 6; techniques A17]: the side of a square
-// of texels that is as large as what the pixel's square becomes in the map.
+// Side of the square of map texels that one pixel of this picture covers [HSM, Figure 6].
 #ifdef CUBE_@
 uniform samplerCube counted_map_@;
 #else

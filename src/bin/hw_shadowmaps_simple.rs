@@ -1,5 +1,5 @@
 //! hw_shadowmaps_simple: a teapot over a floor in a projected spotlight, shadowed by a depth map that the texture unit
-//! compares. A port of the sample program of that name (NVSDK, 2000) by the facts in techniques E; the scene itself is
+//! compares. A port of the sample program of that name (NVSDK, 2000) and its public facts; the scene itself is
 //! `data/scenes/hw_shadowmaps_simple.toml`, compiled in.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)]

@@ -1,6 +1,6 @@
 //! hw_woo_shadowmaps: the scene of hw_shadowmaps_simple shadowed by Woo's midpoint map, which needs no polygon offset; a
-//! key goes over to polygon offset and back. After the sample program of that name (NVSDK), of which the white paper
-//! tells the idea alone [Hardware Shadow Mapping, "Advantages and Limitations"; techniques A14, E].
+//! key switches to polygon offset and back. After the sample program of that name (NVSDK), of which only the idea is
+//! published [HSM, "Advantages and Limitations"].
 
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 

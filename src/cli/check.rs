@@ -7,15 +7,15 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{ContextArgs, Error};
+use crate::conformance::{self, Checked, Subject, waivers};
 use crate::context::{self, Context, Profile};
-use crate::oracle::semantics::{self, Checked, Subject, waivers};
 use crate::output;
 
 /// Runs GL's rules for shadows on the driver at hand: does it do what the specification says?
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct CheckArgs {
-    /// Only rules with this id, kind or word: C1, s, stencil; may be given again
+    /// Only rules with this id, kind or word: GL-C1, s, stencil; may be given again
     #[arg(long, value_name = "PATTERN")]
     filter: Vec<String>,
 
@@ -23,7 +23,7 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 
-    /// Writes everything that was measured, as JSON
+    /// Writes all measurements as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 
@@ -31,11 +31,11 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     waivers: Option<PathBuf>,
 
-    /// Lists what passes, too
+    /// Lists checks that pass, too
     #[arg(short, long)]
     verbose: bool,
 
-    /// Asks for a core context, where rules of the fixed-function pipeline cannot be tested
+    /// Uses a core context, where rules of the fixed-function pipeline cannot be tested
     #[arg(long)]
     core: bool,
 
@@ -56,7 +56,7 @@ A waiver names a deviation that is known, by driver, versions, rule and check:
   version = \"Mesa \"            # a part of GL_VERSION
   from = \"22.3\"               # the first such version, by the number behind it; may be absent
   until = \"27\"                # the first that is sound again; may be absent
-  rule = \"O1\"
+  rule = \"GL-O1\"
   finding = \"DEPTH_COMPONENT32: one unit\"
   reason = \"f32 has 24 bits\"
 One that no longer applies is a failure.
@@ -65,7 +65,7 @@ Exit status: 0 nothing fails, 1 a rule fails, 2 nothing could be run.
 
 Examples:
   glumbra check
-  glumbra check --filter stencil --filter O1 --verbose
+  glumbra check --filter stencil --filter GL-O1 --verbose
   glumbra check --junit out/check.xml --json out/check.json
   GALLIUM_DRIVER=softpipe glumbra check --context egl";
 
@@ -80,7 +80,7 @@ pub fn run(arguments: &CheckArgs) -> ExitCode {
 
 fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
     refuse_one_file_for_two(arguments)?;
-    let rules = semantics::choose(&arguments.filter)?;
+    let rules = conformance::choose(&arguments.filter)?;
     let waivers = waivers::load(arguments.waivers.as_deref())?;
     let context = open(arguments)?;
     let subject = Subject::new(context.as_ref(), None)?;
@@ -88,7 +88,7 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
         bar.set_style(style);
     }
-    let mut outcomes = semantics::run(&subject, &rules, |outcome| {
+    let mut outcomes = conformance::run(&subject, &rules, |outcome| {
         bar.inc(1);
         bar.set_message(format!("{} {}: {}", outcome.id, outcome.title, outcome.verdict));
     });
@@ -113,7 +113,7 @@ fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
 fn print(checked: &Checked, verbose: bool) -> Result<(), Error> {
     const UNKNOWN_WIDTH: u16 = 160;
     let width = terminal_size::terminal_size().map_or(UNKNOWN_WIDTH, |(width, _)| width.0);
-    super::print(&semantics::print(checked, width, verbose))
+    super::print(&conformance::print(checked, width, verbose))
 }
 
 fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
@@ -128,16 +128,16 @@ fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The files that were asked for, or none of them.
+/// Writes all requested files, or none.
 fn write(arguments: &CheckArgs, checked: &Checked) -> Result<(), Error> {
     let mut files: Vec<(&Path, String)> = Vec::new();
     if let Some(path) = &arguments.json {
-        files.push((path, semantics::json(checked)?));
+        files.push((path, conformance::json(checked)?));
     }
     if let Some(path) = &arguments.junit {
-        files.push((path, semantics::junit(checked)?));
+        files.push((path, conformance::junit(checked)?));
     }
     let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
-    let written = output::whole::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
+    let written = output::atomic_write::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
     written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })
 }

@@ -4,11 +4,11 @@ use clap::{Args, ValueEnum};
 
 use crate::context::{Choice, ContextRequest, Profile};
 
-/// Which GL context to draw with; to be flattened into a subcommand's arguments.
+/// GL context to draw with; flattened into a subcommand's arguments.
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "Context")]
 pub struct ContextArgs {
-    /// Who makes the OpenGL context
+    /// Maker of the OpenGL context
     #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Auto)]
     context: Kind,
     /// The EGL device to draw on, by its number in `glumbra info`

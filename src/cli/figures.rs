@@ -1,4 +1,4 @@
-//! `glumbra figures`: the documents' figures from our own scenes.
+//! `glumbra figures`: figures of the documents in data/documents.md, from our own scenes.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,8 @@ use crate::figures::{self, FIGURES};
 use crate::frame::Renderer;
 use crate::output;
 
-/// Draws every figure of the documents that shows a result, from our own scenes, as contact sheets with captions.
+/// Draws the figures of the shadow documents (data/documents.md) that show a result, from our own scenes, as contact sheets
+/// with captions.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct FiguresArgs {

@@ -1,4 +1,4 @@
-//! `glumbra info`: what draws here, within which limits, and how exactly.
+//! `glumbra info`: driver, limits and precision.
 
 use std::fmt::Write as _;
 
@@ -6,15 +6,15 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{ContextArgs, Error};
+use crate::conformance::probe::{self, DepthFacts, Measured, OffsetUnit};
 use crate::context::{self, ContextInfo, Profile, egl};
-use crate::device::probe::{self, DepthFacts, Measured, OffsetUnit};
 use crate::process;
 
 #[derive(Clone, Debug, Args)]
 pub(super) struct InfoArgs {
     #[command(flatten)]
     context: ContextArgs,
-    /// Asks for a context with the fixed-function pipeline
+    /// Uses a context with the fixed-function pipeline
     #[arg(long)]
     compatibility: bool,
     /// Prints JSON
@@ -28,7 +28,7 @@ struct Info {
     context: ContextInfo,
     depth_formats: Vec<DepthFacts>,
     egl_devices: Vec<egl::Device>,
-    /// Why there are no devices to list.
+    /// Reason why there are no devices to list.
     egl_devices_error: Option<String>,
 }
 
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &InfoArgs) -> Result<(), Error> {
     let profile = if arguments.compatibility { Profile::Compatibility } else { Profile::Core33 };
     let context = context::open(&arguments.context.request(profile))?;
     let depth_formats = {
-        let _doing = process::doing(format!("measuring depth formats ({})", context.road()));
+        let _doing = process::doing(format!("measuring depth formats ({})", context.backend()));
         probe::depth_formats(context.gl())?
     };
     let (egl_devices, egl_devices_error) = match egl::devices() {
@@ -71,7 +71,7 @@ fn context_rows(context: &ContextInfo) -> Vec<(String, String)> {
         (true, true) => "yes, in use",
     };
     rows(&[
-        ("context", &context.road),
+        ("context", &context.backend),
         ("vendor", &context.vendor),
         ("renderer", &context.renderer),
         ("version", &context.version),

@@ -5,10 +5,10 @@ mod context_args;
 mod figures;
 mod info;
 mod path_text;
+mod pipeline;
 mod plan;
 mod render;
 mod report;
-mod road;
 pub mod sample;
 mod scene_args;
 mod stress;
@@ -20,8 +20,8 @@ use clap::{Parser, Subcommand};
 
 pub use context_args::ContextArgs;
 
+use crate::conformance::probe;
 use crate::context;
-use crate::device::probe;
 
 /// A headless OpenGL reference renderer of shadows and projected light.
 #[derive(Debug, Parser)]
@@ -44,15 +44,15 @@ enum Command {
     Tune(tune::TuneArgs),
 }
 
-/// Why a subcommand failed.
+/// Error of a subcommand.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
     Context(#[from] context::Error),
-    #[error("--road fixed-function needs OpenGL's compatibility profile. {0}")]
+    #[error("--pipeline fixed-function needs OpenGL's compatibility profile. {0}")]
     NoFixedFunction(context::Error),
     #[error(transparent)]
-    FixedFunction(#[from] crate::oracle::fixed_function::Error),
+    FixedFunction(#[from] crate::fixed_function::Error),
     #[error(transparent)]
     Probe(#[from] probe::Error),
     #[error(transparent)]
@@ -68,28 +68,28 @@ pub enum Error {
     #[error(transparent)]
     Figures(#[from] crate::figures::Error),
     #[error(transparent)]
-    Tune(#[from] crate::report::tune::Error),
+    Tune(#[from] crate::report::measure::tune::Error),
     #[error(transparent)]
-    Grid(#[from] crate::report::grid::Error),
+    Grid(#[from] crate::report::measure::grid::Error),
     #[error(transparent)]
-    Report(#[from] crate::report::run::Error),
+    Report(#[from] crate::report::measure::run::Error),
     #[error(transparent)]
-    Journal(#[from] crate::report::journal::Error),
+    Journal(#[from] crate::report::store::journal::Error),
     #[error(transparent)]
-    Pictures(#[from] crate::report::pictures::Error),
+    Pictures(#[from] crate::report::store::pictures::Error),
     #[error(transparent)]
-    KeptPictures(#[from] crate::report::kept::Error),
+    KeptPictures(#[from] crate::report::store::picture_files::Error),
     #[error(transparent)]
-    Merge(#[from] crate::report::merge::Error),
+    Merge(#[from] crate::report::store::merge::Error),
     #[error(transparent)]
-    ReportFiles(#[from] crate::report::write::Error),
+    ReportFiles(#[from] crate::report::store::write::Error),
     #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
     NoSuchCase { name: String },
     #[error(transparent)]
     Stress(#[from] crate::stress::Error),
     #[error(transparent)]
     StressCases(#[from] crate::stress::named::Error),
-    #[error("interrupted: {folder} holds a report of what was done; go on with --resume", folder = .folder.display())]
+    #[error("interrupted: {folder} holds a report of the rows so far; continue with --resume", folder = .folder.display())]
     Interrupted { folder: std::path::PathBuf },
     #[error("{failed} of {rows} settings could not be measured, row {row} for example: {why}; {folder} holds the others", folder = .folder.display())]
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
@@ -98,9 +98,9 @@ pub enum Error {
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]
-    Filter(#[from] crate::oracle::semantics::UnknownFilter),
+    Filter(#[from] crate::conformance::UnknownFilter),
     #[error(transparent)]
-    Waivers(#[from] crate::oracle::semantics::waivers::Error),
+    Waivers(#[from] crate::conformance::waivers::Error),
     #[error("JUnit: {0}")]
     JUnit(#[from] quick_junit::SerializeError),
     #[error("{path}: cannot be written: {error}", path = .path.display())]
@@ -113,7 +113,7 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
-/// Runs the command with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+/// Runs the command with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.
 pub fn run() -> ExitCode {
     if let Err(code) = begin() {
         return code;
@@ -135,7 +135,7 @@ pub fn run() -> ExitCode {
     exit_code(result)
 }
 
-/// What every command does first. The error is its exit status, and has been told.
+/// Set-up of every command. The error is its exit status, and has been printed.
 fn begin() -> Result<(), ExitCode> {
     crate::process::guard();
     // rayon would do so at its first use, and panic where no thread can be had.
@@ -148,7 +148,7 @@ fn begin() -> Result<(), ExitCode> {
 /// Help and version, which are no errors, and errors of usage.
 fn usage(error: &clap::Error) -> ExitCode {
     match error.print() {
-        // What cannot be said on standard error cannot be said at all.
+        // If standard error is closed, the message is lost.
         Err(lost) if !error.use_stderr() => exit_code(Err(lost.into())),
         _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
     }
@@ -161,7 +161,7 @@ fn exit_code(result: Result<(), Error>) -> ExitCode {
     }
 }
 
-/// Says what is wrong, and answers with `status`.
+/// Prints the error, and returns `status`.
 fn failure(error: Error, status: u8) -> ExitCode {
     match error {
         // A reader that has seen enough (`glumbra info | head`) is no error.
@@ -173,7 +173,7 @@ fn failure(error: Error, status: u8) -> ExitCode {
     }
 }
 
-/// Writes a line on standard error. Where that is closed or full there is nowhere left to say it.
+/// Writes a line on standard error. If that is closed or full, the line is lost.
 fn say(line: impl std::fmt::Display) {
     use std::io::Write;
     let _ = writeln!(std::io::stderr(), "{line}");

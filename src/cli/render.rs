@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::path_text::{PathBytes, path_text};
-use super::road::Road;
+use super::pipeline::Pipeline;
 use super::scene_args::{SceneArgs, parse_view};
 use super::{ContextArgs, Error};
 use crate::frame::{Renderer, Times};
@@ -39,9 +39,9 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
-    /// Who draws the passes
+    /// Pipeline that draws the passes
     #[arg(long, value_enum, default_value_t)]
-    road: Road,
+    pipeline: Pipeline,
 
     #[command(flatten)]
     context: ContextArgs,
@@ -67,10 +67,10 @@ Examples:
   glumbra render model.obj -o model.png --size 800x600 --set camera.fov_y=30
   glumbra render scene.toml -o out.exr --aov shade --aov light-depth
   glumbra render scene.toml --set light.shadow.filter=nearest --set light.shadow.size=256
-  glumbra render data/scenes/hw_shadowmaps_simple.toml --road fixed-function -o by-the-driver.png
+  glumbra render data/scenes/hw_shadowmaps_simple.toml --pipeline fixed-function -o by-the-driver.png
   glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Report {
     scene: String,
@@ -93,7 +93,7 @@ struct TimesReport {
     frames_ms: Vec<f64>,
     /// The median of the frames after the first, or the only one.
     frame_median_ms: f64,
-    /// One more frame with every pass drawn anew and waited for; none by fixed function.
+    /// One more frame with every pass redrawn and waited for; absent for fixed function.
     passes: Vec<PassReport>,
 }
 
@@ -123,7 +123,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     };
     // A scene that cannot be planned needs no context to be refused.
     crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..request.clone() })?;
-    let context = arguments.road.open(&arguments.context)?;
+    let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(&loaded.scene, &request)?;
     for warning in &plan.warnings {
@@ -131,7 +131,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     }
     let progress = progress(arguments.frames);
     let (frames, passes) = (arguments.frames, arguments.json);
-    let drawn = arguments.road.draw(context.as_ref(), &mut renderer, &plan, frames, passes, || progress.inc(1));
+    let drawn = arguments.pipeline.draw(context.as_ref(), &mut renderer, &plan, frames, passes, || progress.inc(1));
     progress.finish_and_clear();
     let (times, frame) = drawn?;
     let views = views.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
@@ -146,7 +146,7 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
             scene: path_text(&arguments.scene.scene, &mut path_bytes),
             files: files.iter().map(|path| path_text(path, &mut path_bytes)).collect(),
             path_bytes,
-            context: context.road().to_owned(),
+            context: context.backend().to_owned(),
             renderer: format!("{}, {}", info.renderer, info.version),
             plan: plan.summary(),
             times: report_times(load_ms, times),
@@ -156,13 +156,13 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The views in the order in which they were asked for. One that is asked for twice is one file.
+/// Views in the order of the arguments. A repeated one is one file.
 fn each_once(wanted: &[ViewRequest]) -> Vec<ViewRequest> {
     let mut views: Vec<ViewRequest> = Vec::new();
     for view in wanted {
         if views.contains(view) {
             let name = output::beside(Path::new("PICTURE"), &view_name(view));
-            super::say(format_args!("warning: --aov asks for {} twice; it is written once", name.display()));
+            super::say(format_args!("warning: --aov names {} twice; it is written once", name.display()));
         } else {
             views.push(*view);
         }

@@ -12,12 +12,14 @@ use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::grid::{self, Grid};
-use crate::report::html::{Goals, Pictures};
-use crate::report::journal::{self, Journal, Known};
-use crate::report::results::{Outcome, Report, Row, SceneReport, VERSION};
-use crate::report::run::{self, Options, Sweep};
-use crate::report::{claims, fingerprint, kept, merge, picks, pictures, write};
+use crate::report::measure::grid::{self, Grid};
+use crate::report::measure::picks::Goals;
+use crate::report::measure::run::{self, Options, Sweep};
+use crate::report::measure::{claims, picks};
+use crate::report::show::html::Pictures;
+use crate::report::store::journal::{self, Journal, Known};
+use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
+use crate::report::store::{fingerprint, merge, picture_files, pictures, write};
 
 /// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
 #[derive(Debug, Args)]
@@ -58,15 +60,15 @@ pub struct ReportArgs {
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard)]
     shard: (usize, usize),
 
-    /// Goes on where a run into the same folder was cut short
+    /// Continues an interrupted run into the same folder
     #[arg(long)]
     resume: bool,
 
-    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    /// Error limit, in percent of the pixels: prints the fastest setting within it
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     error: f64,
 
-    /// Names the most exact setting whose frame takes at most this many milliseconds
+    /// Time limit for a frame, in milliseconds: prints the most accurate setting within it
     #[arg(long, value_name = "MS", default_value_t = 16.7)]
     time: f64,
 
@@ -98,15 +100,15 @@ struct MergeArgs {
     #[arg(required = true, value_name = "PART")]
     parts: Vec<PathBuf>,
 
-    /// The folder for the whole
+    /// The folder for the joined report
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Names the cheapest setting that is wrong in at most this many percent of the pixels
+    /// Error limit, in percent of the pixels: prints the fastest setting within it
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     error: f64,
 
-    /// Names the most exact setting whose frame takes at most this many milliseconds
+    /// Time limit for a frame, in milliseconds: prints the most accurate setting within it
     #[arg(long, value_name = "MS", default_value_t = 16.7)]
     time: f64,
 }
@@ -128,9 +130,9 @@ A row is the scene's own [light.shadow] with the row's keys in place of its own,
 checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of
 [light.shadow]. Rows that could not be measured end in exit code 1, and the report holds the others.
 
-Without a grid file the report also holds what the documents claim of the techniques against each scene.
+Without a grid file the report also measures, on each scene, what the techniques' documents claim.
 
-Ctrl-C leaves a report of what was done; --resume goes on from there.";
+Ctrl-C leaves a report of the rows so far; --resume continues it.";
 
 /// `I/N`.
 pub(super) fn parse_shard(text: &str) -> Result<(usize, usize), String> {
@@ -186,12 +188,12 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     check_failures(&report, folder)
 }
 
-/// What of the standard grid was left out, once.
+/// Parts of the standard grid that were left out, each once.
 fn notes_of(sweeps: &[Sweep]) -> Vec<String> {
     sweeps.iter().flat_map(|sweep| sweep.notes.iter().cloned()).collect()
 }
 
-/// The settings to take, and where the page is.
+/// Prints the recommended settings, and the page's path.
 fn print_answers(report: &Report, goals: &Goals, folder: &Path, out: &mut impl Write) -> Result<(), Error> {
     for scene in &report.scenes {
         writeln!(out, "{}", picks::to_text(scene, goals))?;
@@ -199,7 +201,7 @@ fn print_answers(report: &Report, goals: &Goals, folder: &Path, out: &mut impl W
     Ok(writeln!(out, "# {}", folder.join("report.html").display())?)
 }
 
-/// Rows that could not be measured are told at the end, when the others are safe.
+/// Reports rows that could not be measured, at the end, when the others are safe.
 fn check_failures(report: &Report, folder: PathBuf) -> Result<(), Error> {
     let failed: Vec<&Row> = report.scenes.iter().flat_map(SceneReport::failed).collect();
     let rows = report.scenes.iter().map(|scene| scene.rows.len()).sum();
@@ -252,7 +254,7 @@ pub(super) fn stop_on_interrupt() -> Arc<AtomicBool> {
     stop
 }
 
-/// Takes up the rows of an earlier run that the journal holds, and says what of it is not believed.
+/// Takes over the rows of an earlier run from the journal, and warns of rejected ones.
 fn take_up(folder: &Path, stamp: &str, sweeps: &[Sweep], report: &mut Report) -> Result<(), Error> {
     let is_known =
         |fingerprint: &str, row: &Row| match sweeps.iter().find(|sweep| sweep.report.fingerprint == fingerprint) {
@@ -303,11 +305,11 @@ fn measure(
     Ok(())
 }
 
-/// Holds what the documents claim against each scene.
+/// Measures published claims on each scene.
 fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());
-    let bar = super::spinner("what the documents claim, on {msg}");
+    let bar = super::spinner("published claims, on {msg}");
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         bar.set_message(scene.path.display().to_string());
         bar.tick();
@@ -322,11 +324,11 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
     if scene.claims.is_empty() {
         return Ok(());
     }
-    writeln!(out, "# What the documents claim, on {}:", scene.path.display())?;
+    writeln!(out, "# Published claims, on {}:", scene.path.display())?;
     scene.claims.iter().try_for_each(|claim| writeln!(out, "#   {claim}"))
 }
 
-/// Draws what the rows do not: the pictures, and the scene with everything that its plan leaves out.
+/// Draws the pictures, and the scene with everything that its plan leaves out.
 fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(context.as_ref());
@@ -343,7 +345,7 @@ fn run_merge(arguments: &MergeArgs) -> Result<(), Error> {
     let parts = arguments.parts.iter().map(load).collect::<Result<Vec<_>, _>>()?;
     let mut report = merge::merge(parts)?;
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
-    let pictures = kept::of_parts(&arguments.parts, &mut report, &goals)?;
+    let pictures = picture_files::of_parts(&arguments.parts, &mut report, &goals)?;
     write::make_folder(&arguments.output)?;
     write::write_all(&arguments.output, &report, &pictures, &goals)?;
     print_answers(&report, &goals, &arguments.output, &mut std::io::stdout().lock())?;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, ValueEnum};
 
-use super::road::Road;
+use super::pipeline::Pipeline;
 use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
 use crate::context::{Choice, Profile};
@@ -17,14 +17,14 @@ use crate::plan::Request;
 use crate::scene::{self, Embedded, Scene};
 use crate::viewer::{self, Mode, Shown, State};
 
-/// What a sample program is.
+/// A sample program.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     pub name: &'static str,
     pub about: &'static str,
     pub scene: Embedded,
-    /// Shadow techniques to choose from, in place of the scene's own; the first is the one to begin with. None: the
-    /// scene's own alone.
+    /// Shadow techniques to choose from, in place of the scene's own; the first is the one to begin with. Empty: only the
+    /// scene's own.
     pub techniques: &'static [&'static str],
 }
 
@@ -43,7 +43,7 @@ struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "headless")]
     capture: Option<PathBuf>,
 
-    /// The picture to begin with; space goes on to the next
+    /// The picture to begin with; space switches to the next
     #[arg(long, value_enum, default_value_t = ModeName::Shadowed)]
     mode: ModeName,
 
@@ -58,9 +58,9 @@ struct Arguments {
     #[command(flatten)]
     tweaks: TweakArgs,
 
-    /// Who draws
+    /// Pipeline that draws
     #[arg(long, value_enum, default_value_t, requires = "headless")]
-    road: Road,
+    pipeline: Pipeline,
 
     #[command(flatten)]
     context: ContextArgs,
@@ -104,7 +104,7 @@ impl From<ModeName> for Mode {
     }
 }
 
-/// Runs a sample program with the process's arguments: 0 for success, 1 for an error of ours, 2 for one of usage.
+/// Runs a sample program with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.
 pub fn run(sample: &Sample) -> ExitCode {
     let mut command =
         Arguments::command().name(sample.name).about(sample.about).after_help(viewer::help(sample.techniques));
@@ -131,7 +131,7 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     for warning in &loaded.warnings {
         super::say(format_args!("warning: {warning}"));
     }
-    // What is wrong is told in every mode, and before there is a context: the scene's own keys, then the mode's frame.
+    // Errors are reported in every mode, and before there is a context: the scene's own keys, then the mode's frame.
     crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..Request::default() })?;
     let mode = Mode::from(arguments.mode);
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
@@ -150,10 +150,10 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
 /// One picture without a window.
 fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
     request.float_picture = output::check_path(path)?.is_exact();
-    let context = arguments.road.open(&arguments.context)?;
+    let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
     let plan = renderer.plan(scene, &request)?;
-    let (_, frame) = arguments.road.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
+    let (_, frame) = arguments.pipeline.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
     Ok(frame.picture)
 }
 
@@ -162,7 +162,7 @@ fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {
 }
 
 impl Arguments {
-    /// In order: the sample's technique, size and tweaks, then `--set`.
+    /// Overrides in order: the sample's technique, size and tweaks, then `--set`.
     fn overrides(&self, sample: &Sample) -> Vec<String> {
         let technique = sample.techniques.first().map(|name| format!("light.shadow.technique={name}"));
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));

@@ -1,4 +1,4 @@
-//! What every subcommand that draws takes: a scene and what to change in it.
+//! Arguments of every subcommand that draws: a scene and changes of it.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use clap::Args;
 use super::Error;
 use crate::plan::ViewRequest;
 use crate::scene::{self, Loaded};
-use crate::techniques::views::VIEWS;
+use crate::views::VIEWS;
 
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]
@@ -36,7 +36,7 @@ impl SceneArgs {
         size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
     }
 
-    /// Refuses options that the scene has no use for.
+    /// Refuses options that do not apply to the scene.
     pub fn check(&self) -> Result<(), Error> {
         let is_scene = self.scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
         if self.no_floor && is_scene { Err(Error::NoFloor { scene: self.scene.clone() }) } else { Ok(()) }

@@ -13,7 +13,7 @@ use super::report::{parse_shard, stop_on_interrupt};
 use super::{ContextArgs, Error, spinner};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::output::whole;
+use crate::output::atomic_write;
 use crate::stress::{self, Case, CaseResult, Options, Verdict, named, random};
 use crate::techniques::TABLE;
 
@@ -25,7 +25,7 @@ pub struct StressArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// How many random scenes, beside the named cases
+    /// Number of random scenes, in addition to the named cases
     #[arg(long, value_name = "N", default_value_t = 100)]
     count: u64,
 
@@ -65,9 +65,9 @@ const HELP: &str = "\
 Verdicts:
   right           within the technique's bound
   false alarm     within it, although the plan warns
-  warned          outside it, and the plan says why
-  refused         a clear error in place of a picture
-  silently wrong  outside it, and nothing said
+  warned          outside it, with a warning in the plan
+  refused         an error instead of a picture
+  silently wrong  outside it, without a warning
 
 The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's
 reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face the
@@ -122,7 +122,7 @@ fn stress(arguments: &StressArgs) -> Result<bool, Error> {
     }
     if let Some(path) = &arguments.json {
         let json = stress::to_json(arguments.seed, &results)?;
-        let written = whole::write_all(&[path], |_, path| std::fs::write(path, &json));
+        let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &json));
         written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
     }
     print(arguments, &results)?;

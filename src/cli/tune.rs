@@ -1,4 +1,4 @@
-//! `glumbra tune`: which offset, which map size.
+//! `glumbra tune`: finds the polygon offset and the map size.
 
 use clap::Args;
 
@@ -6,7 +6,7 @@ use super::scene_args::SceneArgs;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::tune::{self, Options, Point, Tuned};
+use crate::report::measure::tune::{self, Options, Point, Tuned};
 
 /// Finds the polygon offset and the smallest map that a scene needs, with ray-traced truth as the judge.
 #[derive(Debug, Args)]
@@ -35,7 +35,8 @@ pub struct TuneArgs {
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1)]
     leak: f64,
 
-    /// Pixels in 100,000 that may stay falsely dark (slivers steeper than their neighbours need large offsets); 2 always may
+    /// Acne allowed, in pixels per 100,000. Two pixels are always allowed, because thin steep triangles would otherwise
+    /// force a huge offset
     #[arg(long, value_name = "COUNT", default_value_t = 1.0)]
     spare: f64,
 
@@ -75,7 +76,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     if arguments.json { super::print_json(&tuned) } else { print(&tuned, &options) }
 }
 
-/// With fewer pixels in shadow there is little that could leak.
+/// Fewest pixels in shadow; with fewer there is little that could leak.
 const FEWEST_SHADOWED: usize = 100;
 
 fn line(point: &Point) -> String {

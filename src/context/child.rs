@@ -1,10 +1,10 @@
-//! What may crash, tried in a child process first.
+//! Runs work that may crash in a child process first.
 
-/// Does `work` in a copy of this process, and tells whether the copy was still there afterwards.
+/// Does `work` in a copy of this process, and returns whether the copy survived.
 ///
 /// # Errors
 ///
-/// How it ended: by a signal, or not at all.
+/// The way it ended: by a signal, or not at all.
 #[cfg(unix)]
 pub(super) fn survives(work: impl FnOnce()) -> Result<(), String> {
     // SAFETY: the child goes on with this thread alone, and leaves by _exit. Locks that other threads held stay locked in it;

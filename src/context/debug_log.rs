@@ -1,4 +1,4 @@
-//! What a debug context reports (KHR_debug), collected until somebody asks.
+//! Messages of a debug context (KHR_debug), collected until they are read.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -14,7 +14,7 @@ pub struct DebugMessage {
 }
 
 impl DebugMessage {
-    /// Whether it tells of a mistake: an error, or behaviour that GL leaves undefined.
+    /// Tests whether it reports a mistake: an error, or behaviour that GL leaves undefined.
     pub fn is_error(&self) -> bool {
         matches!(self.kind, glow::DEBUG_TYPE_ERROR | glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR)
     }

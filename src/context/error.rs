@@ -1,13 +1,13 @@
-//! What can go wrong on the way to a context, said once and with what to do about it.
+//! Errors of opening a context, each with its remedy.
 
 use std::fmt;
 
-use super::{Choice, Road};
+use super::{Backend, Choice};
 
-/// A road that was tried, and what it answered.
+/// A backend that was tried, and its answer.
 #[derive(Clone, Debug)]
 pub struct Attempt {
-    pub road: Road,
+    pub backend: Backend,
     pub reached: Reached,
     pub answer: String,
 }
@@ -20,8 +20,8 @@ pub enum Error {
     Device { index: usize, answer: String },
     #[error("--device {index} chooses among EGL devices; a context of kind `{}` has none", choice_name(.choice))]
     DeviceWithoutEgl { index: usize, choice: Choice },
-    #[error("the {road} context cannot be made current: {answer}")]
-    NotCurrent { road: String, answer: String },
+    #[error("the {backend} context cannot be made current: {answer}")]
+    NotCurrent { backend: String, answer: String },
     #[error("the window cannot be shown: {0}")]
     Present(String),
 }
@@ -35,7 +35,7 @@ fn choice_name(choice: &Choice) -> &'static str {
     }
 }
 
-/// What to install, by distribution. OSMesa is left out: newer distributions have no such package.
+/// Packages to install, by distribution. OSMesa is left out: newer distributions have no such package.
 const INSTALL: &[(&str, &str)] = &[
     ("Debian, Ubuntu", "apt-get install libegl1 libgl1-mesa-dri"),
     ("Fedora", "dnf install mesa-libEGL mesa-dri-drivers"),
@@ -69,7 +69,7 @@ fn variables() -> Vec<String> {
     set.map(|(name, value)| format!("{name}={}", value.to_string_lossy())).collect()
 }
 
-/// How far a road went.
+/// Stage that a backend reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reached {
     /// The library cannot be loaded.
@@ -80,7 +80,7 @@ pub enum Reached {
     Driver,
 }
 
-/// Why a road ends.
+/// Reason why a backend failed.
 #[derive(Clone, Debug)]
 pub(super) struct Refusal {
     pub reached: Reached,
@@ -109,11 +109,12 @@ impl From<&str> for Refusal {
     }
 }
 
-/// What was tried before `road`, for the message of a crash on it: a line each, and the variables that may be why.
-pub(super) fn tried_before(road: Road, attempts: &[Attempt]) -> String {
-    let mut text = format!("opening a context by {road}");
-    for Attempt { road, answer, .. } in attempts {
-        text.push_str(&format!("\n  before that      {road}: {answer}"));
+/// Attempts before `backend`, for the message of a crash in it: a line each, and the environment variables that may be the
+/// cause.
+pub(super) fn tried_before(backend: Backend, attempts: &[Attempt]) -> String {
+    let mut text = format!("opening a context by {backend}");
+    for Attempt { backend, answer, .. } in attempts {
+        text.push_str(&format!("\n  before that      {backend}: {answer}"));
     }
     let set = variables();
     if !set.is_empty() {
@@ -128,12 +129,12 @@ struct Report<'a>(&'a [Attempt]);
 impl fmt::Display for Report<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "no OpenGL context can be had. What was tried, and what it answered:")?;
-        for Attempt { road, answer, .. } in self.0 {
-            writeln!(f, "  {road:<16} {answer}")?;
+        for Attempt { backend, answer, .. } in self.0 {
+            writeln!(f, "  {backend:<16} {answer}")?;
         }
         let farthest = self.0.iter().map(|attempt| attempt.reached).max().unwrap_or(Reached::Nothing);
         let set = variables();
-        if self.0.iter().all(|attempt| attempt.road == Road::Window) {
+        if self.0.iter().all(|attempt| attempt.backend == Backend::Window) {
             return write!(f, "A picture needs no window: try --context egl.");
         }
         if farthest > Reached::Nothing && !set.is_empty() {

@@ -1,15 +1,15 @@
-//! What a context says of itself: names, versions and limits, for `glumbra info` and for reports.
+//! Names, versions and limits of a context, for `glumbra info` and for reports.
 
 use glow::HasContext;
 use serde::Serialize;
 
 use super::load::Loaded;
 
-/// Who draws, and within which limits.
+/// The driver of a context, and its limits.
 #[derive(Clone, Debug, Serialize)]
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
-    pub road: String,
+    pub backend: String,
     pub vendor: String,
     pub renderer: String,
     pub version: String,
@@ -17,7 +17,7 @@ pub struct ContextInfo {
     /// `core` or `compatibility`, by GL_CONTEXT_PROFILE_MASK; `none` before OpenGL 3.2.
     pub profile: &'static str,
     pub khr_debug: bool,
-    /// Whether errors are reported with their text, at the call that made them.
+    /// True if errors are reported with their text, at the call that made them.
     pub debug_output: bool,
     /// Bits of the counter of GL_TIME_ELAPSED queries; 0: passes cannot be timed on the device.
     pub timer_bits: u32,
@@ -48,13 +48,13 @@ pub struct Limits {
     pub uniform_block_bytes: i32,
 }
 
-/// Asks the context, which must be current.
+/// Queries the context, which must be current.
 pub(super) fn describe(loaded: &Loaded) -> ContextInfo {
     let gl = &*loaded.gl;
     // SAFETY: queries of strings that every context has since OpenGL 2.0.
     let text = |name| unsafe { gl.get_parameter_string(name) };
     ContextInfo {
-        road: loaded.road.clone(),
+        backend: loaded.backend.clone(),
         vendor: text(glow::VENDOR),
         renderer: text(glow::RENDERER),
         version: text(glow::VERSION),

@@ -1,4 +1,4 @@
-//! From a context that is current to its functions: checks what was got before glow, which panics on surprises.
+//! Loads the functions of the current context. Checks the context before glow does, which panics on surprises.
 
 use std::ffi::{CStr, c_char, c_void};
 use std::rc::Rc;
@@ -8,25 +8,25 @@ use glow::HasContext;
 use super::debug_log::{self, DebugLog};
 use super::{ContextRequest, Profile};
 
-/// The functions of a context, and what was found out as they were loaded.
+/// The functions of a context, and its properties.
 pub struct Loaded {
     pub(super) gl: Rc<glow::Context>,
-    pub(super) road: String,
+    pub(super) backend: String,
     pub(super) profile: Profile,
     pub(super) debug_log: Option<DebugLog>,
     pub(super) timer_bits: u32,
     pub(super) address_of: Box<AddressOf>,
 }
 
-/// Answers with a function of the context that it came with, or null.
+/// Looks up a function of its context; null if there is none.
 pub(super) type AddressOf = dyn Fn(&CStr) -> *const c_void;
 
-/// Loads the functions of the context that is current, and refuses one that is older than what was asked for.
+/// Loads the functions of the context that is current, and refuses one that is older than requested.
 ///
 /// # Safety
 /// A context is current on this thread, and `address_of` answers with that context's functions or null.
 pub(super) unsafe fn load(
-    road: String,
+    backend: String,
     request: &ContextRequest,
     address_of: impl Fn(&CStr) -> *const c_void + 'static,
 ) -> Result<Loaded, String> {
@@ -47,7 +47,7 @@ pub(super) unsafe fn load(
     let timer_bits = if has_timer { unsafe { timer_bits(&address_of) } } else { 0 };
     let debug_log = request.debug.then(|| debug_log::attach(&mut gl)).flatten();
     let (gl, profile) = (Rc::new(gl), request.profile);
-    Ok(Loaded { gl, road, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
+    Ok(Loaded { gl, backend, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
 }
 
 /// glGetQueryiv, which glow leaves out.

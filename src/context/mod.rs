@@ -1,14 +1,16 @@
 //! A current GL context behind one trait: EGL, OSMesa or a window's.
 //!
-//! Owns how a context is found, kept and given up, and what it says of itself. Knows nothing of what is drawn with it.
-//! Loading the driver's libraries happens here and nowhere else; none is linked to.
+//! Opens, keeps and closes contexts, and describes them. Knows nothing of drawing. Loading the driver's libraries happens
+//! here and nowhere else; none is linked to.
 //!
-//! The roads are tried in the order of [`Road`]; each that fails says why, and the first that answers is taken.
+//! The backends are tried in the order of [`Backend`]. Each that fails says why; the first that works is taken.
 
 mod child;
+pub mod compatibility;
 mod debug_log;
 pub mod egl;
 mod error;
+mod gl_names;
 mod heap;
 mod info;
 mod load;
@@ -21,24 +23,25 @@ use std::rc::Rc;
 
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
+pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};
 pub use info::{ContextInfo, Limits};
 pub use load::Loaded;
 
 use crate::process;
 use error::Refusal;
 
-/// What kind of context is wanted.
+/// Kind of context that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct ContextRequest {
     pub choice: Choice,
-    /// An EGL device by its index in [`egl::devices`]; then only [`Road::EglDevice`] is tried.
+    /// An EGL device by its index in [`egl::devices`]; then only [`Backend::EglDevice`] is tried.
     pub device: Option<usize>,
     pub profile: Profile,
-    /// Asks for a debug context, whose errors are collected with their text (KHR_debug).
+    /// True for a debug context, whose errors are collected with their text (KHR_debug).
     pub debug: bool,
 }
 
-/// Who makes the context.
+/// Maker of the context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Choice {
     /// EGL, then OSMesa, then a hidden window where there is a display.
@@ -49,19 +52,19 @@ pub enum Choice {
     Window,
 }
 
-/// Which half of OpenGL is wanted.
+/// OpenGL profile that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Profile {
     /// OpenGL 3.3 core or later: for rendering.
     #[default]
     Core33,
-    /// With the fixed-function pipeline: for the oracle.
+    /// With the fixed-function pipeline.
     Compatibility,
 }
 
 /// One way to a context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Road {
+pub enum Backend {
     /// EGL_MESA_platform_surfaceless: no display, no surface.
     EglSurfaceless,
     /// EGL_EXT_platform_device: one of the machine's devices, by index.
@@ -74,7 +77,7 @@ pub enum Road {
     Window,
 }
 
-impl fmt::Display for Road {
+impl fmt::Display for Backend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::EglSurfaceless => "EGL surfaceless",
@@ -87,18 +90,18 @@ impl fmt::Display for Road {
 }
 
 impl ContextRequest {
-    /// The roads to try, in order.
-    fn roads(&self) -> Result<Vec<Road>, Error> {
-        let egl = [Road::EglSurfaceless, Road::EglDevice, Road::EglPbuffer];
+    /// Backends to try, in order.
+    fn backends(&self) -> Result<Vec<Backend>, Error> {
+        let egl = [Backend::EglSurfaceless, Backend::EglDevice, Backend::EglPbuffer];
         match (self.device, self.choice) {
-            (Some(_), Choice::Auto | Choice::Egl) => Ok(vec![Road::EglDevice]),
+            (Some(_), Choice::Auto | Choice::Egl) => Ok(vec![Backend::EglDevice]),
             (Some(index), choice) => Err(Error::DeviceWithoutEgl { index, choice }),
             (None, Choice::Egl) => Ok(egl.to_vec()),
-            (None, Choice::OsMesa) => Ok(vec![Road::OsMesa]),
-            (None, Choice::Window) => Ok(vec![Road::Window]),
+            (None, Choice::OsMesa) => Ok(vec![Backend::OsMesa]),
+            (None, Choice::Window) => Ok(vec![Backend::Window]),
             (None, Choice::Auto) => {
-                let window = window::display_is_named().then_some(Road::Window);
-                Ok(egl.into_iter().chain([Road::OsMesa]).chain(window).collect())
+                let window = window::display_is_named().then_some(Backend::Window);
+                Ok(egl.into_iter().chain([Backend::OsMesa]).chain(window).collect())
             }
         }
     }
@@ -108,7 +111,7 @@ impl ContextRequest {
 ///
 /// GL objects made with [`gl`](Self::gl) must be gone before the context is: their names mean nothing without it.
 pub trait Context {
-    /// What every kind of context holds.
+    /// Data that every kind of context has.
     fn loaded(&self) -> &Loaded;
 
     /// Makes it current on this thread again, after another was.
@@ -120,22 +123,22 @@ pub trait Context {
     }
 
     /// The way it was made, as a person reads it: `EGL surfaceless`, `EGL device 1`.
-    fn road(&self) -> &str {
-        &self.loaded().road
+    fn backend(&self) -> &str {
+        &self.loaded().backend
     }
 
-    /// Which profile was asked for.
+    /// Profile that was requested.
     fn profile(&self) -> Profile {
         self.loaded().profile
     }
 
-    /// What the driver reports, where it was asked to and can.
+    /// Messages of the driver, in a debug context.
     fn debug_log(&self) -> Option<&DebugLog> {
         self.loaded().debug_log.as_ref()
     }
 
-    /// A GL function by its name, for bindings beside [`gl`](Self::gl); null where the driver has none. Some drivers answer
-    /// with a stub for any name: what the context's version and profile promise is to be asked for, and no more.
+    /// A GL function by its name, for bindings beside [`gl`](Self::gl); null where the driver has none. Some drivers return
+    /// a stub for any name, so look up only functions that the context's version and profile have.
     fn address_of(&self, name: &CStr) -> *const c_void {
         (self.loaded().address_of)(name)
     }
@@ -145,19 +148,19 @@ pub trait Context {
         self.loaded().timer_bits
     }
 
-    /// What the driver says of itself. Costs some GL queries; the context must be current.
+    /// Driver, version and limits. Makes some GL queries; the context must be current.
     fn describe(&self) -> ContextInfo {
         info::describe(self.loaded())
     }
 }
 
-/// Opens a context by the first road that can be had, and makes it current.
+/// Opens a context by the first backend that works, and makes it current.
 pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     let mut attempts = Vec::new();
-    for road in request.roads()? {
-        match try_road(road, request, &attempts) {
+    for backend in request.backends()? {
+        match try_backend(backend, request, &attempts) {
             Ok(context) => return Ok(context),
-            Err(Refusal { reached, answer }) => attempts.push(Attempt { road, reached, answer }),
+            Err(Refusal { reached, answer }) => attempts.push(Attempt { backend, reached, answer }),
         }
     }
     match (request.device, attempts.pop()) {
@@ -172,19 +175,19 @@ pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
     }
 }
 
-/// Opens a context by this road and no other; `request.choice` is not looked at.
-pub fn open_road(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
-    let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { road, reached, answer }]);
-    try_road(road, request, &[]).map_err(refused)
+/// Opens a context by this backend only; `request.choice` is ignored.
+pub fn open_backend(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
+    let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { backend, reached, answer }]);
+    try_backend(backend, request, &[]).map_err(refused)
 }
 
-/// The road's answer is one line, for a person to read beside the road's name. `before`: what was tried already.
-fn try_road(road: Road, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
+/// Tries one backend. The error is one line, to be read beside the backend's name. `before`: earlier attempts.
+fn try_backend(backend: Backend, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
     heap::keep();
-    let _doing = process::doing(error::tried_before(road, before));
-    match road {
-        Road::EglSurfaceless | Road::EglDevice | Road::EglPbuffer => egl::open(road, request),
-        Road::OsMesa => osmesa::open(request),
-        Road::Window => window::open_hidden(request),
+    let _doing = process::doing(error::tried_before(backend, before));
+    match backend {
+        Backend::EglSurfaceless | Backend::EglDevice | Backend::EglPbuffer => egl::open(backend, request),
+        Backend::OsMesa => osmesa::open(request),
+        Backend::Window => window::open_hidden(request),
     }
 }

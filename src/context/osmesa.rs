@@ -1,5 +1,5 @@
-//! Contexts by OSMesa, Mesa's off-screen library (GL/osmesa.h), loaded at run time. Mesa 25.1 dropped it, so it is
-//! only ever one road of several.
+//! Contexts by OSMesa, Mesa's off-screen library (GL/osmesa.h), loaded at run time. Mesa 25.1 dropped it, so it is only one
+//! backend of several.
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::null_mut;
@@ -9,7 +9,7 @@ use libloading::Library;
 
 use super::error::Refusal;
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road, child};
+use super::{Backend, Context, ContextRequest, Error, Profile, child};
 
 /// By the version that Mesa has had since 2013, the one before, and the name of the development package.
 const NAMES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
@@ -54,7 +54,7 @@ struct Handle {
     pixels: *mut u8,
 }
 
-/// Opens an OSMesa context. The error is the road's answer.
+/// Opens an OSMesa context. The error is this backend's answer.
 ///
 /// OSMesa crashes where EGL refuses: with a driver that is not there, or without GLSL 1.30. So it is tried in a child process
 /// first, once for each profile.
@@ -94,7 +94,7 @@ fn open_here(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     handle.make_current().map_err(Refusal::driver)?;
     // SAFETY: the context is current; OSMesaGetProcAddress answers with its functions or null.
     let address_of = move |name: &CStr| unsafe { (api.get_proc_address)(name.as_ptr()) };
-    let loaded = unsafe { load::load(Road::OsMesa.to_string(), request, address_of) }.map_err(Refusal::driver)?;
+    let loaded = unsafe { load::load(Backend::OsMesa.to_string(), request, address_of) }.map_err(Refusal::driver)?;
     Ok(Box::new(OsMesaContext { handle, loaded }))
 }
 
@@ -137,7 +137,7 @@ impl Context for OsMesaContext {
     }
 
     fn make_current(&self) -> Result<(), Error> {
-        self.handle.make_current().map_err(|answer| Error::NotCurrent { road: self.loaded.road.clone(), answer })
+        self.handle.make_current().map_err(|answer| Error::NotCurrent { backend: self.loaded.backend.clone(), answer })
     }
 }
 

@@ -1,5 +1,5 @@
-//! Contexts of a window on X11 or Wayland, by winit and glutin: a visible one for the sample program, and a hidden one
-//! as the last road. Sizes are physical pixels; the display's scale factor is not looked at.
+//! Contexts of a window on X11 or Wayland, by winit and glutin: a visible one for the sample program, and a hidden one as
+//! the last backend. Sizes are physical pixels; the display's scale factor is ignored.
 
 use std::cell::RefCell;
 use std::num::NonZeroU32;
@@ -24,7 +24,7 @@ use winit::window::{Window, WindowAttributes, WindowId};
 
 use super::error::Refusal;
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road};
+use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A window and its context.
 ///
@@ -36,7 +36,7 @@ pub struct WindowContext {
     window: Window,
 }
 
-/// Whether the environment names a display to open windows on.
+/// Tests whether the environment names a display to open windows on.
 pub fn display_is_named() -> bool {
     let named = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(not(target_os = "linux")) || named("DISPLAY") || named("WAYLAND_DISPLAY") || named("WAYLAND_SOCKET")
@@ -94,23 +94,23 @@ impl Context for WindowContext {
     fn make_current(&self) -> Result<(), Error> {
         self.context
             .make_current(&self.surface)
-            .map_err(|error| Error::NotCurrent { road: self.loaded.road.clone(), answer: error.to_string() })
+            .map_err(|error| Error::NotCurrent { backend: self.loaded.backend.clone(), answer: error.to_string() })
     }
 }
 
 impl Drop for WindowContext {
     fn drop(&mut self) {
         if self.context.is_current() {
-            // What cannot be let go is destroyed as it is.
+            // A context that cannot be released is destroyed as it is.
             let _ = self.context.make_not_current_in_place();
         }
     }
 }
 
-/// A context on a hidden window. The error is the road's answer.
+/// A context on a hidden window. The error is this backend's answer.
 pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     thread_local! {
-        /// winit allows one event loop a process. It is kept to the end: tearing it down takes the display along.
+        /// winit allows one event loop a process. It is kept to the end: dropping it would close the display.
         static EVENTS: RefCell<Option<&'static mut EventLoop<()>>> = const { RefCell::new(None) };
     }
     if !display_is_named() {
@@ -199,7 +199,8 @@ fn create(
     let context = create_context(&display, &config, &window, request)?;
     let context = context.make_current(&surface).map_err(|error| error.to_string())?;
     // SAFETY: the context is current; the display answers with its functions or null.
-    let loaded = unsafe { load::load(Road::Window.to_string(), request, move |name| display.get_proc_address(name)) }?;
+    let loaded =
+        unsafe { load::load(Backend::Window.to_string(), request, move |name| display.get_proc_address(name)) }?;
     Ok(WindowContext { surface, context, loaded, window })
 }
 

@@ -1,23 +1,23 @@
-//! Turns GL errors into errors of ours, with the label of the pass that made them: by KHR_debug where the context
-//! reports, by glGetError elsewhere.
+//! Turns GL errors into our errors, with the label of the pass that made them: by KHR_debug where the context reports, by
+//! glGetError elsewhere.
 
 use std::rc::Rc;
 
 use glow::HasContext;
 
-use crate::context::{Context, DebugLog};
+use crate::context::{Context, DebugLog, error_name};
 
-/// What GL found wrong with the calls since the last check.
+/// GL's errors since the last check.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{label}: {}", messages.join("; "))]
 pub struct GlError {
     /// The pass, or the step outside of one.
     pub label: String,
-    /// The driver's words in a debug context, else the errors' names. Never empty.
+    /// The driver's text in a debug context, else the errors' names. Never empty.
     pub messages: Vec<String>,
 }
 
-/// Asks one context for its errors.
+/// Reads the errors of one context.
 #[derive(Clone, Debug)]
 pub struct Debug {
     gl: Rc<glow::Context>,
@@ -32,7 +32,7 @@ impl Debug {
         Self { gl: context.gl().clone(), log: context.debug_log().cloned() }
     }
 
-    /// Whether errors come with the driver's words, and at the call that made them.
+    /// Tests whether errors have the driver's text and the call that made them.
     pub fn is_verbose(&self) -> bool {
         self.log.is_some()
     }
@@ -56,20 +56,5 @@ impl Debug {
             code => Some(error_name(code)),
         };
         std::iter::from_fn(next).take(MOST_FLAGS).collect()
-    }
-}
-
-/// GL's name of an error code.
-pub(super) fn error_name(code: u32) -> String {
-    match code {
-        glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
-        glow::INVALID_VALUE => "GL_INVALID_VALUE".to_owned(),
-        glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
-        glow::STACK_OVERFLOW => "GL_STACK_OVERFLOW".to_owned(),
-        glow::STACK_UNDERFLOW => "GL_STACK_UNDERFLOW".to_owned(),
-        glow::OUT_OF_MEMORY => "GL_OUT_OF_MEMORY".to_owned(),
-        glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
-        glow::CONTEXT_LOST => "GL_CONTEXT_LOST".to_owned(),
-        _ => format!("GL error {code:#06x}"),
     }
 }

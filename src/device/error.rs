@@ -1,4 +1,4 @@
-//! What can go wrong between a pass list and its pictures.
+//! Errors between a pass list and its pictures.
 
 /// A failure of the driver, or of a pass list against GL's rules.
 #[derive(Debug, thiserror::Error)]

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use glow::HasContext;
 
 use super::Error;
-use super::debug::error_name;
 use super::state::compare_code;
+use crate::context::{DEPTH_COMPONENT32, error_name};
 use crate::pass::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
 /// A texture or renderbuffer, deleted on drop.
@@ -24,7 +24,7 @@ pub enum ImageName {
 }
 
 impl ImageName {
-    /// GL's number for it; textures and renderbuffers are told apart by the sign bit.
+    /// GL's number for it; the sign bit distinguishes textures and renderbuffers.
     pub fn number(self) -> u32 {
         match self {
             Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => texture.0.get(),
@@ -32,7 +32,7 @@ impl ImageName {
         }
     }
 
-    /// What it is bound to as a texture.
+    /// Texture target that it is bound to.
     pub fn binding(self) -> u32 {
         match self {
             Self::Cube(_) => glow::TEXTURE_CUBE_MAP,
@@ -41,7 +41,7 @@ impl ImageName {
         }
     }
 
-    /// `None` of a renderbuffer.
+    /// The texture; `None` for a renderbuffer.
     pub fn texture(self) -> Option<glow::Texture> {
         match self {
             Self::Texture(texture) | Self::Cube(texture) | Self::Line(texture) => Some(texture),
@@ -75,7 +75,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
                 DepthFormat::Depth24 => glow::DEPTH_COMPONENT24,
-                DepthFormat::Depth32 => super::bench::DEPTH_COMPONENT32,
+                DepthFormat::Depth32 => DEPTH_COMPONENT32,
                 DepthFormat::Depth32F => glow::DEPTH_COMPONENT32F,
             };
             (internal, glow::DEPTH_COMPONENT, glow::FLOAT)
@@ -85,7 +85,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
     }
 }
 
-/// Makes the image that `desc` asks for.
+/// Makes the image that `desc` describes.
 pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Error> {
     let name = match &desc.storage {
         Storage::Renderbuffer => create_renderbuffer(gl, desc)?,

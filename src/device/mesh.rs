@@ -39,7 +39,7 @@ impl GpuMesh {
         }
     }
 
-    /// Whether the mesh is used by nobody else any more.
+    /// Tests whether nothing else uses the mesh any more.
     pub fn is_orphan(&self) -> bool {
         Arc::strong_count(&self.mesh) == 1
     }

@@ -1,17 +1,16 @@
-//! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan by name.
+//! Turns pass lists into OpenGL over glow. Knows pass data and a current context; no scene, technique or plan.
 //!
-//! GL objects are made when a list first needs them and kept while later lists do; programs longer, up to a number. A pass that would draw again what
-//! its target already holds is left out ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
+//! GL objects are made when a list first needs them and kept while later lists do; programs are kept longer, up to
+//! a fixed number. A pass whose target already holds its result is skipped
+//! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
-pub mod bench;
 pub mod debug;
 mod error;
+mod for_fixed_function;
 mod framebuffer;
 mod image;
 mod mesh;
-mod parts;
 mod present;
-pub mod probe;
 mod program;
 pub mod queries;
 mod readback;
@@ -27,7 +26,7 @@ use glow::HasContext;
 
 use crate::context::Context;
 use crate::geometry::Mesh;
-use crate::pass::{Attribute, Format, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
+use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
 pub use readback::Pixels;
@@ -85,25 +84,19 @@ impl Device {
         (sides.into_iter().min().unwrap_or(0), get(glow::MAX_TEXTURE_IMAGE_UNITS))
     }
 
-    /// Waits until all that was asked of GL is done.
+    /// Waits until GL has finished.
     pub fn finish(&self) {
         unsafe { self.gl.finish() };
     }
 
-    /// What the driver makes of a depth format, measured; `None` for a format that is not measured.
-    ///
-    /// # Errors
-    ///
-    /// A driver that cannot even measure.
-    pub fn depth_facts(&mut self, format: Format) -> Result<Option<probe::DepthFacts>, probe::Error> {
+    /// GL itself, for calls beside the device's. The next pass sets all its state, whatever they leave.
+    pub fn raw_gl(&mut self) -> &Rc<glow::Context> {
         self.state = None;
-        let name = format.to_string();
-        let known = probe::FORMATS.iter().find(|known| known.name() == name);
-        known.map(|&known| probe::depth_format(&self.gl, known)).transpose()
+        &self.gl
     }
 
-    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, whoever
-    /// else has used the context.
+    /// Forgets which passes their targets hold and which state GL has, so that the next run draws them all, in case other
+    /// code has used the context.
     pub fn forget(&mut self) {
         self.done.clear();
         self.state = None;
@@ -115,7 +108,7 @@ impl Device {
     }
 }
 
-/// What a vertex array of a mesh binds.
+/// Attributes and index order of a mesh's vertex array.
 type MeshUse = (Vec<Attribute>, IndexOrder);
 
 /// The key of a mesh's GL objects; the mesh is kept alive beside it.
@@ -123,7 +116,7 @@ fn mesh_key(mesh: &Arc<Mesh>) -> *const Mesh {
     Arc::as_ptr(mesh)
 }
 
-/// Whether `pass` with the same objects was the last to draw into its target.
+/// Tests whether `pass` with the same objects was the last to draw into its target.
 fn unchanged(done: Option<&run::Done>, pass: &Pass, objects: &[u32]) -> bool {
     done.is_some_and(|done| done.pass == *pass && done.objects == objects)
 }

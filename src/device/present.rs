@@ -58,7 +58,7 @@ impl Device {
         self.check(LABEL)
     }
 
-    /// A blit heeds the scissor test [GL 4.6, 18.3.1], which the last pass may have left on.
+    /// A blit obeys the scissor test [GL 4.6, 18.3.1], which the last pass may have left on.
     fn without_scissor(&mut self) {
         self.state = None;
         unsafe { self.gl.disable(glow::SCISSOR_TEST) };

@@ -1,4 +1,4 @@
-//! How long the device worked at something (GL_TIME_ELAPSED), read frames later so that nobody waits for the answer.
+//! Time that the device worked at something (GL_TIME_ELAPSED), read some frames later so that nothing waits for it.
 
 use std::collections::VecDeque;
 use std::rc::Rc;

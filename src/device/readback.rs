@@ -1,4 +1,4 @@
-//! From images of GL to pixels of ours.
+//! Reads GL images back as pixels.
 
 use glow::HasContext;
 

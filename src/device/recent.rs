@@ -1,11 +1,11 @@
-//! A map that lets go of what has not been used for long.
+//! A map that drops values that have not been used for long.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
 /// Values by key, of which the ones used last are kept.
 pub struct Recent<K, V> {
-    /// Each with the round in which it was last used.
+    /// Values, each with the round in which it was last used.
     known: HashMap<K, (u64, V)>,
     round: u64,
     most: usize,
@@ -21,7 +21,7 @@ impl<K: Eq + Hash, V> Recent<K, V> {
         self.known.get(key).map(|(_, value)| value)
     }
 
-    /// Marks a value as used in this round. Whether it is there.
+    /// Marks a value as used in this round. Returns whether it is there.
     pub fn touch(&mut self, key: &K) -> bool {
         let round = self.round;
         self.known.get_mut(key).map(|(used, _)| *used = round).is_some()
@@ -32,8 +32,8 @@ impl<K: Eq + Hash, V> Recent<K, V> {
         self.known.insert(key, (self.round, value));
     }
 
-    /// Ends a round. Where there are more values than may be, those used last stay, all of this round among them, and half as
-    /// many as may be: what is looked through grows no faster than what is put in. Whether any was let go.
+    /// Ends a round. If there are too many values, keeps all of this round and the most recently used others, up to half of
+    /// the limit: the search then costs no more than the insertions. Returns whether any was dropped.
     pub fn end_round(&mut self) -> bool {
         let round = self.round;
         self.round += 1;

@@ -13,13 +13,13 @@ use crate::pass::{
     Batch, Draw, DrawPass, DrawState, Format, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
 };
 
-/// Whether and how passes are timed.
+/// Way in which passes are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Not at all.
+    /// No timing.
     No,
-    /// Each pass by the wall clock with glFinish behind it, and by GL_TIME_ELAPSED where the driver has it. Waiting
-    /// after each pass makes the frame as a whole slower.
+    /// Each pass by the wall clock, ended by glFinish, and by GL_TIME_ELAPSED if the driver has it. Waiting after each pass
+    /// makes the frame as a whole slower.
     Passes,
     /// The fragments that pass each pass's depth test (GL_SAMPLES_PASSED); no times.
     Fragments,
@@ -29,11 +29,11 @@ pub enum Measure {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
     pub label: String,
-    /// From its first call to the return of glFinish, in milliseconds.
+    /// Time from its first call to the return of glFinish, in milliseconds.
     pub wall_ms: f64,
     /// GL_TIME_ELAPSED in milliseconds, where the driver counts it.
     pub gpu_ms: Option<f64>,
-    /// GL_SAMPLES_PASSED, where it was asked for.
+    /// GL_SAMPLES_PASSED, if requested.
     pub fragments: Option<u64>,
 }
 
@@ -54,7 +54,7 @@ impl Device {
     pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
         self.prepare(list)?;
         let mut times = Vec::new();
-        // What this frame has drawn anew: who builds on it cannot be left out.
+        // Images redrawn in this frame: passes that read or extend them must be redrawn too.
         let mut written = HashSet::new();
         for pass in &list.passes {
             let objects = self.objects(list, pass);
@@ -72,9 +72,9 @@ impl Device {
         Ok(times)
     }
 
-    /// Whether the pass's target holds what it would draw: it is as it was, and so are all others that count in the same
-    /// stencil buffer, as counts cannot be told apart, or that are copied through the same depth buffer, which holds the last
-    /// one's alone.
+    /// Tests whether the pass's target already holds what it would draw. The pass must be unchanged. So must all others
+    /// that count in the same stencil buffer, because counts cannot be separated, and all that are copied through the same
+    /// depth buffer, which holds only the last one.
     fn is_held(&self, list: &PassList, pass: &Pass) -> bool {
         let is_as_it_was = |pass: &Pass| unchanged(self.done.get(&pass.label), pass, &self.objects(list, pass));
         let buffer = pass.counts_in();
@@ -135,7 +135,7 @@ impl Device {
         self.check(&pass.label)
     }
 
-    /// Makes images, programs and vertex arrays, and lets go of images and meshes that the list no longer uses.
+    /// Makes images, programs and vertex arrays, and drops images and meshes that the list no longer uses.
     fn prepare(&mut self, list: &PassList) -> Result<(), Error> {
         self.make_images(list)?;
         self.meshes.retain(|_, mesh| !mesh.is_orphan());
@@ -269,7 +269,7 @@ impl Device {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);
             }
             if let Some(stencil) = pass.clear.stencil {
-                // All of it, however few bits the draws write.
+                // The whole stencil value, however few bits the draws write.
                 self.gl.stencil_mask(0xFF);
                 self.gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[i32::from(stencil)]);
                 self.gl.stencil_mask(pass.state.stencil.map_or(0xFF, |stencil| u32::from(stencil.write_mask)));

@@ -1,4 +1,4 @@
-//! Applies a complete draw state. What is already so is not set again.
+//! Applies a complete draw state. State that GL already has is not set again.
 
 use glow::HasContext;
 

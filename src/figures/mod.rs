@@ -1,6 +1,6 @@
-//! The figures of the documents that show a result, drawn from our own scenes as contact sheets with captions. A figure
-//! is data (`table.rs`): panels, each a scene with what is changed in it and what of it is shown. Knows scenes, plans and
-//! frames; no technique by more than a scene's keys, no GL.
+//! Figures of the documents in data/documents.md that show a result, drawn from our own scenes as contact sheets with
+//! captions. A figure is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames;
+//! no technique by more than a scene's keys, no GL.
 
 mod sheet;
 mod table;
@@ -10,14 +10,14 @@ use crate::frame::{self, Renderer};
 use crate::output::{self, canvas::Canvas};
 use crate::plan::{Request, ViewRequest};
 use crate::scene::{self, Embedded, Scene};
-use crate::techniques::views::View;
+use crate::views::View;
 
 pub use table::FIGURES;
 
 /// One contact sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Figure {
-    /// Of its file, and for `--only`.
+    /// Name of its file, and for `--only`.
     pub name: &'static str,
     pub title: &'static str,
     /// The document and its figure or slide.
@@ -35,14 +35,14 @@ pub struct Panel {
     pub title: &'static str,
     /// Overrides, as `--set` takes them.
     pub set: &'static [&'static str],
-    /// Of the first light; `None`: the picture itself.
+    /// View of the first light; `None`: the picture itself.
     pub view: Option<View>,
-    /// What texels a pixel are in truth, where a panel has the light's view of the eye in place of the eye's of the light: the
-    /// words of its legend for one. What the eye does not see is then left dark.
+    /// Unit of the legend, in words, if the panel has the light's view of the eye instead of the eye's view of the light.
+    /// Points that the eye does not see are then dark.
     pub counts: Option<&'static str>,
 }
 
-/// Why a figure could not be drawn.
+/// Reason why a figure could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("there is no figure \"{name}\": {hint}")]
@@ -121,7 +121,8 @@ fn where_lit(view: &[f32], shade: &[f32]) -> Vec<f32> {
 
 /// A page that lists the figures with their captions.
 pub fn index(figures: &[&Figure]) -> String {
-    let mut text = String::from("# Figures\n\nThe results that the documents show, from our own scenes.\n");
+    let mut text =
+        String::from("# Figures\n\nResults that the shadow documents (data/documents.md) show, from our own scenes.\n");
     for Figure { name, title, source, caption, .. } in figures {
         text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n");
     }

@@ -1,8 +1,8 @@
-//! Every figure. Captions say what is to be seen; `tests/figures.rs` holds pixels of them against it.
+//! Every figure. Captions say what can be seen; the test figures checks that against pixels.
 
 use super::{Figure, Panel};
 use crate::scene::Embedded;
-use crate::techniques::views::View;
+use crate::views::View;
 
 macro_rules! embedded {
     ($name:literal) => {
@@ -26,7 +26,7 @@ const fn panel(title: &'static str, set: &'static [&'static str], view: Option<V
     Panel { title, set, view, counts: None }
 }
 
-/// At the teapot's shadow on the floor.
+/// A close view of the teapot's shadow on the floor.
 const CLOSE: [&str; 3] = ["camera.eye=[4.3, 3.4, 3.6]", "camera.target=[1.15, 0.2, -0.45]", "camera.fov_y=26"];
 
 /// A picture as large as the map, both square: the roles of eye and light can be swapped.
@@ -61,7 +61,7 @@ const BESIDE: [&str; 4] =
 const AGAINST: [&str; 4] =
     ["light.position=[-0.4, 4.0, -5.0]", "light.target=[0.9, 0.0, 1.4]", "light.cone=50", "light.shape=frustum"];
 
-/// In the order of the documents.
+/// All figures, in the order of their documents.
 pub const FIGURES: &[Figure] = &[
     Figure {
         name: "hsm-title",
@@ -292,5 +292,5 @@ pub const FIGURES: &[Figure] = &[
 /// A light that is hardly higher than the left box.
 const LOW: &str = "light.position=[-2.0, 2.9, 0.5]";
 
-/// Within the right box's shadow and no other, looking out of it over the lit floor.
+/// A view from within the right box's shadow and no other, looking out of it over the lit floor.
 const EYE_INSIDE: [&str; 3] = ["camera.eye=[1.3, 0.1, -0.1]", "camera.target=[3.6, 0.0, 1.4]", "camera.near=0.02"];

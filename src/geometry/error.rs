@@ -1,9 +1,9 @@
-//! What can go wrong with a file of geometry, and what is merely odd. Every message opens with `file:line`.
+//! Errors and warnings of geometry files. Every message begins with `file:line`.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Why a mesh or a texture cannot be had.
+/// Reason why a mesh or a texture cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{}: cannot be read: {source}", path.display())]
@@ -30,7 +30,7 @@ impl Error {
     }
 }
 
-/// Something odd in a file that does not keep it from being used.
+/// An oddity of a file that can still be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     pub path: PathBuf,

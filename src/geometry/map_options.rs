@@ -1,10 +1,10 @@
-//! The options in front of an MTL map's file: what can be applied, and what is left out. Format: Wavefront's "MTL material
-//! format", version 4.2, "Options for texture map statements".
+//! Options before an MTL map's file name: those that are applied, and those that are ignored. Format: Wavefront's "MTL
+//! material format", version 4.2, "Options for texture map statements".
 
-use super::obj::scan::shorten;
+use super::obj::corner::shorten;
 use super::{Placement, Texture};
 
-/// No scale or offset of texture coordinates is larger.
+/// Greatest scale or offset of texture coordinates.
 const LARGEST: f32 = 1e6;
 
 /// The value of a map statement.
@@ -19,7 +19,7 @@ pub(super) struct MapOptions<'a> {
     pub file: &'a str,
 }
 
-/// What is done to a texture's values before it is used.
+/// Change of a texture's values before it is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Values {
     /// -imfchan; `None`: alpha, or red where all is opaque.
@@ -35,7 +35,7 @@ impl Default for Values {
     }
 }
 
-/// What a scalar texture is made of.
+/// Channel of a scalar texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Channel {
     Red,
@@ -47,7 +47,7 @@ pub(super) enum Channel {
 }
 
 impl Channel {
-    /// From a texel, in [0, 255].
+    /// Value of a texel, in [0, 255].
     fn of(self, [r, g, b, a]: [u8; 4]) -> f32 {
         match self {
             Self::Red => f32::from(r),
@@ -109,7 +109,7 @@ impl<'a> MapOptions<'a> {
         Ok(out)
     }
 
-    /// What follows the option; `None`: it is none, but a file whose name begins with a dash.
+    /// Reads one option and returns the rest of the line; `None`: this is a file name that begins with a dash.
     fn read_option(&mut self, option: &'a str, mut rest: &'a str) -> Result<Option<&'a str>, String> {
         match option.to_ascii_lowercase().as_str() {
             "-s" => self.placement.scale = pair(&mut rest, 1.0)?,
@@ -140,7 +140,7 @@ impl<'a> MapOptions<'a> {
     }
 }
 
-/// The first word and what follows the space behind it.
+/// Splits off the first word and the space after it.
 fn split_word(text: &str) -> (&str, &str) {
     let end = text.find(|c: char| c.is_ascii_whitespace()).unwrap_or(text.len());
     (&text[..end], text[end..].trim_start())
@@ -181,7 +181,7 @@ fn switch(rest: &mut &str) -> Result<bool, String> {
     }
 }
 
-/// `None`: a picture here has no such channel.
+/// The channel of a word; `None`: pictures here have no such channel.
 fn channel(word: &str) -> Result<Option<Channel>, String> {
     match word {
         "r" => Ok(Some(Channel::Red)),

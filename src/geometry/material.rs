@@ -1,4 +1,4 @@
-//! What a surface is made of, in the terms of fixed-function GL and of MTL.
+//! Materials, in the terms of fixed-function GL and of MTL.
 
 use std::sync::Arc;
 
@@ -24,11 +24,11 @@ pub struct Material {
     pub alpha: Option<Arc<Texture>>,
     /// Generates the decal's coordinates in place of the mesh's own.
     pub texgen: Option<ObjectLinear>,
-    /// Where the decal lies on its coordinates.
+    /// Placement of the decal on its coordinates.
     pub decal_placement: Placement,
-    /// Where map_d lies on the same coordinates.
+    /// Placement of map_d on the same coordinates.
     pub alpha_placement: Placement,
-    /// Where `opacity` is written, for messages: `file:line: statement`; empty: nowhere.
+    /// Line that sets `opacity`, for messages: `file:line: statement`; empty: nowhere.
     pub opacity_origin: String,
 }
 
@@ -44,14 +44,14 @@ impl Material {
     }
 }
 
-/// Where a texture lies on a surface, and whether it repeats (MTL's -s, -o and -clamp).
+/// Placement of a texture on a surface, and whether it repeats (MTL's -s, -o and -clamp).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Multiplies (s, t).
     pub scale: [f32; 2],
-    /// Added to what that comes to.
+    /// Offset, added after the scale.
     pub offset: [f32; 2],
-    /// Whether the texture's edge goes on beyond [0, 1], in place of more copies of it.
+    /// True if the texture's edge continues beyond [0, 1], instead of repeats.
     pub clamped: bool,
 }
 
@@ -62,7 +62,7 @@ impl Default for Placement {
 }
 
 impl Placement {
-    /// Whether the coordinates are looked up as they are.
+    /// Tests whether the coordinates are looked up as they are.
     pub fn is_plain(&self) -> bool {
         self.scale == [1.0; 2] && self.offset == [0.0; 2]
     }
@@ -85,7 +85,7 @@ pub struct ObjectLinear {
 }
 
 impl ObjectLinear {
-    /// The same coordinates for positions that are relative to `origin`, but for whole turns of a texture that repeats.
+    /// The same coordinates for positions that are relative to `origin`, except for whole repeats of a texture.
     #[must_use]
     pub fn relative_to(&self, origin: DVec3) -> Self {
         let scale = f64::from(self.scale);
@@ -127,12 +127,12 @@ pub struct Texture {
     pub height: u32,
     /// `4 * width * height` bytes.
     pub rgba: Vec<u8>,
-    /// Whether any texel's alpha is below 255.
+    /// True if any texel's alpha is below 255.
     pub has_alpha: bool,
 }
 
 impl Texture {
-    /// The channel of a map_d that the alpha test asks for: alpha, or red where all is opaque.
+    /// The channel of a map_d that the alpha test reads: alpha, or red where all is opaque.
     pub fn alpha_channel(&self) -> usize {
         if self.has_alpha { 3 } else { 0 }
     }

@@ -12,27 +12,26 @@ use crate::math::Aabb;
 /// `positions`, `normals` and, where present, `texcoords` have the same length; `indices` holds three
 /// entries a triangle, each below that length. All values are finite.
 ///
-/// A guide, which is drawn as lines, is a mesh too: its `indices` then hold two entries a segment, and only
-/// the draw that uses it tells. Nothing that loads or resolves a scene makes such a mesh.
+/// A mesh of lines has two entries of `indices` for each segment; only the draw that uses it says so. Nothing that loads or
+/// resolves a scene makes such a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Where it comes from: a built-in's name or the file's path as written.
+    /// Origin of the mesh: a built-in's name or the file's path as written.
     pub name: String,
     pub positions: Vec<[f32; 3]>,
-    /// The place in its file's space that `positions` are relative to: the file's own origin, but where that is so far
-    /// away that f32 would lose the vertices' places. An object's `world_from_model` holds it; whoever takes a mesh from
-    /// elsewhere than a scene adds it.
+    /// Origin of `positions` in the file's space: zero, unless that is so far away that f32 would lose the vertices'
+    /// places. An object's `world_from_model` includes it; code that takes a mesh from elsewhere than a scene must add it.
     pub origin: DVec3,
-    /// Positions with w in place of `positions`, which is then empty: of shadow volumes, whose far vertices have w = 0.
+    /// Positions with w, instead of `positions`, which is then empty: for shadow volumes, whose far vertices have w = 0.
     pub homogeneous: Vec<[f32; 4]>,
-    /// Of unit length; (0, 0, 1) where a vertex has no triangle of any area.
+    /// Unit normals; (0, 0, 1) for a vertex without a triangle of any area.
     pub normals: Vec<[f32; 3]>,
     /// (s, t), t upwards as in GL and OBJ.
     pub texcoords: Option<Vec<[f32; 2]>>,
     pub indices: Vec<u32>,
     /// Ranges of `indices` that share a material; together they cover `indices`.
     pub parts: Vec<Part>,
-    /// What the parts' `material` indexes. Empty for built-in meshes.
+    /// Materials that the parts' `material` indexes. Empty for built-in meshes.
     pub materials: Vec<Material>,
     pub bounds: Aabb,
 }
@@ -42,11 +41,11 @@ pub struct Mesh {
 pub struct Part {
     /// The OBJ object's or group's name, or the built-in's.
     pub name: String,
-    /// Into [`Mesh::indices`]; both ends are multiples of three.
+    /// Range of [`Mesh::indices`]; both ends are multiples of three.
     pub indices: Range<u32>,
-    /// Into [`Mesh::materials`]; `None`: the scene's object or the default material decides.
+    /// Index into [`Mesh::materials`]; `None`: the scene's object or the default material decides.
     pub material: Option<usize>,
-    /// Of the vertices that the part's triangles use.
+    /// Bounds of the vertices that the part's triangles use.
     pub bounds: Aabb,
 }
 

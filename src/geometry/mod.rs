@@ -1,6 +1,5 @@
 //! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals, shadow volumes. No GL, no scene.
 
-mod cache;
 mod error;
 mod map_options;
 mod material;
@@ -16,6 +15,7 @@ mod tally;
 mod text;
 mod texture;
 pub mod topology;
+mod vertex_cache_order;
 pub mod volume;
 mod wave;
 

@@ -1,6 +1,6 @@
-//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and written anew, then parsed by tobj. Other
-//! statements are left out, with a warning where that changes the picture. Format: Wavefront's "MTL material format",
-//! version 4.2.
+//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and rewritten, then parsed by tobj. Other
+//! statements are ignored, with a warning if that changes the picture. Format: Wavefront's "MTL material format", version
+//! 4.2.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::map_options::{MapOptions, Values};
-use super::obj::scan::shorten;
+use super::obj::corner::shorten;
 use super::tally::Tally;
 use super::{Error, Material, Placement, Texture, Warning, text, texture};
 
 /// The materials of one or more library files.
 #[derive(Debug, Default)]
 pub(super) struct Library {
-    /// All files as one, in the spelling that tobj takes.
+    /// All files as one text that tobj can read.
     text: String,
     names: Vec<String>,
     /// One for each material.
@@ -24,18 +24,18 @@ pub(super) struct Library {
     oddities: Tally,
 }
 
-/// What d or Tr says.
+/// Opacity by d or Tr.
 #[derive(Clone, Debug)]
 struct Opacity {
     value: f32,
-    /// Said by d, which counts where Tr says something else.
+    /// True if given by d, which overrides Tr.
     by_d: bool,
-    /// The statement, and that with file and line.
+    /// The statement, alone and with file and line.
     statement: String,
     origin: String,
 }
 
-/// A texture that a material asks for.
+/// A texture that a material names.
 #[derive(Debug)]
 struct Map {
     material: usize,
@@ -53,7 +53,7 @@ struct Map {
 enum Statement {
     Decal,
     Alpha,
-    /// Not applied: most files name map_Kd's picture here too, and the decal modulates ambient light.
+    /// Ignored: most files name map_Kd's picture here too, and the decal modulates ambient light.
     Ambient,
 }
 
@@ -66,7 +66,7 @@ impl Statement {
         }
     }
 
-    /// What is drawn without its texture.
+    /// Names what is drawn if its texture is missing.
     fn without(self) -> &'static str {
         match self {
             Self::Alpha => "the surface has no holes",
@@ -75,7 +75,7 @@ impl Statement {
     }
 }
 
-/// Where a statement stands.
+/// Place of a statement.
 #[derive(Clone, Copy)]
 struct Place<'a> {
     path: &'a Path,
@@ -104,7 +104,7 @@ impl Library {
         self.names.iter().any(|known| known == name)
     }
 
-    /// Adds the materials of the file at `path`; refuses what is wrong with its line.
+    /// Adds the materials of the file at `path`; errors name their line.
     pub(super) fn read(&mut self, path: &Path) -> Result<(), Error> {
         let bytes = text::read(path)?;
         let decoded = text::decode(&bytes, path)?;
@@ -150,7 +150,7 @@ impl Library {
         Ok(())
     }
 
-    /// Warns of a statement that is not applied, where that may change the picture.
+    /// Warns of an ignored statement, if that may change the picture.
     fn leave_out(&mut self, keyword: &str, lower: &str, value: &str, place: Place<'_>) {
         let numbers = || value.split_ascii_whitespace().filter_map(|word| word.parse::<f32>().ok());
         let why = match lower {
@@ -189,7 +189,7 @@ impl Library {
         self.oddities.note(kind, place.path, place.line, message);
     }
 
-    /// `value` within [0, `most`], with a warning where it lies elsewhere.
+    /// `value` clamped to [0, `most`], with a warning if it was outside.
     fn clamped(&mut self, statement: &str, value: f32, most: f32, place: Place<'_>) -> f32 {
         let clamped = value.clamp(0.0, most);
         if clamped != value {
@@ -204,7 +204,7 @@ impl Library {
         let _ = writeln!(self.text, "{line}");
     }
 
-    /// One number stands for all three; colours by spectral curve are left out.
+    /// Writes a colour. One number means all three channels; spectral curves are ignored.
     fn write_color(&mut self, statement: &str, value: &str, place: Place<'_>) -> Result<(), String> {
         let words: Vec<_> = value.split_ascii_whitespace().take(4).collect();
         if words.first() == Some(&"spectral") {
@@ -229,7 +229,7 @@ impl Library {
         Ok(())
     }
 
-    /// d, or Tr, which is 1 less d. Exporters do not agree on Tr: d counts where both stand.
+    /// Reads d, or Tr, which is 1 − d. Exporters do not agree on Tr: d overrides it.
     fn read_opacity(&mut self, by_d: bool, value: &str, place: Place<'_>) -> Result<(), String> {
         let name = if by_d { "d" } else { "Tr" };
         let without_halo = value.trim_start_matches("-halo");
@@ -288,8 +288,8 @@ impl Library {
         tobj::load_mtl_buf(&mut self.text.as_bytes())
     }
 
-    /// The materials, in the order of the files, with their textures; a file used twice is loaded once. What is odd is
-    /// added to `warnings`.
+    /// The materials, in the order of the files, with their textures; a file used twice is loaded once. Oddities are added
+    /// to `warnings`.
     pub(super) fn load_materials(mut self, warnings: &mut Vec<Warning>) -> Vec<Material> {
         let parsed = self.parse().map(|(materials, _)| materials).unwrap_or_default();
         let mut materials: Vec<_> = parsed.into_iter().map(convert).collect();
@@ -326,7 +326,7 @@ impl Library {
     }
 }
 
-/// The textures of a library, each loaded once for all that is done to its values.
+/// The textures of a library, each loaded once for each change of its values.
 #[derive(Default)]
 struct Loaded {
     pictures: HashMap<PathBuf, Result<Arc<Texture>, String>>,
@@ -363,7 +363,7 @@ impl Map {
     }
 }
 
-/// Where Ka is not given, Kd stands in, as with GL_AMBIENT_AND_DIFFUSE.
+/// Converts a material. If Ka is missing, Kd is used, as with GL_AMBIENT_AND_DIFFUSE.
 fn convert(material: tobj::Material) -> Material {
     let default = Material::default();
     let diffuse = material.diffuse.unwrap_or(default.diffuse);

@@ -9,10 +9,9 @@ use super::{Mesh, topology};
 /// A sine below which two edges of a triangle are taken for parallel: the triangle has no normal.
 const LEAST_SINE: f64 = 1e-12;
 
-/// Makes every normal of `mesh` one of unit length: given ones are scaled; those of no length or not finite are made
-/// from the triangles around the vertex's place, each weighted by its angle there, up to edges whose triangles differ
-/// by more than `crease_radians`. Vertices on such edges are split. Returns how many given ones (not of
-/// zeros) were unusable.
+/// Gives every vertex of `mesh` a unit normal: given ones are scaled; those of no length or not finite are computed from
+/// the triangles around the vertex's place, each weighted by its angle there, up to edges whose triangles differ by more
+/// than `crease_radians`. Vertices on such edges are split. Returns how many given ones (not of zeros) were unusable.
 ///
 /// `mesh.normals` is as long as `mesh.positions`; (0, 0, 0) stands for a missing normal.
 pub(super) fn complete(mesh: &mut Mesh, crease_radians: f64) -> usize {
@@ -36,17 +35,17 @@ pub(super) fn complete(mesh: &mut Mesh, crease_radians: f64) -> usize {
 
 struct Smoother {
     crease_cosine: f64,
-    /// Within this of the mean, all pairs are within the crease angle.
+    /// Cosine of the angle to the mean within which all pairs are within the crease angle.
     half_crease_cosine: f64,
     /// The place (welded vertex) of each vertex.
     places: Vec<u32>,
-    /// Where each place's corners begin in `corners`; one more than places.
+    /// Start of each place's corners in `corners`; one more than places.
     starts: Vec<u32>,
     /// Corners (indices into the mesh's indices), by place.
     corners: Vec<u32>,
-    /// Of each triangle; zero where it has none.
+    /// Normal of each triangle; zero if it has none.
     normals: Vec<DVec3>,
-    /// Of each corner, in radians.
+    /// Angle of each corner, in radians.
     angles: Vec<f32>,
 }
 
@@ -79,7 +78,7 @@ impl Smoother {
         }
     }
 
-    /// Gives each corner at a `lacking` vertex its normal, and splits the vertices that come to have several.
+    /// Gives each corner at a `lacking` vertex its normal, and splits the vertices that get several.
     fn fill(&self, mesh: &mut Mesh, lacking: &[bool]) {
         let vertices = mesh.positions.len();
         let mut fan = Fan::default();

@@ -1,4 +1,4 @@
-//! Rays against triangles, in f64: what techniques sample to find out where their pictures are wrong.
+//! Rays against triangles, in f64: techniques sample with them to find out where their pictures are wrong.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -19,7 +19,7 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// From each box's least and greatest corner.
+    /// Builds the tree from each box's least and greatest corner.
     pub fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Self {
         let mut reach: f64 = 0.0;
         let boxes: Vec<Aabb> = boxes
@@ -31,7 +31,8 @@ impl Boxes {
         Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach }
     }
 
-    /// Calls `found` with each box that the ray may meet, in no particular order; returns how many nodes were looked at.
+    /// Calls `found` with each box that the ray may meet, in no particular order; returns the number of nodes that were
+    /// visited.
     pub fn met(&self, ray: &Ray, mut found: impl FnMut(u32)) -> usize {
         let slab = Slab::new(ray, self.reach);
         let mut looked_at = 0;
@@ -64,7 +65,7 @@ impl Triangles {
         Self { boxes: Boxes::new(bounds), corners }
     }
 
-    /// The corners of a triangle, by its place in what [`Triangles::new`] was given.
+    /// The corners of a triangle, by its index in the input of [`Triangles::new`].
     pub fn corners(&self, triangle: u32) -> &[DVec3; 3] {
         &self.corners[triangle as usize]
     }
@@ -90,7 +91,7 @@ struct Slab {
 }
 
 impl Slab {
-    /// For boxes within `reach` of the origin: the ray's own end may lie at infinity, and none is met there.
+    /// Prepares the ray for boxes within `reach` of the origin. Its own end may be at infinity, where no box is.
     fn new(ray: &Ray, reach: f64) -> Self {
         let size = ray.origin.abs().max_element().max(reach);
         Self { ray: *ray, inverse: ray.way.recip(), pad: 16.0 * f64::EPSILON * size }
@@ -106,9 +107,9 @@ impl Slab {
     }
 }
 
-/// Where the ray's line crosses a triangle. Corners are sheared so that the ray is the third axis [Woop, Benthin and Wald
-/// 2013]; an edge's sign comes from its own two corners, and one that the line meets is taken to lie aside of it by next
-/// to nothing, the same way for both its triangles.
+/// Crossing of the ray's line with a triangle. Corners are sheared so that the ray is the third axis [Woop 2013]. An edge's
+/// sign comes from its own two corners. An edge that the line meets counts as slightly beside the line, the same way for
+/// both its triangles.
 fn crossing(ray: &Ray, corners: &[DVec3; 3]) -> Option<f64> {
     let size = ray.way.abs();
     let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };

@@ -1,4 +1,4 @@
-//! Rays through a mesh's triangles, for decisions by sampling: all that a ray crosses, in no order, with the side that it
+//! Rays through a mesh's triangles, for decisions by sampling: every crossing of a ray, in no order, with the side that it
 //! comes from. Model space, f64. `rays.rs` casts; this knows the mesh.
 
 use std::collections::HashMap;
@@ -13,18 +13,18 @@ use super::rays::{Ray, Triangles};
 /// A range of a mesh's triangles in a box hierarchy.
 pub struct Sampled(Arc<Triangles>);
 
-/// Where a ray crosses a triangle.
+/// Crossing of a ray and a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
     /// The parameter along the ray.
     pub t: f64,
-    /// Counted from the range's first.
+    /// Triangle, counted from the range's first.
     pub triangle: u32,
-    /// Whether the ray comes from behind the front face.
+    /// True if the ray comes from behind the front face.
     pub from_behind: bool,
 }
 
-/// A mesh by its address, which no other has while a `Weak` is left of it, and a range of its indices.
+/// A mesh by its address, which is unique while a `Weak` of it exists, and a range of its indices.
 type Key = (usize, Range<u32>);
 
 /// A hierarchy, and the mesh that it is of.
@@ -36,11 +36,11 @@ static CACHE: Mutex<Option<Cache>> = Mutex::new(None);
 #[derive(Default)]
 struct Cache {
     kept: HashMap<Key, Kept>,
-    /// As many are let in before those of dead meshes are let go.
+    /// Number of trees to keep before those of dead meshes are dropped.
     room: usize,
 }
 
-/// So many hierarchies are no burden.
+/// Number of hierarchies that are always kept.
 const LEAST_ROOM: usize = 32;
 
 impl Sampled {
@@ -52,7 +52,7 @@ impl Sampled {
         if let Some((_, triangles)) = cache.kept.get(&key) {
             return Self(triangles.clone());
         }
-        // At twice what was alive, so that what is looked through grows no faster than what is put in.
+        // At twice the number of live ones, so that the search costs no more than the insertions.
         if cache.kept.len() >= cache.room {
             cache.kept.retain(|_, (mesh, _)| mesh.strong_count() > 0);
             cache.room = 2 * cache.kept.len() + LEAST_ROOM;
@@ -64,7 +64,7 @@ impl Sampled {
         Self(triangles)
     }
 
-    /// Calls `look` with all that the ray crosses, both faces.
+    /// Calls `look` with every crossing of the ray, of both faces.
     pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
         self.0.crossings(ray, |triangle, t| {
             let [a, b, c] = self.corners(triangle);

@@ -1,4 +1,4 @@
-//! Fewer triangles within an error, by meshoptimizer: for what is seen at a resolution that does not show the rest.
+//! Fewer triangles within an error, by meshoptimizer: for resolutions that do not show the others.
 
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use super::{Mesh, Part};
 
 impl Mesh {
     /// The triangles of `indices` with positions alone, as few as lie within `error` of the surface, in the mesh's own
-    /// units and by quadrics: a vertex may lie a little farther where the surface bends. Vertices at one place hang
-    /// together, whatever their normals are.
+    /// units and by quadrics: a vertex may lie a little farther where the surface bends. Vertices at one place stay
+    /// connected, whatever their normals are.
     pub fn simplified(&self, indices: Range<u32>, error: f32) -> Mesh {
         let (places, count) = weld(&self.positions);
         let mut positions = vec![[0.0_f32; 3]; count];

@@ -1,4 +1,4 @@
-//! What is odd in a file and does not keep it from being used: each kind once, with its first line and how often it occurs.
+//! Oddities of a file that can still be used: each kind once, with its first line and its number of occurrences.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ struct Kind {
 }
 
 impl Tally {
-    /// Counts something of the kind `name`; `message` is asked for at its first place.
+    /// Counts something of the kind `name`; `message` is called at its first occurrence.
     pub fn note(&mut self, name: &str, path: &Path, line: usize, message: impl FnOnce() -> String) {
         match self.kinds.iter_mut().find(|kind| kind.name == name) {
             Some(kind) => kind.count += 1,

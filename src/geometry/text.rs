@@ -1,4 +1,4 @@
-//! Text files as they are found: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends.
+//! Decodes text files: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -13,7 +13,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
-/// `bytes` as text whose lines end in `\n` or `\r\n`. Control characters are refused: they tell a binary file.
+/// `bytes` as text whose lines end in `\n` or `\r\n`. Control characters are refused: they indicate a binary file.
 pub(super) fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, Error> {
     let text = match bytes {
         [0xff, 0xfe, rest @ ..] => Cow::Owned(decode_utf16(rest, u16::from_le_bytes)),
@@ -21,7 +21,7 @@ pub(super) fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, E
         [0xef, 0xbb, 0xbf, rest @ ..] => decode_bytes(rest),
         _ => decode_bytes(bytes),
     };
-    // Looked at as a whole first, which the compiler makes many bytes at once.
+    // Checks the whole first, which the compiler vectorises.
     let has_binary = text.bytes().fold(false, |any, byte| any | is_binary(byte));
     if let Some(at) = has_binary.then(|| text.bytes().position(is_binary)).flatten() {
         let line = 1 + text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count();
@@ -50,7 +50,7 @@ fn decode_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
 
 /// A line with what continues it: a `\` at a line's end joins the next.
 pub(super) struct LogicalLine<'a> {
-    /// Of the first physical line, counted from 1.
+    /// Number of the first physical line, from 1.
     pub number: usize,
     pub text: Cow<'a, str>,
 }

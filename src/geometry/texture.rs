@@ -9,7 +9,7 @@ use super::{Error, Texture, text};
 /// The most texels a side; what every GL 3 driver of today takes.
 const LIMIT: u32 = 16384;
 
-/// Reads a PNG, JPEG, BMP or TGA, told by its first bytes, else by its name's ending.
+/// Reads a PNG, JPEG, BMP or TGA, recognised by its first bytes, else by its name's extension.
 pub fn load_texture(path: &Path) -> Result<Texture, Error> {
     decode_texture(path, &text::read(path)?)
 }
@@ -23,7 +23,7 @@ pub fn decode_texture(path: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     }
     let reader = reader.with_guessed_format().map_err(|source| Error::Read { path: path.to_owned(), source })?;
     let format = reader.format();
-    // The size is asked for first: a small file may claim a picture that no memory holds.
+    // The size is read first: a small file may claim a picture that no memory holds.
     let (width, height) = reader.into_dimensions().map_err(picture_error)?;
     if !(1..=LIMIT).contains(&width) || !(1..=LIMIT).contains(&height) {
         return Err(Error::PictureSize { path: path.to_owned(), width, height, limit: LIMIT });
@@ -40,9 +40,8 @@ pub fn decode_texture(path: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     Ok(Texture { name: path.display().to_string(), width, height, rgba, has_alpha })
 }
 
-/// Where the file `written` in a material library in `folder` lies: backslashes are taken for slashes where the
-/// name as written does not exist, and upper for lower case; then the bare file name is tried in `folder`.
-/// `None`: nowhere.
+/// Finds the file `written` in a material library in `folder`. If it does not exist as written, backslashes count as
+/// slashes, and case is ignored; then the bare file name is tried in `folder`. `None`: not found.
 pub(super) fn find_file(folder: &Path, written: &str) -> Option<PathBuf> {
     let slashed = written.replace('\\', "/");
     let bare = slashed.rsplit('/').next().unwrap_or_default();
@@ -58,7 +57,7 @@ pub(super) fn find_file(folder: &Path, written: &str) -> Option<PathBuf> {
         })
 }
 
-/// Walks `relative` down from `folder`, each step by name without regard to case.
+/// Walks `relative` down from `folder`, each step ignoring case.
 fn find_in_any_case(folder: &Path, relative: &str) -> Option<PathBuf> {
     let mut found = folder.to_owned();
     for step in relative.split('/').filter(|step| !step.is_empty() && *step != ".") {

@@ -1,11 +1,11 @@
-//! How the triangles of a mesh hang together: places (vertices welded by position), edges, closedness.
+//! Connections of a mesh's triangles: places (vertices welded by position), edges, closedness.
 
 use glam::DVec3;
 
 use super::Mesh;
 
-/// The place of each vertex, and how many there are: vertices whose positions are equal (0 = -0) share one. Places
-/// are numbered as they are first met.
+/// The place of each vertex, and the number of places: vertices whose positions are equal (0 = -0) share one. Places are
+/// numbered as they are first met.
 pub fn weld(positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
     const FREE: u32 = u32::MAX;
     let capacity = (2 * positions.len()).next_power_of_two().max(2);
@@ -43,7 +43,7 @@ fn hash(position: &[f32; 3]) -> u64 {
     h ^ (h >> 31)
 }
 
-/// What a mesh is as a surface. Triangles two of whose corners share a place do not count.
+/// Counts of a mesh's edges and triangles. Triangles two of whose corners share a place do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Topology {
     /// Places that a triangle uses.
@@ -59,7 +59,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Whether every edge has two triangles, which run through it in opposite directions.
+    /// Tests whether every edge has two triangles, which run through it in opposite directions.
     pub fn is_closed(&self) -> bool {
         self.triangles > 0 && self.open_edges == 0 && self.turned_edges == 0 && self.crowded_edges == 0
     }
@@ -103,7 +103,7 @@ pub fn inspect(mesh: &Mesh) -> Topology {
 }
 
 impl Mesh {
-    /// Whether the mesh bounds a solid: see [`Topology::is_closed`].
+    /// Tests whether the mesh bounds a solid: see [`Topology::is_closed`].
     pub fn is_closed(&self) -> bool {
         inspect(self).is_closed()
     }

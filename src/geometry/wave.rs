@@ -1,6 +1,6 @@
-//! A surface that waves [Hardware Shadow Mapping, "Advantages and Limitations": geometry that is made or altered where it
-//! is drawn; techniques A19]: what a scene says of it, the box that holds it, and the moved mesh for who needs vertices.
-//! The vertex stage has its own arithmetic (`glsl/common/position.vert`), the ray oracle another.
+//! A surface that waves [HSM, "Advantages and Limitations": geometry that is made or altered where it is drawn; [HSM,
+//! "Advantages and Limitations"]: what a scene says of it, the box that holds it, and the moved mesh for techniques that
+//! read vertices. The vertex stage has its own arithmetic (`glsl/common/position.vert`), the ray tracer another.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -17,11 +17,11 @@ pub struct Wave {
     pub reach: DVec3,
     /// Along the way from crest to crest, 1 / wavelength long: turns per length.
     pub vector: DVec3,
-    /// In turns, in [0, 1).
+    /// Phase in turns, in [0, 1).
     pub phase: f64,
 }
 
-/// What f32 arithmetic may add to a coordinate, relative to those that meet.
+/// Rounding of f32 arithmetic in a coordinate, relative to the greatest operand.
 const SLACK: f64 = 1.0 / (1 << 21) as f64;
 
 impl Wave {
@@ -41,7 +41,7 @@ impl Wave {
         Self { phase: (self.phase + self.vector.dot(origin)).rem_euclid(1.0), ..*self }
     }
 
-    /// Whether it is so steep along its own way that the surface may fold over and turn inside out: the Jacobian
+    /// Tests whether it is so steep along its own way that the surface may fold over and turn inside out: the Jacobian
     /// `I + 2 pi cos(...) reach vector^T` then has a determinant that is not above zero everywhere.
     pub fn folds(&self) -> bool {
         TAU * self.vector.dot(self.reach).abs() >= 1.0

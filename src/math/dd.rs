@@ -1,8 +1,8 @@
 //! 4×4 matrices in double-double arithmetic (about 31 digits).
 //!
-//! The documents give the light's texture transform in several equal forms, some of which invert a projection. In f64
-//! that inverse loses as many digits as the frustum is stiff (near/far), and equal forms round to different f32
-//! planes. Here every form rounds to the same f32. Two-sum and two-product after Dekker (1971) and Knuth.
+//! There are several equal forms of the light's texture transform [HSM, Appendix A], some of which invert a projection. In
+//! f64 that inverse loses as many digits as the frustum is stiff (near/far), and equal forms round to different f32 planes.
+//! Here every form rounds to the same f32. Two-sum and two-product after [Dekker 1971].
 
 use std::ops::Mul;
 

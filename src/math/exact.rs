@@ -3,9 +3,8 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-/// Which side of the plane of `corners` (f32 values, exactly converted) `point` lies on: 1 where they run
-/// counter-clockwise seen from it, -1 where clockwise, 0 exactly on the plane. Never wrong, barring underflow of
-/// products below 10⁻³⁰⁰.
+/// Side of the plane of `corners` (f32 values, exactly converted) on which `point` lies: 1 if they run counter-clockwise
+/// seen from it, -1 if clockwise, 0 exactly on the plane. Never wrong, barring underflow of products below 10⁻³⁰⁰.
 pub fn side_of_point(corners: &[DVec3; 3], point: DVec3) -> i8 {
     let [a, b, c, p] = [corners[0], corners[1], corners[2], point].map(|v| Coord3D { x: v.x, y: v.y, z: v.z });
     // Positive where the corners run clockwise seen from p.
@@ -28,7 +27,7 @@ pub fn side_of_direction(corners: &[DVec3; 3], direction: DVec3) -> i8 {
     sum.sign()
 }
 
-/// Whether the three corners lie on one line, exactly. The corners are f32 values.
+/// Tests whether the three corners lie on one line, exactly. The corners are f32 values.
 pub fn are_collinear(corners: &[DVec3; 3]) -> bool {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().all(|axis| side_of_direction(corners, axis) == 0)
 }

@@ -1,10 +1,10 @@
-//! Which boxes a clip volume can show: conservative tests, in f64, of homogeneous corners.
+//! Tests of which boxes a clip volume can show: conservative, in f64, by homogeneous corners.
 
 use glam::{DMat4, DVec3, DVec4};
 
 use super::Aabb;
 
-/// What of a box lies in a clip volume.
+/// Overlap of a box and a clip volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlap {
     /// All corners are beyond one clip plane: nothing of the box can be drawn.
@@ -15,8 +15,8 @@ pub enum Overlap {
     Inside,
 }
 
-/// Holds a box against the clip volume `-w <= x, y, z <= w` (GL 4.6, 13.7). Never calls a visible box `Outside`; a box
-/// past a frustum's corner may be called `Partial`. The slack of 2⁻²⁰ covers the driver's f32 transforms.
+/// Tests a box against the clip volume `-w <= x, y, z <= w` (GL 4.6, 13.7). Never calls a visible box `Outside`; a box past
+/// a frustum's corner may be called `Partial`. The slack of 2⁻²⁰ covers the driver's f32 transforms.
 pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     if bounds.is_empty() {
         return Overlap::Outside;
@@ -40,7 +40,7 @@ pub fn overlap(clip_from_box: &DMat4, bounds: &Aabb) -> Overlap {
     }
 }
 
-/// As [`overlap`] under GL_DEPTH_CLAMP, where no near and no far plane clips: whether something of the box may be drawn.
+/// Tests whether something of the box may be drawn under GL_DEPTH_CLAMP, where no near and no far plane clips.
 pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
     if bounds.is_empty() {
         return false;
@@ -49,12 +49,12 @@ pub fn may_show_clamped(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
         return true;
     }
     let corners = bounds.corners().map(|corner| *clip_from_box * corner.extend(1.0));
-    // Where the sides meet, and behind that, is what w alone tells [GL 4.6, 13.7].
+    // Only w shows what lies where the sides meet, or behind that [GL 4.6, 13.7].
     corners.iter().any(|corner| corner.w >= -slack(corner))
         && (0..4).all(|plane| corners.iter().any(|corner| signed_distance(corner, plane) >= -slack(corner)))
 }
 
-/// Whether something of the box may lie within the sides of a perspective volume before its near plane: what
+/// Tests whether something of the box may lie within the sides of a perspective volume before its near plane: what
 /// GL_DEPTH_CLAMP draws at the near plane's depth, and clipping would leave out.
 pub fn may_be_before_near(clip_from_box: &DMat4, bounds: &Aabb) -> bool {
     let before = |corner: DVec3| {
@@ -75,7 +75,7 @@ fn volume_of(clip_from_box: &DMat4) -> Aabb {
     Aabb::from_points(corners(&clip_from_box.inverse()))
 }
 
-/// Whether all of a clip volume, of which `volume` is the box in the box's own space, lies beyond one face of the box:
+/// Tests whether all of a clip volume, of which `volume` is the box in the box's own space, lies beyond one face of the box:
 /// what the clip planes alone do not see of large boxes.
 fn beyond_a_face(volume: &Aabb, bounds: &Aabb) -> bool {
     if !(volume.min.is_finite() && volume.max.is_finite()) {
@@ -115,7 +115,7 @@ pub fn faces(corners: &[DVec3; 8]) -> [[DVec3; 4]; 6] {
         .map(|face| face.map(|corner| corners[corner]))
 }
 
-/// What of a convex polygon lies on the inner side of `plane` [Sutherland and Hodgman].
+/// Part of a convex polygon on the inner side of `plane` [Sutherland and Hodgman 1974].
 pub fn clip_polygon(polygon: &[DVec3], plane: &DVec4) -> Vec<DVec3> {
     let distance = |point: DVec3| plane.dot(point.extend(1.0));
     let mut clipped = Vec::with_capacity(polygon.len() + 1);
@@ -132,7 +132,7 @@ pub fn clip_polygon(polygon: &[DVec3], plane: &DVec4) -> Vec<DVec3> {
     clipped
 }
 
-/// Whether two convex volumes, each given by its `clip_from_world` and world-space corners, may meet: false only where
+/// Tests whether two convex volumes, each given by its `clip_from_world` and world-space corners, may meet: false only where
 /// a clip plane of one has all corners of the other beyond it.
 pub fn may_meet(a_clip: &DMat4, a_corners: &[DVec3; 8], b_clip: &DMat4, b_corners: &[DVec3; 8]) -> bool {
     let beyond = |clip: &DMat4, corners: &[DVec3; 8]| {

@@ -23,7 +23,7 @@ impl Hull {
         Self { points: corners.to_vec(), directions: Vec::new(), normals, edges }
     }
 
-    /// Between two polygons of as many corners, the nearer of which may be a point.
+    /// Hull of two quadrilaterals, the nearer of which may be a point.
     pub fn frustum(near: &[DVec3; 4], far: &[DVec3; 4]) -> Self {
         let mut hull = Self::polygon(far);
         hull.points.extend(near);
@@ -110,10 +110,10 @@ impl Hull {
 /// [`SLACK`].
 const PARALLEL: f64 = 1e-12;
 
-/// What f32 transforms may be off by, relative to the coordinates that meet.
+/// Error of f32 transforms, relative to the greatest operand.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whether a plane parts the two; conservative: `false` where none is found among the likely ones, and where the gap is
+/// Tests whether a plane parts the two; conservative: `false` where none is found among the likely ones, and where the gap is
 /// below 2⁻²⁰ of the sizes that meet, which covers f32 transforms. Two cones (no points) are apart if they share no
 /// direction.
 pub fn are_apart(a: &Hull, b: &Hull) -> bool {

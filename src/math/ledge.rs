@@ -1,5 +1,5 @@
-//! The ledge of C8 [GDC 2001, Building a "Ledge" at the Front of the Depth Buffer]: a piece of the depth range in front
-//! of the scene's own, in which caps at the near plane are drawn and never clipped.
+//! The ledge [GDC, "Building a "Ledge" at the Front of the Depth Buffer"]: a piece of the depth range in front of the
+//! scene's own, in which caps at the near plane are drawn and never clipped.
 //!
 //! The scene is drawn with depth range [n, f] and projection (N, F), volumes with [n', f] and (N', F), n' < n. Window
 //! depth falls with 1/z and both reach f at F, so the two agree everywhere if they agree at one more place:
@@ -14,7 +14,8 @@ use super::spaces::perspective;
 /// side, and a window transform in f32 by one more.
 pub const GUARD_CODES: u32 = 4;
 
-/// N' for which depths of the volumes are comparable with those of the scene. `0 <= n' <= n < f <= 1`, `0 < near < far`.
+/// Computes N' for which depths of the volumes are comparable with those of the scene. `0 <= n' <= n < f <= 1`, `0 < near <
+/// far`.
 pub fn volume_near(near: f64, far: f64, scene_depth_near: f64, volume_depth_near: f64, depth_far: f64) -> f64 {
     let (n, n_volume, f) = (scene_depth_near, volume_depth_near, depth_far);
     (f - n) * near * far / ((n_volume - n) * near + (f - n_volume) * far)
@@ -25,9 +26,9 @@ pub fn volume_near(near: f64, far: f64, scene_depth_near: f64, volume_depth_near
 pub struct Ledge {
     /// Near and far of glDepthRange for the scene: (n, f).
     pub scene_range: [f64; 2],
-    /// For a volume's sides: (n', f).
+    /// Depth range of a volume's sides: (n', f).
     pub volume_range: [f64; 2],
-    /// For caps on the near plane: (n', n'), so that each lies exactly at n', whatever its z.
+    /// Depth range of caps on the near plane: (n', n'), so that each lies exactly at n', whatever its z.
     pub cap_range: [f64; 2],
     /// N'.
     pub volume_near: f64,
@@ -40,12 +41,12 @@ impl Ledge {
     /// (1..=32; the significand's 24 for floats) and the camera's projection. The ledge begins at depth 0.
     pub fn new(fov_y_radians: f64, aspect: f64, near: f64, far: f64, depth_bits: u32) -> Self {
         let codes = f64::from(depth_bits.clamp(1, 32)).exp2() - 1.0;
-        // One code more than asked for: n itself is rounded to one.
+        // One code more than requested: n itself is rounded to one.
         let scene_near = (f64::from(GUARD_CODES + 1) / codes).min(0.5);
         Self::with_ranges(fov_y_radians, aspect, near, far, [0.0, scene_near, 1.0])
     }
 
-    /// For the ranges `[n', n, f]`.
+    /// A ledge with the ranges `[n', n, f]`.
     pub fn with_ranges(fov_y_radians: f64, aspect: f64, near: f64, far: f64, ranges: [f64; 3]) -> Self {
         let [volume_depth, scene_depth, depth_far] = ranges;
         let volume_near = volume_near(near, far, scene_depth, volume_depth, depth_far);
@@ -65,7 +66,7 @@ mod tests {
 
     #[test]
     fn the_check_value_is_met_to_seven_digits() {
-        // techniques C8: n 0.1, n' 0.05, f 1, N 1, F 100.
+        // Check value: n 0.1, n' 0.05, f 1, N 1, F 100.
         assert!((volume_near(1.0, 100.0, 0.1, 0.05, 1.0) - 0.947_867_3).abs() < 5e-8);
         assert_eq!(volume_near(1.0, 100.0, 0.1, 0.1, 1.0), 1.0);
     }

@@ -30,8 +30,8 @@ pub fn perspective(fov_y_radians: f64, aspect: f64, near: f64, far: f64) -> DMat
 }
 
 /// `clip_from_view` of the same perspective with its far plane at infinity: points with w = 0 ahead of the eye land on
-/// depth 1 exactly and are never clipped by it [GDC 2001; Everitt & Kilgard]. Its x, y and w rows are those of
-/// [`perspective`] to the bit.
+/// depth 1 exactly and are never clipped by it [Everitt and Kilgard 2002]. Its x, y and w rows are those of [`perspective`] to the
+/// bit.
 pub fn infinite_perspective(fov_y_radians: f64, aspect: f64, near: f64) -> DMat4 {
     let f = 1.0 / (0.5 * fov_y_radians).tan();
     DMat4::from_cols(

@@ -1,4 +1,4 @@
-//! Eye-linear texture-coordinate generation, emulated [Hardware Shadow Mapping, Eq. 1–5 and Appendix A].
+//! Eye-linear texture-coordinate generation, emulated [HSM, "Computing Transformations for Shadow Mapping", Appendix A].
 //!
 //! `(s, t, r, q) = T · E_e · x_eye` with `E_e = E_po · modelview_po⁻¹`: the planes as specified to glTexGen, times the
 //! inverse of the modelview in effect at that call, then the texture matrix.
@@ -7,8 +7,8 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::dd::DdMat4;
 
-/// The modelview under which the planes are specified: the document's four equal set-ups, named for the space in
-/// which the planes then stand.
+/// The modelview under which the planes are specified: four equal set-ups [HSM, Appendix A], named for the space in which
+/// the planes then stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SetUp {
     /// (i) modelview I; planes `S·P_light·L⁻¹·V`.
@@ -21,7 +21,7 @@ pub enum SetUp {
     Identity,
 }
 
-/// How much of the transform the texture matrix `T` carries, in place of the planes.
+/// Share of the transform that the texture matrix `T` carries, in place of the planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Split {
     /// T = I.
@@ -41,7 +41,7 @@ pub struct Spaces {
     pub eye_from_world: DMat4,
 }
 
-/// What glTexGen, glMatrixMode(GL_TEXTURE) and the modelview stack would be given. Rows of `planes` are s, t, r, q.
+/// Arguments for glTexGen, glMatrixMode(GL_TEXTURE) and the modelview stack. Rows of `planes` are s, t, r, q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texgen {
     /// `E_po`, as specified.
@@ -67,7 +67,7 @@ pub fn set_up(spaces: &Spaces, set_up: SetUp, split: Split) -> Option<Texgen> {
         Split::ScaleBias => scale_bias,
         Split::Projection => scale_bias * projection,
     };
-    // What is left for the planes once T has its share.
+    // The planes have what remains after T.
     let texture_from_light = match split {
         Split::Planes => scale_bias * projection,
         Split::ScaleBias => projection,
@@ -88,15 +88,16 @@ pub fn set_up(spaces: &Spaces, set_up: SetUp, split: Split) -> Option<Texgen> {
     })
 }
 
-/// `S`: halves and shifts clip coordinates into [0, 1]; `r` scaled and biased by its own pair, (0.5, 0.5) in the
-/// documents and stepped by 1/65535 in the sample program. Negative `r_scale`: a map drawn with its depth reversed.
+/// `S`: halves and shifts clip coordinates into [0, 1]; `r` scaled and biased by its own pair, (0.5, 0.5) in [HSM, "Setting
+/// Up the Transformations"] and stepped by 1/65535 in the sample program. Negative `r_scale`: a map drawn with its depth
+/// reversed.
 pub fn scale_bias(r_scale: f64, r_bias: f64) -> DMat4 {
     DMat4::from_translation(DVec3::new(0.5, 0.5, r_bias)) * DMat4::from_scale(DVec3::new(0.5, 0.5, r_scale))
 }
 
-/// The Direct3D texture matrix [Hardware Shadow Mapping, "Direct3D API Details"]: y flipped, `r` in integer units of a map of
-/// `bits` bits, `bias` in the same units (negative: towards the light). `half_texel`: half the width of a texel in [0, 1],
-/// for its addressing; 0 where the map was drawn with its viewport moved by as much.
+/// The Direct3D texture matrix [HSM, "Direct3D API Details"]: y flipped, `r` in integer units of a map of `bits` bits,
+/// `bias` in the same units (negative: towards the light). `half_texel`: half the width of a texel in [0, 1], for its
+/// addressing; 0 where the map was drawn with its viewport moved by as much.
 pub fn direct3d_scale_bias(half_texel: f64, bits: u32, bias: f64) -> DMat4 {
     let offset = 0.5 + half_texel;
     let z_scale = 2.0_f64.powi(bits as i32) - 1.0;

@@ -1,11 +1,11 @@
-//! Stencil counts as colours with a legend [GDC 2001; techniques C11]: green lit, red shadowed, the deeper the darker;
-//! violet what a count below 0 left, likewise.
+//! Stencil counts as colours with a legend [GDC, "Visualizing Stenciled Shadow Volume Tagging"]: green lit, red shadowed,
+//! the deeper the darker; violet below 0, likewise.
 
 use super::canvas::{Canvas, Color, LETTER};
 
 const LIT: Color = [66, 148, 82];
 const SHADOWED: [Color; 6] = [[240, 120, 96], [222, 78, 62], [196, 44, 42], [160, 26, 36], [120, 16, 32], [84, 10, 28]];
-/// From -1 down.
+/// Colours from -1 down.
 const BELOW_ZERO: [Color; 4] = [[196, 140, 236], [150, 70, 200], [98, 44, 164], [56, 26, 112]];
 
 /// The colour of a count modulo 256; from 128 on it is read as negative.

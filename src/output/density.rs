@@ -1,5 +1,5 @@
-//! Texels per pixel as colours with a legend [Hardware Shadow Mapping, Fig. 6; techniques A17]: green where a pixel shows
-//! one texel, warm where texels are larger than pixels and are seen, cold where they are smaller and are lost.
+//! Texels per pixel as colours with a legend [HSM, Figure 6]: green where a pixel shows one texel, warm where texels are
+//! larger than pixels, cold where they are smaller.
 
 use super::canvas::{Canvas, Color, LETTER};
 
@@ -10,7 +10,7 @@ const SCALE: [Color; 7] =
 pub const ONE: &str = "1 texel a pixel";
 const OUTSIDE: Color = [30, 32, 38];
 
-/// Between the two nearest colours, by the logarithm.
+/// Interpolates between the two nearest colours, by the logarithm.
 fn color(texels: f32) -> Color {
     let at = (texels.max(f32::MIN_POSITIVE).log2() + 3.0).clamp(0.0, 6.0);
     let (low, part) = (at.floor(), at.fract());
@@ -43,7 +43,7 @@ pub fn colored(size: [u32; 2], data: &[f32], one: &str) -> Canvas {
     canvas
 }
 
-/// Where a `room` four pixels off the edges hides the least of what is seen; upper left among equals.
+/// Corner where a `room` four pixels from the edges hides the least of the picture; upper left among equals.
 fn emptiest_corner(size: [u32; 2], data: &[f32], room: [u32; 2]) -> [u32; 2] {
     let hidden = |[left, top]: &[u32; 2]| -> usize {
         let row = |y: u32| {

@@ -1,10 +1,10 @@
 //! Pictures as files: PNG to look at, EXR and NPY with exact 32-bit values. Everything is written beside its name and
-//! renamed when it is whole (`whole.rs`).
+//! renamed when it is whole (`atomic_write.rs`).
 
+pub(crate) mod atomic_write;
 pub mod canvas;
 mod counts;
 mod density;
-pub(crate) mod whole;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -14,9 +14,9 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::device::Pixels;
-use crate::techniques::views::View;
+use crate::views::View;
 
-/// Why a file could not be written.
+/// Reason why a file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
@@ -38,13 +38,13 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// Whether the format holds exact 32-bit values.
+    /// Tests whether the format holds exact 32-bit values.
     pub fn is_exact(self) -> bool {
         self != Self::Png
     }
 }
 
-/// The format that `path` asks for, once it is known that a file of that name can be made there.
+/// The format by the extension of `path`, after a check that a file of that name can be made.
 ///
 /// # Errors
 ///
@@ -68,7 +68,7 @@ pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     }
 }
 
-/// Whether both lead to one file that exists.
+/// Tests whether both lead to one file that exists.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| fs::canonicalize(path).ok();
     one == other || place(one).is_some_and(|one| place(other).is_some_and(|other| one == other))
@@ -102,7 +102,7 @@ pub struct Output<'a> {
 /// The first file that could not be written; what was written beside is removed.
 pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
     let paths: Vec<&Path> = outputs.iter().map(|output| output.path).collect();
-    whole::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
+    atomic_write::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
         .map_err(|(index, error)| failed(paths[index], &error))
 }
 
@@ -128,8 +128,8 @@ fn write_png(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
         .map_err(io::Error::other)
 }
 
-/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their
-/// greatest so that a person sees them (the other formats have them as they are).
+/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their greatest
+/// so that they are visible (the other formats have the exact values).
 fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
     match (output.pixels, output.view) {
         (Pixels::Rgba8 { data, .. }, _) => {
@@ -163,7 +163,7 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
     }
 }
 
-/// The picture as its PNG has it; what is transparent lies on dark blue.
+/// The picture as its PNG has it; transparent parts are on dark blue.
 pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
     const BEHIND: [f32; 3] = [44.0, 50.0, 64.0];
     let (bytes, kind) = png_bytes(&Output { path: Path::new(""), pixels, view });
@@ -195,7 +195,7 @@ pub fn densities(size: [u32; 2], data: &[f32], one: &str) -> canvas::Canvas {
 pub fn write_sheets(sheets: &[(PathBuf, canvas::Canvas)], texts: &[(PathBuf, String)]) -> Result<(), Error> {
     let paths: Vec<&Path> =
         sheets.iter().map(|(path, _)| path.as_path()).chain(texts.iter().map(|(path, _)| path.as_path())).collect();
-    let written = whole::write_all(&paths, |index, temporary| match sheets.get(index) {
+    let written = atomic_write::write_all(&paths, |index, temporary| match sheets.get(index) {
         Some((_, sheet)) => {
             let [width, height] = sheet.size();
             let file = BufWriter::new(fs::File::create(temporary)?);

@@ -1,11 +1,11 @@
-//! What is drawn: ranges of meshes under matrices.
+//! Draws: ranges of meshes under matrices.
 
 use std::ops::{Deref, Range};
 use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::{DrawState, Face, Input, Meaning, Program, Uniform};
+use super::{DrawState, Face, FixedFunctionDesc, Input, Program, Uniform};
 use crate::geometry::Mesh;
 use crate::math::Aabb;
 
@@ -31,13 +31,13 @@ impl Deref for MeshRef {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
     pub program: Program,
-    /// What the program computes, for readers without shaders.
-    pub meaning: Meaning,
+    /// The program's computation, for readers without shaders.
+    pub meaning: FixedFunctionDesc,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
-    /// Faces that are not drawn, beside those of the pass's own state.
+    /// Faces that are not drawn, in addition to those of the pass's state.
     pub cull: Option<Face>,
-    /// In the place of the pass's own, and no wider.
+    /// Overrides the pass's scissor; must lie inside it.
     pub scissor: Option<[u32; 4]>,
     /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
     /// that clips by a distance of its own.
@@ -46,7 +46,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// What it is drawn under in a pass of this state.
+    /// State that it is drawn with in a pass of this state.
     pub fn state(&self, pass: &DrawState) -> DrawState {
         DrawState {
             cull: self.cull.or(pass.cull),
@@ -64,21 +64,21 @@ pub struct Draw {
     pub label: String,
     pub mesh: MeshRef,
     pub primitive: Primitive,
-    /// Into the mesh's indices.
+    /// Range of the mesh's indices.
     pub indices: Range<u32>,
     pub order: IndexOrder,
-    /// Of what the range draws, in model space.
+    /// Bounds of the range, in model space.
     pub bounds: Aabb,
     /// `clip_from_model`: every program of ours has this uniform, and the plan culls by it.
     pub clip_from_model: DMat4,
-    /// Whether the transform mirrors, so that front faces wind clockwise.
+    /// True if the transform mirrors, so that front faces wind clockwise.
     pub mirrored: bool,
-    /// Beside `clip_from_model`.
+    /// Uniforms in addition to `clip_from_model`.
     pub uniforms: Vec<Uniform>,
 }
 
 impl Draw {
-    /// Triangles, or line segments.
+    /// Number of triangles, or of line segments.
     pub fn primitive_count(&self) -> u64 {
         let each = match self.primitive {
             Primitive::Triangles => 3,
@@ -97,8 +97,8 @@ pub enum Primitive {
 /// The order in which a mesh's triangles are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum IndexOrder {
-    /// As the file has them.
+    /// The file's order.
     File,
-    /// For the post-transform vertex cache.
+    /// An order for the post-transform vertex cache.
     VertexCache,
 }

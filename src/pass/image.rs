@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::Compare;
 use crate::geometry::Texture;
 
-/// Into [`super::PassList::images`].
+/// Index into [`super::PassList::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ImageId(pub usize);
 
@@ -20,12 +20,12 @@ pub struct ImageDesc {
     pub storage: Storage,
 }
 
-/// Where an image's texels live, and where they come from.
+/// Storage of an image's texels, and their origin.
 #[derive(Clone, Debug)]
 pub enum Storage {
     /// A texture that passes draw or copy into and sample.
     Texture,
-    /// The same with so many mipmap levels, at least one, each drawn by a pass of its own.
+    /// A texture with so many mipmap levels, at least one, each drawn by a pass of its own.
     Mipmapped(u32),
     /// A cube map, six square faces of the image's size.
     Cube(Cube),
@@ -38,12 +38,12 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// The faces of a cube map; otherwise 1.
+    /// Number of faces of a cube map; otherwise 1.
     pub fn layers(&self) -> u64 {
         if let Self::Cube(_) = self { 6 } else { 1 }
     }
 
-    /// Whether there are texels of smaller levels beside those of the image's size.
+    /// Tests whether there are texels of smaller levels beside those of the image's size.
     pub fn is_mipmapped(&self) -> bool {
         matches!(self, Self::Uploaded(_) | Self::Mipmapped(2..))
     }
@@ -62,12 +62,12 @@ impl PartialEq for Storage {
     }
 }
 
-/// Which faces of a cube map passes draw, and what the others hold.
+/// Faces of a cube map that passes draw, and what the others hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cube {
-    /// In the order of [`CubeFace::ALL`].
+    /// Drawn faces, in the order of [`CubeFace::ALL`].
     pub drawn: [bool; 6],
-    /// The depth of every texel of a face that none draws.
+    /// Depth of every texel of a face that no pass draws.
     pub rest: f32,
 }
 
@@ -104,7 +104,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Whether it is attached as depth.
+    /// Tests whether it is attached as depth.
     pub fn has_depth(self) -> bool {
         matches!(self, Self::Depth(_) | Self::UnsizedDepth | Self::Depth24Stencil8)
     }
@@ -170,8 +170,8 @@ pub struct Sampler {
     pub wrap: Wrap,
     /// GL_TEXTURE_COMPARE_MODE = GL_COMPARE_REF_TO_TEXTURE with this function; `None`: GL_NONE.
     pub compare: Option<Compare>,
-    /// Where GL_TEXTURE_MIN_LOD and GL_TEXTURE_MAX_LOD both stand, in halves of a level; `None`: at GL's defaults, which
-    /// clamp nothing.
+    /// Value of both GL_TEXTURE_MIN_LOD and GL_TEXTURE_MAX_LOD, in halves of a level; `None`: GL's defaults, which clamp
+    /// nothing.
     pub lod_halves: Option<u8>,
 }
 
@@ -187,7 +187,7 @@ pub enum Filter {
 pub enum Wrap {
     Repeat,
     ClampToEdge,
-    /// Beyond [0, 1] lie texels whose components are all this [GL 4.6, 8.14.2].
+    /// Texels beyond [0, 1] have this value in all components [GL 4.6, 8.14.2].
     ClampToBorder(Border),
 }
 

@@ -2,16 +2,18 @@
 //! run by more than one reader. Knows meshes and the math of texture coordinates; no scene, no technique, no GL.
 
 mod draw;
+mod fixed_function_desc;
 mod image;
-mod meaning;
 mod program;
 mod state;
 
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
+pub use fixed_function_desc::{
+    AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing,
+};
 pub use image::{
     Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
 };
-pub use meaning::{AlphaTest, LightMeaning, Lit, Meaning, Projection, Sampled, Shade, Texturing};
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
@@ -39,18 +41,18 @@ impl PassList {
 /// One step of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    /// Unique in the list; names the pass in plans, times and errors.
+    /// Name of the pass in plans, times and errors; unique in the list.
     pub label: String,
     pub redraw: Redraw,
     pub work: Work,
 }
 
-/// Whether a pass may be left out of a frame that would draw the same again.
+/// Rule for leaving a pass out of a frame that would draw the same again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Redraw {
-    /// In every frame.
+    /// Draws in every frame.
     Always,
-    /// In the first frame, and in each that differs in this pass.
+    /// Draws in the first frame, and in each that differs in this pass.
     WhenChanged,
 }
 
@@ -61,7 +63,7 @@ pub enum Work {
     CopyDepth {
         from: ImageId,
         to: ImageId,
-        /// Of `to`, where that is a cube map.
+        /// Face of `to`, if that is a cube map.
         face: Option<CubeFace>,
     },
 }
@@ -70,7 +72,7 @@ pub enum Work {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawPass {
     pub target: Target,
-    /// In pixels, from the target's lower left corner; what is cleared is the whole target.
+    /// Size in pixels, from the target's lower left corner. Clears affect the whole target.
     pub viewport: [u32; 2],
     pub clear: Clear,
     pub state: DrawState,
@@ -81,15 +83,15 @@ pub struct DrawPass {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
     pub color: Option<ImageId>,
-    /// Attached as depth and stencil where its format has both.
+    /// Depth attachment; also the stencil attachment if its format has both.
     pub depth: Option<ImageId>,
-    /// Of the images that have several levels.
+    /// Level of images that have several.
     pub level: u32,
-    /// Of `depth`, where that is a cube map.
+    /// Face of `depth`, if that is a cube map.
     pub face: Option<CubeFace>,
 }
 
-/// What is cleared before the draws.
+/// Values to clear to before the draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clear {
     pub color: Option<[f32; 4]>,
@@ -126,7 +128,7 @@ impl Pass {
         }
     }
 
-    /// The images that the pass writes. A pass that only holds its fragments against depth or stencil writes neither.
+    /// The images that the pass writes. A pass that only tests depth or stencil writes neither.
     pub fn writes(&self) -> Vec<ImageId> {
         match &self.work {
             Work::Draw(draw) => {

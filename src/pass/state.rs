@@ -26,7 +26,7 @@ pub struct PolygonOffset {
     pub units: f32,
 }
 
-/// What happens to a stencil value [GL 4.6, 17.3.3]. Values are eight bits.
+/// Operation on a stencil value [GL 4.6, 17.3.3]. Values are eight bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StencilOp {
     Keep,
@@ -43,8 +43,8 @@ pub enum StencilOp {
     Invert,
 }
 
-/// What each outcome of the tests does to the stencil value of a fragment of one facing (glStencilOpSeparate). With the
-/// depth test off, the depth test passes.
+/// Operations for each outcome of the tests on the stencil value of a fragment of one facing (glStencilOpSeparate). With
+/// the depth test off, the depth test passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StencilOps {
     pub stencil_fail: StencilOp,
@@ -67,16 +67,16 @@ pub struct Stencil {
     pub back: StencilOps,
 }
 
-/// How a fragment's colour joins the one that is there.
+/// Blending of a fragment's colour with the stored one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blend {
     /// GL_ONE, GL_ONE; alpha stays as it is.
     Add,
-    /// By the fragment's alpha over what is there; alpha stays as it is.
+    /// Blends by the fragment's alpha over the stored colour; alpha stays as it is.
     Over,
 }
 
-/// All of GL's per-fragment and raster state that a pass of ours can set.
+/// All per-fragment and raster state that a pass can set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
     /// `None`: the depth test, and with it depth writing, is off.
@@ -90,14 +90,14 @@ pub struct DrawState {
     pub depth_range: [f32; 2],
     /// GL_DEPTH_CLAMP: no clipping at the near and far planes, depth clamped to the range [GL 4.6, 13.7].
     pub depth_clamp: bool,
-    /// How many of GL_CLIP_DISTANCE0 and following are on, which the vertex stage then writes; at most
+    /// Number of clip distances, from GL_CLIP_DISTANCE0, that the vertex stage writes; at most
     /// [`DrawState::MOST_CLIP_DISTANCES`].
     pub clip_distances: u8,
     /// `None`: the stencil test is off.
     pub stencil: Option<Stencil>,
     /// `None`: the fragment's colour replaces what is there.
     pub blend: Option<Blend>,
-    /// Left, bottom, width and height in pixels of what may be drawn; `None`: everything. Clears do not heed it.
+    /// Scissor: left, bottom, width and height in pixels; `None`: everything. Clears ignore it.
     pub scissor: Option<[u32; 4]>,
 }
 
@@ -123,7 +123,7 @@ impl DrawState {
     /// Colour and depth: LESS.
     pub const OPAQUE: Self = Self { color_write: true, ..Self::DEPTH_ONLY };
 
-    /// Colour where depth is already what this draws: EQUAL, no depth writes. Exact only with the same position
+    /// Colour only where the stored depth equals the draw's: EQUAL, no depth writes. Exact only with the same position
     /// arithmetic as the pass that wrote it [GL 4.6 compatibility, A.3].
     pub const REPEAT: Self = Self { depth_test: Some(Compare::Equal), depth_write: false, ..Self::OPAQUE };
 }

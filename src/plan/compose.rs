@@ -2,16 +2,17 @@
 
 use glam::DMat4;
 
-use super::builder::Builder;
-use super::lens::Lens;
+use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
+use crate::compositions::passes::Passes;
+use crate::lights::drawable::{items, note_clear};
+use crate::lights::guard::Guard;
+use crate::lights::{CameraView, Drawable, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{ImageId, PassList};
+use crate::pass::PassList;
 use crate::scene::{Light, Scene};
-use crate::techniques::guard::Guard;
-use crate::techniques::items::{items, note_clear};
-use crate::techniques::surface::Viewer;
-use crate::techniques::{self, Item, LightTerm, LightView, Notes};
+use crate::surfaces;
+use crate::techniques;
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
@@ -24,57 +25,58 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
-    let camera = Lens::of_scene(scene).camera;
+    let camera = CameraView::new(scene, &items);
     let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
-    let mut builder = Builder { scene, items: &items, kept, counted, list: &mut list, notes: &mut notes, request };
-    let target = match request.subject {
-        Subject::Camera => builder.camera_picture(&terms)?,
-        Subject::Light(index) => builder.light_picture(index)?,
+    let passes = Passes {
+        scene,
+        items: &items,
+        kept,
+        counted,
+        list: &mut list,
+        notes: &mut notes,
+        surface: surfaces::batches,
+        frames: request.frames,
+        keep_all: request.keep_all,
+    };
+    let mut pictures = Pictures { passes, request };
+    let buffers = match request.subject {
+        Subject::Camera => pictures.of_camera(&terms)?,
+        Subject::Light(index) => pictures.of_light(index)?,
     };
     let mut views = Vec::new();
     for wanted in &request.views {
-        let image = builder.view(wanted, &terms, target)?;
+        let image = pictures.view(wanted, &terms, buffers)?;
         views.push((*wanted, image));
     }
-    let picture = target.color.unwrap_or(ImageId(0));
     let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    Ok(Plan { list, picture, views, left_out, chosen, warnings, maps })
-}
-
-/// A light's term, and whether the picture needs it.
-pub struct PlannedLight {
-    pub term: LightTerm,
-    pub contributes: bool,
-    /// Whether the picture or a view needs it.
-    pub is_drawn: bool,
+    Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps })
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
 /// errors do not depend on where the camera looks.
 fn light_terms(
     scene: &Scene,
-    items: &[Item],
-    camera: &Viewer,
+    items: &[Drawable],
+    camera: &CameraView<'_>,
     request: &Request,
     list: &mut PassList,
     notes: &mut Notes,
 ) -> Result<Vec<PlannedLight>, Error> {
-    let visible = visible(items, camera);
     let mut planned = Vec::new();
     for (index, source) in scene.lights.iter().enumerate() {
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
         let shown = request.views.iter().any(|v| of_this(&v));
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
-        // What is out of the camera's sight may be in another viewer's.
+        // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
         let keep_all = request.keep_all;
         let sampled_warnings = request.sampled_warnings;
-        let view = LightView { scene, items, index, shown_whole, keep_all, sampled_warnings };
-        let absent = why_absent(&view, camera, &visible).filter(|_| !keep_all);
+        let view = LightView { scene, items, camera, index, shown_whole, keep_all, sampled_warnings };
+        let absent = why_absent(&view).filter(|_| !keep_all);
         let mut keys = source.shadow.read();
         let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
@@ -96,16 +98,8 @@ fn light_terms(
     Ok(planned)
 }
 
-/// The items that the camera may see.
-fn visible<'a>(items: &'a [Item], camera: &Viewer) -> Vec<&'a Item> {
-    let clip_from_world = camera.clip_from_world();
-    let seen =
-        |item: &&Item| frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside;
-    items.iter().filter(seen).collect()
-}
-
-/// Why a light adds nothing to the picture, if so.
-fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Option<&'static str> {
+/// Reason why a light adds nothing to the picture, if there is one.
+fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
         return Some("its colours are black");
@@ -114,20 +108,20 @@ fn why_absent(view: &LightView<'_>, camera: &Viewer, visible: &[&Item]) -> Optio
         return None; // ambient light is not bound by the cone
     }
     let Some(light_clip) = reach(source) else {
-        return visible.is_empty().then_some("nothing that is seen is there for it to light");
+        return view.camera.visible.is_empty().then_some("nothing that is seen is there for it to light");
     };
-    let camera_clip = camera.clip_from_world();
+    let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
     }
     let touched =
-        |item: &&Item| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
-    if visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
+        |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    if view.camera.visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
-/// `clip_from_world` of what the light can light: its cone's pyramid from its very position on. Its near plane bounds
-/// casters and its far plane the map's depths; neither ends the light. `None`: nothing bounds it.
+/// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position. Near and far bound the
+/// map's depths, not the light. `None`: nothing bounds it.
 fn reach(source: &Light) -> Option<DMat4> {
     source.frustum().map(|frustum| frustum.unbounded().clip_from_world())
 }

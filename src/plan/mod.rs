@@ -1,9 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
-mod builder;
 mod compose;
-mod counted;
-mod lens;
+mod pictures;
 mod print;
 mod prune;
 #[cfg(test)]
@@ -11,28 +9,30 @@ mod tests;
 
 use serde::Serialize;
 
+use crate::compositions;
+use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::techniques::{Chosen, LeftOut, MapInfo, views::View};
+use crate::views::View;
 
-/// What a caller wants of a frame.
+/// A request for a frame.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Whose eyes the picture is drawn for.
+    /// Viewer of the picture.
     pub subject: Subject,
-    /// Beside the picture itself.
+    /// Views in addition to the picture.
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
-    /// How many frames will be drawn of this scene: what pays off is decided by it.
+    /// Frames to be drawn. Decides whether one-time work (sorting indices, keeping maps) is worth it.
     pub frames: u32,
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
     /// objects out of sight, colour buffers of depth passes, maps that are there already.
     pub keep_all: bool,
-    /// Whether points that the camera sees are sampled to find what the picture will show wrong, for [`Plan::warnings`].
-    /// That costs some 10 to 100 ms a light: what is planned for every frame of a window goes without.
+    /// True if points that the camera sees are sampled to find pixels that will be wrong, for [`Plan::warnings`]. That
+    /// costs some 10 to 100 ms a light: windows, which plan every frame, turn it off.
     pub sampled_warnings: bool,
-    /// What the driver can do.
+    /// Limits of the driver.
     pub limits: Limits,
 }
 
@@ -50,19 +50,19 @@ impl Default for Request {
     }
 }
 
-/// Who sees the picture.
+/// Viewer of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
     /// The scene's camera; the whole picture.
     #[default]
     Camera,
-    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture,
-    /// in its lower left corner. A shadow map that is copied from the window's own depth buffer has that size
-    /// [techniques E].
+    /// A light, by its place in the scene, without shadows: the largest square of a power of two that fits the picture, in
+    /// its lower left corner. A shadow map that is copied from the window's own depth buffer has that size as in the sample
+    /// program hw_shadowmaps_simple.
     Light(usize),
 }
 
-/// What the driver at hand can do; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
+/// Limits of a driver; [`Limits::default`] is GL 3.3's guarantee or common sense, for plans without one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// The lesser of GL_MAX_TEXTURE_SIZE, GL_MAX_RENDERBUFFER_SIZE and GL_MAX_VIEWPORT_DIMS.
@@ -81,55 +81,45 @@ impl Default for Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ViewRequest {
     pub view: View,
-    /// Into the scene's lights; 0 for views of no light.
+    /// Index into the scene's lights; 0 for views of no light.
     pub light: usize,
 }
 
-/// A frame's passes, where its pictures lie, and what it leaves out.
+/// A frame's passes, its pictures' images, and what was left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     pub list: PassList,
     pub picture: ImageId,
-    /// In the request's order.
+    /// Views in the request's order.
     pub views: Vec<(ViewRequest, ImageId)>,
     pub left_out: Vec<LeftOut>,
     pub chosen: Vec<Chosen>,
     pub warnings: Vec<String>,
-    /// The maps of the lights that the picture or a view asks for one, in the scene's order.
+    /// Maps of the lights that the picture or a view needs, in the scene's order.
     pub maps: Vec<MapInfo>,
 }
 
-/// Why a scene cannot be planned.
+/// Reason why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    #[error(transparent)]
+    Composition(#[from] compositions::Error),
     #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
     NoSuchLight { view: String, count: usize },
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
-    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
-    NoCount { view: &'static str, light: usize },
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
     TooManyInputs { needed: usize, limit: u32 },
     #[error(
-        "guard = \"clip-plane\" of lights {lights:?}: at most {most} may choose it, as what lies across all their planes is drawn once for each combination of sides"
+        "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
-    #[error(
-        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
-    )]
-    CutDepths { light: usize, counted: usize },
-    #[error(
-        "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
-    )]
-    TwoLedges { first: usize, second: usize },
-    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
-    Singular { light: usize },
 }
 
 /// Plans a frame of `scene`.

@@ -4,11 +4,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Plan, Request};
+use crate::lights::LeftOut;
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage, Target, Work,
 };
-use crate::techniques::LeftOut;
 
 /// Prunes in place.
 pub fn prune(plan: &mut Plan, request: &Request) {
@@ -42,8 +42,8 @@ fn keep_all(plan: &mut Plan) {
     plan.left_out.clear();
 }
 
-/// Draws whose bounds lie beyond one of the pass's clip planes: its sides alone where depth is clamped, unless a clip
-/// distance stands in for the near plane.
+/// Removes draws whose bounds lie beyond one of the pass's clip planes. With clamped depth only the sides count, unless a
+/// clip distance is used in place of the near plane.
 fn cull_draws(plan: &mut Plan) {
     let left_out = &mut plan.left_out;
     for pass in &mut plan.list.passes {
@@ -51,7 +51,7 @@ fn cull_draws(plan: &mut Plan) {
         let Work::Draw(draw_pass) = &mut pass.work else { continue };
         let has_no_ends = draw_pass.state.depth_clamp && draw_pass.state.clip_distances == 0;
         for batch in &mut draw_pass.batches {
-            // Passes of depth alone leave faces out by a key of the scene.
+            // Depth passes leave faces out by a key of the scene.
             let culls = batch.cull.is_some() && draw_pass.state.color_write;
             batch.draws.retain(|draw| {
                 let seen = match has_no_ends {
@@ -76,7 +76,7 @@ fn cull_draws(plan: &mut Plan) {
     }
 }
 
-/// Passes whose images are neither read later nor asked for, last first.
+/// Removes passes whose images are neither read later nor requested, last first.
 fn drop_unread_passes(plan: &mut Plan) {
     let mut needed: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
     needed.insert(plan.picture);
@@ -96,7 +96,7 @@ fn drop_unread_passes(plan: &mut Plan) {
     plan.list.passes = kept;
 }
 
-/// Images of no pass, and renumbers the rest.
+/// Removes images that no pass uses, and renumbers the rest.
 fn drop_unused_images(plan: &mut Plan) {
     let mut used: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
     used.insert(plan.picture);

@@ -1,11 +1,11 @@
-//! Plans against the documents' own words: numbers, formats, order of passes.
+//! Plans against [GDC], [LEC] and [HSM]: numbers, formats, order of passes.
 
 use std::path::Path;
 
 use super::{Plan, Request, ViewRequest, make};
 use crate::pass::{Blend, Compare, DepthFormat, DrawPass, Format, Work};
 use crate::scene;
-use crate::techniques::views::View;
+use crate::views::View;
 
 fn plan(scene: &str, set: &[&str]) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(scene);
@@ -24,8 +24,8 @@ fn draws(plan: &Plan) -> Vec<(&str, &DrawPass)> {
     draw.collect()
 }
 
-/// The slide's numbers: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC 2001, "Building a Ledge at the Front of
-/// the Depth Buffer"].
+/// Numbers of the slide: the scene in [0.1, 1], volumes in [0.05, 1], caps at 0.05 [GDC, "Building a "Ledge" at the Front
+/// of the Depth Buffer"].
 #[test]
 fn the_talk_s_ledge_is_drawn_by_its_numbers() {
     for (ledge, [volumes, scene_near]) in
@@ -41,8 +41,8 @@ fn the_talk_s_ledge_is_drawn_by_its_numbers() {
     assert!(draws(&plan).iter().all(|(_, pass)| pass.state.depth_range[0] < 1e-6), "the thinnest by default");
 }
 
-/// Depth, count, the scene with the light where the count is 0, the scene without it where it is not; nothing is added [GDC
-/// 2001, "Shadow Volume Algorithm"].
+/// Depth, count, the scene with the light where the count is 0, the scene without it where it is not; nothing is added
+/// [GDC, "Shadow Volume Algorithm"].
 #[test]
 fn the_talk_s_two_passes_replace() {
     let plan = plan("box.toml", &["technique=shadow-volume", "passes=lit-unlit"]);
@@ -58,7 +58,7 @@ fn the_talk_s_two_passes_replace() {
 }
 
 /// Without a number of bits the texture is the driver's choice; the depth buffer that it is to follow has the picture's
-/// [lecture, "New Depth Texture Internal Texture Formats"].
+/// [LEC, "New Depth Texture Internal Texture Formats"].
 #[test]
 fn an_unsized_map_is_copied_from_a_sized_depth_buffer() {
     for technique in ["technique=shadow-map", "technique=midpoint", "technique=second-depth"] {
@@ -74,7 +74,7 @@ fn an_unsized_map_is_copied_from_a_sized_depth_buffer() {
     }
 }
 
-/// Half a texel is in the matrix or in the viewport, and never in both [Hardware Shadow Mapping, "Direct3D API Details"].
+/// Half a texel is in the matrix or in the viewport, and never in both [HSM, "Direct3D API Details"].
 #[test]
 fn direct3d_s_half_texel_is_made_up_for_once() {
     let moved = |addressing: &str| {

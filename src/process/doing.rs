@@ -1,24 +1,38 @@
-//! What the driver is at work on, for the message of a crash. Several threads may be at work.
+//! The driver's current work, for the message of a crash. Several threads may work at once.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// Each with a number that no other has.
+/// Current steps, each with a unique number.
 static STEPS: Mutex<Vec<(u64, String)>> = Mutex::new(Vec::new());
+
+/// Called when the first step begins (`true`) and when the last one ends (`false`).
+static WATCH: OnceLock<fn(bool)> = OnceLock::new();
+
+/// Has `watch` called from now on when the first step begins and when the last one ends.
+#[cfg(unix)]
+pub(super) fn watch_by(watch: fn(bool)) {
+    WATCH.get_or_init(|| watch);
+}
+
+fn tell_watch(begins: bool) {
+    if let Some(watch) = WATCH.get() {
+        watch(begins);
+    }
+}
 
 /// A step that lasts until this is dropped.
 #[must_use]
 pub(crate) struct Doing(u64);
 
-/// Notes that the driver is at work on `what`: "opening a context". It may have lines of its own for what was tried before.
+/// Notes that the driver works on `what`, for example "opening a context". It may have further lines for earlier attempts.
 pub(crate) fn doing(what: impl Into<String>) -> Doing {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
     steps.push((number, what.into()));
     if steps.len() == 1 {
-        #[cfg(unix)]
-        super::signals::watch(true);
+        tell_watch(true);
     }
     Doing(number)
 }
@@ -28,14 +42,13 @@ impl Drop for Doing {
         let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
         steps.retain(|(number, _)| *number != self.0);
         if steps.is_empty() {
-            #[cfg(unix)]
-            super::signals::watch(false);
+            tell_watch(false);
         }
     }
 }
 
-/// Gives the steps to `tell`, latest last; none where another thread is just changing them. Waits for no lock, so that
-/// a signal's handler may call it.
+/// Gives the steps to `report`, latest last; none where another thread is just changing them. Waits for no lock, so that a
+/// signal's handler may call it.
 pub(super) fn steps(mut tell: impl FnMut(&str)) {
     if let Ok(steps) = STEPS.try_lock() {
         steps.iter().for_each(|(_, what)| tell(what));

@@ -1,13 +1,13 @@
-//! The commands' allocator: the system's, with an error in place of an abort where there is no memory left.
+//! The commands' allocator: the system's, with an error instead of an abort if there is no memory left.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
 use super::{digits, doing, say, unfinished};
 
-/// The system's allocator. Memory that cannot be had ends the process with an error and exit status 1, and its
-/// unfinished files are removed.
+/// The system's allocator. A failed allocation ends the process with an error and exit status 1, and its unfinished files
+/// are removed.
 ///
-/// The standard library would abort. To go on is no choice: whoever asked may hold locks, and an allocator must not unwind.
+/// The standard library would abort. Going on is impossible: the caller may hold locks, and an allocator must not unwind.
 #[derive(Debug)]
 pub struct Memory;
 

@@ -1,8 +1,8 @@
-//! What a command still says and removes when its process cannot go on: a driver that crashes or stops, memory that
-//! runs out, a signal that ends it.
+//! Last messages and clean-up when a process cannot go on: a driver that crashes or stops, memory that runs out, a signal
+//! that ends it.
 //!
-//! The library keeps note of what the driver is at work on (`doing`) and of its unfinished files (`unfinished`).
-//! Nothing comes of that until a command asks for it: by [`guard`] for signals, and by [`Memory`] as its allocator.
+//! The library notes the driver's current work (`doing`) and its unfinished files (`unfinished`). A command turns this on:
+//! by [`guard`] for signals, and by [`Memory`] as its allocator.
 
 mod doing;
 mod memory;
@@ -16,8 +16,8 @@ pub use memory::Memory;
 pub(crate) use signals::uninstall;
 pub(crate) use unfinished::{Unfinished, unfinished};
 
-/// Has signals that end this process say what it was doing, and remove its unfinished files. A limit on the size of files
-/// (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
+/// Installs handlers: a signal that ends this process prints the current work and removes unfinished files. A limit on the
+/// size of files (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
 #[cfg(unix)]
 pub fn guard() {
     signals::install();

@@ -1,17 +1,17 @@
-//! Signals that end the process, and an alarm that notices a driver which waits for ever.
+//! Signals that end the process, and an alarm that detects a driver that waits for ever.
 //!
 //! Mesa's llvmpipe waits without end for threads that could not be started (seen under a limit on memory). Such a process
 //! uses no processor time at all, which a driver that draws, however slowly, does.
 
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
-use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicI64, AtomicU32, Ordering};
 
 use libc::{c_int, c_void, siginfo_t};
 
 use super::{doing, say, unfinished};
 
-/// Faults of the process itself, by name.
+/// Faults of the process itself, with their names.
 const CRASHES: [(c_int, &str); 5] = [
     (libc::SIGSEGV, "SIGSEGV"),
     (libc::SIGBUS, "SIGBUS"),
@@ -23,16 +23,14 @@ const CRASHES: [(c_int, &str); 5] = [
 /// Requests to end.
 const ENDS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
 
-/// Seconds between two looks at the processor time.
+/// Seconds between two checks of the processor time.
 const TICK_SECONDS: u32 = 5;
-/// Looks in a row that find none used, after which a driver at work is given up.
+/// Successive checks without used processor time after which a working driver is given up.
 const MOST_IDLE_TICKS: u32 = 6;
-/// Processor time between two looks that counts as none, in microseconds; the look itself takes some.
+/// Processor time between two checks that counts as none, in microseconds; the check itself uses some.
 const IDLE_MICROSECONDS: i64 = 1_000;
 
-/// Whether SIGALRM has a handler of ours.
-static WATCHES: AtomicBool = AtomicBool::new(false);
-/// Looks in a row that found no processor time used.
+/// Successive checks that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
 
 pub(super) fn install() {
@@ -40,21 +38,19 @@ pub(super) fn install() {
         handle(signal, on_end);
     }
     handle(libc::SIGALRM, on_alarm);
-    WATCHES.store(true, Ordering::Relaxed);
+    doing::watch_by(watch);
     // SAFETY: an ignored SIGXFSZ makes a write beyond the limit fail with EFBIG.
     unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
 }
 
-/// Begins or ends to look at the processor time. Alarms come only while the driver is at work.
-pub(super) fn watch(begins: bool) {
-    if WATCHES.load(Ordering::Relaxed) {
-        IDLE_TICKS.store(0, Ordering::Relaxed);
-        // SAFETY: takes a number; 0 takes the alarm back.
-        unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
-    }
+/// Starts or stops the checks of the processor time. Alarms come only while the driver is at work.
+fn watch(begins: bool) {
+    IDLE_TICKS.store(0, Ordering::Relaxed);
+    // SAFETY: takes a number; 0 takes the alarm back.
+    unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
 }
 
-/// In a child made by fork: a crash is the parent's to tell.
+/// In a child made by fork: the parent reports a crash.
 pub(crate) fn uninstall() {
     for signal in CRASHES.iter().map(|(signal, _)| *signal).chain(ENDS).chain([libc::SIGALRM]) {
         // SAFETY: the default action is always allowed.
@@ -64,7 +60,7 @@ pub(crate) fn uninstall() {
 
 type Handler = extern "C" fn(c_int, *mut siginfo_t, *mut c_void);
 
-/// What a signal did before, by its number; the standard library finds overflowing stacks by SIGSEGV.
+/// Former handler of each signal, by its number; the standard library finds overflowing stacks by SIGSEGV.
 static mut BEFORE: [MaybeUninit<libc::sigaction>; 32] = [const { MaybeUninit::uninit() }; 32];
 
 fn before(signal: c_int) -> *mut libc::sigaction {
@@ -93,7 +89,7 @@ fn handle(signal: c_int, handler: Handler) {
     }
 }
 
-/// Says what was being done, removes unfinished files, and lets the signal take its former course.
+/// Prints the current work, removes unfinished files, and passes the signal on to its former handler.
 extern "C" fn on_end(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
     if let Some((_, name)) = CRASHES.iter().find(|(known, _)| *known == signal) {
         doing::steps(|what| {

@@ -1,4 +1,4 @@
-//! Numbers as a person reads them: plain decimals, no exponents. Knows no unit.
+//! Formats numbers for people: plain decimals, no exponents. Knows no unit.
 
 /// Three significant digits, no trailing zeros: 0.0123, 12.3, 1230.
 pub(super) fn plain(value: f64) -> String {
@@ -11,7 +11,7 @@ pub(super) fn plain(value: f64) -> String {
     if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_owned() }
 }
 
-/// A fixed number of decimals for a column; what would round to zero and is not is shown as below the least.
+/// A fixed number of decimals for a column; a non-zero value that would round to zero is shown as below the least.
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
     let least = 0.1_f64.powi(decimals as i32);
     if value > 0.0 && value < 0.5 * least {

@@ -1,8 +1,10 @@
-//! A made-up report for tests: times grow with the map, errors shrink with it, as they would.
+//! A made-up report for tests: times grow with the map, errors shrink with it.
 
-use super::claimed::{Claimed, Measurement, Verdict};
-use super::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};
-use super::results::{Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION};
+use super::measure::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};
+use super::store::claimed::{Claimed, Measurement, Verdict};
+use super::store::results::{
+    Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION,
+};
 
 /// One scene; row 0 as written, three techniques, one row that failed and one without an error.
 pub fn report() -> Report {
@@ -14,7 +16,7 @@ pub fn report() -> Report {
             cores: 2,
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".to_owned(),
             gl_version: "4.5 (Core Profile) Mesa 22.3.6".to_owned(),
-            road: "egl surfaceless".to_owned(),
+            backend: "egl surfaceless".to_owned(),
             glumbra: "0.1.0".to_owned(),
             jobs: 1,
         },
@@ -114,7 +116,7 @@ fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
         draw_calls: 14,
         triangles: 138_902,
         work: format!("{technique} {size} {}", has("filter", "linear")),
-        left_out: vec![crate::techniques::LeftOut {
+        left_out: vec![crate::lights::LeftOut {
             what: "color buffer of the map".to_owned(),
             why: "only depth & <nothing else> is read".to_owned(),
         }],

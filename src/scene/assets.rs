@@ -1,4 +1,4 @@
-//! The files that a scene names: each is loaded once however often it is used, and what its loader warned of is kept.
+//! The files that a scene names: each is loaded once however often it is used, and its loader's warnings are kept.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -11,17 +11,17 @@ use crate::geometry::{self, Mesh, Texture};
 /// Meshes and textures loaded so far.
 #[derive(Default)]
 pub(super) struct Assets {
-    /// By built-in name, or by the file's canonical path.
+    /// Meshes by built-in name, or by the file's canonical path.
     meshes: HashMap<PathBuf, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Pictures in memory, by the names that the scene file has for them.
     embedded: &'static [(&'static str, &'static [u8])],
-    /// Of the loaders and of the scene, each once.
+    /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
 }
 
 impl Assets {
-    /// With pictures in memory, each by the name that the scene file has for it.
+    /// Assets with pictures in memory, each by its name in the scene file.
     pub fn with_pictures(embedded: &'static [(&'static str, &'static [u8])]) -> Self {
         Self { embedded, ..Self::default() }
     }
@@ -40,7 +40,7 @@ impl Assets {
         self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
-    /// Keeps a warning, once however often it is given.
+    /// Keeps a warning, once.
     pub fn warn(&mut self, warning: String) {
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
@@ -60,7 +60,7 @@ impl Assets {
         Ok(mesh)
     }
 
-    /// Lets a model be found by `name` too, for paths that are no text.
+    /// Registers a model under `name` too, for paths that are not UTF-8.
     pub fn also_known_as(&mut self, name: &str, mesh: &Arc<Mesh>) {
         self.meshes.insert(canonical(Path::new(name)), mesh.clone());
     }
@@ -104,12 +104,12 @@ pub(super) fn file(name: &str, origin: &Origin) -> PathBuf {
     }
 }
 
-/// What tells files apart; absolute, so never a built-in's name.
+/// Path that identifies a file; absolute, so never a built-in's name.
 fn canonical(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| Path::new("/").join(path))
 }
 
-/// Whether `path` ends in `.extension`, in whatever case.
+/// Tests whether `path` ends in `.extension`, in whatever case.
 pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }

@@ -1,5 +1,5 @@
-//! What can go wrong between a file's name and a resolved scene. Every message stands alone: it names the file, the
-//! line where there is one, and what would be right.
+//! Errors between a file's name and a resolved scene. Every message stands alone: it names the file, the line where there
+//! is one, and what is expected.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::settings::{Origin, SettingsError};
 use crate::geometry;
 
-/// Why a scene could not be loaded.
+/// Reason why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be read: {reason}", path = .path.display())]
@@ -29,7 +29,7 @@ pub enum Error {
     #[error("{origin}: {message}\n  {text}")]
     Syntax { origin: Origin, message: String, text: String },
 
-    /// A value that cannot be, a key that nobody knows.
+    /// A wrong value, or an unknown key.
     #[error(transparent)]
     Settings(#[from] SettingsError),
 
@@ -47,7 +47,7 @@ pub enum Error {
     #[error("{path}: is not UTF-8, which a scene's text must be: the file cannot be named in one", path = .path.display())]
     NoText { path: PathBuf },
 
-    /// The model that stands for a whole scene.
+    /// An error of the model that is loaded in place of a scene.
     #[error(transparent)]
     Model(#[from] geometry::Error),
 }

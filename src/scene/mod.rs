@@ -2,9 +2,10 @@
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
+mod camera_framing;
+mod default_scene;
 mod error;
 mod files;
-mod frame;
 mod model;
 mod overrides;
 mod parse;
@@ -13,27 +14,26 @@ mod ranges;
 mod resolve;
 mod settings;
 mod sight;
-mod supply;
 mod views;
 
 use std::fs;
 use std::path::Path;
 
+pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
 pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
-pub use supply::{Floor, framing};
 
 use crate::math::Aabb;
 use assets::{Assets, has_extension};
 use settings::Plain;
 
-/// No scene file is longer, in bytes.
+/// Greatest size of a scene file, in bytes.
 const LONGEST_FILE: u64 = 4 << 20;
 
-/// A scene and what its reader should know of it.
+/// A scene and its warnings.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     pub scene: Scene,
@@ -47,7 +47,7 @@ pub struct Embedded {
     /// The file's name, for messages.
     pub path: &'static str,
     pub text: &'static str,
-    /// Each with the name that the file has for it.
+    /// Pictures, each with its name in the file.
     pub pictures: &'static [(&'static str, &'static [u8])],
 }
 
@@ -90,14 +90,14 @@ pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, 
     Ok(root)
 }
 
-/// The `[light.shadow]` that an inline table's inside describes: `technique = "shadow-map", size = 512`.
+/// Reads a `[light.shadow]` from the inside of an inline table: `technique = "shadow-map", size = 512`.
 pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
     let text = format!("{{ {inside} }}");
     let entry = parse::value("light.shadow", &text, &origin)?;
     match entry.map(|entry| entry.value) {
         Some(Value::Table(table)) => Ok(table),
-        _ => Err(Error::Settings(SettingsError::new(&origin, "this is no inline table"))),
+        _ => Err(Error::Settings(SettingsError::new(&origin, "expected an inline table: { key = value, … }"))),
     }
 }
 
@@ -119,8 +119,8 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
 /// The key that leaves out the floor of a supplied scene.
 const FLOOR: &str = "floor";
 
-/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is done
-/// again for what they make of it.
+/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is repeated
+/// after them.
 fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
@@ -137,8 +137,8 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     check_size(path, &bounds)?;
     let floor = match &object {
         _ if !is_floor_wanted => Floor::Absent,
-        Some(object) if supply::has_floor(object) => {
-            let hair = supply::hair(&bounds);
+        Some(object) if default_scene::has_floor(object) => {
+            let hair = default_scene::hair(&bounds);
             let below = Plain(format!("{hair:.1e}").parse().unwrap_or(hair));
             let what = "has a floor of its own: the supplied one lies";
             assets.warn(format!("{}: {what} {below} below it; --no-floor leaves it out", path.display()));
@@ -152,10 +152,10 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     Ok(root)
 }
 
-/// Refuses a model around which no camera and light can stand.
+/// Refuses a model too large or too small for a camera and a light around it.
 fn check_size(path: &Path, bounds: &Aabb) -> Result<(), Error> {
-    let radius = frame::working_radius(bounds);
-    let [least, most] = supply::RADII;
+    let radius = camera_framing::working_radius(bounds);
+    let [least, most] = default_scene::RADII;
     if (least..=most).contains(&radius) {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! The resolved scene: what a frame shows, in world space, angles in radians.
+//! The resolved scene, in world space, angles in radians.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use super::Settings;
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
-/// All that a frame shows. Nothing in it refers to GL or to a technique by more than its name.
+/// Everything that a frame shows. It knows no GL, and of a technique only the name.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub image: Image,
@@ -45,7 +45,7 @@ pub struct Image {
 pub struct Camera {
     pub eye: DVec3,
     pub target: DVec3,
-    /// Of unit length, not parallel to the view direction.
+    /// Unit vector, not parallel to the view direction.
     pub up: DVec3,
     /// Full vertical angle, in (0, pi).
     pub fov_y_radians: f64,
@@ -54,7 +54,7 @@ pub struct Camera {
     pub far: f64,
 }
 
-/// How surfaces answer light.
+/// Settings of shading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
     /// GL_LIGHT_MODEL_AMBIENT, RGB; GL's default is 0.2.
@@ -69,13 +69,13 @@ pub struct Light {
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
     pub specular: [f32; 3],
-    /// As written, or `light 0` by its place in the file.
+    /// Name as written, or `light 0` by its place in the file.
     pub name: String,
     /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.
     pub shadow: Settings,
 }
 
-/// Where light comes from, and what only that kind of light has.
+/// Kind of a light, with the values that only this kind has.
 #[derive(Clone, Debug)]
 pub enum LightKind {
     Spot(Spot),
@@ -86,7 +86,7 @@ pub enum LightKind {
     },
 }
 
-/// Lights what its frustum's sides hold, or the cone inscribed in them.
+/// A spotlight: it lights everything within its frustum's sides, or within the cone inscribed in them.
 #[derive(Clone, Debug)]
 pub struct Spot {
     pub frustum: Frustum,
@@ -95,19 +95,19 @@ pub struct Spot {
     pub attenuation: [f32; 3],
     /// The spot image, projected through the frustum; modulates diffuse and specular.
     pub image: Option<Arc<Texture>>,
-    /// Whether the frustum is drawn as a wire cube in the camera's picture.
+    /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
 }
 
-/// Lights every way alike.
+/// A point light: it lights equally in all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     pub position: DVec3,
-    /// 0 < near < far: where the light's maps begin and end, along the coordinate axis that is nearest to the way
-    /// (the largest of |x|, |y| and |z|), as the six faces of a cube map measure depth. They do not end the light.
+    /// 0 < near < far: range of the light's maps, along the coordinate axis nearest to the direction (the largest of |x|,
+    /// |y| and |z|), as the six faces of a cube map measure depth. They do not bound the light.
     pub near: f64,
     pub far: f64,
-    /// As [`Spot::attenuation`].
+    /// Attenuation as in [`Spot::attenuation`].
     pub attenuation: [f32; 3],
 }
 
@@ -116,7 +116,7 @@ pub struct Point {
 pub struct Frustum {
     pub position: DVec3,
     pub target: DVec3,
-    /// Of unit length, not parallel to the way from position to target.
+    /// Unit vector, not parallel to the way from position to target.
     pub up: DVec3,
     /// Full angle between opposite sides, in (0, pi).
     pub cone_radians: f64,
@@ -125,7 +125,7 @@ pub struct Frustum {
     pub far: f64,
 }
 
-/// Where a spotlight's light ends.
+/// Shape at which a spotlight's light ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightShape {
     /// At the circular cone inscribed in the frustum (GL_SPOT_CUTOFF).
@@ -140,17 +140,17 @@ pub struct Object {
     pub name: String,
     /// Shared: the same file is loaded once however often it is used.
     pub mesh: Arc<Mesh>,
-    /// Affine and invertible; may mirror. Of the mesh's positions: [`Mesh::origin`] is in it.
+    /// Affine, invertible transform of the mesh's positions; may mirror. It includes [`Mesh::origin`].
     pub world_from_model: DMat4,
-    /// Moves the mesh's vertices where they are drawn; `None`: they stay.
+    /// Wave that moves the mesh's vertices; `None`: they stay.
     pub wave: Option<Wave>,
-    /// Stands in for every material of the mesh.
+    /// Replaces every material of the mesh.
     pub material: Option<Arc<Material>>,
-    /// Whether fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
+    /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,
-    /// Whether it is drawn into shadow maps.
+    /// True if it is drawn into shadow maps.
     pub casts_shadow: bool,
-    /// Declared, and checked: the mesh is closed and its faces look outwards, so that no back face is ever seen from
-    /// outside of it.
+    /// Declared and checked by the scene: the mesh is closed and its faces look outwards, so that no back face is ever seen
+    /// from outside of it.
     pub closed: bool,
 }

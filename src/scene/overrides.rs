@@ -1,7 +1,7 @@
 //! `--set a.b.c=value`: changes to a scene's [`Settings`] from the command line.
 //!
-//! A segment that meets an array of tables applies to each of them; `light.0.cone` and `light[0].cone` mean one.
-//! Tables that are missing on the way are made. The value is TOML; a bare word is a string.
+//! A segment that meets an array of tables applies to each of them; `light.0.cone` and `light[0].cone` name one. Missing
+//! tables are made. The value is TOML; a bare word is a string.
 
 use std::sync::Arc;
 
@@ -10,13 +10,13 @@ use super::settings::{Entry, Origin, Settings, SettingsError, Value};
 
 type Result<T> = std::result::Result<T, SettingsError>;
 
-/// The arrays of tables that a scene can have at its root; an override does not make the first of them.
+/// Arrays of tables at a scene's root; an override cannot make their first element.
 const ARRAYS: [&str; 2] = ["light", "object"];
 
-/// No scene nests deeper.
+/// Greatest depth of nesting.
 const MAX_SEGMENTS: usize = 16;
 
-/// Applies each override in order; `text` is what follows `--set`.
+/// Applies each override in order; `text` is the argument of `--set`.
 pub(super) fn apply(root: &mut Settings, overrides: &[String]) -> Result<()> {
     overrides.iter().try_for_each(|text| Override::parse(text)?.apply(root))
 }

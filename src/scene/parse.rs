@@ -1,5 +1,4 @@
-//! TOML text to [`Settings`], each entry with its line. The grammar is the `toml` crate's; what keys mean is not known
-//! here.
+//! TOML text to [`Settings`], each entry with its line. The grammar is the `toml` crate's; it knows no meaning of keys.
 
 use std::ops::Range;
 use std::path::Path;
@@ -26,7 +25,7 @@ pub(super) fn value(name: &str, text: &str, origin: &Origin) -> Result<Option<En
     }
 }
 
-/// From a byte span to the place in the file.
+/// Maps a byte span to the place in the file.
 type Place<'a> = &'a dyn Fn(Range<usize>) -> Origin;
 
 fn table(name: &str, origin: Origin, source: &DeTable<'_>, place: Place<'_>) -> Result<Settings, SettingsError> {
@@ -66,7 +65,7 @@ fn entry(name: &str, origin: Origin, source: &DeValue<'_>, place: Place<'_>) -> 
     Ok(Entry { value, origin })
 }
 
-/// Where each line of a text starts.
+/// Start of each line of a text.
 struct Lines<'t> {
     path: Arc<Path>,
     text: &'t str,

@@ -1,13 +1,13 @@
-//! What numbers of a scene may be: ranges that more than one table needs, as methods of [`Reader`].
+//! Allowed ranges of a scene's numbers, if more than one table needs them, as methods of [`Reader`].
 
 use glam::DVec3;
 
 use super::settings::{Origin, Plain, Reader, SettingsError};
 
-/// No length or coordinate of a scene may be larger: its square still is a finite f32.
+/// Greatest length or coordinate of a scene: its square is still a finite f32.
 pub const LARGEST: f64 = 1e18;
 
-/// No length may be smaller: its square still is a normal f32.
+/// Least length: its square is still a normal f32.
 pub const SMALLEST: f64 = 1e-18;
 
 /// Cosines this near to one count as parallel.
@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
         Ok(self.numbers(key, 0.0..=most)?.map(|channels: [f64; 3]| channels.map(|channel| channel as f32)))
     }
 
-    /// The unit `up` of a look from `from` to `to`, as written or supplied; `keys` names both ends for messages.
+    /// The unit `up` of a view from `from` to `to`, as written or supplied; `keys` names both ends for messages.
     pub fn up(&mut self, keys: [&str; 2], from: DVec3, to: DVec3) -> Result<DVec3> {
         let up = self.vector("up")?;
         let Some(forward) = (to - from).try_normalize() else {
@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// +y, or, for a look along y, the z axis that keeps +x to the right.
+/// +y; for a view along y, the z axis that keeps +x to the right.
 fn supplied_up(forward: DVec3) -> DVec3 {
     if DVec3::Y.cross(forward).length() > 1e-3 {
         DVec3::Y

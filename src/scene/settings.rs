@@ -1,12 +1,12 @@
-//! A table of a scene file as written, read key by key with types and ranges: whoever reads it names each key once,
-//! and [`Reader::finish`] refuses what nobody asked for, with file, line and the nearest known key.
+//! A table of a scene file as written, read key by key with types and ranges: the reading code names each key once, and
+//! [`Reader::finish`] refuses unread keys, with file, line and the nearest known key.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Where a value was written.
+/// Place of a value in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A line of a file, from 1.
@@ -27,7 +27,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// What is wrong with a setting, and where it stands.
+/// An error in a setting, and its place.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{origin}: {message}")]
 pub struct SettingsError {
@@ -95,7 +95,7 @@ impl Settings {
         self.entries.is_empty()
     }
 
-    /// Sets `key`, in place where it is there already.
+    /// Sets `key`, in place if it exists.
     pub fn set(&mut self, key: &str, entry: Entry) {
         match self.entries.iter_mut().find(|(name, _)| name == key) {
             Some((_, old)) => *old = entry,
@@ -103,7 +103,7 @@ impl Settings {
         }
     }
 
-    /// Starts reading; every key must be asked for before [`Reader::finish`].
+    /// Starts reading; every key must be read before [`Reader::finish`].
     pub fn read(&self) -> Reader<'_> {
         Reader { settings: self, known: Vec::new() }
     }
@@ -130,12 +130,12 @@ impl<'a> Reader<'a> {
         self.settings.get(key)
     }
 
-    /// The keys that were asked for.
+    /// The keys that were read or known.
     pub fn known(&self) -> &[&'static str] {
         &self.known
     }
 
-    /// Where the table stands.
+    /// Place of the table.
     pub fn origin(&self) -> &'a Origin {
         &self.settings.origin
     }
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
         SettingsError::new(origin, format!("`{}` {message}", self.settings.key(key)))
     }
 
-    /// The error of a key that must be there.
+    /// The error of a missing key.
     pub fn missing(&self, key: &str, what: &str) -> SettingsError {
         SettingsError::new(&self.settings.origin, format!("`{}` is missing: {what}", self.settings.key(key)))
     }
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
             .collect()
     }
 
-    /// Refuses keys that nobody asked for.
+    /// Refuses keys that nobody read.
     pub fn finish(self) -> Result<()> {
         for (key, entry) in &self.settings.entries {
             if !self.known.contains(&key.as_str()) {
@@ -292,7 +292,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A range as a person would write it; f64's own ends are none.
+/// A range as a person would write it; f64's limits are no bounds.
 fn words(range: &RangeInclusive<f64>) -> String {
     let (low, high) = (*range.start(), *range.end());
     let least = match low {

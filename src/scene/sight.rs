@@ -1,6 +1,6 @@
-//! What a viewer's pyramid holds of the objects: how near and how far they come, by depth along its axis, and what a
-//! plane across the axis cuts off. Triangles are clipped one by one: a box's corners say nothing of a floor that passes
-//! under the eye. The work is linear in the triangles.
+//! Objects in a viewer's pyramid: their least and greatest depth along its axis, and what a plane across the axis cuts off.
+//! Triangles are clipped one by one: a box's corners do not describe a floor that passes under the eye. The work is linear
+//! in the triangles.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::geometry::Mesh;
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 
-/// A piece smaller than this, in pixels, is not missed.
+/// Area in pixels below which a piece does not count.
 pub(super) const LEAST_PIECE: f64 = 0.5;
 
-/// What is cut off is looked for behind other surfaces at so many of its triangles.
+/// Number of triangles of a cut-off part that are tested for lying behind other surfaces.
 const SAMPLES: usize = 16;
 
 /// A pyramid of view, without end: x right, y up, -z ahead.
@@ -30,8 +30,7 @@ pub(super) struct Pyramid {
 pub(super) struct Span {
     pub least: f64,
     pub most: f64,
-    /// How far the coordinates reach, from the viewer or from their object's origin, of triangles that are in view in
-    /// part.
+    /// Greatest coordinate, from the viewer or from the object's origin, of triangles that are partly in view.
     pub reach: f64,
 }
 
@@ -96,7 +95,7 @@ impl Pyramid {
         faces(&corners).into_iter().fold(Span::EMPTY, |span, face| span.including(&inside(face)))
     }
 
-    /// Whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
+    /// Tests whether the pieces of `object` at the depths that `cut` means fill `least` pixels or more of a picture of `size`.
     pub fn is_cut(&self, object: &Object, cut: Cut, size: [u32; 2], least: f64) -> bool {
         let mut area = 0.0;
         self.visit(object, |polygon| {
@@ -106,7 +105,7 @@ impl Pyramid {
         area >= least
     }
 
-    /// Whether some of `object` beyond depth `far` is seen behind nothing that stands before that depth.
+    /// Tests whether some of `object` beyond depth `far` is not hidden by surfaces before that depth.
     pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
         let mut pieces: Vec<(f64, DVec3)> = Vec::new();
         self.visit(object, |polygon| {
@@ -145,7 +144,7 @@ impl Pyramid {
         area * 0.25 * f64::from(size[0]) * f64::from(size[1])
     }
 
-    /// Calls `look` with what of each triangle that is drawn lies in view, in view space, until it says `false`.
+    /// Calls `look` with the part in view of each drawn triangle, in view space, until it says `false`.
     fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
         self.visit_triangles(object, |_, polygon| look(polygon));
     }
@@ -201,7 +200,7 @@ impl Pyramid {
     }
 }
 
-/// Which depths of what is in view are meant.
+/// Depths that are cut off.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cut {
     Before(f64),
@@ -221,7 +220,7 @@ impl Cut {
     }
 }
 
-/// Whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
+/// Tests whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
 fn hides(polygon: &[DVec3], point: DVec3, far: f64) -> bool {
     let sides = (0..polygon.len()).map(|k| polygon[k].cross(polygon[(k + 1) % polygon.len()]).dot(point));
     let (mut left, mut right) = (false, false);
@@ -237,7 +236,7 @@ fn drawn_mesh(object: &Object) -> Arc<Mesh> {
     object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh))
 }
 
-/// Whether the alpha test leaves nothing of a part.
+/// Tests whether the alpha test leaves nothing of a part.
 fn is_clear(object: &Object, material: Option<usize>) -> bool {
     let own = || object.mesh.materials.get(material?);
     object.material.as_deref().or_else(own).is_some_and(|material| material.opacity < 0.5)

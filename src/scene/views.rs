@@ -1,11 +1,11 @@
-//! The matrices and bounds that follow from a scene's values.
+//! Matrices and bounds of a scene.
 
 use glam::{DMat4, DVec3};
 
 use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
 use crate::math::{Aabb, spaces};
 
-/// A scene is moved where it is so many times as far from the world's origin as it is large.
+/// Ratio of distance from the world's origin to size from which a scene is moved.
 const FAR: f64 = 8.0;
 
 impl Image {
@@ -69,12 +69,12 @@ impl Light {
         if let LightKind::Spot(spot) = &self.kind { Some(spot) } else { None }
     }
 
-    /// What a spotlight sees; other lights have no one frustum.
+    /// Frustum of a spotlight; other lights have none.
     pub fn frustum(&self) -> Option<&Frustum> {
         self.spot().map(|spot| &spot.frustum)
     }
 
-    /// Where the light stands; `None` for one that is infinitely far away.
+    /// Position of the light; `None` if it is infinitely far away.
     pub fn position(&self) -> Option<DVec3> {
         match &self.kind {
             LightKind::Spot(spot) => Some(spot.frustum.position),
@@ -113,7 +113,7 @@ impl Frustum {
         spaces::perspective(self.cone_radians, 1.0, self.near, self.far)
     }
 
-    /// The same pyramid from its very apex to far beyond its far plane: what the light can light.
+    /// The same pyramid from its apex to far beyond its far plane: the region that the light can reach.
     pub fn unbounded(&self) -> Self {
         Self { near: 1e-3 * self.near, far: 1e3 * self.far, ..self.clone() }
     }

@@ -11,7 +11,7 @@ pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
     pub is_random: bool,
-    /// What is extreme in it.
+    /// Extreme property of the scene.
     pub why: String,
     /// The scene file.
     pub toml: String,
@@ -25,7 +25,7 @@ pub struct Case {
     pub rows: Vec<String>,
     /// The stiff parameter that the case varies, and its value.
     pub sweep: Option<(String, f64)>,
-    /// Whether the scene cannot be drawn, and must be refused.
+    /// True if the scene cannot be drawn, and must be refused.
     pub refused: bool,
 }
 
@@ -95,7 +95,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// Why the scene is refused, or why a file cannot be written, as a sentence.
+    /// Reason why the scene is refused, or a file cannot be written, as a sentence.
     pub fn load(&self, folder: &Path) -> Result<Loaded, String> {
         scene::load(&self.write(folder)?, &[]).map_err(|error| error.to_string())
     }

@@ -1,22 +1,23 @@
-//! One row of a case: drawn, and held against the truth pixel by pixel.
+//! One row of a case: drawn, and compared with the truth pixel by pixel.
 //!
 //! # The bound
-//! A pixel counts where the oracle is certain and the picture shows the same surface.
+//! A pixel counts if the ray tracer is certain and the picture shows the same surface.
 //!
-//! - **Shadow volumes**: no pixel may be wrong. The oracle's certainty then grants the depth buffer's rounding too.
-//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is
-//!   accounted for in four ways, all of the map's own numbers ([`MapInfo`]) and the scene alone:
-//!   1. a silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*); of the visible
-//!      surface itself, it counts where a texel holds the middle of two layers: past it the second one lies far behind;
-//!   2. it is dark, and a caster within that reach stands before the visible surface's plane (a crease);
-//!   3. it is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset makes
-//!      up for: an offset knows the slope of the surface that is stored, not of the one that is compared;
-//!   4. it is lit, and what shadows it and stands in the map lies so close before it that the bias reaches across.
+//! - **Shadow volumes**: no pixel may be wrong. The ray tracer's certainty then grants the depth buffer's rounding, too.
+//! - **Maps**: only surfaces that face the light count; on the others shading leaves no light. A wrong pixel is explained
+//!   in four ways, all by the map's own numbers ([`MapInfo`]) and the scene:
+//!   1. A silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*). An edge of the
+//!      visible surface itself counts if a texel holds the middle of two layers: past it the second one lies far behind.
+//!   2. The pixel is dark, and a caster within that reach lies before the visible surface's plane (a crease).
+//!   3. The pixel is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset
+//!      compensates: an offset uses the slope of the surface that is stored, not of the one that is compared.
+//!   4. The pixel is lit, and its caster in the map lies so close before it that the bias reaches across.
 //!
-//!   Of a map of middles, in place of 2 and 3: it is dark, and somewhere within that reach the middle between two layers lies
-//!   before it. So thin a caster shades its own lit side, where it falls away from the light.
+//!   For a midpoint map, instead of 2 and 3: the pixel is dark, and somewhere within that reach the middle between two
+//!   layers lies before it. So thin a caster shades its own lit side, where it falls away from the light.
 //!
-//!   What is accounted for by none is beyond the bound. So is a picture with more than [`MOST_WRONG`] of wrong pixels.
+//!   A wrong pixel that none of these explains is beyond the bound. So is a picture with more than [`MOST_WRONG`] wrong
+//!   pixels.
 //! - **All**: a surface where the truth has none, or the other way around, is beyond the bound.
 
 use std::collections::HashMap;
@@ -25,21 +26,21 @@ use super::results::{Row, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
+use crate::lights::map::Bias;
+use crate::lights::{MapInfo, MapShape};
 use crate::pass::{DepthFormat, Face};
 use crate::plan::{Plan, Request, ViewRequest};
-use crate::report::metrics::ShadeImage;
-use crate::report::run::with_shadow;
+use crate::report::measure::metrics::ShadeImage;
+use crate::report::measure::run::with_shadow;
 use crate::scene::{self, LightKind, LightShape, Scene};
-use crate::techniques::map::Bias;
-use crate::techniques::views::View;
-use crate::techniques::{MapInfo, MapShape};
+use crate::truth::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
+use crate::views::View;
 
-/// The greatest part of the pixels compared that may be wrong although each is accounted for. A map whose band is wider
-/// is too coarse for its picture.
+/// The greatest part of the pixels compared that may be wrong although each is explained. A map whose band is wider is too
+/// coarse for its picture.
 pub const MOST_WRONG: f64 = 0.015;
 
-/// Fewer pixels compared than this say nothing about a share.
+/// Fewest compared pixels for a meaningful share.
 const FEWEST_FOR_A_SHARE: usize = 1000;
 
 /// One light's truths.
@@ -47,11 +48,11 @@ pub struct Judge<'a> {
     scene: &'a Scene,
     light: usize,
     surroundings: Surroundings<'a>,
-    /// For maps.
+    /// Truth for maps.
     pub truth: Truth,
-    /// For shadow volumes: with the depth buffer's doubt.
+    /// Truth for shadow volumes: with the depth buffer's doubt.
     pub volume_truth: Truth,
-    /// By pixel and reach.
+    /// Known surroundings, by pixel and reach.
     known: HashMap<(usize, u64), Option<Around>>,
 }
 
@@ -68,17 +69,17 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     ///
-    /// A scene that the oracle cannot read.
-    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, ray::Error> {
-        let options = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
+    /// A scene that the ray tracer cannot read.
+    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, truth::Error> {
+        let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         let surroundings = Surroundings::new(scene, light, &options)?;
         let truth = surroundings.truth()?;
-        let doubtful = ray::Options { depth_buffer_bits: Some(24), ..options };
-        let volume_truth = ray::trace(scene, light, &doubtful)?;
+        let doubtful = truth::Options { depth_buffer_bits: Some(24), ..options };
+        let volume_truth = truth::trace(scene, light, &doubtful)?;
         Ok(Self { scene, light, surroundings, truth, volume_truth, known: HashMap::new() })
     }
 
-    /// The truth that rows of these settings are held against.
+    /// The truth that rows of these settings are compared with.
     pub fn truth_of(&self, settings: &RowSettings) -> &Truth {
         if is_volume(settings) { &self.volume_truth } else { &self.truth }
     }
@@ -88,7 +89,8 @@ impl<'a> Judge<'a> {
         self.row_of(self.scene, settings, renderer)
     }
 
-    /// The same with the picture of another scene, of the same size: whoever breaks a scene can see that it is noticed.
+    /// The same as [`row`](Self::row) with the picture of another scene of the same size, to test that a broken scene is
+    /// noticed.
     pub fn row_of(&mut self, drawn: &Scene, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
         let row = Row::new(self.light, settings);
         let drawn = if settings.pictured { &in_one_light(drawn, self.light) } else { drawn };
@@ -216,14 +218,15 @@ impl<'a> Judge<'a> {
         counts
     }
 
-    /// What lies within so many texels of what a pixel shows, for a map of this resolution; `None`: it shows nothing.
+    /// Finds the surroundings of what a pixel shows, within so many texels of a map of this resolution; `None`: it shows
+    /// nothing.
     pub fn around(&self, pixel: usize, map: &MapInfo, texels: f64) -> Option<Around> {
         let width = self.truth.width as usize;
         self.surroundings.around((pixel % width) as u32, (pixel / width) as u32, texels * map.texel)
     }
 
-    /// Whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane of its
-    /// map a picture has light that truth does not speak of.
+    /// Tests whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane
+    /// of its map a picture has light that the truth leaves out.
     fn is_beside(&self, hit: &Hit) -> bool {
         match &self.scene.lights[self.light].kind {
             LightKind::Spot(spot) => match spot.shape {
@@ -234,7 +237,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Whether the map's own texels explain a wrong pixel.
+    /// Tests whether the map's own texels explain a wrong pixel.
     fn accounts_for(&mut self, index: usize, should_be_lit: bool, map: &MapInfo) -> bool {
         // One texel more: positions round to a texel's neighbour.
         let reach = (map.reach_texels + 1.0) * map.texel * f64::from(1_u32 << (map.levels - 1).min(16));
@@ -309,7 +312,7 @@ fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
     near.by > around.scale * (map.texel_short * factor * near.slope + map.texel * map.texels)
 }
 
-/// Whether the map is drawn from a blocker's side.
+/// Tests whether the map is drawn from a blocker's side.
 fn holds(map: &MapInfo, blocker: &Blocker) -> bool {
     match map.cull {
         None => true,
@@ -318,7 +321,7 @@ fn holds(map: &MapInfo, blocker: &Blocker) -> bool {
     }
 }
 
-/// How far before a point a surface may lie whose shadow the bias takes away, in world units along the ray.
+/// Greatest distance before a point of a surface whose shadow the bias removes, in world units along the ray.
 fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
     let texel = map.texel * around.scale;
     // GL's slope is the steeper of both axes', of a texel's width; the caster's depth is stored a reach aside, and the
@@ -335,7 +338,7 @@ fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
     around.ray * (texel * (caster + receiver + map.texels + 1.0) + codes)
 }
 
-/// What one code of the map's depth measures along the light's axis at distance `depth`, in world units.
+/// Length of one code of the map's depth along the light's axis at distance `depth`, in world units.
 fn code(map: &MapInfo, depth: f64) -> f64 {
     let code = match map.format {
         DepthFormat::Depth16 => 2.0_f64.powi(-16),
@@ -363,8 +366,8 @@ impl Counts {
 }
 
 enum Failure {
-    /// A clear error before anything was drawn.
+    /// An error before anything was drawn.
     Refused(String),
-    /// An error of the driver or of ours.
+    /// An error of the driver or of glumbra.
     Broken(String),
 }

@@ -1,7 +1,7 @@
 //! Scenes against truth: named extreme cases and random scenes, each drawn by every technique and each of its settings
 //! that matters, each picture judged by the ray caster.
 //!
-//! Whatever is wrong must be said: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]). `judge.rs`
+//! Every error must be reported: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]). `judge.rs`
 //! derives the bound between right and wrong.
 
 mod case;

@@ -56,7 +56,7 @@ struct Made {
     r#move: String,
 }
 
-/// Why the list of cases cannot be used: a fault of this program's own data.
+/// Reason why the list of cases cannot be used: a fault of this program's own data.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("data/stress/cases.toml: {0}")]

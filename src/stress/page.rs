@@ -4,9 +4,9 @@ use super::judge::MOST_WRONG;
 use super::plot::SweepPlot;
 use super::results::{CaseResult, Row, RowPictures, Verdict, tally};
 use super::table::{shares, techniques_of};
-use crate::report::difference::LEGEND;
-use crate::report::html::STYLE;
-use crate::report::html::tags::{escape, figure};
+use crate::report::measure::difference::LEGEND;
+use crate::report::show::html::STYLE;
+use crate::report::show::html::tags::{escape, figure};
 
 /// Cases shown with pictures at most: those that fail come first.
 const MOST_CASES: usize = 80;
@@ -41,8 +41,8 @@ fn meaning() -> String {
          A shadow volume may have no wrong pixel; a map only such that its own texels account for, within a lookup's reach \
          of a shadow's edge or the reach of its bias, and at most {} % of the surfaces that face the light.</p>\n\
          <dl><dt>right</dt><dd>within that bound</dd><dt>false alarm</dt><dd>within it, although the plan warns</dd>\
-         <dt>warned</dt><dd>outside it, and the plan says why</dd><dt>refused</dt><dd>a clear error</dd>\
-         <dt>silently wrong</dt><dd>outside it, and nothing said</dd></dl>\n",
+         <dt>warned</dt><dd>outside it, with a warning in the plan</dd><dt>refused</dt><dd>an error instead of a picture</dd>\
+         <dt>silently wrong</dt><dd>outside it, without a warning</dd></dl>\n",
         100.0 * MOST_WRONG
     )
 }

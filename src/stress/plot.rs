@@ -2,9 +2,9 @@
 
 use super::results::CaseResult;
 use super::table::techniques_of;
-use crate::report::plots::Error;
-use crate::report::plots::axis::Axis;
-use crate::report::plots::canvas::{self, Marker, Words};
+use crate::report::show::plots::Error;
+use crate::report::show::plots::axis::Axis;
+use crate::report::show::plots::canvas::{self, Marker, Words};
 
 /// A named sweep and its plot as SVG.
 pub struct SweepPlot {
@@ -16,7 +16,7 @@ pub struct SweepPlot {
 ///
 /// # Errors
 ///
-/// What the plotting library says.
+/// An error of the plotting library.
 pub fn sweeps(results: &[CaseResult]) -> Result<Vec<SweepPlot>, Error> {
     let mut names: Vec<String> = Vec::new();
     for name in results.iter().filter_map(base_name) {

@@ -62,7 +62,7 @@ fn short(value: f64) -> f64 {
     format!("{value:.*}", decimals.clamp(0, 20) as usize).parse().unwrap_or(value)
 }
 
-/// Where the scene stands and how large it is.
+/// Place and size of the scene.
 struct Draft {
     size: f64,
     place: [f64; 3],
@@ -148,7 +148,7 @@ impl Draft {
         }
     }
 
-    /// Where a lamp hangs: above, or (of some) among the objects.
+    /// Place of a lamp: above, or (sometimes) among the objects.
     fn lamp(&self, dice: &mut Dice, near: f64, far: f64) -> [f64; 3] {
         let distance = if dice.chance(0.12) { dice.number(0.2, 1.5) } else { dice.number(near, far) };
         dice.direction(10.0, 90.0).map(|part| part * distance)

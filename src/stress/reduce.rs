@@ -192,7 +192,7 @@ fn numbers_of(value: &mut Value) -> Vec<&mut f64> {
     }
 }
 
-/// To so many significant digits.
+/// Rounds to so many significant digits.
 fn rounded(number: f64, digits: usize) -> f64 {
     format!("{number:.*e}", digits - 1).parse().unwrap_or(number)
 }

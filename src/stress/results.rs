@@ -1,20 +1,20 @@
-//! What a stress run found. Plain values, as `--json` writes them.
+//! Results of a stress run. Plain values, as `--json` writes them.
 
 use super::rows::RowSettings;
 
-/// What a row comes to.
+/// Verdict of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Within the technique's bound, and no warning.
+    /// Right: within the technique's bound, without a warning.
     Right,
-    /// Within the bound although the plan warns.
+    /// Right, within the bound, although the plan warns.
     FalseAlarm,
     /// Beyond the bound, and the plan says why.
     Warned,
     /// A clear error in place of a picture.
     Refused,
-    /// Beyond the bound, and nothing said.
+    /// Wrong, beyond the bound, without a warning.
     SilentlyWrong,
 }
 
@@ -35,7 +35,7 @@ impl Verdict {
 /// One light of a case under one setting.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Row {
-    /// Into the scene's lights.
+    /// Index into the scene's lights.
     pub light: usize,
     #[serde(flatten)]
     pub settings: RowSettings,
@@ -51,20 +51,20 @@ pub struct Row {
 }
 
 impl Row {
-    /// Not judged yet.
+    /// A row that is not judged yet.
     pub fn new(light: usize, settings: &RowSettings) -> Self {
         let settings = settings.clone();
         Self { light, settings, verdict: Verdict::Right, compared: 0, wrong: 0, beyond: 0, why: String::new() }
     }
 
-    /// What is not the technique's default, for tables.
+    /// Keys that differ from the technique's default, for tables.
     pub fn keys(&self) -> String {
         let keys = if self.settings.keys.is_empty() { "defaults" } else { &self.settings.keys };
         let pictured = if self.settings.pictured { ", in the picture" } else { "" };
         format!("{keys}{pictured}")
     }
 
-    /// Whether the picture must not be used, or was not drawn.
+    /// Tests whether the picture must not be used, or was not drawn.
     pub fn is_unusable(&self) -> bool {
         matches!(self.verdict, Verdict::FalseAlarm | Verdict::Warned | Verdict::Refused)
     }
@@ -78,13 +78,13 @@ impl Row {
 /// A row as PNG files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowPictures {
-    /// Into [`CaseResult::rows`].
+    /// Index into [`CaseResult::rows`].
     pub row: usize,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// The shade as it was drawn: white lit, black shadowed.
     pub drawn: Vec<u8>,
-    /// What the oracle says.
+    /// Picture of the truth.
     pub truth: Vec<u8>,
     /// The truth, with what is wrong in colours.
     pub difference: Vec<u8>,
@@ -95,35 +95,35 @@ pub struct RowPictures {
 pub struct CaseResult {
     pub name: String,
     pub is_random: bool,
-    /// What is extreme in it.
+    /// Extreme property of the scene.
     pub why: String,
     /// The stiff parameter of a sweep and its value.
     pub sweep: Option<(String, f64)>,
-    /// Drawn pixels of which the oracle is certain, in [0, 1], over all lights.
+    /// Drawn pixels of which the ray tracer is certain, in [0, 1], over all lights.
     pub decided: f64,
     pub seconds: f64,
-    /// Why the case has no rows: the scene was refused.
+    /// Reason why the case has no rows: the scene was refused.
     pub refused: Option<String>,
-    /// Whether a refusal is what the case expects.
+    /// True if a refusal is what the case expects.
     pub refusal_expected: bool,
     pub rows: Vec<Row>,
-    /// Pictures of the worst row of each technique whose rows are not all right, where pictures are asked for.
+    /// Pictures of the worst row of each technique whose rows are not all right, if pictures are requested.
     #[serde(skip)]
     pub pictures: Vec<RowPictures>,
 }
 
 impl CaseResult {
-    /// Whether the case was not drawn although it should have been, or the other way around.
+    /// Tests whether the case was not drawn although it should have been, or the other way around.
     pub fn is_misjudged(&self) -> bool {
         self.refused.is_some() != self.refusal_expected
     }
 
-    /// Whether there is more to say than that all is right.
+    /// Tests whether something is not right.
     pub fn has_news(&self) -> bool {
         self.is_misjudged() || self.rows.iter().any(|row| row.verdict != Verdict::Right)
     }
 
-    /// Whether something is wrong and nothing said.
+    /// Tests whether something is wrong without a warning.
     pub fn fails(&self) -> bool {
         self.is_misjudged() || self.rows.iter().any(|row| row.verdict == Verdict::SilentlyWrong)
     }
@@ -135,7 +135,7 @@ pub fn random_defaults(results: &[CaseResult]) -> impl Iterator<Item = &Row> {
     random.flat_map(|result| &result.rows).filter(|row| row.settings.is_default())
 }
 
-/// How many rows have each verdict, in the order of [`Verdict::ALL`].
+/// Number of rows with each verdict, in the order of [`Verdict::ALL`].
 pub fn tally<'a>(rows: impl IntoIterator<Item = &'a Row>) -> [usize; 5] {
     let mut tally = [0; 5];
     for row in rows {

@@ -3,8 +3,8 @@
 use crate::scene::{LightKind, Scene};
 use crate::techniques::{TABLE, Technique};
 
-/// Second-depth maps serve closed casters, and refuse others by name. A scene with an open caster is drawn with it as it is:
-/// what the user then asks for is not a default.
+/// Second-depth maps serve closed casters, and refuse others with their names. A scene with an open caster is drawn with it
+/// as it is: then the user's choice is not a default.
 const ASSUMED: &str = "closed = \"assume\"";
 
 /// One way to draw a light's shadow.
@@ -13,7 +13,7 @@ pub struct RowSettings {
     pub technique: String,
     /// Keys of `[light.shadow]` in TOML, ready for an inline table; empty: the technique's defaults.
     pub keys: String,
-    /// Whether the picture itself is judged, in the light of this lamp alone, and not its shade: the lit pass with its
+    /// True if the picture itself is judged, in the light of this lamp alone, and not its shade: the lit pass with its
     /// guard, its cone, and what it leaves out.
     #[serde(default)]
     pub pictured: bool,
@@ -26,7 +26,7 @@ impl RowSettings {
         format!("technique = \"{}\"{comma}{}", self.technique, self.keys)
     }
 
-    /// Whether these are the settings that a scene without further keys gets.
+    /// Tests whether these are the settings that a scene without further keys gets.
     pub fn is_default(&self) -> bool {
         self.keys.is_empty() && !self.pictured
     }
@@ -43,7 +43,7 @@ pub fn row_of(inside: &str) -> RowSettings {
     }
 }
 
-/// What every map has.
+/// Keys of every map.
 const MAP: &[&str] = &[
     "filter = \"nearest\"",
     "kernel = \"3x3\"",
@@ -58,7 +58,7 @@ const MAP: &[&str] = &[
     "size = 256",
 ];
 
-/// What maps in one square have beside it.
+/// Further keys of maps in one square.
 const SQUARE: &[&str] = &[
     "bias = \"receiver-plane\"",
     "bias = \"normal-offset\"",
@@ -75,7 +75,7 @@ const SQUARE: &[&str] = &[
     "texgen = \"light\", texture_matrix = \"projection\"",
 ];
 
-/// What a spotlight's map alone has.
+/// Keys of a spotlight's map only.
 const SPOT: &[&str] = &[
     "mipmaps = true",
     "guard = \"spot-cutoff\"",
@@ -149,7 +149,7 @@ fn map_keys(kind: &LightKind) -> Vec<&'static str> {
     MAP.iter().chain(more.iter().copied().flatten()).copied().collect()
 }
 
-/// Whether every caster is closed and looks outwards, as second-depth maps need it.
+/// Tests whether every caster is closed and looks outwards, as second-depth maps need it.
 fn all_closed(scene: &Scene) -> bool {
     let casters = scene.objects.iter().filter(|object| object.casts_shadow);
     { casters }.all(|object| object.wave.is_none() && object.mesh.is_closed() && object.mesh.signed_volume() > 0.0)

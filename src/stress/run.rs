@@ -11,17 +11,17 @@ use super::results::{CaseResult, Row, RowPictures, Verdict};
 use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
-use crate::oracle::ray::Truth;
-use crate::report::difference;
+use crate::report::measure::difference;
+use crate::truth::Truth;
 
-/// What is run, and how.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Cases drawn at once, each on a context of its own.
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
     pub technique: Option<String>,
-    /// Whether pictures are kept of what is not right.
+    /// True if pictures of wrong rows are kept.
     pub pictures: bool,
     pub context: ContextRequest,
 }

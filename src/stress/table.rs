@@ -70,7 +70,7 @@ fn worst(result: &CaseResult, technique: &str) -> String {
     format!("{count} of {} {}: {:.2} % ({})", rows().count(), worst.verdict.name(), worst.wrong_percent(), worst.keys())
 }
 
-/// By verdict, then by wrong pixels.
+/// Rank by verdict, then by wrong pixels.
 fn rank(row: &Row) -> f64 {
     let verdict = Verdict::ALL.iter().position(|verdict| *verdict == row.verdict).unwrap_or(0);
     1e6 * verdict as f64 + row.wrong_percent()
@@ -92,7 +92,7 @@ fn verdicts(results: &[CaseResult], techniques: &[&str], width: u16) -> String {
     format!("{table}\n")
 }
 
-/// False alarms, what default settings cannot draw, how much the oracle decides, and the time.
+/// False alarms, what default settings cannot draw, how much the ray tracer decides, and the time.
 pub fn shares(results: &[CaseResult]) -> String {
     let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
     let percent = |part: usize, all: usize| 100.0 * part as f64 / all.max(1) as f64;
@@ -104,7 +104,7 @@ pub fn shares(results: &[CaseResult]) -> String {
     format!(
         "false alarms: {:.2} % of all rows (at most 2)\n\
          warned or refused with default settings: {:.2} % of {} random rows (at most 5)\n\
-         {} cases, {:.2} s each; the oracle is certain of {:.2} % of the pixels drawn\n",
+         {} cases, {:.2} s each; the ray tracer is certain of {:.2} % of the pixels drawn\n",
         percent(alarms, rows.len()),
         percent(unusable, defaults.len()),
         defaults.len(),

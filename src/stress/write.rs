@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::case::Case;
 use super::results::CaseResult;
 use super::{page, plot};
-use crate::output::whole;
-use crate::report::plots;
+use crate::output::atomic_write;
+use crate::report::show::plots;
 
-/// Why a run's outcome could not be written.
+/// Reason why a run's results could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
@@ -64,7 +64,7 @@ pub fn write(folder: &Path, seed: u64, results: &[CaseResult], reduced: &[Case])
         (folder.join("stress.html"), page::to_html(results, &plots).into_bytes()),
     ];
     let paths: Vec<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
-    let written = whole::write_all(&paths, |index, path| fs::write(path, &files[index].1));
+    let written = atomic_write::write_all(&paths, |index, path| fs::write(path, &files[index].1));
     written.map_err(|(index, reason)| Error::Write { path: paths[index].to_owned(), reason })
 }
 
@@ -78,7 +78,7 @@ fn remove_scenes(folder: &Path) {
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with("reduced-") && name.ends_with(".toml") {
-            // What cannot be removed is overwritten or stays: the page names the scenes of this run.
+            // A file that cannot be removed is overwritten or stays: the page names the scenes of this run.
             let _ = fs::remove_file(path);
         }
     }

@@ -1,7 +1,7 @@
-//! What the documents claim of techniques, as comparisons that a report measures on its scene. Plain data: knows no
-//! metric and no pixel.
+//! Claims of the techniques' documents, as comparisons that a report measures on its scene. Plain data: knows no metric and
+//! no pixel.
 
-/// A quantity of one picture against that of another, and which must be the greater.
+/// Comparison of one quantity in two pictures.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// The claim as a sentence.
@@ -13,7 +13,7 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Of what comes without a polygon offset.
+    /// Claim of a technique that needs no polygon offset.
     pub const fn needs_no_offset(who: Contender) -> Self {
         Self {
             says: "needs no offset to leave no more acne than a tuned offset does",
@@ -25,7 +25,7 @@ impl Claim {
     }
 }
 
-/// Whose picture.
+/// A picture that is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {
     /// A shadow map under the slope-scaled polygon offset that leaves no acne and leaks least on surfaces that face the
@@ -37,22 +37,22 @@ pub enum Contender {
     Keys(&'static str),
 }
 
-/// What is compared.
+/// Compared quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// False shadow on surfaces that face the light, beyond the edge band.
     FalseShadow,
-    /// The same, the band included.
+    /// False shadow on surfaces that face the light, the band included.
     FalseShadowWithBand,
     /// Light where none belongs.
     Leak,
-    /// The same on surfaces that face the light: what shading does not hide.
+    /// Leak on surfaces that face the light, where shading does not hide it.
     LeakFacing,
     /// Wrong pixels on surfaces that face the light.
     WrongFacing,
-    /// Wrong pixels on surfaces turned away from the light, of these surfaces' own.
+    /// Wrong pixels on surfaces turned away from the light, in percent of these surfaces' pixels.
     WrongAway,
-    /// How far the polygon offset moves the map's depth, in the median of the lit pixels that face the light.
+    /// Movement of the map's depth by the polygon offset, in the median of the lit pixels that face the light.
     Offset,
 }
 

@@ -1,4 +1,4 @@
-//! Shadow techniques and views, each describing passes as data. Knows scene, pass, geometry and math; no GL.
+//! Shadow techniques, each describing passes as data. Knows scene, pass, geometry and math; no GL.
 //!
 //! # How to add a technique
 //!
@@ -8,34 +8,19 @@
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
 
-mod alpha;
 pub mod claims;
-pub mod cut;
-mod forecast;
-pub mod guard;
-pub mod guides;
-pub mod items;
-pub mod light;
-pub mod map;
 mod midpoint;
-mod projector;
+mod none;
 mod second_depth;
-mod seen;
 mod shadow_map;
 mod shadow_volume;
-pub mod surface;
-mod unseen;
-mod unshadowed;
-pub mod views;
 
 use self::claims::Claim;
+use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, Scene, Settings, SettingsError, suggest};
-pub use items::Item;
-pub use light::{Coordinates, FrustumView, LightTerm, LightView};
-pub use map::{MapInfo, MapShape};
 
-/// A way to find out which points a light reaches.
+/// A way to find which points a light reaches.
 pub trait Technique: Sync {
     /// The value of `technique` in `[light.shadow]`.
     fn name(&self) -> &'static str;
@@ -46,19 +31,19 @@ pub trait Technique: Sync {
     /// The document and section that it implements.
     fn source(&self) -> &'static str;
 
-    /// Whether it finds the shade of such lights.
+    /// Tests whether it finds the shade of such lights.
     ///
     /// # Errors
     ///
-    /// Why not, as the end of a sentence that begins with the technique's name.
+    /// The reason why not, as the end of a sentence that begins with the technique's name.
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
 
-    /// Whether it reads casters' vertices, which the vertex stage then must not move.
+    /// Tests whether it reads casters' vertices, which the vertex stage then must not move.
     fn needs_vertices(&self) -> bool {
         false
     }
 
-    /// What a report varies, and how.
+    /// Keys that a report varies, with their values.
     fn axes(&self) -> &'static [Axis];
 
     /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
@@ -66,20 +51,20 @@ pub trait Technique: Sync {
         &[]
     }
 
-    /// What its documents claim of it, for a report to hold against its scene.
+    /// Claims of its documents, which a report measures on its scene.
     fn claims(&self) -> &'static [Claim] {
         &[]
     }
 
-    /// Reads and checks the technique's keys of `[light.shadow]`, and that is all.
+    /// Validates the technique's keys of `[light.shadow]` without planning anything.
     ///
     /// # Errors
     ///
     /// A key with a wrong value, with its place in the scene file.
     fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError>;
 
-    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and says how
-    /// the lit pass asks for shade. What it leaves out on its own it tells `notes`.
+    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and returns the
+    /// light's term for the lit pass. Notes what it leaves out in `notes`.
     ///
     /// # Errors
     ///
@@ -97,56 +82,22 @@ pub trait Technique: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
     pub key: &'static str,
-    /// In TOML.
+    /// Values in TOML.
     pub values: &'static [&'static str],
-    /// The fewer values of a quick report.
+    /// Fewer values, for a quick report.
     pub quick: &'static [&'static str],
 }
 
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[
-    &unshadowed::Unshadowed,
+    &none::Unshadowed,
     &shadow_map::ShadowMap,
     &midpoint::Midpoint,
     &second_depth::SecondDepth,
     &shadow_volume::ShadowVolume,
 ];
 
-/// What was left out and why, and what the reader of a plan should know besides.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Notes {
-    pub left_out: Vec<LeftOut>,
-    /// What a technique chose by itself, and why.
-    pub chosen: Vec<Chosen>,
-    pub warnings: Vec<String>,
-}
-
-/// Something that this frame does not draw.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct LeftOut {
-    pub what: String,
-    pub why: String,
-}
-
-/// A choice among several ways.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct Chosen {
-    pub of: String,
-    pub choice: String,
-    pub why: String,
-}
-
-impl Notes {
-    pub fn left_out(&mut self, what: impl Into<String>, why: impl Into<String>) {
-        self.left_out.push(LeftOut { what: what.into(), why: why.into() });
-    }
-
-    pub fn chosen(&mut self, of: impl Into<String>, choice: impl Into<String>, why: impl Into<String>) {
-        self.chosen.push(Chosen { of: of.into(), choice: choice.into(), why: why.into() });
-    }
-}
-
-/// Checks the keys that only other techniques read: they may stand, so that `technique` alone can be switched.
+/// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
 ///
 /// # Errors
 ///
@@ -164,7 +115,7 @@ pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
     keys.known().to_vec()
 }
 
-/// Whether the technique of some light of the scene reads casters' vertices.
+/// Tests whether the technique of some light of the scene reads casters' vertices.
 pub fn needs_vertices(scene: &Scene) -> bool {
     scene.lights.iter().any(|source| {
         let mut keys = source.shadow.read();

@@ -1,22 +1,22 @@
-//! Which key does what: one table for the window and for the help.
+//! Keys and their commands: one table for the window and for the help.
 
 use super::{Handle, Mode};
 use crate::output::canvas::{Canvas, Color, Font};
 
-/// What a key asks for.
+/// Command of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Command {
     NextMode,
-    /// Of the sample's shadow techniques.
+    /// The next of the sample's shadow techniques.
     NextTechnique,
     ViewAll,
     Reset,
-    /// What the mouse turns and moves from now on.
+    /// Changes what the mouse turns and moves.
     Hold(Handle),
     NextTweak,
-    /// Of the current tweak.
+    /// Steps the current tweak.
     Step(f64),
-    /// Shown in the window, or no more.
+    /// Shows or hides the help.
     Help,
     Quit,
 }
@@ -45,7 +45,7 @@ pub fn command(name: &str) -> Option<Command> {
     KEYS.iter().find(|(names, ..)| names.iter().any(|known| known.eq_ignore_ascii_case(name))).map(|row| row.1)
 }
 
-/// What the mouse does.
+/// Actions of the mouse.
 const MOUSE: [(&str, &str); 3] =
     [("left drag", "turns what the mouse holds"), ("right drag", "moves it nearer or farther"), ("wheel", "the same")];
 
@@ -77,7 +77,7 @@ pub fn help(techniques: &[&str]) -> String {
     [String::from(HEADING)].into_iter().chain(rows).collect::<Vec<_>>().join("\n")
 }
 
-/// The same as a sheet for a window of this width.
+/// The help as a sheet for a window of this width.
 pub fn help_sheet(techniques: &[&str], window_width: u32) -> Canvas {
     const PAPER: Color = [24, 26, 30];
     const INK: Color = [230, 230, 230];

@@ -1,21 +1,23 @@
-//! A scene in a window, to walk around in: what the sample programs share. The state of the walk is plain data and
-//! knows no window ([`State`]); [`run`] joins it to winit's events. Each change makes a new plan, and the device leaves
-//! out what that plan has in common with the last: the map stays when only the camera moves.
+//! A scene in a window, to walk around in: what the sample programs share. [`State`] is plain data and knows no window;
+//! [`run`] joins it to winit's events. Each change makes a new plan, and the device skips passes that the last plan had,
+//! too: the map stays when only the camera moves.
 
 mod keys;
+mod mode;
 mod orbit;
 mod state;
 mod tweak;
 mod window;
 
 pub use keys::{Command, help};
-pub use state::{Handle, Mode, Reaction, State};
+pub use mode::{Handle, Mode};
+pub use state::{Reaction, State};
 pub use tweak::{TWEAKS, Tweak};
 pub use window::{Shown, run};
 
 use crate::{context, frame};
 
-/// Why a window could not be opened or drawn in.
+/// Reason why a window could not be opened or drawn in.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(

@@ -21,19 +21,19 @@ pub fn orbit(eye: DVec3, middle: DVec3, up: DVec3, turn: DVec2) -> DVec3 {
 pub fn dolly(eye: DVec3, middle: DVec3, steps: f64, [nearest, farthest]: [f64; 2]) -> DVec3 {
     let offset = eye - middle;
     let distance = offset.length();
-    // What stands outside of the range already may stay, and come back.
+    // An eye that is already outside the range may stay, and come back.
     let (nearest, farthest) = (nearest.min(distance), farthest.max(distance));
     let wanted = (distance * 0.9_f64.powf(steps)).clamp(nearest, farthest);
     if distance > 0.0 { middle + offset * (wanted / distance) } else { eye }
 }
 
-/// What turns the world about `middle` by `turn.x` about `up` and then by `turn.y` about `right`.
+/// Matrix that turns the world about `middle` by `turn.x` about `up` and then by `turn.y` about `right`.
 pub fn turn_about(middle: DVec3, up: DVec3, right: DVec3, turn: DVec2) -> DMat4 {
     let turned = DQuat::from_axis_angle(right, turn.y) * DQuat::from_axis_angle(up, turn.x);
     DMat4::from_translation(middle) * DMat4::from_quat(turned) * DMat4::from_translation(-middle)
 }
 
-/// How far from its middle a picture holds a sphere of `radius`: its narrower side's planes touch it.
+/// Distance from which a picture holds a sphere of `radius`: the planes of its narrower side touch it.
 pub fn distance_of_sphere(radius: f64, fov_y_radians: f64, aspect: f64) -> f64 {
     let half = ((0.5 * fov_y_radians).tan() * aspect.min(1.0)).atan();
     radius / half.sin()

@@ -1,90 +1,26 @@
-//! What a window shows and what its user changed: the scene, the display mode, what the mouse holds, the tweak that the
-//! keys step. Plain data; knows no window and no GL.
+//! State of a window: the scene, the display mode, what the mouse holds, the tweak that the keys step. Plain data; knows no
+//! window and no GL.
 
 use glam::{DMat4, DVec2, DVec3};
 
 use super::keys::Command;
+use super::mode::{Handle, Mode};
 use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
-use crate::plan::{Request, Subject};
+use crate::plan::Request;
 use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
 
-/// The sample's display modes [techniques E].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// From the camera, without shadows.
-    Camera,
-    /// From the camera, with shadows.
-    #[default]
-    Shadowed,
-    /// From the first light, in the largest square of a power of two.
-    Light,
-}
-
-impl Mode {
-    /// In the order in which space goes through them, with their names on the command line.
-    pub const ALL: [(&str, Self); 3] = [("camera", Self::Camera), ("shadowed", Self::Shadowed), ("light", Self::Light)];
-
-    fn place(self) -> usize {
-        Self::ALL.iter().position(|(_, mode)| *mode == self).unwrap_or(0)
-    }
-
-    /// What it shows.
-    pub fn in_words(self) -> &'static str {
-        match self {
-            Self::Camera => "without shadows",
-            Self::Shadowed => "with shadows",
-            Self::Light => "from the light",
-        }
-    }
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        Self::ALL[self.place()].0
-    }
-
-    #[must_use]
-    pub fn next(self) -> Self {
-        Self::ALL[(self.place() + 1) % Self::ALL.len()].1
-    }
-
-    /// `scene` at `size` pixels, and the request for its picture, so that a frame shows it in this mode.
-    pub fn frame(self, scene: &Scene, size: [u32; 2]) -> (Scene, Request) {
-        let mut scene = scene.clone();
-        scene.image.size = size;
-        let mut request = Request::default();
-        match self {
-            // An empty table is one without a technique.
-            Self::Camera => scene.lights.iter_mut().for_each(|light| light.shadow.entries.clear()),
-            Self::Shadowed => {}
-            Self::Light => request.subject = Subject::Light(0),
-        }
-        (scene, request)
-    }
-}
-
-/// What the mouse turns and moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Handle {
-    #[default]
-    Camera,
-    /// The first light, about what it points at.
-    Light,
-    /// The first object that is lit, about its own middle.
-    Object,
-}
-
-/// What a command comes to.
+/// Reaction to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reaction {
     Redraw,
-    /// Only what is said of the picture has changed.
+    /// Only the title has changed.
     Retitle,
     Quit,
 }
 
-/// A walk through a scene.
+/// State of a window.
 #[derive(Clone, Debug)]
 pub struct State {
     first: Scene,
@@ -98,7 +34,7 @@ pub struct State {
 }
 
 impl State {
-    /// A walk that begins with `scene` as it is.
+    /// A state that begins with `scene` as it is.
     pub fn new(scene: Scene, mode: Mode) -> Self {
         let size = scene.image.size;
         Self {
@@ -113,7 +49,7 @@ impl State {
         }
     }
 
-    /// The same walk with shadow techniques to choose from, by their names in `[light.shadow]`.
+    /// The same state with shadow techniques to choose from, by their names in `[light.shadow]`.
     #[must_use]
     pub fn with_techniques(self, techniques: &'static [&'static str]) -> Self {
         Self { techniques, ..self }
@@ -123,12 +59,12 @@ impl State {
         self.techniques
     }
 
-    /// Whether keys and mouse are told in the window.
+    /// Tests whether the window shows the help.
     pub fn helps(&self) -> bool {
         self.helps
     }
 
-    /// As changed so far.
+    /// The scene as changed so far.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -142,7 +78,7 @@ impl State {
         self.size = size.map(|side| side.max(1));
     }
 
-    /// What to draw now.
+    /// Scene and request to draw now.
     pub fn frame(&self) -> (Scene, Request) {
         self.mode.frame(&self.scene, self.size)
     }
@@ -256,7 +192,7 @@ impl State {
         self.scene.camera.view_from_world().inverse().transform_vector3(axis)
     }
 
-    /// Moves the object by what `moved` makes of its middle.
+    /// Moves the object by the matrix that `moved` returns for its middle.
     fn place_object(&mut self, moved: impl Fn(DVec3) -> DMat4) {
         let objects = &mut self.scene.objects;
         let index = objects.iter().position(|object| object.lit).unwrap_or(0);

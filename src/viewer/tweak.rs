@@ -1,4 +1,4 @@
-//! The numbers of a shadow map that can be stepped while it is looked at [techniques E].
+//! Numbers of a shadow map that keys can step, as in the sample program hw_shadowmaps_simple.
 
 use crate::scene::{Entry, Origin, Settings, Value};
 
@@ -9,7 +9,7 @@ pub struct Tweak {
     /// Table and key.
     pub table: &'static str,
     pub key: &'static str,
-    /// What stands in where neither is written.
+    /// Default if neither is written.
     pub default: f64,
     pub step: f64,
     pub range: [f64; 2],
@@ -17,7 +17,7 @@ pub struct Tweak {
 
 const R_STEP: f64 = 1.0 / 65535.0;
 
-/// In the order in which they are chosen.
+/// All tweaks, in the order in which they are chosen.
 pub const TWEAKS: &[Tweak] = &[
     Tweak { name: "r scale", table: "r", key: "scale", default: 0.5, step: R_STEP, range: [-16.0, 16.0] },
     Tweak { name: "r bias", table: "r", key: "bias", default: 0.5, step: R_STEP, range: [-16.0, 16.0] },
@@ -41,7 +41,7 @@ impl Tweak {
         let value = (self.get(shadow) + steps * self.step).clamp(self.range[0], self.range[1]);
         let mut table = match shadow.get(self.table).map(|entry| &entry.value) {
             Some(Value::Table(table)) => table.clone(),
-            // A table that leaves a key out means 0 by it: write what stood in.
+            // A missing key of an existing table means 0: write the default.
             _ => {
                 TWEAKS.iter().filter(|other| other.table == self.table).fold(Settings::default(), |mut table, other| {
                     table.set(other.key, entry(Value::Float(other.default)));

@@ -20,7 +20,7 @@ use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::plan::Request;
 
-/// How a state is shown.
+/// Look of a window.
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The window's title begins with it.
@@ -37,7 +37,7 @@ const PIXELS_A_STEP: f64 = 20.0;
 ///
 /// # Errors
 ///
-/// No display, no context, and whatever a frame can fail of.
+/// No display, no context, and every error of a frame.
 pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
     if !window::display_is_named() {
         return Err(Error::NoDisplay);
@@ -118,7 +118,7 @@ impl App {
         }
     }
 
-    /// Tells the state on the title and on standard output.
+    /// Shows the state in the title and on standard output.
     fn tell(&self) {
         if let Some(live) = &self.live {
             live.context.window().set_title(&self.title());
@@ -221,7 +221,7 @@ impl ApplicationHandler for App {
     }
 }
 
-/// Why there is no window, without the place in winit's sources where that was noticed.
+/// Reason why there is no window, without the place in winit's sources where that was noticed.
 fn cannot_open(error: context::Error) -> Error {
     let text = match error {
         context::Error::Present(text) => text,

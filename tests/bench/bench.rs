@@ -1,4 +1,4 @@
-//! glumbra against the floor: the same scene by the fewest GL calls, in processes taken in turn (issue "How fast").
+//! glumbra against the floor: the same scene by the fewest GL calls, in processes taken in turn.
 //! Prints medians of same-round ratios; absolute times hold on no other machine. `ci/bench` builds and runs it.
 
 mod child;

@@ -10,7 +10,7 @@ use glumbra::output::{self, Output};
 use glumbra::pass::{Attribute, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene;
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 use serde::{Deserialize, Serialize};
 
 use super::floor::Floor;
@@ -193,7 +193,7 @@ fn read_normals(pass: &mut DrawPass) {
     }
 }
 
-/// Processor time of the passes that find light 0's shadows, drawn alone and anew again and again.
+/// Processor time of the passes that find light 0's shadows, drawn alone, again and again.
 fn shadow_cpu(renderer: &mut Renderer, list: &PassList, frames: usize) -> Result<f64> {
     let mut alone = list.clone();
     alone.passes.retain(|pass| pass.label.starts_with("light 0: "));

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{self, Truth};
-use glumbra::report::metrics::{Band, Metrics, compare};
-use glumbra::report::run::draw_shade;
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::report::measure::run::draw_shade;
 use glumbra::scene;
+use glumbra::truth::{self, Truth};
 
 use super::rounds::Bench;
 use super::{Result, Scene};
@@ -28,7 +28,7 @@ pub struct Judge {
 impl Judge {
     pub fn new(bench: &Bench) -> Result<Self> {
         let file = bench.folder.join("scene.toml");
-        let truth = ray::trace(&scene::load(&file, &[])?.scene, 0, &ray::Options::default())?;
+        let truth = truth::trace(&scene::load(&file, &[])?.scene, 0, &truth::Options::default())?;
         let size = if bench.scene == Scene::S1 { 1024 } else { 2048 };
         let band = Band { texels: 2.0, map_size: [size; 2] };
         let context = context::open(&ContextRequest::default())?;

@@ -1,5 +1,5 @@
 //! Each technique, and each setting that costs, against its floor, in processes taken in turn:
-//! `ci/bench --techniques [--scene s1]`. Everything that a technique can draw anew is drawn anew in every frame, but for
+//! `ci/bench --techniques [--scene s1]`. Everything that a technique can redraw is redrawn in every frame, but for
 //! the rows that say otherwise. A way whose picture is neither its floor's nor, by ray-traced truth, as right gets no time.
 
 use std::collections::HashMap;
@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
                 shadow[index].pairs.push((floor.shadow_cpu_ms, sample.shadow_cpu_ms));
             }
         }
-        println!("\n{:?}: {rounds} rounds; processor time; base: the technique's floor, drawn anew", bench.scene);
+        println!("\n{:?}: {rounds} rounds; processor time; base: the technique's floor, redrawn", bench.scene);
         frames.extend(shadow);
         print(&frames);
         judge.print_texel(bench)

@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 
-/// Mesa's variables with which every road fails; OSMesa crashes with the first three.
+/// Mesa's variables with which every backend fails; OSMesa crashes with the first three.
 const VARIABLES: [&str; 4] = [
     "GALLIUM_DRIVER=nonsense",
     "GALLIUM_DRIVER=zink",
@@ -34,14 +34,14 @@ fn a_driver_that_refuses_or_crashes_is_told_with_all_that_was_tried() {
                 .map(|how| format!("{variable} {command}: {how}")),
         );
         let error = text(&output.stderr);
-        let roads: &[&str] = if command.contains("osmesa") {
+        let backends: &[&str] = if command.contains("osmesa") {
             &["OSMesa"]
         } else {
             &["EGL surfaceless", "EGL device", "EGL pbuffer", "OSMesa"]
         };
-        for road in roads {
-            if !error.lines().any(|line| line.trim_start().starts_with(road)) {
-                wrong.push(format!("{variable} {command}: does not name {road}: {error}"));
+        for backend in backends {
+            if !error.lines().any(|line| line.trim_start().starts_with(backend)) {
+                wrong.push(format!("{variable} {command}: does not name {backend}: {error}"));
             }
         }
         if !error.contains(variable) || error.contains("To install it") {
@@ -88,7 +88,7 @@ fn a_driver_that_stops_is_given_up() {
     assert_eq!(refusal(&output, 1, expected), None);
 }
 
-/// An OSMesa that never answers costs its road, not the message.
+/// An OSMesa that never answers disables its backend only; the message still comes.
 #[test]
 fn a_driver_that_stops_in_the_child_process_is_given_up() {
     let folder = work();
@@ -109,10 +109,10 @@ fn no_egl_is_told_by_platform() {
     let script = format!("LD_LIBRARY_PATH={} glumbra render scene.toml -o x.png", libraries.path().display());
     let output = run(folder.path(), &script);
     assert_eq!(refusal(&output, 1, "apt-get install libegl1"), None);
-    for road in ["EGL surfaceless", "EGL device", "EGL pbuffer", "OSMesa"] {
+    for backend in ["EGL surfaceless", "EGL device", "EGL pbuffer", "OSMesa"] {
         let error = text(&output.stderr);
-        let line = error.lines().find(|line| line.trim_start().starts_with(road));
-        assert!(line.is_some_and(|line| line.contains("file too short")), "{road}: {error}");
+        let line = error.lines().find(|line| line.trim_start().starts_with(backend));
+        assert!(line.is_some_and(|line| line.contains("file too short")), "{backend}: {error}");
     }
     assert_eq!(names(folder.path()), ["scene.toml"]);
 }

@@ -41,7 +41,7 @@ fn a_view_that_is_asked_for_twice_is_written_once() {
         let folder = work();
         let output = run(folder.path(), &format!("glumbra render scene.toml -o x.png {twice}"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-        assert_eq!(text(&output.stderr), "warning: --aov asks for PICTURE.shade twice; it is written once\n");
+        assert_eq!(text(&output.stderr), "warning: --aov names PICTURE.shade twice; it is written once\n");
         assert_eq!(names(folder.path()), ["scene.toml", "x.png", "x.shade.png"]);
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use glumbra::report::merge::{self, equal_but_for_times};
+use glumbra::report::store::merge::{self, equal_but_for_times};
 
 use super::*;
 

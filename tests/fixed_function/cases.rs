@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use glumbra::fixed_function::Inexpressible;
 use glumbra::frame::Renderer;
-use glumbra::oracle::fixed_function::Inexpressible;
 use glumbra::plan::Request;
 use glumbra::scene;
 

@@ -10,11 +10,11 @@ use std::path::Path;
 
 use glam::DMat4;
 use glumbra::context::{self, Choice, ContextRequest, Profile};
-use glumbra::oracle::fixed_function::{Error, Inexpressible};
-use glumbra::pass::{Meaning, Projection, Work};
+use glumbra::fixed_function::{Error, Inexpressible};
+use glumbra::pass::{FixedFunctionDesc, Projection, Work};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::techniques::views::View;
 use glumbra::viewer::Mode;
+use glumbra::views::View;
 
 use roads::{HANDFUL, ONE_CODE, Roads, compare, differing, differing_bits, load, picture_and_shades};
 
@@ -114,7 +114,7 @@ fn mistakes_in_the_planes_are_seen() {
         for pass in &mut list.passes {
             let Work::Draw(draw) = &mut pass.work else { continue };
             for batch in &mut draw.batches {
-                if let Meaning::Sampled(view) = &mut batch.meaning {
+                if let FixedFunctionDesc::Sampled(view) = &mut batch.meaning {
                     view.projection.iter_mut().for_each(&mistake);
                 }
             }

@@ -1,4 +1,4 @@
-//! `--road` as a person meets it.
+//! `--pipeline` as a person meets it.
 
 use std::process::Command;
 
@@ -23,12 +23,12 @@ fn both_programs_go_either_road() {
         [("glumbra", ["render", SAMPLE]), ("hw_shadowmaps_simple", ["--headless", "--mode=shadowed"])]
     {
         let [first, second] = arguments;
-        let shaders = picture_of(program, &[first, second, "--road", "shaders"]);
-        let fixed = picture_of(program, &[first, second, "--road", "fixed-function"]);
+        let shaders = picture_of(program, &[first, second, "--pipeline", "shaders"]);
+        let fixed = picture_of(program, &[first, second, "--pipeline", "fixed-function"]);
         let apart = |(a, b): (&u8, &u8)| a.abs_diff(*b) > 1;
         let off = shaders.iter().zip(&fixed).filter(|pair| apart(*pair)).count();
         assert!(off <= 3 * HANDFUL, "{program}: {off} channels");
-        // Another road was gone: it does not round the same everywhere.
+        // Another pipeline drew it, which does not round the same everywhere.
         assert_ne!(shaders, fixed, "{program}");
     }
 }
@@ -39,7 +39,7 @@ fn a_refused_scene_leaves_no_file_and_a_driver_without_the_pipeline_is_told() {
     let path = folder.path().join("picture.png");
     let run = |set: &str, version: Option<&str>| {
         let mut command = Command::cargo_bin("glumbra").unwrap();
-        command.args(["render", SAMPLE, "--road", "fixed-function", "--set", set, "-o"]).arg(&path);
+        command.args(["render", SAMPLE, "--pipeline", "fixed-function", "--set", set, "-o"]).arg(&path);
         version.map(|version| command.env("MESA_GL_VERSION_OVERRIDE", version));
         let output = command.output().unwrap();
         assert_eq!(output.status.code(), Some(1));
@@ -51,6 +51,6 @@ fn a_refused_scene_leaves_no_file_and_a_driver_without_the_pipeline_is_told() {
         "{error}"
     );
     let error = run("image.size=[64, 64]", Some("2.0"));
-    assert!(error.starts_with("error: --road fixed-function needs OpenGL's compatibility profile."), "{error}");
+    assert!(error.starts_with("error: --pipeline fixed-function needs OpenGL's compatibility profile."), "{error}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use glumbra::context::{self, Choice, Context, ContextRequest, Profile};
 use glumbra::device::{Measure, Pixels};
+use glumbra::fixed_function::{Error, FixedFunction, Inexpressible};
 use glumbra::frame::Renderer;
-use glumbra::oracle::fixed_function::{Error, FixedFunction, Inexpressible};
 use glumbra::pass::PassList;
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 /// One code of 8 bits: decals and spot images are filtered with weights of 8 bits, so that coordinates which differ in
 /// their last bit may come out one code apart. A little more for the sums around it.

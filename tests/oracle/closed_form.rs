@@ -2,8 +2,8 @@
 
 use glam::{DMat4, DVec2, DVec3};
 use glumbra::math::spaces;
-use glumbra::oracle::ray::Answer;
 use glumbra::scene::{Light, LightKind, LightShape};
+use glumbra::truth::Answer;
 
 use crate::scenes::*;
 

@@ -1,8 +1,8 @@
 //! Doubt belongs to the pixel: what the scene reaches elsewhere makes no pixel ambiguous, and walls along the light make
 //! no scene unusable.
 
-use glumbra::oracle::ray::{self, Answer, Options, Reason};
 use glumbra::scene::{self, Scene};
+use glumbra::truth::{self, Answer, Options, Reason};
 
 fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
@@ -28,7 +28,7 @@ fn a_larger_floor_makes_no_pixel_doubtful() {
                  translate = [0.0, 0.5, 0.0]\n[[object]]\nmesh = \"torus\"\nscale = 0.5\ntranslate = [1.0, 0.8, 1.0]\n\
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\n"
             ));
-            let truth = ray::trace(&scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap();
+            let truth = truth::trace(&scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap();
             let share = truth.ambiguous_share();
             assert!(share < 3e-3, "{light}, {half}: {share} {:?}", truth.reasons());
             answers.push(truth);
@@ -56,7 +56,7 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
             "{CAMERA}far = 50.0\n[[light]]\nkind = \"directional\"\ndirection = {direction}\n{walls}\
              [[object]]\nmesh = \"quad\"\nscale = 4.0\n"
         ));
-        let truth = ray::trace(&scene, 0, &Options::default()).unwrap_or_else(|error| panic!("{direction}: {error}"));
+        let truth = truth::trace(&scene, 0, &Options::default()).unwrap_or_else(|error| panic!("{direction}: {error}"));
         let of = |reason| truth.pixels.iter().filter(move |pixel| pixel.answer == Answer::Ambiguous(reason));
         let grazing = of(Reason::GrazingLight).count();
         assert_eq!(grazing > truth.drawn() / 20, direction != "[0.6, -0.8, 0.2]", "{direction}: {grazing}");
@@ -69,8 +69,8 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
         "{CAMERA}far = 50.0\n[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n{}",
         walls.replace("[[object]]\n", "[[object]]\nlit = false\n")
     ));
-    let refused = ray::trace(&scene, 0, &Options::default());
-    assert!(matches!(refused, Err(ray::Error::TooAmbiguous { .. })), "{refused:?}");
+    let refused = truth::trace(&scene, 0, &Options::default());
+    assert!(matches!(refused, Err(truth::Error::TooAmbiguous { .. })), "{refused:?}");
 }
 
 /// Where f32 may move every surface by more than a mesh is large, a few pixels tell that there is no truth; and no pixel
@@ -82,11 +82,11 @@ fn a_light_so_far_away_that_nothing_is_sure_is_found_out_early() {
         "{CAMERA}[[light]]\nkind = \"point\"\nposition = [4e9, 4, 3]\n[[object]]\nmesh = \"quad\"\nscale = 4.0\n\
          [[object]]\nmesh = {model:?}\n"
     ));
-    let Err(ray::Error::TooAmbiguous { reasons, .. }) = ray::trace(&scene, 0, &Options::default()) else {
+    let Err(truth::Error::TooAmbiguous { reasons, .. }) = truth::trace(&scene, 0, &Options::default()) else {
         panic!("there is no truth")
     };
     assert!(reasons.contains("; stopped after "), "{reasons}");
     let all = Options { most_ambiguous: 1.0, ..Options::default() };
-    let truth = ray::trace(&scene, 0, &all).unwrap();
+    let truth = truth::trace(&scene, 0, &all).unwrap();
     assert_eq!(truth.ambiguous_share(), 1.0);
 }

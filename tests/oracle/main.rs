@@ -1,4 +1,4 @@
-//! The ray oracle against shadows known in closed form, and against itself where the answer must not change.
+//! The ray tracer against shadows known in closed form, and against itself where the answer must not change.
 
 mod closed_form;
 mod doubt;

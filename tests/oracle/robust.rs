@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Texture};
-use glumbra::oracle::ray::{Answer, Error, Options, Pixel, Reason, Truth, trace};
 use glumbra::scene::{Light, LightKind, Object, Point, Scene, Spot};
+use glumbra::truth::{Answer, Error, Options, Pixel, Reason, Truth, trace};
 
 use crate::scenes::*;
 

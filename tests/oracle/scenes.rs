@@ -6,11 +6,10 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
-use glumbra::oracle::ray::{Answer, Options, Pixel, Truth, trace};
-use glumbra::scene::Origin;
 use glumbra::scene::{
-    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Settings, Shading, Spot,
+    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Origin, Point, Scene, Settings, Shading, Spot,
 };
+use glumbra::truth::{Answer, Options, Pixel, Truth, trace};
 
 pub const SIZE: u32 = 192;
 

@@ -1,4 +1,4 @@
-//! With every fragment counted and the eye outside, a closed volume's ways in and out cancel on every pixel (S3).
+//! With every fragment counted and the eye outside, a closed volume's ways in and out cancel on every pixel (rule GL-S3).
 
 use std::sync::Arc;
 
@@ -7,13 +7,13 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Device, Measure, Pixels};
 use glumbra::geometry::Mesh;
 use glumbra::geometry::volume::{Caps, Caster, Extent, Outline, Source, Volume};
+use glumbra::lights::Viewer;
+use glumbra::lights::light::{Counting, VolumeDraw, VolumeSpace};
 use glumbra::math::spaces::{infinite_perspective, view_from_world};
 use glumbra::pass::{
-    Chunk, Clear, DrawPass, DrawState, Format, ImageDesc, ImageId, Meaning, MeshRef, Pass, PassList, Primitive, Redraw,
-    Stencil, StencilOp, StencilOps, Storage, Target, Work,
+    Chunk, Clear, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, MeshRef, Pass, PassList,
+    Primitive, Redraw, Stencil, StencilOp, StencilOps, Storage, Target, Work,
 };
-use glumbra::techniques::light::{Counting, VolumeDraw, VolumeSpace};
-use glumbra::techniques::surface::Viewer;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -55,7 +55,7 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
         viewport: SIZE,
         clear: Clear { stencil: Some(0), ..Clear::default() },
         state: DrawState { depth_test: None, depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY },
-        batches: Counting::batches(&draws, viewer, None, nothing, Meaning::Shader("a volume"), Vec::new()),
+        batches: Counting::batches(&draws, viewer, None, nothing, FixedFunctionDesc::Shader("a volume"), Vec::new()),
     };
     let label = String::from("depth and stencil");
     let image = ImageDesc { label, size: SIZE, format: Format::Depth24Stencil8, storage: Storage::Renderbuffer };

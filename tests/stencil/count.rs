@@ -1,17 +1,17 @@
-//! Draws a scene's stencil count and holds it against the oracle's.
+//! Draws a scene's stencil count and compares it with the ray tracer's.
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
-use glumbra::oracle::ray::{Count, Options, VolumeCounts, volume_count};
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::truth::{Count, Options, VolumeCounts, volume_count};
+use glumbra::views::View;
 
 /// Every method, and those that claim to be right wherever the eye stands.
 pub const RIGHT: [&str; 4] = ["auto", "z-fail", "z-fail-clamped", "z-pass-capped"];
 
-/// The oracle's band may be any share of these pictures, which are made to be hard; what it tells is told exactly.
+/// The ray tracer's band may be any share of these pictures, which are made to be hard; what it decides is exact.
 pub fn truth(scene: &Scene) -> VolumeCounts {
     volume_count(scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap()
 }
@@ -19,7 +19,7 @@ pub fn truth(scene: &Scene) -> VolumeCounts {
 /// What a picture and the truth say of each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Held {
-    /// Pixels at which the oracle is sure.
+    /// Pixels at which the ray tracer is certain.
     pub told: usize,
     /// Of these, pixels in some volume.
     pub inside: usize,
@@ -49,7 +49,7 @@ impl Bench {
         let plan = match self.renderer.plan(&scene, &Request { views, ..Request::default() }) {
             Ok(plan) => plan,
             // No volume can matter to the picture.
-            Err(error) if error.to_string().contains("counts no volumes") => {
+            Err(error) if error.to_string().contains("counts no shadow volumes") => {
                 return vec![0; (scene.image.size[0] * scene.image.size[1]) as usize];
             }
             Err(error) => panic!("{error}"),

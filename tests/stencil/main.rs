@@ -1,4 +1,4 @@
-//! Shadow volumes counted by GL, held against the oracle's counts: exact at every pixel outside its band.
+//! Shadow volumes counted by GL, compared with the ray tracer's counts: exact at every pixel outside its band.
 
 mod closure;
 mod count;

@@ -70,6 +70,6 @@ fn a_thousand_eyes_and_lights_are_counted_exactly() {
         "{told} pixels told, {inside} in volumes; z-pass fails in {plain_fails}, parity in {parity_fails} of 1000"
     );
     assert!(told > 300_000 && inside > 50_000);
-    // The eye is in some volume in many of them, which plain z-pass does not know (C7); and volumes overlap (C2).
+    // The eye is in some volume in many of them, which plain z-pass does not know; and volumes overlap.
     assert!(plain_fails > 100 && parity_fails > plain_fails + 100);
 }

@@ -4,9 +4,9 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use glumbra::oracle::ray::{self, Answer, Hit, Truth};
-use glumbra::report::metrics::{Band, ShadeImage, compare};
+use glumbra::report::measure::metrics::{Band, ShadeImage, compare};
 use glumbra::scene::{Camera, Image, LightKind, Scene};
+use glumbra::truth::{self, Answer, Hit, Truth};
 
 /// Asks one light's silhouettes of one scene.
 pub struct Rims<'a> {
@@ -47,8 +47,8 @@ fn is_rim(scene: &Scene, hit: &Hit, size: u32) -> bool {
     seen_by_light.image = Image { size: [32; 2], background: [0.0; 3] };
     let fov_y_radians = 2.0 * (2.0 * texel).atan();
     seen_by_light.camera = Camera { eye, target: hit.position, up, fov_y_radians, near, far };
-    let anything = ray::Options { most_ambiguous: 1.0, ..ray::Options::default() };
-    let around = ray::trace(&seen_by_light, 0, &anything).unwrap();
+    let anything = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
+    let around = truth::trace(&seen_by_light, 0, &anything).unwrap();
     let depth = |x: u32, y: u32| around.at(x, y).and_then(|p| p.hit).map_or(f64::INFINITY, |hit| hit.distance);
     let falls = |a: f64, b: f64| (a - b).abs() > 2.0 * texel * distance;
     let breaks = |x, y| falls(depth(x, y), depth(x + 1, y)) || falls(depth(x, y), depth(x, y + 1));

@@ -123,6 +123,6 @@ fn a_light_in_a_plane_is_on_neither_side_of_it() {
         assert_eq!(outline.exact_tests(), 2);
         told[usize::from(outline.weights()[0] != 0)] += 1;
     }
-    // Both happen: the predicate tells what no error bound could.
+    // Both happen: the predicate decides where no error bound could.
     assert!(told[0] > 0 && told[1] > 100, "{told:?}");
 }

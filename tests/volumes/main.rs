@@ -1,4 +1,4 @@
-//! Shadow volumes on the CPU, without GL: closure, counts against brute force and against the oracle, caps.
+//! Shadow volumes on the CPU, without GL: closure, counts against brute force and against the ray tracer, caps.
 
 mod closure;
 mod counts;

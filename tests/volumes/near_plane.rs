@@ -1,4 +1,4 @@
-//! C7: volumes cut at the near plane, on random casters, lights and eyes: z-pass counts from a point of the near plane
+//! Volumes cut at the near plane, on random casters, lights and eyes: z-pass counts from a point of the near plane
 //! are the triangles between the light and what is seen.
 
 use glam::{DMat4, DVec3};

@@ -1,10 +1,10 @@
-//! The oracle's counts: against known scenes, against its own visibility, against volumes that were built.
+//! The ray tracer's counts: against known scenes, against its own visibility, against volumes that were built.
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Landing, Outline, Source, Volume};
 use glumbra::math::spaces::view_from_world;
-use glumbra::oracle::ray::{Answer, Count, Options, trace, volume_count, volume_count_at};
 use glumbra::scene::{Object, Scene};
+use glumbra::truth::{Answer, Count, Options, trace, volume_count, volume_count_at};
 
 use crate::homogeneous::{Random, corners, entries, exits, triangles};
 use crate::scenes::{cuboid, floor, frustum_of, light, mesh, object, point_light, scene, sphere, square, sun};

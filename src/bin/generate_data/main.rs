@@ -1,6 +1,6 @@
-//! Makes the files in `data/` that no one drew: `generate_data [FOLDER]` writes `meshes/dense.obj`, `textures/floor.png`
-//! and `textures/spot.png` into FOLDER (`data` if not given). Uses no function whose last bit differs between
-//! platforms: sums, products, quotients and square roots only. A test makes them anew and compares.
+//! Makes the generated files in `data/`: `generate_data [FOLDER]` writes `meshes/dense.obj`, `textures/floor.png` and
+//! `textures/spot.png` into FOLDER (`data` if not given). Uses no function whose last bit differs between platforms: sums,
+//! products, quotients and square roots only. A test makes them again and compares.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
@@ -21,7 +21,7 @@ fn main() -> ExitCode {
     match write_all(&folder) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Where standard error is closed there is nowhere left to say it.
+            // If standard error is closed, the message is lost.
             let _ = writeln!(std::io::stderr(), "{}: {error}", folder.display());
             ExitCode::FAILURE
         }

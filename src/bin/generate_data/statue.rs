@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use crate::noise::{hash, noise};
 use crate::tetrahedra::{Lattice, polygonise};
 
-/// Between lattice points, in the solids' units; it decides the number of triangles.
+/// Distance between lattice points, in the solids' units; it decides the number of triangles.
 const STEP: f64 = 0.0233;
-/// From the solids' units to the model's, in which the cat is 1.6 high.
+/// Scale from the solids' units to the model's, in which the cat is 1.6 high.
 const SCALE: f64 = 1.6 / 1.492;
 
 /// The statue's vertices and triangles, standing on y = 0.

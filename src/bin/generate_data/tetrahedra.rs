@@ -15,7 +15,7 @@ pub struct Lattice {
     pub values: Vec<f64>,
 }
 
-/// How near to the end of a lattice edge a vertex may lie, of the edge's length.
+/// Least distance of a vertex from the end of a lattice edge, as a share of its length.
 const LEAST_SHARE: f64 = 0.06;
 
 /// The axes' orders in which a tetrahedron's edges walk from a cell's lowest corner to its highest, and whether the

@@ -62,7 +62,7 @@ fn floor_color(place: DVec2) -> DVec3 {
     base * shade * (1.0 + contrast * marble(place, 7.0 * block))
 }
 
-/// Which stone lies at `q`, in [-1, 1], and the number of the piece.
+/// Stone at `q`, in [-1, 1], and the number of the piece.
 fn stone_at(q: DVec2) -> (Stone, i64) {
     const JOINT: f64 = 0.012;
     let a = q.abs();

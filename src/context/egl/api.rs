@@ -1,4 +1,4 @@
-//! libEGL as it is found at run time: its entry points by khronos-egl, its extensions, and its errors by name.
+//! libEGL as it is found at run time: its entry points by khronos-egl, its extensions, and the names of its errors.
 //!
 //! The raw entry points are used, not khronos-egl's `Instance`: that one panics where a call fails without an error
 //! code, as libglvnd's may when no driver is installed.
@@ -28,7 +28,7 @@ impl Deref for Egl {
     }
 }
 
-/// Where distributions keep it.
+/// Names of the library in distributions.
 const NAMES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
 
 pub const PLATFORM_SURFACELESS_MESA: egl::Enum = 0x31DD;
@@ -78,7 +78,7 @@ pub fn address_of(egl: &Egl, name: &CStr) -> *const c_void {
     unsafe { (egl.get_proc_address)(name.as_ptr()) }
 }
 
-/// Whether the display, or EGL itself where `display` is null, has an extension.
+/// Tests whether the display, or EGL itself if `display` is null, has an extension.
 pub fn has_extension(egl: &Egl, display: egl::EGLDisplay, name: &str) -> bool {
     query_string(egl, display, egl::EXTENSIONS).split_ascii_whitespace().any(|word| word == name)
 }

@@ -17,7 +17,7 @@ const RENDERER_EXT: egl::Int = 0x335F;
 #[derive(Clone, Debug, Serialize)]
 pub struct Device {
     pub index: usize,
-    /// The renderer's name where EGL tells it, else `software` or `hardware`.
+    /// The renderer's name if EGL gives it, else `software` or `hardware`.
     pub name: String,
     /// Mesa's software rasterizer (EGL_MESA_device_software).
     pub software: bool,

@@ -1,6 +1,6 @@
 //! Contexts by EGL without a window: on the surfaceless platform, on a device, or with a pbuffer on the default display.
 //!
-//! Displays are initialised and never terminated: eglTerminate would take the contexts of other threads along.
+//! Displays are initialised and never terminated: eglTerminate would destroy the contexts of other threads.
 
 mod api;
 mod devices;
@@ -15,7 +15,7 @@ use self::api::Egl;
 pub use self::devices::{Device, devices};
 use super::error::{Reached, Refusal};
 use super::load::{self, Loaded};
-use super::{Context, ContextRequest, Error, Profile, Road};
+use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A context that owns its surface, if it needs one.
 ///
@@ -31,11 +31,11 @@ impl Context for EglContext {
     }
 
     fn make_current(&self) -> Result<(), Error> {
-        self.handles.make_current().map_err(|answer| Error::NotCurrent { road: self.loaded.road.clone(), answer })
+        self.handles.make_current().map_err(|answer| Error::NotCurrent { backend: self.loaded.backend.clone(), answer })
     }
 }
 
-/// What is given back when the context is dropped.
+/// Handles that are released when the context is dropped.
 struct Handles {
     egl: &'static Egl,
     display: egl::EGLDisplay,
@@ -44,27 +44,27 @@ struct Handles {
     surface: egl::EGLSurface,
 }
 
-/// Opens a context by one of EGL's three roads. The error is the road's answer.
-pub(super) fn open(road: Road, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+/// Opens a context by one of EGL's three platforms. The error is the platform's answer.
+pub(super) fn open(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let egl = api::library().map_err(Refusal::nothing)?;
-    match road {
-        Road::EglDevice => open_device(egl, request),
-        Road::EglPbuffer => {
+    match backend {
+        Backend::EglDevice => open_device(egl, request),
+        Backend::EglPbuffer => {
             // SAFETY: EGL_DEFAULT_DISPLAY is null.
             let display = unsafe { egl.eglGetDisplay(null_mut()) };
-            open_on(egl, display, "eglGetDisplay", road.to_string(), request, true)
+            open_on(egl, display, "eglGetDisplay", backend.to_string(), request, true)
         }
         _ => {
             if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_MESA_platform_surfaceless") {
                 return Err("EGL has no EGL_MESA_platform_surfaceless".into());
             }
             let display = platform_display(egl, api::PLATFORM_SURFACELESS_MESA, null_mut())?;
-            open_on(egl, display, "eglGetPlatformDisplay", road.to_string(), request, false)
+            open_on(egl, display, "eglGetPlatformDisplay", backend.to_string(), request, false)
         }
     }
 }
 
-/// On the device that was asked for, or on the first that answers.
+/// Opens a context on the requested device, or on the first that works.
 fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     let devices = devices::enumerate(egl)?;
     if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_EXT_platform_device") {
@@ -81,7 +81,7 @@ fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Co
     for index in chosen {
         let display = platform_display(egl, api::PLATFORM_DEVICE_EXT, devices[index]).map_err(Refusal::from);
         let opened = display.and_then(|display| {
-            let name = format!("{} {index}", Road::EglDevice);
+            let name = format!("{} {index}", Backend::EglDevice);
             open_on(egl, display, "eglGetPlatformDisplay", name, request, false)
         });
         match opened {
@@ -122,7 +122,7 @@ fn open_on(
     egl: &'static Egl,
     display: egl::EGLDisplay,
     origin: &str,
-    road: String,
+    backend: String,
     request: &ContextRequest,
     want_surface: bool,
 ) -> Result<Box<dyn Context>, Refusal> {
@@ -153,7 +153,7 @@ fn open_on(
     }
     handles.make_current().map_err(Refusal::driver)?;
     // SAFETY: the context is current; eglGetProcAddress answers with its functions.
-    let loaded = unsafe { load::load(road, request, move |name| api::address_of(egl, name)) };
+    let loaded = unsafe { load::load(backend, request, move |name| api::address_of(egl, name)) };
     let loaded = loaded.map_err(Refusal::driver)?;
     Ok(Box::new(EglContext { handles, loaded }))
 }

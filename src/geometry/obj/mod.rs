@@ -1,7 +1,9 @@
-//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), written anew where tobj would misread it ([`rewrite`]),
-//! parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks ([`super::normals`]).
-//! Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons only.
+//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), rewritten where tobj would
+//! misread it ([`rewrite`]), parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks
+//! ([`super::normals`]). Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons
+//! only.
 
+pub(super) mod corner;
 mod place;
 mod polygon;
 mod rewrite;
@@ -23,9 +25,9 @@ pub const CREASE_DEGREES: f64 = 60.0;
 ///
 /// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
 /// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. Warnings are: a library that does not exist, a
-/// material that no library has, a texture that cannot be had, faces of fewer than three vertices, and what is not drawn
-/// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the
-/// file's origin, for their size, are relative to [`Mesh::origin`].
+/// material that no library has, a texture that cannot be loaded, faces of fewer than three vertices, and what is not drawn
+/// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the file's origin, for
+/// their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let bytes = text::read(path)?;
     let text = text::decode(&bytes, path)?;
@@ -34,12 +36,12 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
     }
     let mut warnings: Vec<Warning> = scan.oddities.warnings().collect();
-    if let Some((line, message)) = place::warning(&scan, &text) {
+    if let Some((line, message)) = place::warning(&scan.places, scan.origin, &text) {
         warnings.push(Warning { path: path.to_owned(), line, message });
     }
     let library = load_libraries(&scan, path, &mut warnings)?;
     let models = parse(&text, &scan, &library).map_err(|error| {
-        // The scan has refused all that tobj refuses; should it not, the file is still named.
+        // The scan has refused everything that tobj refuses; if not, the error still names the file.
         Error::malformed(path, 0, error.to_string())
     })?;
     let mut mesh = join(models, path)?;
@@ -73,9 +75,9 @@ fn load_libraries(scan: &Scan, path: &Path, warnings: &mut Vec<Warning>) -> Resu
     let mut unknown = HashSet::new();
     for (line, name) in &scan.uses {
         let name = if name.is_empty() { rewrite::UNNAMED } else { name.as_str() };
-        // Where no library could be read, that has been said, or none was asked for.
+        // If no library could be read, that was reported, or none was named.
         if !library.is_empty() && !library.has(name) && unknown.insert(name) {
-            let message = format!("no material is named '{name}'; the default stands in");
+            let message = format!("no material is named '{name}'; the default is used");
             warnings.push(Warning { path: path.to_owned(), line: *line, message });
         }
     }
@@ -88,7 +90,7 @@ fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>,
         tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
     let mut reader = rewritten.as_deref().unwrap_or(text).as_bytes();
-    // All libraries are one to tobj, at its first `mtllib`.
+    // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
         false => library.parse(),

@@ -1,17 +1,17 @@
-//! Where a file's vertices are: read in f64, and taken relative to an origin near them where f32, which meshes and tobj
-//! hold, would lose what f64 tells apart (map coordinates).
+//! Vertex positions of a file, read in f64. They are taken relative to an origin near them if f32, which meshes and tobj
+//! hold, would merge positions that f64 keeps apart (map coordinates).
 
 use glam::DVec3;
 
-use super::scan::{Counts, Scan, read_corner};
+use super::corner::{Counts, read_corner};
 use crate::geometry::text::logical_lines;
 use crate::math::Aabb;
 
-/// An origin is taken where the vertices are at least so many times as far away as they are apart: it saves three bits.
-/// Other files are read as they are.
+/// Ratio of the vertices' distance to their extent from which an origin is used: it saves three bits. Other files are read
+/// as they are.
 const FAR: f64 = 8.0;
 
-/// A face an edge of which is off by more than this part of the longest one has no longer its shape.
+/// Error of an edge, as a share of the face's longest, above which the face has lost its shape.
 const MOST_OFF: f64 = 1.0 / 16.0;
 
 /// The vertices of a file.
@@ -56,7 +56,7 @@ impl Places {
         (0..corners.len()).filter_map(move |k| Some([place(k)?, place(k + 1)?]))
     }
 
-    /// What the mesh's positions are relative to; zero where that saves nothing.
+    /// Origin of the mesh's positions; zero where another saves nothing.
     pub fn origin(&self) -> DVec3 {
         let away = self.bounds.min.abs().max(self.bounds.max.abs()).max_element();
         let size = (self.bounds.max - self.bounds.min).max_element();
@@ -119,9 +119,9 @@ impl Places {
     }
 }
 
-/// What is to be said of a file whose faces f32 does not hold: the line, and why.
-pub(super) fn warning(scan: &Scan, text: &str) -> Option<(usize, String)> {
-    let (line, [length, off], count) = scan.places.lost(text, scan.origin)?;
+/// Warning about a file whose faces f32 does not hold: the line, and why.
+pub(super) fn warning(places: &Places, origin: DVec3, text: &str) -> Option<(usize, String)> {
+    let (line, [length, off], count) = places.lost(text, origin)?;
     let faces = if count == 1 { String::from("this face is") } else { format!("{count} faces as this one are") };
     let message = format!(
         "{faces} too fine for 32-bit floats so far from the file's middle: it is {length:.3e} long, and an edge is off by {off:.1e}"

@@ -1,4 +1,4 @@
-//! Polygons into triangles: a fan where that is right, else by cutting off ears.
+//! Cuts polygons into triangles: a fan if that is right, else by clipping ears.
 
 use glam::{DVec2, DVec3};
 
@@ -46,7 +46,7 @@ fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether no triangle of the fan about the first corner is turned over.
+/// Tests whether no triangle of the fan about the first corner is turned over.
 fn is_fan_right(flat: &[DVec2]) -> bool {
     (2..flat.len()).all(|k| area(flat[0], flat[k - 1], flat[k]) >= -1e-12)
 }
@@ -73,7 +73,7 @@ fn clip_ears(flat: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
     emit([left[0], left[1], left[2]]);
 }
 
-/// Whether the corner in the middle is convex and no other corner lies in its triangle.
+/// Tests whether the corner in the middle is convex and no other corner lies in its triangle.
 fn is_ear(ear: [usize; 3], left: &[usize], flat: &[DVec2]) -> bool {
     let [a, b, c] = ear.map(|k| flat[k]);
     if area(a, b, c) <= 0.0 {

@@ -1,19 +1,21 @@
-//! Writes an OBJ text anew so that tobj reads it right: libraries and vertices first, one statement a line, every
-//! number counted from the start, positions relative to the origin, no lines, points, colours or short texture
-//! coordinates. Where only some corners have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a missing one.
+//! Rewrites an OBJ text so that tobj reads it right: libraries and vertices first, one statement a line, every number
+//! counted from the start, positions relative to the origin, no lines, points, colours or short texture coordinates. Where
+//! only some corners have a normal or a texture coordinate, the others are given one of zeros, which later is taken for a
+//! missing one.
 
 use std::fmt::Write as _;
 
 use glam::DVec3;
 
 use super::super::text::logical_lines;
+use super::corner::{Corner, Counts, read_corner};
 use super::place::Places;
-use super::scan::{Corner, Counts, Scan, read_corner, statement_value};
+use super::scan::{Scan, statement_value};
 
-/// The name of a material that is named by nothing.
+/// Name of a material without a name.
 pub(super) const UNNAMED: &str = "unnamed";
 
-/// `text`, which [`super::scan::scan`] has found right.
+/// Rewrites `text`, which [`super::scan::scan`] has accepted.
 pub(super) fn rewrite(text: &str, scan: &Scan) -> String {
     let mut rewriter = Rewriter {
         vertices: String::with_capacity(text.len()),
@@ -42,9 +44,9 @@ struct Rewriter<'a> {
     vertices: String,
     faces: String,
     counts: Counts,
-    /// The vertices and what they are written relative to; `None`: as they are.
+    /// The vertices and their origin; `None`: they are written as they are.
     moved: Option<(&'a Places, DVec3)>,
-    /// How many texture coordinates (normals) stand before the file's own.
+    /// Number of texture coordinates (normals) before the file's own.
     first_texcoord: usize,
     first_normal: usize,
 }

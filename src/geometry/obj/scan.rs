@@ -1,5 +1,5 @@
-//! One cheap pass over an OBJ text before tobj sees it: refuses what is wrong with its line, and notes what tobj
-//! would misread (see [`super::rewrite`]). Allocates nothing a line.
+//! One cheap pass over an OBJ text before tobj sees it: refuses errors, with their line, and notes what tobj would misread
+//! (see [`super::rewrite`]). It allocates nothing per line.
 
 use std::path::Path;
 
@@ -8,9 +8,10 @@ use glam::DVec3;
 use super::super::Error;
 use super::super::tally::Tally;
 use super::super::text::logical_lines;
+use super::corner::{Corner, Counts, Wrong, read_corner, shorten};
 use super::place::Places;
 
-/// What the text holds.
+/// Contents of the text.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     /// `mtllib` statements: line, and what is written.
@@ -19,31 +20,15 @@ pub(super) struct Scan {
     pub uses: Vec<(usize, String)>,
     pub faces: usize,
     pub places: Places,
-    /// What the mesh's positions are relative to.
+    /// Origin of the mesh's positions.
     pub origin: DVec3,
-    /// Whether tobj would misread the text as it is.
+    /// True if tobj would misread the text as it is.
     pub needs_rewrite: bool,
     /// Some corners name a texture coordinate (a normal), others do not.
     pub mixed_texcoords: bool,
     pub mixed_normals: bool,
-    /// What is left out.
+    /// Statements that are ignored.
     pub oddities: Tally,
-}
-
-/// Numbers of a kind so far, or in all.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Counts {
-    pub v: usize,
-    pub vt: usize,
-    pub vn: usize,
-}
-
-/// A corner of a face: what it names, counted from 1; `None`: left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Corner {
-    pub v: usize,
-    pub vt: Option<usize>,
-    pub vn: Option<usize>,
 }
 
 /// The largest numbers that faces name, of those that had not been read by then, with their lines.
@@ -63,9 +48,6 @@ struct Scanner<'a> {
     corners_with_texcoord: usize,
     corners_with_normal: usize,
 }
-
-/// What is wrong with a line.
-type Wrong = String;
 
 /// Reads `text`, the file at `path`.
 pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
@@ -125,7 +107,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Warns of a statement that is not drawn, but for what changes no picture of polygons.
+    /// Warns of a statement that is ignored, unless it changes no picture of polygons.
     fn leave_out(&mut self, number: usize, keyword: &str) {
         match keyword {
             _ if keyword.starts_with('#') => {}
@@ -253,7 +235,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Judges the faces that named vertices before they were read, now that all are.
+    /// Checks the faces that named vertices before they were read.
     fn finish(self) -> Result<Scan, Error> {
         let Self { path, mut scan, counts, forward, corners, corners_with_texcoord, corners_with_normal, .. } = self;
         for Forward { line, corner } in &forward {
@@ -281,39 +263,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last one read.
-pub(super) fn read_corner(word: &str, counts: Counts) -> Result<Corner, Wrong> {
-    if !word.as_bytes().contains(&b'/')
-        && let Some(v) = read_index(word, "vertex", counts.v, word)?
-    {
-        return Ok(Corner { v, vt: None, vn: None });
-    }
-    let mut parts = word.split('/');
-    let v = read_index(parts.next().unwrap_or_default(), "vertex", counts.v, word)?;
-    let vt = read_index(parts.next().unwrap_or_default(), "texture coordinate", counts.vt, word)?;
-    let vn = read_index(parts.next().unwrap_or_default(), "normal", counts.vn, word)?;
-    match v {
-        Some(v) if parts.next().is_none() => Ok(Corner { v, vt, vn }),
-        _ => Err(format!("'{}' is not a corner of a face", shorten(word))),
-    }
-}
-
-fn read_index(digits: &str, kind: &str, count: usize, word: &str) -> Result<Option<usize>, Wrong> {
-    if digits.is_empty() {
-        return Ok(None);
-    }
-    let index: i64 = digits.parse().map_err(|_| format!("'{}' is not a corner of a face", shorten(word)))?;
-    match index {
-        0 => Err(format!("the face names {kind} 0; they count from 1")),
-        1.. => Ok(usize::try_from(index).ok()),
-        _ => match usize::try_from(index.unsigned_abs()).ok().and_then(|back| count.checked_sub(back)) {
-            Some(at) => Ok(Some(at + 1)),
-            None => Err(format!("the face names {kind} {index}, but {count} stand before it")),
-        },
-    }
-}
-
-/// Refuses what is no number, and no finite one as f32.
+/// Refuses a word that is not a finite f32.
 fn check_coordinate(statement: &str, word: &str) -> Result<(), Wrong> {
     if is_plain_number(word) {
         return Ok(());
@@ -336,7 +286,7 @@ fn check_weight(weight: &str, xyz: [&str; 3]) -> Result<(), Wrong> {
     Err(format!("v: the weight {weight} leaves no finite position"))
 }
 
-/// Whether `word` is a sign, digits and a point, and so few that the value must be finite.
+/// Tests whether `word` is a sign, digits and a point, and so few that the value must be finite.
 fn is_plain_number(word: &str) -> bool {
     let digits = word.as_bytes();
     let digits = match digits {
@@ -348,15 +298,7 @@ fn is_plain_number(word: &str) -> bool {
     plain && points <= 1 && digits.len() > points && digits.len() <= 30
 }
 
-/// What follows the keyword of a statement, to the line's end.
+/// Text after the keyword of a statement, to the line's end.
 pub(super) fn statement_value<'a>(line: &'a str, keyword: &str) -> &'a str {
     line.trim().strip_prefix(keyword).unwrap_or_default().trim()
-}
-
-/// `word`, cut where it would drown the message.
-pub(in super::super) fn shorten(word: &str) -> String {
-    match word.char_indices().nth(40) {
-        Some((end, _)) => format!("{}...", &word[..end]),
-        None => word.to_owned(),
-    }
 }

@@ -1,4 +1,4 @@
-//! What files write in odd ways, and the normals that they lack.
+//! Odd ways in which files are written, and missing normals.
 
 use std::path::PathBuf;
 
@@ -113,7 +113,7 @@ fn missing_libraries_and_materials_are_warned_of() {
     let (mesh, warnings) = load_obj(&path).unwrap();
     let said: Vec<_> = warnings.iter().map(|warning| (warning.line, warning.message.as_str())).collect();
     let missing = "there is no material library 'no.mtl'";
-    assert_eq!(said, [(1, missing), (8, "no material is named 'blue'; the default stands in")]);
+    assert_eq!(said, [(1, missing), (8, "no material is named 'blue'; the default is used")]);
     assert_eq!(mesh.parts.iter().map(|part| part.material).collect::<Vec<_>>(), [Some(0), None]);
     assert_eq!(mesh.materials[0].diffuse, [1.0, 0.0, 0.0]);
 }

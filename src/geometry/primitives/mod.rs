@@ -1,4 +1,4 @@
-//! Built-in meshes, by name. Each is made anew at every call, in its own (model) space.
+//! Built-in meshes, found by name. Each call makes a new one, in its own (model) space.
 
 mod teapot;
 
@@ -12,7 +12,7 @@ use crate::math::Aabb;
 /// The names that [`primitive`] knows.
 pub const PRIMITIVES: &[&str] = &["quad", "box", "sphere", "torus", "teapot"];
 
-/// Of a torus around the y axis: from the axis to the middle of its tube.
+/// Distance from the y axis to the middle of a torus's tube.
 const TORUS_MAJOR: f64 = 1.0;
 /// The radius of the torus's tube.
 const TORUS_MINOR: f64 = 0.4;

@@ -1,5 +1,6 @@
-//! Extrusion of an outline: sides, and caps at both ends [GDC 2001; C4, C5, C6]. In the caster's model space, as
-//! homogeneous positions: the far end lies at w = 0, where no distance has to be large enough.
+//! Extrusion of an outline: sides, and caps at both ends [GDC, "Handling the "Trivial" None Near Clip Plane Capping Case"].
+//! In the caster's model space, as homogeneous positions: the far end lies at w = 0, where no finite distance can be too
+//! small.
 
 use std::ops::Range;
 
@@ -7,26 +8,26 @@ use glam::DVec3;
 
 use super::{Caster, Outline, Source};
 
-/// How far a volume goes.
+/// End of a volume.
 ///
 /// A rasterizer in f32 finds a depth from a triangle's slopes, whose rounding grows with the square of the triangle's
-/// length over its width: the sides of a dense mesh, narrower than a pixel, are a thousand times their depth buffer's
-/// error off where they run to infinity, and not where they end soon.
+/// length over its width: the sides of a dense mesh, narrower than a pixel, are off by a thousand times the depth buffer's
+/// error if they run to infinity, and not if they end soon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
-    /// To infinity: far vertices are (position - light, 0), scaled by a power of two. For a directional light they are
-    /// one vertex, sides are triangles and there is no far cap.
+    /// At infinity: far vertices are (position - light, 0), scaled by a power of two. For a directional light they are one
+    /// vertex, sides are triangles and there is no far cap.
     Infinite,
-    /// C5: each vertex moved by this distance, in model units, along its own ray. Wrong by design where a shadow
-    /// reaches farther.
+    /// At a finite distance [GDC, "More Implications of Carmack's Reverse"]: each vertex moved by this distance, in model
+    /// units, along its own ray. Wrong by design where a shadow reaches farther.
     Truncated(f64),
-    /// To the plane `normal · x = distance`, each vertex along its own ray; one that is beyond stays. For all points
-    /// before the plane, seen from before it, the sides are those of the infinite volume. `normal` in model space,
-    /// of any length, at less than a right angle to every ray.
+    /// At the plane `normal · x = distance`, each vertex along its own ray; one that is beyond stays. For all points before
+    /// the plane, seen from before it, the sides are those of the infinite volume. `normal` in model space, of any length,
+    /// at less than a right angle to every ray.
     ToPlane { normal: DVec3, distance: f64 },
 }
 
-/// Which ends are wanted.
+/// Caps that are wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Caps {
     pub light: bool,
@@ -66,7 +67,8 @@ impl Volume {
         &self.indices
     }
 
-    /// Of [`Volume::indices`]: from the outline to the far end, an edge of multiplicity m m times.
+    /// Range of [`Volume::indices`] with the sides, from the outline to the far end; an edge of multiplicity m occurs m
+    /// times.
     pub fn sides(&self) -> Range<u32> {
         self.sides.clone()
     }
@@ -166,7 +168,7 @@ impl Volume {
     }
 
     fn far(&mut self, caster: &Caster, place: u32, end: &End) -> u32 {
-        // One vertex serves all where there is one point to go to.
+        // One vertex serves all sides if they end in one point.
         let slot = if end.is_one_point() { 0 } else { place };
         self.far_slots.get_or_push(slot, &mut self.vertices, || end.of(caster.position(place)))
     }
@@ -203,8 +205,8 @@ impl End {
     }
 }
 
-/// The normal of a triangle that the light all but touches: at infinity it covers half the sky, its corners lie all but
-/// on a great circle, and a rounding may turn it into the other half. With a corner in its middle it cannot.
+/// The normal of a triangle that the light all but touches. At infinity that triangle covers half the sky, and its corners
+/// lie almost on a great circle: rounding may turn it into the other half. A corner in its middle prevents that.
 fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
     const TOUCHES: f64 = 1.0 / (1 << 10) as f64;
     if source.is_parallel() {
@@ -218,8 +220,8 @@ fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
     (surrounds && touches).then_some(normal)
 }
 
-/// Whether the light all but touches a counted triangle of `caster`, for which `outline` was found: what it shades is
-/// half the world, and cut by a plane its volume has no vertices that say on which side.
+/// Tests whether the light all but touches a counted triangle of `caster`, for which `outline` was found: its shadow is
+/// half the world, and a plane cuts that volume where it has no vertices to show on which side.
 pub fn light_touches(caster: &Caster, outline: &Outline) -> bool {
     let Some(source) = outline.source() else { return false };
     let counted = caster.triangles.iter().zip(outline.weights()).filter(|(_, weight)| **weight != 0);

@@ -2,7 +2,15 @@
 
 use std::collections::HashMap;
 
-use super::OutlineEdge;
+/// An edge of the outline. Seen from the light, the counted triangle lies on the left of `from` to `to`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutlineEdge {
+    /// Places of the caster.
+    pub from: u32,
+    pub to: u32,
+    /// Number of times that it is part of the boundary; at least 1.
+    pub multiplicity: u32,
+}
 
 /// Closed walks that use each edge as often as its multiplicity. The boundary of a sum of triangles leaves each place as
 /// often as it enters it, so that a walk ends where it began.

@@ -1,5 +1,5 @@
-//! Stencil shadow volumes on the CPU: adjacency, possible silhouettes, extrusion and caps, without GL and without a
-//! scene [GDC 2001, "Stenciled Shadow Volumes"; techniques C1, C4 to C7].
+//! Stencil shadow volumes on the CPU: adjacency, possible silhouettes, extrusion and caps, without GL and without a scene
+//! [GDC, "Computing Shadow Volumes For Polygonal Models", "Near Clip Plane Capping Cases"].
 //!
 //! A caster's volume is a sum of prisms: for each *counted* triangle the points q + t (q - light), q on the triangle,
 //! t >= 0. How often the sum holds a point is the number of counted triangles that the segment from the light to the
@@ -16,14 +16,17 @@
 //!
 //! # Why it is watertight
 //! Sides stand on the boundary of the chain of counted triangles, edge by edge with signed integer multiplicity
-//! [Aldridge & Woods; Kim, Kim & Turk 2008], and all parts share the welded vertices; so the boundary of caps and sides
-//! together cancels edge by edge, whatever the mesh is. Facing is decided by exact predicates.
+//! [Aldridge 2004; Kim 2008], and all parts share the welded vertices; so the boundary of caps and sides together cancels edge by
+//! edge, whatever the mesh is. Facing is decided by exact predicates.
 //!
 //! # How orientation is to be read
 //! All work is done in model space with the light transformed there. Triangles run counter-clockwise seen from outside
 //! their volume *in model space*: under a mirroring transform front faces run clockwise, as they do for the mesh itself.
 
 mod caster;
+mod components;
+mod counting;
+mod edges;
 mod extrude;
 mod loops;
 mod near_cap;
@@ -31,13 +34,13 @@ mod near_plane;
 mod outline;
 mod planes;
 mod seen;
-mod shells;
 mod source;
 
 pub use caster::Caster;
+pub use components::{Component, Counting, Kind};
 pub use extrude::{Caps, Extent, Volume, light_touches};
+pub use loops::OutlineEdge;
 pub use near_cap::{CappedVolume, Landing};
-pub use outline::{Outline, OutlineEdge};
+pub use outline::Outline;
 pub use seen::{Casting, Viewer, scissor};
-pub use shells::{Counting, Kind, Shell};
 pub use source::Source;

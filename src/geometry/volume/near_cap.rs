@@ -1,5 +1,6 @@
-//! Volumes closed at the camera's near plane, for z-pass whatever the eye's place [GDC 2001, near clip plane capping;
-//! C7]. In view space: there, points of the near plane keep all their digits however small near is.
+//! Volumes closed at the camera's near plane, for z-pass whatever the eye's place [GDC, "Near Clip Plane Capping Cases",
+//! "Handling the "Hard" Near Clip Plane Capping Case"]. In view space: there, points of the near plane keep all their
+//! digits however small near is.
 
 use std::ops::Range;
 
@@ -8,7 +9,7 @@ use glam::{DMat4, DVec3};
 use super::near_plane::{NearPlane, Place, Stand};
 use super::{Caster, Outline};
 
-/// How an outline's vertices land on the near plane when projected away from the light.
+/// Numbers of an outline's vertices that land on the near plane when projected away from the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Landing {
     /// None of them, nor any piece between them: nothing to cap.
@@ -33,7 +34,7 @@ pub struct CappedVolume {
     sides: Range<u32>,
     near_cap: Range<u32>,
     landing: Landing,
-    /// Of each place of the caster: where it stands, and its vertices once it has them.
+    /// For each place of the caster: its position, and its vertices once it has them.
     places: Vec<Place>,
     polygon: Vec<u32>,
 }
@@ -49,12 +50,12 @@ impl CappedVolume {
         &self.indices
     }
 
-    /// Of [`CappedVolume::indices`]; cut off at the near plane.
+    /// Range of [`CappedVolume::indices`] with the sides, cut off at the near plane.
     pub fn sides(&self) -> Range<u32> {
         self.sides.clone()
     }
 
-    /// What of the near plane lies in shadow; see [`crate::math::ledge`] for how to draw it.
+    /// Part of the near plane that lies in shadow; [`crate::math::ledge`] says how to draw it.
     pub fn near_cap(&self) -> Range<u32> {
         self.near_cap.clone()
     }
@@ -68,8 +69,9 @@ impl CappedVolume {
         self.cut_before(caster, outline, view_from_model, near, None);
     }
 
-    /// The same, with sides that end at the plane `normal · x = distance` of view space instead of at infinity: every
-    /// ray crosses it, and all that is seen is before it. Short sides have exacter depths (see [`super::Extent`]).
+    /// The same as [`cut`](Self::cut), with sides that end at the plane `normal · x = distance` of view space instead of at
+    /// infinity: every ray crosses it, and all that is seen is before it. Short sides have more exact depths (see
+    /// [`super::Extent`]).
     pub fn cut_before(
         &mut self,
         caster: &Caster,
@@ -141,7 +143,7 @@ impl CappedVolume {
         }
     }
 
-    /// The part of a counted triangle whose rays meet the near plane, projected there. Whether there is any.
+    /// The part of a counted triangle whose rays meet the near plane, projected there. Returns whether there is any.
     fn cap_polygon(&mut self, plane: &NearPlane, corners: &[u32; 3]) -> bool {
         self.polygon.clear();
         let stands = corners.map(|place| self.places[place as usize].stand);
@@ -173,7 +175,7 @@ impl CappedVolume {
         index
     }
 
-    /// The place itself.
+    /// Adds the place itself.
     fn push_own(&mut self, place: u32) {
         let Place { own, at, .. } = self.places[place as usize];
         match own {
@@ -182,7 +184,7 @@ impl CappedVolume {
         }
     }
 
-    /// Where its ray meets the plane; it does.
+    /// Adds the point where the place's ray meets the plane. The ray must meet it.
     fn push_projected(&mut self, plane: &NearPlane, place: u32) {
         let Place { projected, .. } = self.places[place as usize];
         match projected {
@@ -194,7 +196,7 @@ impl CappedVolume {
         }
     }
 
-    /// Its ray's end: at infinity, or beyond all that is seen.
+    /// Adds the end of the place's ray: at infinity, or beyond all that is seen.
     fn push_infinite(&mut self, plane: &NearPlane, place: u32) {
         let Place { infinite, .. } = self.places[place as usize];
         match infinite {
@@ -206,7 +208,7 @@ impl CappedVolume {
         }
     }
 
-    /// Light beyond the plane: where the ray of a place beyond the plane ends.
+    /// For a light beyond the plane, adds the point where the ray of a place beyond the plane ends.
     fn push_end(&mut self, plane: &NearPlane, place: u32) {
         match self.places[place as usize].stand {
             Stand::AtPlane => {}
@@ -215,7 +217,7 @@ impl CappedVolume {
         }
     }
 
-    /// Light before the plane: where the ray of a place first is beyond the plane.
+    /// For a light before the plane, adds the point where the ray of a place first is beyond the plane.
     fn push_start(&mut self, plane: &NearPlane, place: u32) {
         match self.places[place as usize].stand {
             Stand::AtPlane => self.push_own(place),
@@ -242,7 +244,7 @@ impl CappedVolume {
         }
     }
 
-    /// Both, in the order in which the way from one to the other passes them.
+    /// Adds both crossings, in the order from one place to the other.
     fn push_crossings(&mut self, plane: &NearPlane, from: u32, to: u32) {
         if self.places[from as usize].stand == Stand::Never {
             self.push_crossing_at_infinity(plane, from, to);

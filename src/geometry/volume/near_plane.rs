@@ -1,9 +1,10 @@
 //! The near plane z = -near of view space, a light, and where rays from places away from the light meet the plane.
 //!
 //! With h(q) the height of q over the plane (positive ahead of the eye) and l that of the light (for a direction, its
-//! rise), a ray from q lands if q's height lies between 0 and l: beyond the plane it comes down on it (l > 0), before it
-//! it rises through it (l < 0). So an edge is cut in two places: where it meets the plane itself, a point that is its
-//! own projection; and where its rays run parallel to the plane, whose projection is the talk's w = 0 direction.
+//! rise), a ray from q lands if q's height lies between 0 and l: beyond the plane it comes down on it (l > 0), before it it
+//! rises through it (l < 0). So an edge is cut in two places: where it meets the plane itself, a point that is its own
+//! projection; and where its rays run parallel to the plane, whose projection is a direction with w = 0 [GDC, "Handling the
+//! "Hard" Near Clip Plane Capping Case"].
 
 use glam::DVec3;
 
@@ -23,14 +24,14 @@ pub(super) struct Place {
     pub infinite: u32,
 }
 
-/// Where a place stands, for a light beyond the plane (l >= 0) or before it (l < 0).
+/// Position of a place, for a light beyond the plane (l >= 0) or before it (l < 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stand {
-    /// On the other side of the plane than the light: past landing.
+    /// The place is on the other side of the plane than the light.
     AtPlane,
     /// Its ray meets the plane.
     Lands,
-    /// At the light's height or past it: its ray never comes to the plane.
+    /// At the light's height or past it: its ray never meets the plane.
     Never,
 }
 
@@ -39,7 +40,7 @@ impl Stand {
         self == Self::Lands
     }
 
-    /// Whether the place itself is in front of the eye.
+    /// Tests whether the place itself is in front of the eye.
     pub fn is_beyond_plane(self, plane: &NearPlane) -> bool {
         (self == Self::AtPlane) != plane.light_is_beyond()
     }
@@ -59,7 +60,7 @@ pub(super) struct NearPlane {
     /// l.
     light_height: f64,
     w: f64,
-    /// Where sides may end instead of at infinity: the plane `normal · x = distance`, beyond all that is seen.
+    /// Plane at which sides may end instead of at infinity, `normal · x = distance`, beyond all that is seen.
     end: Option<(DVec3, f64)>,
 }
 
@@ -70,7 +71,7 @@ impl NearPlane {
         Self { source, near, light_height: -light.z - near * light.w, w: light.w, end }
     }
 
-    /// Whether the light stands ahead of the plane, or in it.
+    /// Tests whether the light stands ahead of the plane, or in it.
     pub fn light_is_beyond(&self) -> bool {
         self.light_height >= 0.0
     }
@@ -107,8 +108,8 @@ impl NearPlane {
         self.on_plane((self.light_height * place.at - place.height * light) / place.fall)
     }
 
-    /// Where the edge between two places meets the plane, if they stand on different sides of it. The same bits whichever
-    /// comes first: sums of two commute.
+    /// Point where the edge between two places meets the plane, if they are on different sides of it. The order of the two
+    /// does not change a bit: sums of two commute.
     pub fn crossing(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::AtPlane) != (b.stand == Stand::AtPlane);
         let (ha, hb) = (a.height.abs(), b.height.abs());
@@ -116,8 +117,8 @@ impl NearPlane {
     }
 
     /// The direction in the plane in which the projection of the edge between two places runs to infinity, if the rays of
-    /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [C7]. The same bits whichever comes
-    /// first.
+    /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [GDC, "Handling the "Hard" Near Clip
+    /// Plane Capping Case"]. The same bits whichever comes first.
     pub fn direction_between(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::Never) != (b.stand == Stand::Never);
         parted.then(|| match self.source {

@@ -1,29 +1,20 @@
-//! The possible silhouette [GDC 2001; C1]: the boundary of the triangles that count, as directed edges with
-//! multiplicity. All buffers are kept from one light or frame to the next.
+//! The possible silhouette [GDC, "Computing Shadow Volumes For Polygonal Models"]: the boundary of the triangles that
+//! count, as directed edges with multiplicity. All buffers are kept from one light or frame to the next.
 
-use super::{Caster, Counting, Source, loops};
+use super::loops::{self, OutlineEdge};
+use super::{Caster, Counting, Source};
 
-/// Which triangles of a caster count under one light, and the boundary of their sum.
+/// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
 /// Keep one and call [`Outline::find`] again: nothing is allocated once the buffers are large enough.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
-    /// Of each triangle of the caster: 1 where it counts as it runs, -1 where it counts turned over, else 0.
+    /// Per triangle of the caster: 1 if it counts, -1 if it counts with reversed winding, else 0.
     weights: Vec<i8>,
     edges: Vec<OutlineEdge>,
     countings: Vec<Counting>,
     source: Option<Source>,
     exact_tests: usize,
-}
-
-/// An edge of the outline. Seen from the light, the counted triangle lies on the left of `from` to `to`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OutlineEdge {
-    /// Places of the caster.
-    pub from: u32,
-    pub to: u32,
-    /// How often it is part of the boundary; at least 1.
-    pub multiplicity: u32,
 }
 
 impl Outline {
@@ -35,7 +26,8 @@ impl Outline {
         self.exact_tests = 0;
         for shell in &caster.shells {
             let range = shell.triangles.start as usize..shell.triangles.end as usize;
-            self.exact_tests += caster.planes.sides(caster, range.clone(), source, &mut self.weights);
+            self.exact_tests +=
+                caster.planes.sides(|triangle| caster.corners(triangle), range.clone(), source, &mut self.weights);
             let counting = caster.counting(shell, source);
             if counting == Counting::Facing {
                 self.weights[range].iter_mut().for_each(|weight| *weight = (*weight).max(0));
@@ -66,12 +58,12 @@ impl Outline {
         &self.edges
     }
 
-    /// Of each of [`Caster::triangles`]: 1 counted as it runs, -1 counted turned over, 0 not counted.
+    /// Per triangle of [`Caster::triangles`]: 1 counted, -1 counted with reversed winding, 0 unused.
     pub fn weights(&self) -> &[i8] {
         &self.weights
     }
 
-    /// How each of [`Caster::shells`] counts.
+    /// Way in which each of [`Caster::shells`] counts.
     pub fn countings(&self) -> &[Counting] {
         &self.countings
     }
@@ -81,7 +73,7 @@ impl Outline {
         self.source
     }
 
-    /// How many triangles were too near the light's side to be told without exact arithmetic.
+    /// Number of triangles whose side needed exact arithmetic.
     pub fn exact_tests(&self) -> usize {
         self.exact_tests
     }

@@ -1,21 +1,21 @@
-//! On which side of each triangle's plane a light stands: a vectorised test in f64 with an error bound over flat
-//! arrays, and exact predicates for the few triangles that it leaves in doubt.
+//! Side of each triangle's plane on which a light lies: a vectorised test in f64 with an error bound over flat arrays, and
+//! exact predicates for the few triangles that it leaves in doubt.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{Caster, Source};
+use super::Source;
 use crate::math::exact;
 
 /// Unit roundoff of f64.
 const ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 
-/// Roundings of size [`ROUNDOFF`] in a side's value, relative to the magnitudes that meet in it: 4 in a component of the
+/// Roundings of size [`ROUNDOFF`] in a side's value, relative to the magnitudes of its terms: 4 in a component of the
 /// normal, 5 in product and sums, 1 in the light's offset, as many again in the plane's own; 32 holds them.
 const ROUNDINGS: f64 = 32.0;
 
-/// Triangles whose signs are looked through for doubt at a time: they stay in the first cache.
+/// Number of triangles whose signs are checked at a time: they stay in the first-level cache.
 const BLOCK: usize = 1024;
 
 /// Each triangle's plane relative to `center`: dot((x, y, z), p - center) - offset is positive where the corners run
@@ -68,9 +68,15 @@ impl Planes {
     }
 
     /// Writes the side of the triangles in `range` to the same range of `sides`: 1 where the light sees the corners run
-    /// counter-clockwise, -1 clockwise, 0 where it stands in the plane or there is none. Exact. Returns how many needed
-    /// exact arithmetic.
-    pub fn sides(&self, caster: &Caster, range: Range<usize>, source: Source, sides: &mut [i8]) -> usize {
+    /// counter-clockwise, -1 clockwise, 0 if it lies in the plane or there is none. Exact. Returns how many needed exact
+    /// arithmetic.
+    pub fn sides(
+        &self,
+        corners: impl Fn(usize) -> [DVec3; 3],
+        range: Range<usize>,
+        source: Source,
+        sides: &mut [i8],
+    ) -> usize {
         let light = match source {
             Source::Point(position) => position - self.center,
             Source::Direction(direction) => direction,
@@ -86,7 +92,7 @@ impl Planes {
             if out.contains(&0) {
                 for (side, triangle) in out.iter_mut().zip(block).filter(|(side, _)| **side == 0) {
                     exact += usize::from(!self.is_flat(triangle));
-                    *side = self.exact_side(caster, triangle, source);
+                    *side = self.exact_side(&corners(triangle), triangle, source);
                 }
             }
             start += BLOCK;
@@ -108,12 +114,12 @@ impl Planes {
         [&self.x, &self.y, &self.z].iter().all(|array| array[triangle] == 0.0)
     }
 
-    pub fn exact_side(&self, caster: &Caster, triangle: usize, source: Source) -> i8 {
-        let corners = caster.corners(triangle);
+    /// The side of one triangle, whose `corners` these are. Exact.
+    pub fn exact_side(&self, corners: &[DVec3; 3], triangle: usize, source: Source) -> i8 {
         match source {
-            _ if self.is_flat(triangle) && exact::are_collinear(&corners) => 0,
-            Source::Point(position) => exact::side_of_point(&corners, position),
-            Source::Direction(direction) => exact::side_of_direction(&corners, direction),
+            _ if self.is_flat(triangle) && exact::are_collinear(corners) => 0,
+            Source::Point(position) => exact::side_of_point(corners, position),
+            Source::Direction(direction) => exact::side_of_direction(corners, direction),
         }
     }
 }

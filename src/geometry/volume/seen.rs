@@ -1,5 +1,5 @@
-//! What of a volume a camera may see, and whether the eye may stand in it: conservative, from bounding boxes in f64.
-//! Never says no where the exact answer is yes. World space. Knows no scene.
+//! Tests of which part of a volume a camera may see, and whether the eye may be in it: conservative, from bounding boxes in
+//! f64. The answer is never no where the exact answer is yes. World space. Knows no scene.
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
@@ -48,35 +48,35 @@ impl Casting {
         Self { volume: body.swept(&away), far_end: Hull::cone(&away), body }
     }
 
-    /// Whether the volume may hold a point of the camera's near rectangle: whether the caster may meet the pyramid that
+    /// Tests whether the volume may hold a point of the camera's near rectangle: whether the caster may meet the pyramid that
     /// the light spans with it. If not, plain z-pass counts right.
     pub fn may_hold_near(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.volume, &viewer.near)
     }
 
-    /// Whether the volume may meet the view frustum; if not, it is of no use to the picture.
+    /// Tests whether the volume may meet the view frustum; if not, it is of no use to the picture.
     pub fn may_shadow_view(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.volume, &viewer.frustum)
     }
 
-    /// Whether the caster itself may be in view, and with it the volume's cap at the light's end.
+    /// Tests whether the caster itself may be in view, and with it the volume's cap at the light's end.
     pub fn light_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.body, &viewer.frustum)
     }
 
-    /// Whether the camera may look at the volume's far end at infinity.
+    /// Tests whether the camera may look at the volume's far end at infinity.
     pub fn far_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
         !hull::are_apart(&self.far_end, &viewer.rays)
     }
 
-    /// Whether the caster may stand between the light and something it lights: `reach` is convex and holds the light
+    /// Tests whether the caster may stand between the light and something it lights: `reach` is convex and holds the light
     /// and all that it lights.
     pub fn may_matter_within(&self, reach: &Hull) -> bool {
         !hull::are_apart(&self.body, reach)
     }
 }
 
-/// Whether a light stands in the box, or as near to it as f32 transforms may be off.
+/// Tests whether a light is in the box, or within the error of f32 transforms of it.
 fn touches(bounds: &Aabb, source: Source) -> bool {
     let Source::Point(light) = source else { return false };
     let size = light.abs().max(bounds.min.abs()).max(bounds.max.abs()).max_element();
@@ -84,8 +84,8 @@ fn touches(bounds: &Aabb, source: Source) -> bool {
     light.cmpge(bounds.min - slack).all() && light.cmple(bounds.max + slack).all()
 }
 
-/// The pixels that the convex hull of `points` (world space) may cover: `[x, y, width, height]` as for glScissor, y up,
-/// in a picture of `size` pixels. `None`: no pixel. One pixel wider than exact arithmetic would have it.
+/// The pixels that the convex hull of `points` (world space) may cover: `[x, y, width, height]` as for glScissor, y up, in
+/// a picture of `size` pixels. `None`: no pixel. It is one pixel wider than exact arithmetic gives.
 pub fn scissor(points: &[DVec3], clip_from_world: &DMat4, size: [u32; 2]) -> Option<[u32; 4]> {
     let clip: Vec<DVec4> = points.iter().map(|point| *clip_from_world * point.extend(1.0)).collect();
     let ahead = |point: &DVec4| point.z + point.w;

@@ -2,12 +2,12 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-/// Where light comes from, in the space that the context names.
+/// Position or direction of a light, in the space that the context names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// A point or spot light's position.
     Point(DVec3),
-    /// Of a directional light: the direction *towards* it, of any length above 0.
+    /// A directional light: the direction *towards* it, of any length above 0.
     Direction(DVec3),
 }
 
@@ -29,7 +29,7 @@ impl Source {
         }
     }
 
-    /// From the light through `point` and on, of any length; 0 where the light stands at the point.
+    /// Vector from the light through `point`, of any length; 0 if the light is at the point.
     pub fn away(self, point: DVec3) -> DVec3 {
         match self {
             Self::Point(position) => point - position,
@@ -37,7 +37,7 @@ impl Source {
         }
     }
 
-    /// Whether all rays are parallel, so that a volume ends in one point at infinity.
+    /// Tests whether all rays are parallel, so that a volume ends in one point at infinity.
     pub fn is_parallel(self) -> bool {
         matches!(self, Self::Direction(_))
     }

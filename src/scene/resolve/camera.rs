@@ -1,14 +1,13 @@
-//! `[camera]`: every key may be absent; what is missing is framed on the scene's objects.
+//! `[camera]`: every key may be absent; missing values are framed on the scene's objects.
 
 use glam::DVec3;
 
 use crate::math::Aabb;
-use crate::scene::frame;
 use crate::scene::settings::{Plain, Settings, SettingsError};
 use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
-use crate::scene::{Camera, Image, Object};
+use crate::scene::{Camera, Image, Object, camera_framing};
 
-/// `[camera]` as written; what depends on the objects comes later.
+/// `[camera]` as written; values that depend on the objects follow later.
 pub(super) struct Written {
     settings: Settings,
     eye: Option<DVec3>,
@@ -18,7 +17,7 @@ pub(super) struct Written {
     far: Option<f64>,
 }
 
-/// Reads and checks what can be checked without the objects.
+/// Reads the keys, and checks them as far as that is possible without the objects.
 pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
     let absent = || Settings { path: String::from("camera"), ..Settings::default() };
     let settings = table.cloned().unwrap_or_else(absent);
@@ -28,14 +27,15 @@ pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
         (Some(eye), Some(target)) => reader.up(["eye", "target"], eye, target).map(drop)?,
         _ => reader.vector("up").map(drop)?,
     }
-    let fov_y_radians = reader.angle_between("fov_y", 1.0, 179.0)?.unwrap_or(frame::FOV_Y_DEGREES.to_radians());
+    let fov_y_radians =
+        reader.angle_between("fov_y", 1.0, 179.0)?.unwrap_or(camera_framing::FOV_Y_DEGREES.to_radians());
     let [near, far] = reader.near_and_far()?;
     reader.finish()?;
     Ok(Written { eye, target, fov_y_radians, near, far, settings })
 }
 
 impl Written {
-    /// The camera, framed on `objects` where it is not written; what its planes cut or make too coarse is added to
+    /// The camera, framed on `objects` where values are missing; cuts by its planes and too coarse depths are added to
     /// `warnings`.
     pub fn complete(
         self,
@@ -45,7 +45,7 @@ impl Written {
     ) -> Result<Camera, SettingsError> {
         let corners: Vec<DVec3> = objects.iter().flat_map(|object| object.world_bounds().corners()).collect();
         let bounds = Aabb::from_points(corners.iter().copied());
-        let radius = frame::working_radius(&bounds);
+        let radius = camera_framing::working_radius(&bounds);
         let (eye, target) = self.eye_and_target(&corners, &bounds, radius, image.aspect());
         let mut reader = self.settings.read();
         let up = reader.up(["eye", "target"], eye, target)?;
@@ -53,7 +53,7 @@ impl Written {
         let pyramid = Pyramid::of_camera(&camera, image.aspect());
         let spans: Vec<Span> = objects.iter().map(|object| pyramid.span(object)).collect();
         let seen = spans.iter().copied().fold(Span::EMPTY, Span::union);
-        let [near, far] = frame::depth_range(&corners, &camera, seen, radius);
+        let [near, far] = camera_framing::depth_range(&corners, &camera, seen, radius);
         camera.near = self.near.unwrap_or_else(|| self.far.map_or(near, |far| near.min(far / 2.0)));
         camera.far = self.far.unwrap_or_else(|| far.max(2.0 * camera.near));
         reader.check_far(camera.near, camera.far)?;
@@ -70,29 +70,31 @@ impl Written {
         }
         let reach = |target: DVec3| corners.iter().map(|corner| corner.distance(target)).fold(radius, f64::max);
         match (self.eye, self.target) {
-            (Some(eye), _) if eye == bounds.center() => (eye, eye - frame::THREE_QUARTER * radius),
+            (Some(eye), _) if eye == bounds.center() => (eye, eye - camera_framing::THREE_QUARTER * radius),
             (Some(eye), _) => (eye, bounds.center()),
             (None, Some(target)) => {
-                let distance = frame::sphere_distance(reach(target), self.fov_y_radians, aspect);
-                (target + frame::THREE_QUARTER.normalize() * distance, target)
+                let distance = camera_framing::sphere_distance(reach(target), self.fov_y_radians, aspect);
+                (target + camera_framing::THREE_QUARTER.normalize() * distance, target)
             }
-            (None, None) => frame::fit(corners, frame::THREE_QUARTER, self.fov_y_radians, aspect, radius),
+            (None, None) => {
+                camera_framing::fit(corners, camera_framing::THREE_QUARTER, self.fov_y_radians, aspect, radius)
+            }
         }
     }
 }
 
-/// How many steps of depth a solid must be thick.
+/// Least thickness of a solid, in steps of depth.
 const STEPS: f64 = 8.0;
 
-/// How many pixels a place may be off by before that is said.
+/// Error of a place, in pixels, from which there is a warning.
 const MOST_OFF: f64 = 8.0;
 
-/// How far f32 may move a vertex of what is in view.
+/// Error of f32 in a vertex that is in view.
 fn off(span: Span) -> f64 {
     0.5 * f64::from(f32::EPSILON) * span.reach
 }
 
-/// What a camera with its planes shows of the objects; `spans` has one for each.
+/// Objects as a camera with its planes shows them; `spans` has one for each.
 struct View<'a> {
     camera: &'a Camera,
     pyramid: Pyramid,
@@ -101,7 +103,7 @@ struct View<'a> {
     size: [u32; 2],
 }
 
-/// A key, and what is to be said of its value.
+/// A key, and the warning about its value.
 type Said = (&'static str, String);
 
 impl View<'_> {
@@ -112,7 +114,7 @@ impl View<'_> {
         objects
     }
 
-    /// What is nearest hides nothing that is nearer: if it is cut, the picture lacks it.
+    /// Warning if the nearest object is cut by the near plane: nothing hides the gap.
     fn cut_before(&self) -> Option<Said> {
         let near = self.camera.near;
         let cut = self.by_depth().into_iter().take_while(|(_, span)| span.least < near);
@@ -135,10 +137,10 @@ impl View<'_> {
         Some(("far", what))
     }
 
-    /// What a depth buffer of 24 bits behind so near a plane cannot hold.
+    /// Warning about depths that a buffer of 24 bits cannot resolve behind so near a plane.
     fn coarse(&self) -> Option<Said> {
         let Camera { near, far, .. } = *self.camera;
-        let last = frame::last_depth([near, far]);
+        let last = camera_framing::last_depth([near, far]);
         let seen = self.seen();
         // There is always a strip of it before the far plane; less than half a row of pixels is none.
         let row = 0.5 * f64::from(self.size[0].max(self.size[1]));
@@ -170,7 +172,7 @@ impl View<'_> {
         let what = format!(
             "= {} is so near that a depth buffer of 24 bits tells apart no less than {} at `{}`, {} away",
             Plain(brief(near)),
-            Plain(brief(frame::depth_step(near, span.least))),
+            Plain(brief(camera_framing::depth_step(near, span.least))),
             object.name,
             Plain(brief(span.least)),
         );
@@ -178,22 +180,23 @@ impl View<'_> {
     }
 
     /// A solid whose front and back are a few steps of depth apart: which of them is shown, and on which side of them a
-    /// shadow's surface lies, is left to chance.
+    /// shadow's surface lies, is arbitrary.
     fn is_flattened(&self, object: &Object, span: Span) -> bool {
         let [thin, _, long] = extents(object);
         let pixel = self.camera.pixel_at(span.least, self.size);
         // Without back faces only what is all at one depth is lost.
         let room = if object.closed { long } else { thin };
-        thin > 0.0 && long > pixel && frame::depth_step(self.camera.near, span.least) > room / STEPS
+        thin > 0.0 && long > pixel && camera_framing::depth_step(self.camera.near, span.least) > room / STEPS
     }
 
-    /// What is in view behind the near plane, the nearest first.
+    /// Objects in view behind the near plane, the nearest first.
     fn seen(&self) -> Vec<(&Object, Span)> {
         let near = self.camera.near;
         self.by_depth().into_iter().filter(|(_, span)| !span.is_empty() && span.most > near).collect()
     }
 
-    /// Triangles so large, or so far from their object's origin, that rounded vertices move what is seen of them.
+    /// Warning about triangles so large, or so far from their object's origin, that rounding of vertices moves them
+    /// visibly.
     fn vague(&self) -> Option<String> {
         let pixel = |span: Span| self.camera.pixel_at(span.least.max(self.camera.near), self.size);
         let (object, span) = self.seen().into_iter().find(|(_, span)| off(*span) > MOST_OFF * pixel(*span))?;

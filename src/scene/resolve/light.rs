@@ -3,12 +3,11 @@
 use glam::DVec3;
 
 use crate::scene::assets::Assets;
-use crate::scene::frame;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot};
+use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
 
-/// Lights may be brighter than a surface can be white, by this much.
+/// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
 
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
@@ -23,16 +22,16 @@ enum Kind {
 
 const KINDS: [(&str, Kind); 3] = [("spot", Kind::Spot), ("point", Kind::Point), ("directional", Kind::Directional)];
 
-/// `[[light]]` as written; what depends on the objects comes later.
+/// `[[light]]` as written; values that depend on the objects follow later.
 pub(super) struct Written {
     settings: Settings,
-    /// Its planes are not known yet.
+    /// The light; its planes are not known yet.
     light: Light,
     near: Option<f64>,
     far: Option<f64>,
 }
 
-/// Reads and checks what can be checked without the objects, of the light that stands at `index`, from 0.
+/// Reads the light at `index`, from 0, and checks it as far as that is possible without the objects.
 pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Result<Written, Error> {
     let mut reader = table.read();
     let kind = reader.choice("kind", &KINDS)?.unwrap_or(Kind::Spot);
@@ -58,13 +57,15 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
 }
 
 impl Written {
-    /// The light, its maps' range around `objects` where that is not written.
+    /// The light, its maps' range around `objects` if that is missing.
     pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
         let Self { settings, mut light, near: written_near, far: written_far } = self;
         let (found, near, far) = match &mut light.kind {
-            LightKind::Point(point) => (frame::cube_range(point.position, objects), &mut point.near, &mut point.far),
+            LightKind::Point(point) => {
+                (camera_framing::cube_range(point.position, objects), &mut point.near, &mut point.far)
+            }
             LightKind::Spot(Spot { frustum, .. }) => {
-                (frame::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
+                (camera_framing::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
             }
             LightKind::Directional { .. } => return Ok(light),
         };
@@ -96,7 +97,7 @@ fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
     Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
 }
 
-/// `direction`, or the way from `position` to `target`.
+/// `direction`, or the direction from `position` to `target`.
 fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
     let others = ["cone", "shape", "up", "near", "far", "image", "frustum", "attenuation"];
     reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;

@@ -1,4 +1,4 @@
-//! [`Settings`] to a [`Scene`]: what keys a scene has, what they may hold, and what stands in where they are absent.
+//! [`Settings`] to a [`Scene`]: the keys of a scene, their allowed values, and their defaults.
 
 mod camera;
 mod light;

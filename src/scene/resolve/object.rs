@@ -1,4 +1,4 @@
-//! `[[object]]`: a mesh, where it stands and what it is made of.
+//! `[[object]]`: a mesh, its placement and its material.
 
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     Ok(object)
 }
 
-/// Warns of parts that the alpha test discards whole.
+/// Warns of parts that the alpha test discards completely.
 fn warn_of_clear(object: &Object, table: &Settings, assets: &mut Assets) {
     let has_texcoords = object.mesh.texcoords.is_some();
     let gone = "at most: below 0.5 the alpha test discards all";
@@ -74,7 +74,7 @@ fn relative_to(material: Arc<Material>, origin: DVec3) -> Arc<Material> {
     }
 }
 
-/// Why a mesh is not what `closed = true` says of it.
+/// Refuses a mesh that is not closed as `closed = true` says.
 fn check_closed(mesh: &Mesh) -> Result<(), &'static str> {
     if !mesh.is_closed() {
         return Err("is not true: the mesh has open, crowded or turned edges");

@@ -1,22 +1,21 @@
-//! Woo's midpoint map, in two passes by depth peeling [Hardware Shadow Mapping, "Advantages and Limitations";
-//! techniques A14].
+//! Woo's midpoint map, in two passes by depth peeling [Woo 1992; HSM, "Advantages and Limitations"].
 //!
-//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (as the
-//! document has it by the texture unit's comparison, or by its own: [`settings::Peel`]), and stores the middle between the
-//! nearest depth and its own; the nearest fragment that is left is the second layer. A surface's own depth then lies half
-//! a caster's thickness before what it is compared with, and no polygon offset is needed.
+//! The nearest layer is drawn into one map. The second pass draws all casters again, rejects what that map holds (by the
+//! texture unit's comparison as in [HSM, "Advantages and Limitations"], or in the shader: [`settings::Peel`]), and stores
+//! the middle between the nearest depth and its own; the nearest fragment that is left is the second layer. A surface's own
+//! depth then lies half a caster's thickness before what it is compared with, and no polygon offset is needed.
 //!
-//! # Pitfalls that the document does not mention
-//! - A depth is rounded when it is stored, what is compared with it is not [GL 4.6, 8.23.1]: half of a first layer
-//!   lies behind itself. That is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
+//! # Pitfalls that the white paper does not mention
+//! - A depth is rounded when it is stored, but the compared depth is not [GL 4.6, 8.23.1]: half of a first layer lies
+//!   behind itself. So it is moved towards the light by two codes of 16 bits, or four steps of f32 near 1, which no
 //!   rounding reaches: nor that by which two triangles in one plane differ.
-//! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured:
-//!   `tests/layers.rs`) and costs nothing. It is right where all that can be shadowed is a layer, so that the second one
-//!   has what casts no shadow too, and both are drawn under GL_DEPTH_CLAMP where something lies beyond the far plane:
-//!   it is then a second layer at depth 1. What casts nothing is never a first layer: before the nearest caster it is
+//! - A texel with one layer alone has no middle: see [`settings::Single`]. The far plane has the least error (measured by
+//!   the test layers) and costs nothing. It is right if everything that can be shadowed is a layer. So the second layer has
+//!   objects that cast no shadow, too. If something lies beyond the far plane, both are drawn under GL_DEPTH_CLAMP: it is
+//!   then a second layer at depth 1. An object that casts nothing is never a first layer: before the nearest caster it is
 //!   peeled away with it, and lit.
-//! - A caster that a plain map leaves out because nothing that it shadows is seen may be the second layer of one that
-//!   it does not: see [`second::needed`].
+//! - A caster whose shadow is not seen is left out of a plain map, but may be the second layer of another caster: see
+//!   [`second::needed`].
 
 mod second;
 mod settings;
@@ -25,23 +24,24 @@ mod single;
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Alone, Stored};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
-use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
+use crate::techniques::shadow_map::forecast::{self, Alone, Stored};
 
 pub struct Midpoint;
 
 const BARE: Contender = Contender::Keys("technique = \"midpoint\"");
 
-/// [Hardware Shadow Mapping, "Advantages and Limitations"]. The edge band is told apart, for at a caster's rim its two
-/// layers meet and nothing lies between them.
+/// Claims of [HSM, "Advantages and Limitations"]. The edge band is counted apart, because at a caster's rim its two layers
+/// meet.
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {
@@ -77,7 +77,7 @@ impl Technique for Midpoint {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping, Woo; techniques A14"
+        "Hardware Shadow Mapping, on Woo"
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
@@ -121,7 +121,7 @@ impl Technique for Midpoint {
         note_chosen(view, &layers, notes);
         let mut draw = |name, image, ending: Option<Ending>, offset, shared_alone| {
             let is_second = ending.is_some();
-            let receivers: &[&Item] = if is_second { &layers.receivers } else { &[] };
+            let receivers: &[&Drawable] = if is_second { &layers.receivers } else { &[] };
             let layer = Layer { ending, clamped, receivers, ..Layer::plain(name, image, offset, &layers.casters) };
             let layer = match shared_alone && !view.keep_all {
                 true => Layer {
@@ -136,7 +136,7 @@ impl Technique for Midpoint {
             };
             depth::draw(view, &layer, &settings.map, list, notes)
         };
-        // Without a second layer beside it, the nearest one is asked for only to be stored itself.
+        // Without a second layer beside it, the nearest one is only stored itself.
         let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, single != Single::First);
         let peel = peel(view, nearest, clamped, &settings);
         let midpoint = draw("midpoint", "midpoint map", Some(peel), NO_OFFSET, true);
@@ -169,7 +169,7 @@ fn forecast_of<'a>(
     view: &FrustumView<'_>,
     settings: &'a Settings,
     single: Single,
-    casters: &'a [&'a Item],
+    casters: &'a [&'a Drawable],
 ) -> forecast::Map<'a> {
     let polygon = if single == Single::FirstOffset { bias::offset(&settings.map).polygon } else { NO_OFFSET };
     let stored = Stored::Middle {
@@ -190,8 +190,8 @@ fn note_shared(view: &FrustumView<'_>, [_, _, width, height]: [u32; 4], size: u3
     }
 }
 
-/// What the second pass cannot do: it looks its own texel up, in a map of one level; and what a fitted map leaves out
-/// may be the second layer.
+/// Refuses keys that the second pass cannot serve: it reads its own texel in a map of one level, and a fitted map may leave
+/// out the second layer.
 fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
     let message = "goes with technique = \"shadow-map\" or \"second-depth\", not with \"midpoint\"";
     match (map.mipmaps, map.fit) {
@@ -203,12 +203,12 @@ fn refuse(map: &Map, keys: &Reader<'_>) -> Result<(), SettingsError> {
 
 const NO_OFFSET: PolygonOffset = PolygonOffset { factor: 0.0, units: 0.0 };
 
-/// Whether both layers are drawn under GL_DEPTH_CLAMP: the same for both, whose depths must be equal to the bit.
+/// Tests whether both layers are drawn under GL_DEPTH_CLAMP: the same for both, whose depths must be equal to the bit.
 fn is_clamped(view: &FrustumView<'_>, layers: &Layers<'_>) -> bool {
     layers.beyond_far.is_some() || layers.casters.iter().any(|item| is_before_near(view, item))
 }
 
-/// What stands in the second layer beside the casters.
+/// Notes what is drawn into the second layer in addition to the casters.
 fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
     if let Some(name) = &layers.beyond_far {
         let why = format!("{name} reaches beyond the far plane: it is a second layer at depth 1");
@@ -223,7 +223,7 @@ fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
     }
 }
 
-/// How the second pass ends its fragments.
+/// Ending of the second pass's fragments.
 fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Settings) -> Ending {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
@@ -250,7 +250,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
         ending.defines.push("COMPARE");
         ending.inputs.push(input("nearest_compared", Some(behind)));
     }
-    // Of parallel light a window depth is linear: the mean of two is that of the middle point.
+    // Under parallel light window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {
@@ -261,7 +261,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
 }
 
 /// Two codes of 16 bits: one for the rounding when a depth is stored [GL 4.6, 2.3.5.2: either of the two nearest], one for
-/// that when it is fetched. Of more bits, four steps of the f32 that drivers interpolate depth in: two triangles in one
+/// that when it is fetched. With more bits, four steps of the f32 that drivers interpolate depth in: two triangles in one
 /// plane, such as a face given in both windings, differ by as many.
 fn margin(format: DepthFormat) -> f32 {
     match format {

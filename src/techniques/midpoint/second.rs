@@ -1,16 +1,16 @@
-//! What is drawn into both layers of the map and what into the second alone, and which texels may have a second layer: what
-//! the passes draw, and are scissored to. From bounding boxes.
+//! Items drawn into both layers of the map or only into the second, and the texels that may have a second layer, to which
+//! the passes are scissored. From bounding boxes.
 
 use glam::{DMat4, DVec3};
 
 use crate::geometry::volume;
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Drawable, FrustumView, Notes};
 use crate::math::{Aabb, frustum};
-use crate::techniques::projector::Rays;
 use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, Notes};
 
 /// Left, bottom, right and top, in texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl Rectangle {
     }
 }
 
-/// Where two layers may meet.
+/// Texels that two layers may share.
 pub struct Shared<'a> {
     /// Left, bottom, width and height of all such texels; zeros where there are none.
     pub scissor: [u32; 4],
@@ -49,28 +49,28 @@ pub struct Shared<'a> {
     pub receivers: Drawn<'a>,
 }
 
-/// What is drawn there.
+/// Items drawn there.
 #[derive(Default)]
 pub struct Drawn<'a> {
-    /// Under the scissor of all such texels.
-    pub whole: Vec<&'a Item>,
-    /// Flat ones, each under the scissors of what it may share texels with: the large floor that many small things stand
-    /// on.
+    /// Items drawn under the scissor of all such texels.
+    pub whole: Vec<&'a Drawable>,
+    /// Flat items, each under the scissors of the items that it may share texels with: for example a large floor with many
+    /// small objects on it.
     pub in_parts: Vec<InParts<'a>>,
 }
 
-/// What the two layers are made of.
+/// Items of the two layers.
 pub struct Layers<'a> {
-    /// Drawn into both.
-    pub casters: Vec<&'a Item>,
-    /// Drawn into the second alone, before which the middle must lie: what casts no shadow but may be shadowed, and what
-    /// lies beyond the light's far plane, where it is all of one depth.
-    pub receivers: Vec<&'a Item>,
-    /// Something lies beyond the far plane: its name. Without clipping it is a second layer at depth 1.
+    /// Items drawn into both layers.
+    pub casters: Vec<&'a Drawable>,
+    /// Items drawn into the second layer only, before which the middle must lie: items that cast no shadow but may be
+    /// shadowed, and items beyond the light's far plane, all at one depth.
+    pub receivers: Vec<&'a Drawable>,
+    /// Name of an item beyond the far plane, if there is one. Without clipping it is a second layer at depth 1.
     pub beyond_far: Option<String>,
 }
 
-/// Sorts out what the light meets.
+/// Sorts the items that the light meets into layers.
 pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
     let clip_from_world = view.clip_from_world();
     let (mut casters, mut receivers, mut beyond_far) = (Vec::new(), Vec::new(), None);
@@ -96,33 +96,33 @@ pub fn layers<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Layers<'a> {
     Layers { casters, receivers, beyond_far }
 }
 
-/// More triangles are not drawn again and again to spare texels.
+/// Most triangles of an item that is drawn several times to save texels.
 const MOST_TRIANGLES: usize = 4096;
 
-/// The casters without those that no texel needs which is looked up: the camera sees nothing that they shadow, and they
-/// are the second layer of no caster whose shadow it sees.
+/// The casters that some visible texel needs: those whose shadow the camera sees, and those that are the second layer of
+/// such a caster.
 ///
-/// Where such a one is the first layer, nothing that is seen lies behind it, and without it the middle only moves away
-/// from what lies before it.
+/// If another caster is the first layer, nothing visible lies behind it, and without it the middle only moves away from
+/// surfaces before it.
 pub fn needed<'a>(
     view: &FrustumView<'_>,
-    casters: Vec<&'a Item>,
+    casters: Vec<&'a Drawable>,
     settings: &Settings,
     notes: &mut Notes,
-) -> Vec<&'a Item> {
+) -> Vec<&'a Drawable> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
     let unseen = Unseen::new(view, settings.size, reach(settings));
-    let (unseen, seen): (Vec<&Item>, Vec<&Item>) = casters.iter().partition(|item| unseen.shadow_of(item));
-    let seen: Vec<(&Item, Rectangle)> =
+    let (unseen, seen): (Vec<&Drawable>, Vec<&Drawable>) = casters.iter().partition(|item| unseen.shadow_of(item));
+    let seen: Vec<(&Drawable, Rectangle)> =
         seen.into_iter().map(|item| (item, covered(view, item, &clip_from_world, settings))).collect();
-    let is_idle = |item: &Item| {
+    let is_idle = |item: &Drawable| {
         let own = covered(view, item, &clip_from_world, settings);
-        let may_follow = |(first, covered): &(&Item, Rectangle)| {
+        let may_follow = |(first, covered): &(&Drawable, Rectangle)| {
             own.within(*covered).area() > 0 && !lies_before(item, first, &view.projector.rays)
         };
         !seen.iter().any(may_follow)
     };
-    let idle: Vec<&Item> = unseen.into_iter().filter(|item| is_idle(item)).collect();
+    let idle: Vec<&Drawable> = unseen.into_iter().filter(|item| is_idle(item)).collect();
     for item in &idle {
         let why = "the camera sees nothing that it shadows, and it is no second layer of what it sees the shadow of";
         notes.left_out(in_the_map(item, view), why);
@@ -130,7 +130,7 @@ pub fn needed<'a>(
     casters.into_iter().filter(|item| !idle.iter().any(|other| std::ptr::eq(*other, *item))).collect()
 }
 
-fn covered(view: &FrustumView<'_>, item: &Item, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
+fn covered(view: &FrustumView<'_>, item: &Drawable, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
     // Near the light, a small thing is wide.
     if is_before_near(view, item) {
         return Rectangle([0, 0, settings.size, settings.size]);
@@ -139,15 +139,15 @@ fn covered(view: &FrustumView<'_>, item: &Item, clip_from_world: &DMat4, setting
     scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle([x, y, x + width, y + height]))
 }
 
-fn corners(item: &Item) -> [DVec3; 8] {
+fn corners(item: &Drawable) -> [DVec3; 8] {
     item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner))
 }
 
-/// Whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
-fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
+/// Tests whether no ray meets `item` behind `other`: by their distances from the light, or by the plane of a flat `other`.
+fn lies_before(item: &Drawable, other: &Drawable, rays: &Rays) -> bool {
     let (own, others) = (corners(item), corners(other));
     let scale = own.iter().chain(&others).map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-    // What f32 transforms may be off by.
+    // Error of f32 transforms.
     let slack = scale / f64::from(1 << 20);
     let bounds = Aabb::from_points(others);
     let (farthest, nearest) = match rays {
@@ -175,12 +175,12 @@ fn lies_before(item: &Item, other: &Item, rays: &Rays) -> bool {
 
 /// Finds the texels that two layers may share.
 ///
-/// A flat caster is one layer: it shares texels with others alone. (Triangles of one plane that cover one another count
-/// as one too: nothing lies between them, and what holds their depths apart is rounding.) What casts nothing is never the
-/// first of two, and shares texels with casters alone.
+/// A flat caster is one layer: it shares texels only with others. (Overlapping triangles of one plane count as one layer,
+/// too: only rounding separates their depths.) An item that casts nothing is never the first of two, and shares texels only
+/// with casters.
 pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: &Settings) -> Shared<'a> {
     let clip_from_world = depth::map_clip_from_world(view, settings);
-    let covered = |items: &[&'a Item]| -> Vec<Rectangle> {
+    let covered = |items: &[&'a Drawable]| -> Vec<Rectangle> {
         items.iter().map(|item| covered(view, item, &clip_from_world, settings)).collect()
     };
     let (of_casters, of_receivers) = (covered(&layers.casters), covered(&layers.receivers));
@@ -202,8 +202,13 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
 }
 
 impl<'a> Drawn<'a> {
-    /// Adds what covers `own` where it meets `others`; returns a rectangle around all these places.
-    fn share<'r>(&mut self, item: &'a Item, own: &Rectangle, others: impl Iterator<Item = &'r Rectangle>) -> Rectangle {
+    /// Adds rectangles that cover `own` where it meets `others`; returns a rectangle around all these places.
+    fn share<'r>(
+        &mut self,
+        item: &'a Drawable,
+        own: &Rectangle,
+        others: impl Iterator<Item = &'r Rectangle>,
+    ) -> Rectangle {
         let parts: Vec<Rectangle> = others.map(|other| own.within(*other)).filter(|part| part.area() > 0).collect();
         let together = parts.iter().fold(Rectangle::NOTHING, |sum, part| sum.with(*part));
         let triangles = item.indices.len() / 3 * parts.len();

@@ -4,32 +4,33 @@ use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
 use crate::techniques::shadow_map::settings::{self as map, Settings as Map};
 
-/// What lies in the middle of two layers.
+/// Mean of two layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Average {
-    /// The mean of both window depths: the document's. It lies nearer to the light than the middle point.
+    /// The mean of both window depths, as in [HSM, "Advantages and Limitations"]. It lies nearer to the light than the
+    /// middle point.
     Window,
     /// The window depth of the point midway between the layers.
     EyeLinear,
 }
 
-/// What a texel with one layer alone stores.
+/// Value of a texel with only one layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Single {
-    /// That layer: it shades itself as a map without polygon offset does.
+    /// That layer: it shades itself like a map without polygon offset.
     First,
-    /// The far plane: it shades nothing. Right where all that can be seen behind a caster is a layer too, as it is here.
+    /// The far plane: it shades nothing. Right, because everything that can be seen behind a caster is a layer, too.
     Far,
     /// That layer under the polygon offset of an ordinary map.
     FirstOffset,
 }
 
-/// How the second pass tells what lies behind the nearest layer.
+/// Test of the second pass for lying behind the nearest layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Peel {
-    /// By the depth that it fetches for the average anyway: one lookup a fragment.
+    /// Comparison in the shader, with the depth that it fetches for the average anyway: one lookup for each fragment.
     Fetch,
-    /// By the texture unit's comparison, as the document has it, and a lookup more. The texels are the same.
+    /// Comparison by the texture unit, as in [HSM, "Advantages and Limitations"]: one more lookup. The texels are the same.
     Compare,
 }
 

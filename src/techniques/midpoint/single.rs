@@ -1,16 +1,16 @@
-//! What texels with one layer alone store, where that is not the far plane: a pass over the whole map that puts the
-//! nearest layer there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
+//! Value of texels with only one layer, if it is not the far plane: a pass over the whole map stores the nearest layer
+//! there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
 
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec4};
 
 use crate::geometry::{Mesh, primitive};
+use crate::lights::FrustumView;
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, ImageId, IndexOrder, Input, Meaning, MeshRef,
-    Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId, IndexOrder, Input,
+    MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
-use crate::techniques::FrustumView;
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
 
@@ -33,11 +33,11 @@ pub fn fill(
         program: Program {
             label: String::from("single layer"),
             defines,
-            vertex: vec![glsl!("common/position.vert"), glsl!("depth/depth.vert")],
+            vertex: vec![glsl!("common/position.vert"), glsl!("common/depth.vert")],
             fragment: vec![glsl!("midpoint/single.frag")],
             attributes: vec![Attribute::Position],
         },
-        meaning: Meaning::Shader("one map where another has no second layer"),
+        meaning: FixedFunctionDesc::Shader("one map where another has no second layer"),
         uniforms: Vec::new(),
         inputs: vec![input("midpoint", midpoint), input("nearest", nearest)],
         cull: None,

@@ -1,28 +1,29 @@
-//! Second-depth shadow maps: only the faces that look away from the light are drawn into the map [Hardware Shadow
-//! Mapping, Wang and Molnar; techniques A15].
+//! Second-depth shadow maps: only the faces that look away from the light are drawn into the map [Wang and Molnar 1994;
+//! HSM, "Advantages and Limitations"].
 //!
-//! What is lit is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
-//! offset. What looks away from the light is compared with itself, and errs; by its shading it is dark in any case. A
-//! caster that is open has no far side and would lose its shadow: it is refused by name, or with `closed = "assume"`
-//! drawn as it is, and named in a warning where that shadow is missed.
+//! A lit surface is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
+//! offset. A surface that looks away from the light is compared with itself, and errs; its shading is dark in any case. An
+//! open caster has no far side and would lose its shadow: it is refused, or with `closed = "assume"` drawn as it is, and
+//! named in a warning if that shadow is missed.
 
 use std::sync::Arc;
 
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Stored};
 use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
-use super::{Axis, Item, LightTerm, LightView, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::{Drawable, LightTerm, LightView, Notes};
 use crate::pass::{Face, PassList, PolygonOffset};
 use crate::scene::{LightKind, Reader, SettingsError};
+use crate::techniques::shadow_map::forecast::{self, Stored};
 
 pub struct SecondDepth;
 
 const BARE: Contender = Contender::Keys("technique = \"second-depth\", closed = \"assume\"");
 
-/// [Hardware Shadow Mapping, on Wang and Molnar].
+/// Claims of [HSM, "Advantages and Limitations"].
 const CLAIMS: &[Claim] = &[
     Claim::needs_no_offset(BARE),
     Claim {
@@ -57,7 +58,7 @@ impl Technique for SecondDepth {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping, Wang and Molnar; techniques A15"
+        "Hardware Shadow Mapping, on Wang and Molnar"
     }
 
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str> {
@@ -83,12 +84,13 @@ impl Technique for SecondDepth {
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let (mut settings, is_assumed) = read(keys)?;
-        let Some(view) = &shadow_map::one_view(view, &settings, keys, notes)? else {
+        let (settings, is_assumed) = read(keys)?;
+        let Some(mut view) = shadow_map::one_view(view, &settings, keys, notes)? else {
             return Ok(shadow_map::without_casters(view, &settings, notes));
         };
-        let mut casters = casters(view, &settings, notes);
-        settings.crop = fit::crop(view, &mut casters, &settings, notes);
+        let mut casters = casters(&view, &settings, notes);
+        view.projector.crop = fit::crop(&view, &mut casters, &settings, notes);
+        let view = &view;
         if !is_assumed {
             refuse_open(&casters, &mut closed_test(), keys)?;
         }
@@ -111,14 +113,14 @@ impl Technique for SecondDepth {
     }
 }
 
-/// The map's keys, with the faces towards the light left out, and whether casters are taken to be closed unseen.
+/// The map's keys, with the faces towards the light left out, and whether casters are assumed to be closed.
 fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
     let is_assumed = keys.choice("closed", &[("assume", true), ("check", false)])?.unwrap_or(false);
     Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
 }
 
-/// Answers whether an item has a far side all over: each mesh is looked at once.
-fn closed_test() -> impl FnMut(&Item) -> bool {
+/// Tests whether an item has a far side all over: each mesh is examined once.
+fn closed_test() -> impl FnMut(&Drawable) -> bool {
     let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
     move |item| {
         if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) {
@@ -134,10 +136,10 @@ fn closed_test() -> impl FnMut(&Item) -> bool {
     }
 }
 
-/// Refuses casters without a far side, each by its name.
+/// Refuses casters without a far side, and names each.
 fn refuse_open(
-    casters: &[&Item],
-    is_closed: &mut dyn FnMut(&Item) -> bool,
+    casters: &[&Drawable],
+    is_closed: &mut dyn FnMut(&Drawable) -> bool,
     keys: &Reader<'_>,
 ) -> Result<(), SettingsError> {
     let mut open: Vec<&str> = Vec::new();

@@ -1,14 +1,14 @@
-//! Which of the scene's items are drawn into a light's map.
+//! Items that are drawn into a light's map.
 
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Drawable, FrustumView, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
-use crate::techniques::projector::Rays;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, LightView, Notes};
 
-/// The items that can stand in the light's way inside its frustum and whose shadow can be seen.
-pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+/// Items that can block light inside its frustum, and whose shadow can be seen.
+pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Notes) -> Vec<&'a Drawable> {
     let mut casters = in_frustum(view, notes);
     if !view.shown_whole && !view.keep_all {
         let unseen = Unseen::new(view, settings.size, reach(settings));
@@ -23,7 +23,7 @@ pub fn casters<'a>(view: &FrustumView<'a>, settings: &Settings, notes: &mut Note
     casters
 }
 
-/// What kernels, normal offsets and the coarser of two levels reach beside a filter's own, in texels.
+/// Reach of kernels, normal offsets and the coarser of two levels, in addition to the filter's own, in texels.
 pub fn reach(settings: &Settings) -> f64 {
     let kernel = bias::kernel_reach(settings);
     match (settings.mipmaps, settings.bias) {
@@ -34,8 +34,8 @@ pub fn reach(settings: &Settings) -> f64 {
     }
 }
 
-/// The items that can stand in the light's way inside its frustum's sides, up to its far plane.
-pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item> {
+/// Items that can block light inside its frustum's sides, up to its far plane.
+pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Drawable> {
     let mut casters = Vec::new();
     for item in view.items {
         if !item.casts_shadow {
@@ -49,18 +49,18 @@ pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Item
     casters
 }
 
-/// Whether some of the item may lie in the light's frustum, or between it and the light.
-pub fn may_cast(view: &FrustumView<'_>, item: &Item) -> bool {
+/// Tests whether some of the item may lie in the light's frustum, or between it and the light.
+pub fn may_cast(view: &FrustumView<'_>, item: &Drawable) -> bool {
     let clip_from_model = view.clip_from_world() * item.world_from_model;
     frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
 }
 
-/// Whether some of the item may lie between the light and its near plane. Parallel light has none.
-pub fn is_before_near(view: &FrustumView<'_>, item: &Item) -> bool {
+/// Tests whether some of the item may lie between the light and its near plane. Parallel light has no near plane.
+pub fn is_before_near(view: &FrustumView<'_>, item: &Drawable) -> bool {
     let Rays::From { .. } = view.projector.rays else { return false };
     frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)
 }
 
-pub fn in_the_map(item: &Item, view: &LightView<'_>) -> String {
+pub fn in_the_map(item: &Drawable, view: &LightView<'_>) -> String {
     format!("{} in the map of light {}", item.label, view.index)
 }

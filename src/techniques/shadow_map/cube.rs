@@ -1,35 +1,34 @@
-//! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [Hardware Shadow Mapping;
-//! techniques A16].
+//! The map of a point light: six frusta of 90 degrees, drawn into the faces of a cube map [HSM, "Advantages and
+//! Limitations"].
 //!
-//! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are
-//! cleared to, so that what looks it up, or reaches into it across a seam, is lit.
+//! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are cleared
+//! to, so that lookups in it, or into it across a seam, find light.
 
 use glam::{DMat4, DVec3, Vec2};
 
-use super::bias;
 use super::casters::{in_the_map, may_cast};
 use super::depth::{self, Layer};
+use super::forecast::{self, Stored};
+use super::map::map_info;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
-use super::tag;
 use super::term::{sampler, texture_from_light_clip};
-use super::texel;
+use super::{bias, simplified_casters, tag};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::guard::Guard;
+use crate::lights::projector::{Projector, Rays};
+use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform, Work,
     glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
-use crate::techniques::forecast::{self, Stored};
-use crate::techniques::guard::Guard;
-use crate::techniques::projector::{Projector, Rays};
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{Coordinates, FrustumView, Item, LightTerm, LightView, MapInfo, Notes};
 
-/// How far beyond a face's sides something may lie that looks it up across a seam, in texels: a filter's neighbour and
+/// Distance beyond a face's sides within which a point may look it up across a seam, in texels: a filter's neighbour and
 /// rounding.
 const SEAM_TEXELS: f64 = 4.0;
 
-/// What a cube map cannot do.
+/// Refuses keys that a cube map cannot serve.
 ///
 /// # Errors
 ///
@@ -48,7 +47,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
     }
 }
 
-/// Adds the passes of the faces that are needed, and says how the cube is looked up.
+/// Adds the passes of the faces that are needed, and returns the light term.
 pub fn describe(
     view: &LightView<'_>,
     point: &Point,
@@ -57,7 +56,7 @@ pub fn describe(
     notes: &mut Notes,
 ) -> LightTerm {
     let casters = casters(view, point, settings, notes);
-    let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Item>)> =
+    let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Drawable>)> =
         CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
     if faces.is_empty() {
         return super::without_casters(view, settings, notes);
@@ -75,7 +74,7 @@ pub fn describe(
 }
 
 /// The items whose shadow can be seen.
-fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Item> {
+fn casters<'a>(view: &LightView<'a>, point: &Point, settings: &Settings, notes: &mut Notes) -> Vec<&'a Drawable> {
     let any_face = seen_from(view, point, CubeFace::PositiveX);
     let unseen = (!view.shown_whole && !view.keep_all)
         .then(|| Unseen::new(&any_face, settings.size, bias::kernel_reach(settings)));
@@ -97,14 +96,14 @@ fn needed<'a>(
     view: &LightView<'a>,
     point: &Point,
     face: CubeFace,
-    casters: &[&'a Item],
+    casters: &[&'a Drawable],
     settings: &Settings,
     notes: &mut Notes,
-) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Item>)> {
+) -> Option<(CubeFace, FrustumView<'a>, Vec<&'a Drawable>)> {
     let face_view = seen_from(view, point, face);
     let what = format!("face {} of the map of light {}", face.name(), view.index);
-    let holds = |item: &&&Item| view.keep_all || may_cast(&face_view, item);
-    let inside: Vec<&Item> = casters.iter().filter(holds).copied().collect();
+    let holds = |item: &&&Drawable| view.keep_all || may_cast(&face_view, item);
+    let inside: Vec<&Drawable> = casters.iter().filter(holds).copied().collect();
     if inside.is_empty() {
         notes.left_out(what, "no caster that matters stands in it");
         return None;
@@ -116,21 +115,17 @@ fn needed<'a>(
     Some((face, face_view, inside))
 }
 
-/// Whether the camera may see something that looks the face up.
+/// Tests whether the camera may see something that is looked up in the face.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
     let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
     let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
     let face_clip = frustum.unbounded().clip_from_world();
-    let camera = &view.scene.camera;
-    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
+    let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
-    let in_both = |item: &Item| {
-        [&face_clip, &camera_clip]
-            .iter()
-            .all(|clip| frustum::overlap(&(**clip * item.world_from_model), &item.bounds) != Overlap::Outside)
-    };
+    let in_face =
+        |item: &&Drawable| frustum::overlap(&(face_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
     frustum::may_meet(&face_clip, &corners(&face_clip), &camera_clip, &corners(&camera_clip))
-        && view.items.iter().any(in_both)
+        && view.camera.visible.iter().any(in_face)
 }
 
 /// The frustum of a face, turned as cube maps have their texels [GL 4.6, table 8.19].
@@ -144,7 +139,7 @@ fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
         CubeFace::NegativeZ => (-DVec3::Z, -DVec3::Y),
     };
     let Point { position, near, far, .. } = *point;
-    // So far away that the target's coordinates round to another point, on the axis still.
+    // A target so far away that its coordinates may round, but stay on the axis.
     let target = position + direction * position.abs().max_element().max(1.0);
     Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
 }
@@ -158,10 +153,10 @@ pub fn projectors(point: &Point) -> Vec<Projector> {
     CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
 }
 
-/// Draws the faces and, by the copy road, copies each from one depth buffer. Returns the cube.
+/// Draws the faces and, with `transfer = "copy"`, copies each from one depth buffer. Returns the cube.
 fn draw(
     view: &LightView<'_>,
-    faces: &[(CubeFace, FrustumView<'_>, Vec<&Item>)],
+    faces: &[(CubeFace, FrustumView<'_>, Vec<&Drawable>)],
     settings: &Settings,
     list: &mut PassList,
     notes: &mut Notes,
@@ -175,9 +170,12 @@ fn draw(
         .then(|| list.image(depth::desc(view, "map: depth buffer", settings, Storage::Renderbuffer)));
     notes.left_out(format!("colour attachments and colour writes of light {index}'s depth"), "only its depth is read");
     for (face, face_view, casters) in faces {
-        let fewer =
-            if settings.simplified { texel::simplified(face_view, casters, settings, notes) } else { Vec::new() };
-        let fewer: Vec<&Item> = fewer.iter().collect();
+        let fewer = if settings.simplified {
+            simplified_casters::simplified(face_view, casters, settings, notes)
+        } else {
+            Vec::new()
+        };
+        let fewer: Vec<&Drawable> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
         let layer = Layer::plain("depth", "map", offset, casters);
         let clamped = depth::is_clamped(face_view, &layer, &format!("face {}", face.name()), notes);
@@ -212,7 +210,7 @@ fn draw(
     map
 }
 
-/// How the lit pass looks the cube up.
+/// Light term of the cube.
 fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
@@ -236,7 +234,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
         term.defines.push(format!("SEAMS_{index}"));
-        // That much of the seam, of a face of 2; rounding may bring a lookup nearer.
+        // Width of the seam, for a face of side 2; rounding may bring a lookup nearer.
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
@@ -244,13 +242,13 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
     let offset = bias::offset(settings);
-    let info = MapInfo::new(&seen_from(view, point, CubeFace::PositiveX), settings, offset.texels);
+    let info = map_info(&seen_from(view, point, CubeFace::PositiveX), settings, offset.texels);
     term.map_info = Some(MapInfo { polygon: offset.polygon, ..info });
     term
 }
 
-/// `r = x - y / depth`, by every face's projection `z / w = a - b / depth`, with what is compared moved towards the light
-/// (see [`bias::moved_to_light`]), and by `S`.
+/// `r = x - y / depth`, by every face's projection `z / w = a - b / depth`, with receivers moved towards the light (see
+/// [`bias::moved_to_light`]), and by `S`.
 fn face_depth(point: &Point, settings: &Settings) -> Vec2 {
     let Point { near, far, .. } = *point;
     let (a, b) = ((far + near) / (far - near), 2.0 * far * near / (far - near));

@@ -1,4 +1,4 @@
-//! The passes that draw the casters' depth from the light [Hardware Shadow Mapping, "How To Do It"; techniques A1-A4].
+//! The passes that draw the casters' depth from the light [HSM, "How To Do It"].
 
 use glam::{DMat4, DVec3};
 
@@ -6,40 +6,40 @@ use super::bias;
 use super::casters::is_before_near;
 use super::settings::{Order, Settings, Transfer};
 use super::term::raster_from_clip;
+use crate::lights::cut::Cutter;
+use crate::lights::drawable::depth_batches;
+use crate::lights::projector::Rays;
+use crate::lights::{Chosen, Drawable, FrustumView, LightView, Notes};
 use crate::pass::{
-    Batch, Chunk, Clear, Compare, DrawPass, DrawState, Format, ImageDesc, ImageId, Input, Meaning, Pass, PassList,
-    PolygonOffset, Storage, Target, Uniform, Work,
+    Batch, Chunk, Clear, Compare, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input, Pass,
+    PassList, PolygonOffset, Storage, Target, Uniform, Work,
 };
-use crate::techniques::cut::Cutter;
-use crate::techniques::items::depth_batches;
-use crate::techniques::projector::Rays;
-use crate::techniques::{Chosen, FrustumView, Item, LightView, Notes};
 
 /// One pass of depth over the casters.
 pub struct Layer<'a> {
-    /// Of the pass, behind the light's number.
+    /// Name of the pass, after the light's number.
     pub name: &'static str,
-    /// Of the image, likewise.
+    /// Name of the image, after the light's number.
     pub image: &'static str,
-    /// `None`: the depth of a fragment is written, and that is all.
+    /// Ending of the fragments; `None`: they write their depth only.
     pub ending: Option<Ending>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
-    /// Whether depth is clamped even where no caster comes before the near plane.
+    /// True if depth is clamped even if no caster comes before the near plane.
     pub clamped: bool,
     /// The texels that may be drawn, as [`DrawState::scissor`]; `None`: all.
     pub scissor: Option<[u32; 4]>,
-    pub casters: &'a [&'a Item],
-    /// Casters that are drawn in parts of these texels alone, once in each.
+    pub casters: &'a [&'a Drawable],
+    /// Casters that are drawn only in parts of these texels, once in each.
     pub in_parts: &'a [InParts<'a>],
-    /// Drawn after them, both faces whatever the map leaves out: what casts nothing.
-    pub receivers: &'a [&'a Item],
+    /// Items that cast nothing, drawn after the casters with both faces, whichever faces the map leaves out.
+    pub receivers: &'a [&'a Drawable],
     pub receivers_in_parts: &'a [InParts<'a>],
 }
 
 impl<'a> Layer<'a> {
-    /// The depth of `casters`, all over the map.
-    pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Item]) -> Self {
+    /// A layer of the depth of `casters`, all over the map.
+    pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Drawable]) -> Self {
         Self {
             name,
             image,
@@ -57,22 +57,22 @@ impl<'a> Layer<'a> {
 
 /// A caster, and the scissors under which it is drawn.
 pub struct InParts<'a> {
-    pub item: &'a Item,
+    pub item: &'a Drawable,
     pub scissors: Vec<[u32; 4]>,
 }
 
-/// What a fragment of a layer does once it has passed the alpha test.
+/// Work of a layer's fragment after the alpha test.
 #[derive(Clone)]
 pub struct Ending {
     pub label: &'static str,
-    /// Has `main`.
+    /// Chunk with `main`.
     pub fragment: Chunk,
     pub defines: Vec<&'static str>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
 }
 
-/// Draws a layer and, by the copy road, copies it. Returns the depth texture.
+/// Draws a layer and, with `transfer = "copy"`, copies it. Returns the depth texture.
 pub fn draw(
     view: &FrustumView<'_>,
     layer: &Layer<'_>,
@@ -127,20 +127,20 @@ pub fn draw(
     map
 }
 
-/// Raster, crop, and the light's own clip space.
+/// Product of raster, crop, and the light's clip space.
 pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4 {
-    raster_from_clip(settings) * settings.crop.map_clip_from_light_clip() * view.clip_from_world()
+    raster_from_clip(settings) * view.projector.crop.map_clip_from_light_clip() * view.clip_from_world()
 }
 
-/// An image of the map's size and format. A depth buffer that is copied is sized always: an unsized texture is to follow it.
+/// An image of the map's size and format. A depth buffer that is copied is always sized: an unsized texture must follow it.
 pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
     let is_unsized = settings.is_unsized && storage != Storage::Renderbuffer;
     let format = if is_unsized { Format::UnsizedDepth } else { Format::Depth(settings.format) };
     ImageDesc { label: format!("light {} {name}", view.index), size: [settings.size; 2], format, storage }
 }
 
-/// Whether the layer is drawn under GL_DEPTH_CLAMP, so that what comes nearer to the light than the near plane is drawn at
-/// that plane's depth instead of being clipped; says so of `what`. Near and far are the map's, not the light's.
+/// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that casters before the near plane are drawn at that plane's
+/// depth instead of being clipped; notes it for `what`. Near and far are the map's, not the light's.
 pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
     let Some(item) = clamps_near(view, layer) else { return layer.clamped };
     let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };
@@ -153,15 +153,15 @@ pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: 
 }
 
 /// The first caster of the layer that may lie before the near plane.
-fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Item> {
+fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Drawable> {
     let in_parts = layer.in_parts.iter().map(|part| part.item);
     layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item))
 }
 
 /// Draw state and cleared depth; reversed depth range, test and offset for GEQUAL.
 ///
-/// GL adds the offset before it clamps [GL 4.6, 14.6.5 and 17.3.4]: an offset away from the light moves what lies before
-/// the near plane by as much as any other, and only what is then still before it to the plane.
+/// GL adds the offset before it clamps [GL 4.6, 14.6.5 and 17.3.4]: an offset away from the light moves casters before the
+/// near plane like any other, and only those still before it are then clamped to the plane.
 pub fn state(
     settings: &Settings,
     PolygonOffset { factor, units }: PolygonOffset,
@@ -185,16 +185,16 @@ pub fn state(
     }
 }
 
-/// The greatest depth that is drawn where what is cleared must lie behind it: two codes of 16 bits before 1.
+/// Greatest depth to draw if the cleared depth must lie behind it: two codes of 16 bits before 1.
 const LAST: f64 = 1.0 - 1.0 / 32_768.0;
 
-/// Whether an offset could move what is drawn to the depth that the map is cleared to, although what it shadows lies behind:
-/// what lies beyond the box of parallel light is compared at depth 1, and would be lit through it. A steep side's offset has no
-/// bound. What lies beyond the box itself must still be clipped.
+/// Tests whether an offset could move a caster to the depth that the map is cleared to. Points beyond the box of parallel
+/// light are compared at depth 1, and would be lit through it. A steep side's offset has no bound. Casters beyond the box
+/// itself must still be clipped.
 fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {
     let PolygonOffset { factor, units } = layer.offset;
     let clip_from_world = map_clip_from_world(view, settings);
-    let is_held = |item: &&Item| {
+    let is_held = |item: &&Drawable| {
         let clip_from_model = clip_from_world * item.world_from_model;
         item.bounds.corners().into_iter().all(|corner| (clip_from_model * corner.extend(1.0)).z.abs() <= LAST)
     };
@@ -212,13 +212,13 @@ fn before_cleared(state: DrawState) -> DrawState {
     DrawState { depth_clamp: true, depth_range: [near, last], ..state }
 }
 
-/// Clip space whose depths under the shorter range are what they were.
+/// Matrix in clip space that makes up for the shorter range, so that depths stay what they were.
 fn depths_kept() -> DMat4 {
     let longer = LAST.recip();
     DMat4::from_translation(DVec3::new(0.0, 0.0, longer - 1.0)) * DMat4::from_scale(DVec3::new(1.0, 1.0, longer))
 }
 
-/// The casters in as few batches as their alpha tests allow, with the layer's ending in place of depth's own.
+/// The casters in as few batches as their alpha tests allow, with the layer's ending.
 pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
     let clip_from_world = map_clip_from_world(view, settings);
     let clip_from_world =
@@ -227,11 +227,11 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
     let clamped = layer.clamped || clamps_near(view, layer).is_some();
     let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped);
     let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
-    let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+    let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);
     for InParts { item, scissors } in layer.in_parts {
         let cut = cutter.cut(item);
-        let cut: Vec<&Item> = cut.iter().map(AsRef::as_ref).collect();
+        let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
         let whole = depth_batches(&cut, &clip_from_world, list);
         for scissor in scissors {
             batches.extend(whole.iter().map(|batch| Batch { scissor: Some(*scissor), ..batch.clone() }));
@@ -239,7 +239,7 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
     }
     let Some(ending) = &layer.ending else { return batches };
     for batch in &mut batches {
-        batch.meaning = Meaning::Shader(ending.label);
+        batch.meaning = FixedFunctionDesc::Shader(ending.label);
         batch.program.label = ending.label.to_owned();
         batch.program.fragment.pop();
         batch.program.fragment.push(ending.fragment.clone());

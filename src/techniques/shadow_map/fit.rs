@@ -1,74 +1,25 @@
-//! The part of a light's frustum that its map needs to cover: what holds casters, and of that what is seen in the light
-//! (`fit`). The light's own reach stays what it is; only texels are moved to where they are looked at.
+//! The part of a light's frustum that its map must cover (`fit`): the part that holds casters, or of that the part that is
+//! lit and seen. The light's reach stays the same; only the texels are placed where they are used.
 //!
-//! What is looked up beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE), which lie a filter's reach
-//! away from every caster and hold nothing; or else nothing that is seen lies there, or no light does.
+//! A lookup beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE). They lie more than a filter's reach from
+//! every caster and hold nothing, or nothing visible and lit lies there.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Vec4};
+use glam::{DVec3, DVec4};
 
 use super::bias;
 use super::casters::may_cast;
 use super::settings::{Bias, Fit, Mipmaps, Settings};
+use crate::lights::caster_culling::Unseen;
+use crate::lights::projector::Rays;
+use crate::lights::{Crop, Drawable, FrustumView, Notes};
 use crate::math::Aabb;
-use crate::math::frustum::{self, Overlap, clip_polygon};
-use crate::techniques::projector::Rays;
-use crate::techniques::unseen::Unseen;
-use crate::techniques::{FrustumView, Item, Notes};
+use crate::math::frustum::{self, clip_polygon};
 
-/// A rectangle of a light's normalised device coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crop {
-    min: DVec2,
-    max: DVec2,
-}
-
-impl Crop {
-    pub const WHOLE: Self = Self { min: DVec2::NEG_ONE, max: DVec2::ONE };
-    const NOTHING: Self = Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
-
-    fn center(&self) -> DVec2 {
-        0.5 * (self.min + self.max)
-    }
-
-    /// The light's normalised device coordinates of those over the map.
-    pub fn light_clip(&self, map: DVec2) -> DVec2 {
-        self.center() + self.half() * map
-    }
-
-    /// Half its size; (1, 1) of the whole.
-    pub fn half(&self) -> DVec2 {
-        0.5 * (self.max - self.min)
-    }
-
-    fn with(self, point: DVec2) -> Self {
-        Self { min: self.min.min(point), max: self.max.max(point) }
-    }
-
-    fn within(self, other: Self) -> Self {
-        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.min.cmpge(self.max).any()
-    }
-
-    /// The map's clip space from the light's.
-    pub fn map_clip_from_light_clip(&self) -> DMat4 {
-        DMat4::from_scale(self.half().recip().extend(1.0)) * DMat4::from_translation(-self.center().extend(0.0))
-    }
-
-    /// Scale and offset from (s, t) over the cropped square to (s, t) over the frustum's.
-    pub fn frustum_from_map(&self) -> Vec4 {
-        let (scale, offset) = (self.half(), 0.5 + 0.5 * self.min);
-        Vec4::new(scale.x as f32, scale.y as f32, offset.x as f32, offset.y as f32)
-    }
-}
-
-/// Leaves out of `casters` what shadows nothing but what lies behind the whole scene, and says which part of the light's
-/// frustum the map covers.
-pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Settings, notes: &mut Notes) -> Crop {
+/// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
+/// covers.
+pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Settings, notes: &mut Notes) -> Crop {
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
-    // A map of one side's faces needs closed casters: what shadows nothing need not be one.
+    // A map of one side's faces needs closed casters; a caster that shadows nothing need not be closed.
     if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {
         return Crop::WHOLE;
     }
@@ -98,7 +49,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Item>, settings: &Setting
     fitted
 }
 
-/// Around every caster in the frustum, so that what else is left out moves no texel.
+/// A crop around every caster in the frustum, so that leaving items out moves no texel.
 fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     let clip_from_world = view.clip_from_world();
     let mut crop = Crop::NOTHING;
@@ -118,23 +69,20 @@ fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     crop.within(Crop::WHOLE)
 }
 
-/// Around what the camera sees of the scene's bounds, in the light. Every light's ray that meets the part that both
+/// A crop around the lit part of the scene's bounds that the camera sees. Every light's ray that meets the part that both
 /// bounds and camera hold leaves it through one of its faces: so these are enough.
 fn of_sight(view: &FrustumView<'_>) -> Crop {
-    let camera = &view.scene.camera;
-    let camera_clip = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let seen =
-        |item: &&Item| frustum::overlap(&(camera_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let camera_clip = view.camera.clip_from_world;
     let points = view
-        .items
+        .camera
+        .visible
         .iter()
-        .filter(seen)
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
     let bounds = Aabb::from_points(points);
     let slack = DVec3::splat(1e-6 * bounds.radius());
     let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
     let light_clip = view.clip_from_world();
-    // The light's sides alone: it lights from its very position on.
+    // Only the light's sides: it lights everything from its position on.
     let light_sides: Vec<DVec4> = frustum::planes(&light_clip)[..4].to_vec();
     let camera_sides = frustum::planes(&camera_clip);
     let bounds_sides = sides(&bounds);
@@ -146,7 +94,7 @@ fn of_sight(view: &FrustumView<'_>) -> Crop {
             let clipped = others.iter().chain(&light_sides).fold(face.to_vec(), |face, side| clip_polygon(&face, side));
             for point in clipped {
                 let clip = light_clip * point.extend(1.0);
-                // All sides of the light meet in its position: there, any direction may be meant.
+                // All sides of the light meet at its position, where the direction is undefined.
                 if clip.w <= 0.0 {
                     return Crop::WHOLE;
                 }
@@ -182,8 +130,8 @@ pub fn rim_texels(settings: &Settings) -> f64 {
     lookup_texels(settings, 1.0) + 1.0
 }
 
-/// How far a lookup reaches from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as
-/// wide ones of a second level.
+/// Reach of a lookup from its point, in texels: the kernel's and the filter's, those of a normal offset, twice as wide ones
+/// of a second level.
 ///
 /// A normal offset moves a point by up to √2 times the kernel's and filter's reach, and its place in the map by no more
 /// than that times `slant`, the secant of the greatest angle between the light's rays and its axis.

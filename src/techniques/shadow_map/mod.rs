@@ -1,31 +1,34 @@
-//! Shadow maps by the depth comparison of the texture unit [Hardware Shadow Mapping; techniques A1–A10, A13, A16, A20];
-//! its parts are what every technique with a map is made of.
+//! Shadow maps by the depth comparison of the texture unit [Williams 1978; HSM, "How To Do It"]. Every technique with a map
+//! uses its parts.
 
-mod behind;
 pub(super) mod bias;
 pub(super) mod casters;
 mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
+pub(super) mod forecast;
+mod map;
 mod parallel;
 pub(super) mod settings;
+mod simplified_casters;
+mod stencil_guard;
 mod tag;
 pub(super) mod term;
-mod texel;
 
 use self::casters::casters;
 use self::depth::Layer;
+use self::forecast::Stored;
 use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::forecast::{self, Stored};
-use super::projector::Projector;
-use super::{Axis, FrustumView, Item, LightTerm, LightView, MapInfo, Notes, Technique};
+use super::{Axis, Technique};
+use crate::lights::projector::Projector;
+use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{ImageId, PassList};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
 
-/// A constant cannot take the place of the slope factor [Hardware Shadow Mapping, on polygon offset; techniques A8].
+/// Claims that a constant cannot replace the slope factor [HSM, "Why Is Polygon Offset Needed?"].
 const CLAIMS: &[Claim] = &[
     Claim {
         says: "a constant offset must be larger than a slope-scaled one for equal false shadow",
@@ -41,7 +44,7 @@ const CLAIMS: &[Claim] = &[
         relation: Relation::Greater,
         second: Contender::SlopeScaled,
     },
-    // The slope factor knows no bound at a caster's rim: what is turned away behind it is told apart.
+    // The slope factor has no bound at a caster's rim: surfaces turned away behind it are counted apart.
     Claim {
         says: "a constant offset leaks more, with what is turned away",
         quantity: Quantity::Leak,
@@ -61,7 +64,7 @@ impl Technique for ShadowMap {
     }
 
     fn source(&self) -> &'static str {
-        "Hardware Shadow Mapping; techniques A1-A10, A12, A13, A16, A20"
+        "Hardware Shadow Mapping"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -72,7 +75,7 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// Of these keys a cube map has those of the first three grids alone; nothing lies behind parallel light.
+    /// A cube map has the keys of the first three grids only; nothing lies behind parallel light.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         match kind {
             LightKind::Point(_) => &settings::MORE_AXES[..3],
@@ -102,34 +105,36 @@ impl Technique for ShadowMap {
             return Ok(cube::describe(view, point, &settings, list, notes));
         }
         match one_view(view, &settings, keys, notes)? {
-            Some(view) => Ok(one_map(&view, settings, list, notes)),
+            Some(view) => Ok(one_map(view, &settings, list, notes)),
             None => Ok(without_casters(view, &settings, notes)),
         }
     }
 }
 
 /// A light with one square map.
-fn one_map(view: &FrustumView<'_>, mut settings: Settings, list: &mut PassList, notes: &mut Notes) -> LightTerm {
-    let mut casters = casters(view, &settings, notes);
-    settings.crop = fit::crop(view, &mut casters, &settings, notes);
+fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, notes: &mut Notes) -> LightTerm {
+    let mut casters = casters(&view, settings, notes);
+    view.projector.crop = fit::crop(&view, &mut casters, settings, notes);
+    let view = &view;
     if casters.is_empty() && !view.keep_all {
-        return without_casters(view, &settings, notes);
+        return without_casters(view, settings, notes);
     }
-    let offset = bias::offset(&settings);
+    let offset = bias::offset(settings);
     let forecast = forecast::Map {
-        settings: &settings,
+        settings,
         offset,
         stored: Stored::Nearest,
         casters: &casters,
         projectors: vec![view.projector.clone()],
     };
     forecast::warn(view, &forecast, notes);
-    let fewer = if settings.simplified { texel::simplified(view, &casters, &settings, notes) } else { Vec::new() };
-    let fewer: Vec<&Item> = fewer.iter().collect();
+    let fewer =
+        if settings.simplified { simplified_casters::simplified(view, &casters, settings, notes) } else { Vec::new() };
+    let fewer: Vec<&Drawable> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = Layer::plain("depth", "map", offset.polygon, casters);
-    let map = depth::draw(view, &layer, &settings, list, notes);
-    let mut term = looked_up(view, map, &settings, offset.texels, notes);
+    let map = depth::draw(view, &layer, settings, list, notes);
+    let mut term = looked_up(view, map, settings, offset.texels, notes);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
     term
 }
@@ -143,11 +148,11 @@ pub(super) fn looked_up(
     notes: &mut Notes,
 ) -> LightTerm {
     let mut term = term::term(view, map, settings, texels);
-    behind::guard(view, settings, &mut term, notes);
+    stencil_guard::guard(view, settings, &mut term, notes);
     term
 }
 
-/// For techniques that draw one square map and no other.
+/// Refuses point lights, for techniques that draw one square map.
 pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
     match kind {
         LightKind::Spot(_) | LightKind::Directional { .. } => Ok(()),
@@ -177,12 +182,12 @@ pub(super) fn one_view<'a>(
     Ok(projector.map(|projector| FrustumView { light_view: *view, projector }))
 }
 
-/// A light in whose frustum nothing casts a shadow that is seen.
+/// Term of a light in whose frustum nothing casts a visible shadow.
 pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
     let mut term = LightTerm::unshadowed(view.scene, view.index);
     term.dimming = settings.dimming;
-    behind::guard(view, settings, &mut term, notes);
+    stencil_guard::guard(view, settings, &mut term, notes);
     term
 }

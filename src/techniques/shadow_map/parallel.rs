@@ -1,33 +1,33 @@
-//! The map of a directional light: an orthographic box around what casts, as far as something lies behind it that it can
-//! shadow [techniques A1]. The box depends on the scene alone, never on the camera.
+//! The map of a directional light: an orthographic box around the casters that have something behind them to shadow [HSM,
+//! "How To Do It"]. The box depends on the scene alone, never on the camera.
 //!
-//! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's
-//! width is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light
-//! the box holds the casters; what lies behind them all is compared at depth 1, and is behind all the same.
+//! Across the light the box is a rectangle of whole texels of a grid that stands still in the world, and the texel's width
+//! is one of a few steps: a caster that moves a little moves the map by whole texels or not at all. Along the light the box
+//! holds the casters; receivers behind them all are compared at depth 1, which is still behind.
 //!
-//! Nothing outside the box is shadowed, and no shader has to ask: what is looked up there meets the texels at the rim
-//! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end, and where the box ends before its casters do, nothing
-//! beyond lies behind them.
+//! Nothing outside the box is shadowed, and no shader has to test it: lookups there meet the texels at the rim
+//! (GL_CLAMP_TO_EDGE). Those hold nothing where the casters end. Where the box ends before its casters, nothing lies behind
+//! them there.
 
 use glam::{DMat4, DVec3, DVec4};
 
 use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
+use crate::lights::guard::Guard;
+use crate::lights::projector::{Projector, Rays};
+use crate::lights::{Crop, Drawable, LightView, Notes};
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 use crate::scene::{Reader, SettingsError};
-use crate::techniques::guard::Guard;
-use crate::techniques::projector::{Projector, Rays};
-use crate::techniques::{Item, LightView, Notes};
 
 /// Widths of a texel in a factor of 2.
 const STEPS: f64 = 8.0;
 
-/// What a directional light's map cannot do.
+/// Refuses keys that a directional light's map cannot serve.
 ///
 /// # Errors
 ///
-/// Levels of which one reaches across the whole, or a map too small for its own rim.
+/// Mipmaps, of which one level would reach across the whole map, or a map too small for its own rim.
 pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
     if settings.mipmaps == Mipmaps::All {
         return Err(keys.error(
@@ -49,7 +49,7 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
     Ok(())
 }
 
-/// What a lookup reaches across, in whole texels, Direct3D's half texel included.
+/// Width of a lookup, in whole texels, Direct3D's half texel included.
 fn rim(settings: &Settings) -> u32 {
     rim_texels(settings).ceil() as u32 + 1
 }
@@ -72,12 +72,12 @@ pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, no
         "around what casts, as far as something lies behind it",
     );
     let clip_from_light = spaces::orthographic(min, max);
-    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction) })
+    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction), crop: Crop::WHOLE })
 }
 
-/// Around every caster as far as other items, or itself where it is not flat, reach behind it; in light space, where z
-/// falls along the rays. In z, around the whole of these casters.
-fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
+/// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
+/// bounds of these casters as a whole; z falls along the rays.
+fn needed(items: &[Drawable], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
         let own = boxes[index];
@@ -96,15 +96,15 @@ fn needed(items: &[Item], boxes: &[Aabb]) -> Option<Aabb> {
     (!needed.is_empty() && needed.min.is_finite() && needed.max.is_finite()).then_some(needed)
 }
 
-/// A box deeper than so many times its width may be deep for what lies beside it.
+/// Ratio of depth to width above which a box may be deep only because of items beside it.
 const DEEP: f64 = 16.0;
 
-/// How much farther the casters are looked at than what is needed, over the longer side.
+/// Margin within which casters are examined, as a share of the longer side.
 const BESIDE: f64 = 0.5;
 
 /// The sides of a box that holds no more of the casters' depth than they have within it: an oblique floor is as deep as it
 /// is long. `None` where `needed` is not deep, or nothing is gained.
-fn shallow(items: &[Item], light_from_world: &DMat4, needed: &Aabb, settings: &Settings) -> Option<(DVec3, DVec3)> {
+fn shallow(items: &[Drawable], light_from_world: &DMat4, needed: &Aabb, settings: &Settings) -> Option<(DVec3, DVec3)> {
     let extent = needed.max - needed.min;
     let longer = extent.x.max(extent.y);
     if longer == 0.0 || extent.z <= DEEP * longer {
@@ -137,18 +137,18 @@ fn shallow(items: &[Item], light_from_world: &DMat4, needed: &Aabb, settings: &S
 fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
     let (size, rim) = (f64::from(settings.size), f64::from(rim(settings)));
     let extent = needed.max - needed.min;
-    // Of what is flat across the light, and not below what f32 resolves at its place.
+    // Least thickness, for casters that are flat across the light; not below what f32 resolves there.
     let reach = needed.min.abs().max(needed.max.abs()).max_element();
     let least = (1e-3 * extent.max_element()).max(1e-5 * reach).max(f64::MIN_POSITIVE);
     let axis = |min: f64, extent: f64| {
-        // One texel more for the place of the first on the grid.
+        // One more texel for the place of the first on the grid.
         let texel = extent.max(least) / (size - 2.0 * rim - 1.0);
         let texel = ((texel.log2() * STEPS).ceil() / STEPS).exp2();
         let start = ((min / texel).floor() - rim) * texel;
         (start, start + size * texel)
     };
     let (x, y) = (axis(needed.min.x, extent.x), axis(needed.min.y, extent.y));
-    // Room for the offset of the farthest caster, which must not reach what is cleared.
+    // Room for the offset of the farthest caster, which must not reach the cleared depth.
     let room = (extent.z / 16.0).max(least);
     (DVec3::new(x.0, y.0, needed.min.z - room), DVec3::new(x.1, y.1, needed.max.z + room))
 }
@@ -156,8 +156,9 @@ fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lights::CameraView;
+    use crate::lights::drawable::items;
     use crate::scene;
-    use crate::techniques::items::items;
 
     fn scene_of(objects: &str, shadow: &str) -> scene::Scene {
         let folder = tempfile::tempdir().unwrap();
@@ -174,7 +175,16 @@ mod tests {
         let items = items(&scene, false);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
         let (shown_whole, keep_all, sampled_warnings) = (false, false, false);
-        let view = LightView { scene: &scene, items: &items, index: 0, shown_whole, keep_all, sampled_warnings };
+        let camera = CameraView::new(&scene, &items);
+        let view = LightView {
+            scene: &scene,
+            items: &items,
+            camera: &camera,
+            index: 0,
+            shown_whole,
+            keep_all,
+            sampled_warnings,
+        };
         let found = projector(&view, -DVec3::Y, &settings, &mut Notes::default())?;
         Some(Aabb::from_points(crate::math::frustum::corners(&found.clip_from_world().inverse())))
     }
@@ -190,7 +200,7 @@ mod tests {
         assert!(found.min.cmplt(least).all() && found.max.cmpgt(DVec3::new(4.0, 3.0, -6.0)).all(), "{found:?}");
         let size = found.max - found.min;
         assert!(size.x < 2.0 * 1.0905 * 256.0 / 249.0 && (size.z - size.x).abs() < 1e-9, "{size}");
-        // Of the floor only its own height, which nothing lies behind.
+        // Only the floor's own height is needed: nothing lies behind it.
         assert!(found.min.y < 1.0 && found.min.y > 0.8, "{found:?}");
         assert_eq!(box_of(FLOOR, "size = 256"), None, "a floor alone shadows nothing");
     }

@@ -1,22 +1,22 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
-use super::fit::Crop;
+use crate::lights::guard::Guard;
+pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};
 use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
-use crate::techniques::guard::Guard;
 
-/// How the depth texture gets its texels [techniques A2].
+/// Way in which the depth texture gets its texels [HSM, "Why Is Polygon Offset Needed?"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// Drawn into directly.
+    /// The texture is drawn into directly.
     Fbo,
     /// glCopyTexSubImage2D from a framebuffer of the map's size.
     Copy,
 }
 
-/// Which way depth grows [techniques A4].
+/// Direction in which depth grows [LEC, "shadow API Usage"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// LEQUAL against a map of nearest depths.
@@ -25,100 +25,85 @@ pub enum Order {
     GreaterEqual,
 }
 
-/// Whose rules the map is drawn and addressed by [techniques A9].
+/// Conventions by which the map is drawn and addressed [HSM, "Direct3D API Details"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Addressing {
     OpenGl,
-    /// Pixel centres at integers, rows from the top, depth in integer units. Texel centres lie at halves there, so that half
-    /// a texel must be made up for.
+    /// Pixel centres at integers, rows from the top, depth in integer units. Texel centres lie at halves there, so that
+    /// half a texel must be compensated.
     Direct3d(HalfTexel),
 }
 
-/// Where Direct3D's half texel is made up for: either of the document's two ways.
+/// Compensation for Direct3D's half texel [HSM, "Direct3D API Details"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HalfTexel {
-    /// In the texture matrix, when the map is addressed.
+    /// Half a texel in the texture matrix, when the map is addressed.
     Matrix,
-    /// In the viewport, when the map is drawn.
+    /// Half a texel in the viewport, when the map is drawn.
     Viewport,
 }
 
-/// Which levels a map has, and how they are met [techniques A11].
+/// Levels of a map, and their use [LEC, "Mipmapping for Depth Textures"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mipmaps {
     /// One level.
     None,
-    /// Every level; which two are met the size of a pixel decides.
+    /// Every level; the size of a pixel decides which two are used.
     All,
     /// Two levels, and halfway between them everywhere: eight taps.
     EightTaps,
 }
 
-/// What keeps a surface from shading itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bias {
-    /// glPolygonOffset while the map is drawn [techniques A8].
-    Offset,
-    /// The reference follows the receiver's plane to each tap, and gives way by the reach of the tap's filter.
-    ReceiverPlane,
-    /// The receiver is looked up a little off its surface.
-    NormalOffset,
-    /// The reference is the receiver's plane at each texel's centre [Dou et al. 2014].
-    Adaptive,
-}
-
-/// What of the light's frustum the map covers.
+/// Part of the light's frustum that the map covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// All of it.
     None,
-    /// What holds casters.
+    /// The part that holds casters.
     Casters,
-    /// Of that, what is lit and seen: the map then follows the camera.
+    /// The part that holds casters and is lit and seen: the map then follows the camera.
     View,
 }
 
 /// `offset`, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offset {
-    /// While the map is drawn.
+    /// Polygon offset while the map is drawn.
     pub polygon: PolygonOffset,
-    /// When it is compared: how far the receiver is moved towards the light, in texels' widths where it is.
+    /// Movement of the receiver towards the light when it is compared, in widths of a texel at the receiver.
     pub texels: f64,
 }
 
-/// Where the outcome of the comparison goes.
+/// Destination of the comparison's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Into the lit pass, as the shade that it asks for.
+    /// The lit pass looks the shade up.
     Shade,
-    /// Into the stencil buffer, as a tag that the light's own pass heeds.
+    /// The stencil buffer: a tag that the light's own pass tests.
     Tag,
 }
 
-/// Everything that decides how a map is drawn and compared.
+/// Settings of a map: how it is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Texels a side.
     pub size: u32,
     pub format: DepthFormat,
-    /// Whether the texture is unsized, so that the driver chooses its bits: `format` is then the one to expect, that of the
-    /// picture's depth buffer [lecture, "New Depth Texture Internal Texture Formats"].
+    /// True if the texture is unsized, so that the driver chooses its bits: `format` is then that of the picture's depth
+    /// buffer [LEC, "New Depth Texture Internal Texture Formats"].
     pub is_unsized: bool,
     pub transfer: Transfer,
     pub filter: Filter,
     pub order: Order,
-    /// `None`: see [`super::bias`].
+    /// The offset as written; `None`: the default of [`super::bias`].
     pub offset: Option<Offset>,
     pub bias: Bias,
     /// Comparisons a side, 1..=7.
     pub kernel: u32,
     pub mipmaps: Mipmaps,
     pub fit: Fit,
-    /// Whether casters are drawn with no more triangles than the map's texels show.
+    /// True if casters are drawn with no more triangles than the map's texels show.
     pub simplified: bool,
-    /// What `fit` comes to in a scene; the whole until [`super::fit::crop`] was asked.
-    pub crop: Crop,
     pub cull: Option<Face>,
     pub set_up: SetUp,
     pub split: Split,
@@ -134,7 +119,7 @@ pub struct Settings {
     pub guard: Guard,
 }
 
-/// What decides the error: resolution, bits, filter, offset.
+/// Keys that decide the error: resolution, bits, filter, offset.
 pub const AXES: &[Axis] = &[
     Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["512", "1024"] },
     Axis { key: "format", values: &["\"depth16\"", "\"depth24\"", "\"depth32f\""], quick: &["\"depth24\""] },
@@ -151,8 +136,8 @@ pub const AXES: &[Axis] = &[
     },
 ];
 
-/// Under the scene's own offset: the road of the texels, which changes none of them; tags, which are one bit; kernels, what
-/// else there is against acne, mipmaps, fits; last, of spotlights alone, what guards against back projection.
+/// Extra sweeps, all with the scene's own offset: `transfer`, which must not change any texel; one-bit stencil tags; kernel
+/// sizes; other biases; mipmaps; fits; and for spotlights, last, guards against back projection.
 pub const MORE_AXES: &[&[Axis]] = &[
     &[
         Axis { key: "size", values: &["256", "512", "1024", "2048", "4096"], quick: &["1024"] },
@@ -243,7 +228,6 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
             .choice("fit", &[("none", Fit::None), ("casters", Fit::Casters), ("view", Fit::View)])?
             .unwrap_or(Fit::None),
         simplified: keys.choice("casters", &[("full", false), ("texel", true)])?.unwrap_or(false),
-        crop: Crop::WHOLE,
         cull: keys
             .choice("cull", &[("none", None), ("back", Some(Face::Back)), ("front", Some(Face::Front))])?
             .unwrap_or(None),
@@ -286,7 +270,7 @@ fn read_mipmaps(keys: &mut Reader<'_>) -> Result<Mipmaps, SettingsError> {
     Ok(if keys.boolean("mipmaps")? == Some(true) { Mipmaps::All } else { Mipmaps::None })
 }
 
-/// What mipmaps do not go with.
+/// Refuses keys that do not go with mipmaps.
 fn check_mipmaps(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsError> {
     if settings.mipmaps == Mipmaps::None {
         return Ok(());
@@ -318,7 +302,7 @@ fn read_offset(keys: &mut Reader<'_>) -> Result<Option<Offset>, SettingsError> {
     Ok(Some(Offset { polygon: PolygonOffset { factor, units }, texels }))
 }
 
-/// `r = { scale, bias }`; the document's halves where absent.
+/// `r = { scale, bias }`; one half each if absent [HSM, "Computing Transformations for Shadow Mapping"].
 fn read_r(keys: &mut Reader<'_>) -> Result<(f64, f64), SettingsError> {
     let Some(table) = keys.table("r")? else { return Ok((0.5, 0.5)) };
     let mut r = table.read();

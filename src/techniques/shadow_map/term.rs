@@ -1,17 +1,16 @@
-//! How the lit pass looks a map up: its sampler, its texture matrix, and where in it the light's frustum lies.
+//! Lookup of a map in the lit pass: its sampler, its texture matrix, and the place of the light's frustum in it.
 
 use glam::{DMat4, DVec3, Vec4};
 
-use super::bias;
-use super::fit::Crop;
+use super::map::map_info;
 use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
-use super::tag;
+use super::{bias, tag};
+use crate::lights::projector::Rays;
+use crate::lights::{Coordinates, Crop, FrustumView, LightTerm};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
 use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
-use crate::techniques::projector::Rays;
-use crate::techniques::{Coordinates, FrustumView, LightTerm, MapInfo};
 
-/// How the lit pass compares against `map`, with what is compared moved towards the light by `texels`.
+/// Light term that compares against `map`, with receivers moved towards the light by `texels`.
 pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
     let index = view.index;
     let name = format!("shadow_map_{index}");
@@ -23,7 +22,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         term.defines.push(format!("CLAMP_REFERENCE_{index}"));
     }
     let mut coordinates = Coordinates {
-        texture_from_light_clip: texture_from_light_clip(settings) * settings.crop.map_clip_from_light_clip(),
+        texture_from_light_clip: texture_from_light_clip(settings) * view.projector.crop.map_clip_from_light_clip(),
         receiver_bias: DMat4::IDENTITY,
         light_clip_from_light: view.projector.clip_from_light,
         light_from_world: view.projector.light_from_world,
@@ -33,35 +32,35 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     if texels > 0.0 {
         coordinates.receiver_bias = bias::moved_to_light(&view.projector, texels, settings);
     }
-    // Parallel light reaches everywhere: nothing asks where a frustum ends.
+    // Parallel light reaches everywhere: no frustum bounds it.
     if let Rays::From { .. } = view.projector.rays {
-        term.frustum_from_map = frustum_from_map(settings);
+        term.frustum_from_map = frustum_from_map(view.projector.crop, settings);
     }
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
-    term.map_info = Some(MapInfo::new(view, settings, texels));
+    term.map_info = Some(map_info(view, settings, texels));
     look_up(&mut term, &coordinates, view, settings);
     term.coordinates = Some(coordinates);
     term
 }
 
 /// Scale and offset from (s, t) of the map to those of the light's whole frustum, where they differ.
-fn frustum_from_map(settings: &Settings) -> Option<Vec4> {
-    let crop = settings.crop.frustum_from_map();
+fn frustum_from_map(covered: Crop, settings: &Settings) -> Option<Vec4> {
+    let crop = covered.frustum_from_map();
     match settings.addressing {
         Addressing::Direct3d(way) => {
             let half_texel = matrix_half_texel(way, settings) as f32;
             let [x, y] = [-half_texel, 1.0 + half_texel];
             Some(Vec4::new(crop.x, -crop.y, crop.x * x + crop.z, crop.y * y + crop.w))
         }
-        Addressing::OpenGl => (settings.crop != Crop::WHOLE).then_some(crop),
+        Addressing::OpenGl => (covered != Crop::WHOLE).then_some(crop),
     }
 }
 
-/// How the map of such rays is sampled. Beyond the box of parallel light nothing is shadowed, whatever its outermost
-/// texels hold: there the map goes on with what it is cleared to. Beyond a frustum no light falls, and what lies there
-/// is best guessed from the texel beside it.
+/// Sampler of a map with such rays. Beyond the box of parallel light nothing is shadowed, whatever its outermost texels
+/// hold: the border has the depth that the map is cleared to. Beyond a frustum no light falls, and the nearest texel is the
+/// best guess.
 pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
     let (compare, farthest) = match settings.order {
         Order::LessEqual => (Compare::LessEqual, Border::One),
@@ -71,7 +70,7 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
         Rays::From { .. } => Wrap::ClampToEdge,
         Rays::Along(_) => Wrap::ClampToBorder(farthest),
     };
-    // Where the shader weighs the texels itself, it asks for them one by one.
+    // If the shader weighs the texels itself, it reads them one by one.
     let filter = if settings.bias == Bias::Adaptive { Filter::Nearest } else { settings.filter };
     let plain = Sampler { filter, wrap, compare: Some(compare), lod_halves: None };
     match settings.mipmaps {
@@ -81,7 +80,7 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
     }
 }
 
-/// The shader of a kernel, and of a bias that the comparison itself brings. One comparison is the plain one's.
+/// Chooses the shader of a kernel, or of a bias in the comparison. One comparison needs only the plain shader.
 fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
     if settings.mipmaps != Mipmaps::None {
@@ -132,7 +131,7 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
     if settings.bias != Bias::Offset {
         term.defines.push(format!("DERIVATIVES_{index}"));
     }
-    // These clamp the reference themselves, whatever the format.
+    // These shaders clamp the reference themselves, whatever the format.
     if settings.bias != Bias::Offset {
         term.defines.retain(|name| !name.starts_with("CLAMP_REFERENCE"));
     }
@@ -159,7 +158,7 @@ pub fn texture_from_light_clip(settings: &Settings) -> DMat4 {
     mirrored * texture
 }
 
-/// The half texel of the texture matrix, of [0, 1].
+/// Half a texel in the texture matrix, as a share of [0, 1].
 fn matrix_half_texel(way: HalfTexel, settings: &Settings) -> f64 {
     match way {
         HalfTexel::Matrix => 0.5 / f64::from(settings.size),

@@ -1,4 +1,4 @@
-//! What casts: the parts of an object that hang together, with their adjacency, which is found once a mesh.
+//! Casters: the connected parts of an object, with their adjacency, which is found once for each mesh.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -7,24 +7,24 @@ use glam::DMat4;
 
 use crate::geometry::Mesh;
 use crate::geometry::volume::Caster;
+use crate::lights::Drawable;
 use crate::math::Aabb;
-use crate::techniques::Item;
 
 /// An object that casts.
 pub struct Casting {
     pub label: String,
-    /// Into the scene's objects.
+    /// Index into the scene's objects.
     pub object: usize,
     pub caster: Arc<Caster>,
     pub world_from_model: DMat4,
-    /// In model space, of the parts that cast.
+    /// Bounds in model space, of the parts that cast.
     pub bounds: Aabb,
-    /// Some of its surface is cut out by the alpha test; its volume is not.
+    /// True if the alpha test makes holes in its surface; its volume has none.
     pub has_holes: bool,
 }
 
 /// The objects of `items` that cast, each with all its parts: a surface may be closed only across them.
-pub fn casting(items: &[Item]) -> Vec<Casting> {
+pub fn casting(items: &[Drawable]) -> Vec<Casting> {
     let mut casting = Vec::new();
     for parts in items.chunk_by(|a, b| a.object == b.object) {
         let [first, ..] = parts else { continue };
@@ -38,7 +38,7 @@ pub fn casting(items: &[Item]) -> Vec<Casting> {
             caster: adjacency(&first.mesh.0, ranges),
             world_from_model: first.world_from_model,
             bounds: parts.iter().fold(Aabb::EMPTY, |bounds, part| bounds.union(part.bounds)),
-            has_holes: parts.iter().any(Item::needs_alpha_test),
+            has_holes: parts.iter().any(Drawable::needs_alpha_test),
         });
     }
     casting
@@ -50,7 +50,7 @@ struct Known {
     caster: Arc<Caster>,
 }
 
-/// Of every mesh that is still alive: neither a moved light nor the next frame looks for edges again.
+/// Casters of every mesh that is still alive: neither a moved light nor the next frame searches edges again.
 static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 
 fn adjacency(mesh: &Arc<Mesh>, ranges: Vec<Range<u32>>) -> Arc<Caster> {

@@ -1,14 +1,14 @@
-//! Which way each caster is counted, and which casters need not be: z-pass costs fewer fragments and no caps, z-fail is
-//! right wherever the eye stands [GDC 2001; techniques C3, C4].
+//! Choice of the way in which each caster is counted, and of casters that need not be: z-pass costs fewer fragments and no
+//! caps, z-fail is right for any eye [GDC, "Alternative to Near Plane Capping: Carmack's Reverse"].
 
 use super::casters::Casting;
 use super::settings::{Method, Settings};
-use super::{ends, source};
+use super::{extent, source};
 use crate::geometry::volume::{self, Viewer};
+use crate::lights::{LightView, Notes};
 use crate::math::frustum::{self, Overlap};
-use crate::techniques::{LightView, Notes};
 
-/// How one caster's volume is drawn.
+/// Way in which one caster's volume is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     LeftOut,
@@ -21,11 +21,9 @@ pub enum Way {
     ZFailTruncated,
 }
 
-/// One way for each caster.
+/// Chooses a way for each caster.
 pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, notes: &mut Notes) -> Vec<Way> {
-    let camera = &view.scene.camera;
-    let clip_from_world = camera.clip_from_view(view.scene.aspect()) * camera.view_from_world();
-    let viewer = Viewer::new(&clip_from_world);
+    let viewer = Viewer::new(&view.camera.clip_from_world);
     let one = |caster: &Casting| {
         let volume = volume::Casting::new(&caster.bounds, &caster.world_from_model, source(view));
         if let Some(why) = why_unneeded(view, caster, &volume, &viewer).filter(|_| !view.keep_all) {
@@ -62,11 +60,11 @@ fn why_unneeded(
     if !volume.may_shadow_view(viewer) {
         return Some("its shadow falls outside the view");
     }
-    ends::is_flat_before_all(view, caster, source(view))
+    extent::is_flat_before_all(view, caster, source(view))
         .then_some("it is flat, and all that is seen is on its lit side")
 }
 
-/// Whether a spotlight's light misses the caster.
+/// Tests whether a spotlight's light misses the caster.
 fn outside_cone(view: &LightView<'_>, caster: &Casting) -> bool {
     view.light().frustum().is_some_and(|frustum| {
         let clip_from_model = frustum.unbounded().clip_from_world() * caster.world_from_model;

@@ -1,18 +1,18 @@
-//! The passes that count [techniques C2–C4, C7, C8]: which faces change the stencil value, and when.
+//! The passes that count [GDC, "Stencil Inverting of Shadow Volume", "For Shadow Volumes With Intersecting Polygons",
+//! "Alternative to Near Plane Capping: Carmack's Reverse"]: which faces change the stencil value, and when.
 
 use super::choice::Way;
 use super::settings::Settings;
 use super::shapes::Shape;
+use crate::lights::LightView;
+use crate::lights::light::{CountPass, Counted, Layer, VolumeDraw};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
-use crate::techniques::LightView;
-use crate::techniques::light::{CountPass, Counted, Layer, VolumeDraw};
 
-/// The passes for all shapes, way by way. Sums modulo 256 do not care for their order; where counts stop at 0, all that
+/// The passes for all shapes, way by way. Sums modulo 256 do not depend on the order; if counts stop at 0, all passes that
 /// count up come before all that count down.
 ///
-/// A pass for one face keeps what the other finds, and culls none: of a side narrower than GL's own rounding llvmpipe
-/// culls by the area of the vertices as they are, and counts by that of the rounded ones. A face that a culling pass
-/// takes for the other one would be counted by neither pass.
+/// A pass for one face has KEEP for the other, and culls none. llvmpipe culls by the area of the unrounded vertices, but
+/// counts by that of the rounded ones. With culling, a side narrower than that rounding could be counted by neither pass.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
     let label = |what: &str| format!("light {}: {what}", view.index);
     let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
@@ -59,7 +59,7 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     [StencilOp::Invert, up, down].into_iter().flat_map(only).collect()
 }
 
-/// What of a pass does `op`: the whole of it where both faces do, or one face.
+/// The part of a pass that does `op`: all of it if both faces do, or one face.
 fn counting_only(pass: &CountPass, op: StencilOp) -> Option<CountPass> {
     let stencil = pass.state.stencil?;
     let does = |ops: StencilOps| ops.pass == op || ops.depth_fail == op;

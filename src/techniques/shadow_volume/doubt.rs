@@ -1,5 +1,5 @@
-//! Warnings of counts that cannot be right. What is seen is sampled, and the count that the settings lead to is held
-//! against whether the light reaches it.
+//! Warnings of counts that cannot be right. Visible points are sampled, and the count by these settings is compared with a
+//! ray to the light.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -10,15 +10,15 @@ use super::points::{Point, World};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
 use crate::geometry::volume::Kind;
-use crate::techniques::{Item, LightView, Notes};
+use crate::lights::{Drawable, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
 const MOST_SAMPLES: u32 = 20_000;
 
-/// The number of layers that a stencil count tells apart.
+/// Number of layers that a stencil count can distinguish.
 const LAYERS: u32 = 256;
 
-/// Why a sample is wrong.
+/// Reason why a sample is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Fault {
     Hole,
@@ -28,7 +28,7 @@ enum Fault {
     TooMany,
 }
 
-/// Says why pixels will be wrong, where a sample finds some. Nothing is sampled where nothing can be.
+/// Warns if a sample finds wrong pixels, with the reason. Nothing is sampled if nothing can be wrong.
 pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
     let drawn: Vec<&Casting> =
         casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
@@ -49,12 +49,12 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
             return Some((Fault::TooMany, point));
         }
         let fault = fault(&point, settings)?;
-        // What GL may show there instead must be wrong too.
+        // The points that GL may show there instead must be wrong too.
         let aside = [DVec2::new(1.0, 1.0), DVec2::new(-1.0, 1.0)].map(|way| point.aside * way);
         let is_sure = aside.into_iter().flat_map(|by| [by, -by]).all(|by| {
             let beside = world.at(place + by);
             beside.is_some_and(|beside| {
-                // Dark on both sides of another volume's edge, of which one is lit by parity.
+                // The point is dark on both sides of another volume's edge, and parity lights one of them.
                 let is_dark = point.is_shadowed && beside.is_shadowed;
                 self::fault(&beside, settings).is_some() || (settings.method == Method::Parity && is_dark)
             })
@@ -72,17 +72,18 @@ pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &
     }
 }
 
-/// A share of a pixel that rounding may move a volume's edge by without turning pixels over.
+/// Share of a pixel by which rounding may move a volume's edge without changing pixels.
 const MOST_MOVED: f64 = 0.2;
 
-/// The same for surfaces that stay whole for a cap, and every shadow on them: many edges, of which each may turn a pixel.
+/// The same share for surfaces that must not be cut, because caps meet them, and for every shadow on them: many edges, each
+/// of which may change a pixel.
 const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 
-/// Warns of casters so large that GL's clipping in f32 moves what is seen of them by a part of a pixel: volumes meet their
-/// casters' own vertices, which hence cannot be cut before. Light per vertex leaves all items as they are.
+/// Warns of casters so large that GL's clipping in f32 moves their visible parts by a part of a pixel: volumes meet their
+/// casters' vertices, so that these cannot be cut before. With per-vertex lighting no item is cut.
 fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
     let camera = &view.scene.camera;
-    let most_moved = |item: &Item| {
+    let most_moved = |item: &Drawable| {
         let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
         match way {
             _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
@@ -114,19 +115,19 @@ fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
     is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
 }
 
-/// How many volumes may hold one point: an open shell's triangles one by one, and of a closed one two that face the light.
+/// Greatest number of volumes that may hold one point: one for each triangle of an open shell, two for a closed one.
 fn most_layers(drawn: &[&Casting]) -> usize {
     let shells = drawn.iter().flat_map(|caster| caster.caster.shells());
     shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
 }
 
-/// Whether the count may be one that looks like none. That the point is in the dark is sure then, whatever is in doubt.
+/// Tests whether the count may be a multiple of 256, which looks like none. The point is then surely in shadow.
 fn may_wrap(point: &Point) -> bool {
     let most = point.within + point.doubtful;
     most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS
 }
 
-/// What makes a pixel wrong; `None`: it is right, or the depth buffer's rounding decides.
+/// Reason why a pixel is wrong; `None`: it is right, or the depth buffer's rounding decides.
 fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
     if point.doubtful > 0 {
         return None;

@@ -1,11 +1,11 @@
-//! Stencil shadow volumes [GDC 2001, "Stenciled Shadow Volumes"; techniques C1–C12]: how often a point lies in a volume
-//! is counted in the stencil buffer; it is lit where the count is 0.
+//! Stencil shadow volumes [Crow 1977; GDC, "Review: Stenciled Shadow Volumes"]: the stencil buffer counts the volumes that
+//! hold a point; a point is lit where the count is 0.
 
 mod casters;
 mod choice;
 mod counts;
 mod doubt;
-mod ends;
+mod extent;
 mod points;
 mod settings;
 mod shapes;
@@ -14,9 +14,10 @@ use self::casters::{Casting, casting};
 use self::choice::Way;
 use self::settings::Settings;
 use self::shapes::Shape;
-use super::light::Counting;
-use super::{Axis, LightTerm, LightView, Notes, Technique, seen};
+use super::{Axis, Technique};
 use crate::geometry::volume::{Kind, Source};
+use crate::lights::light::Counting;
+use crate::lights::{LightTerm, LightView, Notes, camera_visibility};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -32,7 +33,7 @@ impl Technique for ShadowVolume {
     }
 
     fn source(&self) -> &'static str {
-        "GDC 2001, Stenciled Shadow Volumes; techniques C1-C12"
+        "GDC 2001, Stenciled Shadow Volumes"
     }
 
     fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
@@ -89,13 +90,13 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped).then_some(settings.ledge),
         lighting: settings.lighting,
-        scissor: if view.keep_all { None } else { seen::scissor(view) },
+        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }
 }
 
-/// Where the light stands, or the direction to it, in world space.
+/// Position of the light, or the direction to it, in world space.
 fn source(view: &LightView<'_>) -> Source {
     match &view.light().kind {
         LightKind::Spot(spot) => Source::Point(spot.frustum.position),
@@ -104,7 +105,7 @@ fn source(view: &LightView<'_>) -> Source {
     }
 }
 
-/// How soups are counted.
+/// Notes how casters that are not closed are counted.
 fn explain(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
     for caster in casting {
         let open = caster.caster.shells().iter().filter(|shell| shell.kind != Kind::Closed).count();

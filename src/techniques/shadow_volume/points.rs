@@ -1,5 +1,5 @@
-//! Points that the camera sees, and what is true of them: how many volumes hold each, and whether light reaches it. By
-//! rays through pixels, in f64.
+//! Points that the camera sees, with the number of volumes that hold each, and whether light reaches it. By rays through
+//! pixels, in f64.
 
 use glam::{DVec2, DVec3};
 
@@ -7,37 +7,37 @@ use super::casters::Casting;
 use super::source;
 use crate::geometry::rays::{Ray, Triangles};
 use crate::geometry::volume::{Outline, Source};
+use crate::lights::{LightView, alpha};
 use crate::scene::{LightKind, LightShape};
-use crate::techniques::{LightView, alpha};
 
-/// What lies so near a point's own plane, relative to the segment from the light, is in it.
+/// Distance from a point's own plane within which a surface counts as in it, relative to the segment from the light.
 const IN_PLANE: f64 = 1e-9;
 
-/// GL rounds places to so much of a pixel.
+/// Step to which GL rounds positions, in pixels.
 const SUBPIXEL: f64 = 1.0 / 256.0;
 
-/// What is known of a point.
+/// A visible point, and its counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// How many volumes hold it.
+    /// Number of volumes that hold it.
     pub within: u32,
-    /// The same for volumes that end at the given distance.
+    /// Number of volumes that hold it if they end at the given distance.
     pub within_ended: u32,
     /// Volumes at whose surface it lies, within the depth buffer's rounding: they may hold it or not.
     pub doubtful: u32,
-    /// How many hold the point of the near rectangle on the same ray.
+    /// Number of volumes that hold the point of the near rectangle on the same ray.
     pub before: u32,
-    /// How many it is seen to enter through holes of their casters, less those that it is seen to leave: without caps
+    /// Number of volumes that the ray enters through holes of their casters, less those that it leaves so: without caps
     /// z-pass does not count them.
     pub through_holes: i32,
-    /// How far aside, in pixels, a picture may show it: both ways across.
+    /// Distance aside, in pixels, at which a picture may show it, in both directions.
     pub aside: f64,
     pub is_shadowed: bool,
-    /// How far behind the first caster that shadows it, in world units.
+    /// Distance behind the first caster that shadows it, in world units.
     pub behind: f64,
 }
 
-/// What there is to see and to count.
+/// Surfaces to see and volumes to count.
 pub struct World<'a> {
     view: &'a LightView<'a>,
     source: Source,
@@ -108,7 +108,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// What is seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or what is outside the
+    /// Point seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or a point outside the
     /// light's shape.
     pub fn at(&self, place: DVec2) -> Option<Point> {
         let camera = &self.view.scene.camera;
@@ -134,7 +134,7 @@ impl<'a> World<'a> {
         self.counted.crossings(&near, |_, _| before += 1);
         let mut through_holes = 0;
         if self.has_holes {
-            // What stands before the point and is not seen is a hole.
+            // A surface before the point that is not seen has a hole there.
             self.counted.crossings(&Ray { end: depth - doubt / way.length(), ..ray }, |triangle, t| {
                 let normal = normal(self.counted.corners(triangle));
                 let light_ray = self.source.away(ray.origin + t * way);
@@ -188,7 +188,7 @@ impl<'a> World<'a> {
         Point { within, within_ended, doubtful, before: 0, through_holes: 0, aside: 0.0, is_shadowed, behind }
     }
 
-    /// What f32 rounds a point of a triangle by: four times, by 2^-24 of what meets in a transform.
+    /// Rounding of f32 in a point of a triangle: four times, by 2^-24 of what meets in a transform.
     fn rounding(&self, point: DVec3, triangle: u32) -> f64 {
         let origin = self.view.items[self.owners[triangle as usize].0].world_from_model.w_axis.truncate();
         let light = match self.source {
@@ -199,18 +199,18 @@ impl<'a> World<'a> {
         4.0 * 2.0_f64.powi(-24) * met
     }
 
-    /// From the light to a point, which has t = 1.
+    /// Ray from the light to a point, which has t = 1.
     fn toward(&self, point: DVec3) -> Ray {
         let away = self.source.away(point);
         let way = match self.source {
             Source::Point(_) => away,
-            // From beyond all there is.
+            // A ray from beyond the whole scene.
             Source::Direction(_) => away.normalize() * (4.0 * (self.largest + point.abs().max_element())),
         };
         Ray { origin: point - way, way, start: 0.0, end: 1.0 }
     }
 
-    /// Whether the volume of a triangle that the ray crosses ends beyond t = 1, if it ends.
+    /// Tests whether the volume of a triangle that the ray crosses ends beyond t = 1, if it ends.
     fn goes_on(&self, triangle: u32, ray: &Ray) -> bool {
         let Some(end) = self.ended.get(triangle as usize) else { return true };
         let normal = (end[1] - end[0]).cross(end[2] - end[0]);
@@ -235,7 +235,7 @@ impl<'a> World<'a> {
             }
     }
 
-    /// Whether a triangle's surface passes the alpha test at a point of it.
+    /// Tests whether a triangle's surface passes the alpha test at a point of it.
     fn is_opaque(&self, triangle: u32, point: DVec3) -> bool {
         let (owner, number) = self.owners[triangle as usize];
         alpha::passes(&self.view.items[owner], number, self.surfaces.corners(triangle), point)

@@ -1,29 +1,34 @@
 //! The keys of `[light.shadow]` that shadow volumes read.
 
+use crate::lights::light::{LedgeDepths, Lighting};
 use crate::math::ledge::GUARD_CODES;
 use crate::pass::Redraw;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
-use crate::techniques::light::{LedgeDepths, Lighting};
 
-/// How volumes are counted [GDC 2001; techniques C2–C8].
+/// Way in which volumes are counted [GDC, "Review: Stenciled Shadow Volumes"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// For each caster the cheapest that is right.
+    /// The cheapest way that is right, for each caster.
     Auto,
-    /// C2: one bit, inverted. Right only where volumes do not intersect and the eye is outside of them.
+    /// One bit, inverted [GDC, "Stencil Inverting of Shadow Volume"]. Right only if volumes do not intersect and the eye is
+    /// outside of them.
     Parity,
-    /// C3 in two draws. Right only where the eye's near rectangle is outside of all volumes.
+    /// Counting before visible surfaces in two draws [GDC, "For Shadow Volumes With Intersecting Polygons"]. Right only if
+    /// the eye's near rectangle is outside of all volumes.
     ZPass,
-    /// C3 in one draw with two-sided stencil operations.
+    /// The same in one draw with two-sided stencil operations.
     ZPassTwoSided,
-    /// C7 with C8's ledge.
+    /// The same with caps on the near plane, on a ledge [GDC, "Near Clip Plane Capping Cases", "Building a "Ledge" at the
+    /// Front of the Depth Buffer"].
     ZPassCapped,
-    /// C4 with C6, the far plane at infinity.
+    /// Counting behind visible surfaces, with volumes and far plane at infinity [GDC, "Alternative to Near Plane Capping:
+    /// Carmack's Reverse"; Everitt and Kilgard 2002].
     ZFail,
-    /// C4 with C6 under the scene's own projection, with depth clamp.
+    /// The same under the scene's own projection, with depth clamp.
     ZFailClamped,
-    /// C5: ends at a finite distance; wrong where a shadow reaches farther.
+    /// Counting behind visible surfaces with volumes of finite length; wrong where a shadow reaches farther [GDC, "More
+    /// Implications of Carmack's Reverse"].
     ZFailTruncated,
 }
 
@@ -38,13 +43,13 @@ pub const METHODS: [(&str, Method); 8] = [
     ("z-fail-truncated", Method::ZFailTruncated),
 ];
 
-/// Everything that decides how volumes are made and counted.
+/// Settings of volumes: how they are made and counted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub method: Method,
-    /// Whether counts wrap modulo 256 or stop at 0 and 255.
+    /// True if counts wrap modulo 256; `false`: they stop at 0 and 255.
     pub wrap: bool,
-    /// How far truncated volumes reach, in world units; `None`: as far as the scene's bounds are long.
+    /// Length of truncated volumes, in world units; `None`: that of the scene's bounds.
     pub distance: Option<f64>,
     /// Depths of the ledge for volumes with caps on the near plane.
     pub ledge: LedgeDepths,
@@ -69,7 +74,7 @@ pub const AXES: &[Axis] = &[Axis {
     quick: &["\"auto\"", "\"z-fail\""],
 }];
 
-/// Reads the settings; what is absent takes the default that data/scenes/README.md names.
+/// Reads the settings; data/scenes/README.md has the defaults.
 pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     Ok(Settings {
         method: keys.choice("method", &METHODS)?.unwrap_or(Method::Auto),
@@ -90,7 +95,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
 fn read_ledge(keys: &mut Reader<'_>) -> Result<LedgeDepths, SettingsError> {
     let Some(depths) = keys.numbers::<3>("ledge", 0.0..=1.0)? else { return Ok(LedgeDepths::Fewest) };
     let [volumes, scene, far] = depths;
-    // Of 24 bits. Less than half of the depths would cost the scene more than a bit.
+    // For 24 bits. Less than half of the depths would cost the scene more than a bit.
     let least = f64::from(GUARD_CODES + 1) / 16_777_215.0;
     if scene - volumes < least || far - scene < 0.5 {
         let message = format!(

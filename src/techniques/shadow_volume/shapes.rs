@@ -1,4 +1,5 @@
-//! The volumes themselves, as meshes to draw [techniques C5–C7], each with the ends that its way of counting needs.
+//! The volumes themselves, as meshes to draw [GDC, "Computing Shadow Volumes For Polygonal Models", "Near Clip Plane
+//! Capping Cases"], each with the ends that its way of counting needs.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,21 +8,21 @@ use glam::{DMat4, DVec3};
 
 use super::casters::Casting;
 use super::choice::Way;
-use super::ends;
+use super::extent;
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
+use crate::lights::light::{VolumeDraw, VolumeSpace};
+use crate::lights::{LightView, Notes};
 use crate::pass::{MeshRef, Primitive};
-use crate::techniques::light::{VolumeDraw, VolumeSpace};
-use crate::techniques::{LightView, Notes};
 
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
     pub way: Way,
-    /// Its caster, into the scene's objects.
+    /// Index of its caster among the scene's objects.
     pub object: usize,
     pub sides: VolumeDraw,
-    /// At the caster's own surface, or on the near plane; then the same with its front faces reversed; at the far end.
+    /// Caps at the caster's own surface or on the near plane; the same with front faces reversed; caps at the far end.
     pub caps: Vec<VolumeDraw>,
     pub silhouette: VolumeDraw,
 }
@@ -31,13 +32,13 @@ impl Shape {
         std::iter::once(&self.sides).chain(&self.caps).cloned()
     }
 
-    /// Whether it has a cap that must have its caster's very depths.
+    /// Tests whether it has a cap whose depths must equal its caster's to the bit.
     pub fn meets_surface(&self) -> bool {
         self.way != Way::ZPassCapped && !self.caps.is_empty()
     }
 }
 
-/// The shapes of those that are not left out.
+/// Shapes of the casters that are drawn.
 pub fn shapes(
     view: &LightView<'_>,
     casting: &[Casting],
@@ -47,7 +48,7 @@ pub fn shapes(
     notes: &mut Notes,
 ) -> Vec<Shape> {
     let camera = &view.scene.camera;
-    let viewer = Viewer::new(&(camera.clip_from_view(view.scene.aspect()) * camera.view_from_world()));
+    let viewer = Viewer::new(&view.camera.clip_from_world);
     let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
     let mut shapes = Vec::new();
     for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut) {
@@ -64,9 +65,9 @@ pub fn shapes(
             notes.chosen(format!("{} for light {}", caster.label, view.index), "z-fail-clamped", why);
         }
         shapes.push(if way == Way::ZPassCapped {
-            let view_from_model = camera.view_from_world() * caster.world_from_model;
-            let beyond = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all);
-            let end = beyond.map(|plane| in_view(&camera.view_from_world(), plane));
+            let view_from_model = view.camera.viewer.eye_from_world * caster.world_from_model;
+            let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
+            let end = beyond.map(|plane| in_view(&view.camera.viewer.eye_from_world, plane));
             capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
         } else {
@@ -85,7 +86,7 @@ pub fn shapes(
     shapes
 }
 
-/// The caps that can be seen by a way of counting that needs them.
+/// Caps that can be seen, if the way of counting needs them.
 fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Extent) -> Caps {
     match way {
         Way::ZFailTruncated => Caps::BOTH,
@@ -97,10 +98,12 @@ fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Ex
     }
 }
 
-/// Where a volume may end that is counted before what is seen only: beyond all that is seen and the eye, as far as one
-/// plane tells. Sides that go on behind the floor are fragments for nothing.
+/// End of a volume that is counted only before visible surfaces: a plane beyond all that is seen and the eye. Sides that go
+/// on behind the floor would be wasted fragments.
 fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
-    let Some(end) = ends::beyond_all(view, caster, source).filter(|_| !view.keep_all) else { return Extent::Infinite };
+    let Some(end) = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all) else {
+        return Extent::Infinite;
+    };
     let model_from_world = caster.world_from_model.transpose();
     let normal = model_from_world.transform_vector3(end.normal);
     let distance = end.distance - end.normal.dot(caster.world_from_model.w_axis.truncate());
@@ -108,7 +111,7 @@ fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
 }
 
 /// The same plane in view space: normal and distance.
-fn in_view(view_from_world: &DMat4, plane: ends::Plane) -> (DVec3, f64) {
+fn in_view(view_from_world: &DMat4, plane: extent::Plane) -> (DVec3, f64) {
     let normal = view_from_world.transform_vector3(plane.normal);
     (normal, plane.distance + normal.dot(view_from_world.w_axis.truncate()))
 }
@@ -120,12 +123,12 @@ pub fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Setting
     world / scale
 }
 
-/// How far truncated volumes reach where nothing else is asked for, in world units.
+/// Default length of truncated volumes, in world units.
 pub fn default_distance(view: &LightView<'_>) -> f64 {
     2.0 * view.scene.world_bounds().radius()
 }
 
-/// What a draw is called, and where it stands.
+/// Name and transform of a draw.
 struct Name<'a> {
     caster: &'a Casting,
     light: usize,

@@ -1,7 +1,7 @@
 //! Grid files.
 #![no_main]
 
-use glumbra::report::grid;
+use glumbra::report::measure::grid;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

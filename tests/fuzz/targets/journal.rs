@@ -1,7 +1,7 @@
 //! The journal of a report that was cut short.
 #![no_main]
 
-use glumbra::report::journal;
+use glumbra::report::store::journal;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

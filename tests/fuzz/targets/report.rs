@@ -1,8 +1,9 @@
 //! report.json: what is read back is merged with itself and shown.
 #![no_main]
 
-use glumbra::report::html::{Goals, Pictures, to_html};
-use glumbra::report::{csv, merge};
+use glumbra::report::measure::picks::Goals;
+use glumbra::report::show::html::{Pictures, to_html};
+use glumbra::report::store::{csv, merge};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,7 +1,7 @@
 //! Waivers of the driver check.
 #![no_main]
 
-use glumbra::oracle::semantics::waivers;
+use glumbra::conformance::waivers;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -4,14 +4,13 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 use super::compare::{self, Tolerance};
 use super::draw::{self, Drawn, Wanted};
 use super::file::{After, Case, Class, Cone, Count, Edge, Of, Pick, Same, Sum};
-use super::formula;
-use super::golden;
 use super::picture::Picture;
+use super::{formula, golden};
 
 /// How many texels and pixels a pick keeps from an edge that it is beside: GL_LINEAR's reach and rounding.
 const TEXELS: f64 = 2.2;

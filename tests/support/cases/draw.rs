@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::pass::{Clear, DrawPass, DrawState, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::scene::{self, Scene};
-use glumbra::techniques::views::View;
+use glumbra::views::View;
 
 use super::picture::Picture;
 
@@ -68,7 +68,7 @@ pub fn driver() -> String {
 }
 
 /// Draws `frames` frames of `scene` with `set` applied, and reads what is wanted from the last. Nothing of an earlier
-/// picture is left to be met again: every image is overwritten and every pass drawn anew.
+/// picture is left to be met again: every image is overwritten and every pass drawn again.
 ///
 /// # Errors
 ///

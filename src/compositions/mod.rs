@@ -1,0 +1,104 @@
+//! Compositions: the passes in which light becomes a picture. Each is a row of [`TABLE`].
+//!
+//! # How to add a composition
+//!
+//! 1. A folder here with a type that implements [`Composition`]; its shaders in a folder of the same name under `glsl/`.
+//! 2. Its row in [`TABLE`].
+//! 3. A case folder of the same name under `data/cases/`.
+//!
+//! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
+
+pub mod passes;
+pub mod projection;
+mod single_pass;
+mod stencil_counted;
+
+use self::passes::Passes;
+use self::projection::CameraProjection;
+use crate::lights::LightTerm;
+use crate::pass::{ImageId, Target};
+use crate::views::View;
+
+/// A way to make a picture of lights and surfaces.
+pub trait Composition: Sync {
+    /// The name; of its folders too, with underscores in `src/` and `glsl/`.
+    fn name(&self) -> &'static str;
+
+    /// Tests whether it draws pictures in which these lights meet.
+    fn serves(&self, terms: &[&LightTerm]) -> bool;
+
+    /// Tests whether its picture has a stencil buffer.
+    fn needs_stencil(&self) -> bool {
+        false
+    }
+
+    /// Checks that it can draw these lights together.
+    ///
+    /// # Errors
+    ///
+    /// Two lights that exclude each other.
+    fn check(&self, _terms: &[&LightTerm]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Adds the passes of the picture: all surfaces in the light of `terms`.
+    ///
+    /// # Errors
+    ///
+    /// A light whose transform has no inverse.
+    fn picture(
+        &self,
+        passes: &mut Passes<'_>,
+        target: Target,
+        lens: &CameraProjection,
+        terms: &[&LightTerm],
+    ) -> Result<(), Error>;
+
+    /// Adds the passes of a view of one light, and returns the image that they end in. `None`: one pass of the surfaces
+    /// shows the view.
+    ///
+    /// # Errors
+    ///
+    /// A view of what the light does not have.
+    fn view(
+        &self,
+        _passes: &mut Passes<'_>,
+        _view: View,
+        _label: &str,
+        _term: &LightTerm,
+    ) -> Result<Option<ImageId>, Error> {
+        Ok(None)
+    }
+}
+
+/// Every composition.
+pub const TABLE: &[&dyn Composition] = &[&single_pass::SinglePass, &stencil_counted::StencilCounted];
+
+/// Reason why lights cannot be drawn together.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("no composition draws lights {lights:?} in one picture")]
+    Unserved { lights: Vec<usize> },
+    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
+    NoCount { view: &'static str, light: usize },
+    #[error(
+        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
+    )]
+    CutDepths { light: usize, counted: usize },
+    #[error(
+        "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
+    )]
+    TwoLedges { first: usize, second: usize },
+    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
+    Singular { light: usize },
+}
+
+/// The composition that draws these lights.
+///
+/// # Errors
+///
+/// Lights that no row of the table serves.
+pub fn chosen(terms: &[&LightTerm]) -> Result<&'static dyn Composition, Error> {
+    let found = TABLE.iter().find(|row| row.serves(terms));
+    found.copied().ok_or_else(|| Error::Unserved { lights: terms.iter().map(|term| term.index).collect() })
+}

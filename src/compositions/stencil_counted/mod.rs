@@ -1,0 +1,419 @@
+//! Pictures of lights whose shadow is counted in the stencil buffer [GDC, "Shadow Volume Algorithm"]: depth and all light
+//! that needs no count first; then, for each such light, its volumes, or the surfaces that its own shade tags [LEC,
+//! "Combining Shadow Mapping with other Techniques"], and its light where the count is 0, with depth EQUAL. Or, for one
+//! light, the two passes of [GDC, "Shadow Volume Algorithm"]: depth, its count, then the scene with that light where the
+//! count is 0 and without it where it is not.
+
+use super::passes::{Buffers, Onto, Passes};
+use super::projection::CameraProjection;
+use super::{Composition, Error};
+use crate::lights::drawable::depth_batches;
+use crate::lights::guard::Guard;
+use crate::lights::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
+use crate::lights::sides::shows_no_back_face;
+use crate::lights::{Drawable, Ending, LightTerm};
+use crate::pass::{
+    Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade, Stencil,
+    StencilOps, Target, Texturing, Uniform, glsl,
+};
+use crate::scene::Scene;
+use crate::views::{self, View};
+
+/// Stencil state that passes where the count is 0, and keeps it.
+const LIT: Stencil = Stencil {
+    test: Compare::Equal,
+    reference: 0,
+    read_mask: 0xFF,
+    write_mask: 0,
+    front: StencilOps::KEEP,
+    back: StencilOps::KEEP,
+};
+
+/// Stencil state that passes where the count is not 0, and keeps it.
+const UNLIT: Stencil = Stencil { test: Compare::NotEqual, ..LIT };
+
+/// Pictures in which some lights are counted.
+pub struct StencilCounted;
+
+impl Composition for StencilCounted {
+    fn name(&self) -> &'static str {
+        "stencil-counted"
+    }
+
+    fn serves(&self, terms: &[&LightTerm]) -> bool {
+        terms.iter().any(|term| term.counting.is_some())
+    }
+
+    fn needs_stencil(&self) -> bool {
+        true
+    }
+
+    fn check(&self, terms: &[&LightTerm]) -> Result<(), Error> {
+        let cutting = terms.iter().find(|term| term.guard == Guard::ClipPlane);
+        let counted = terms.iter().find(|term| term.counting.is_some());
+        if let (Some(cutting), Some(counted)) = (cutting, counted) {
+            return Err(Error::CutDepths { light: cutting.index, counted: counted.index });
+        }
+        check_ledges(terms)
+    }
+
+    fn picture(
+        &self,
+        passes: &mut Passes<'_>,
+        target: Target,
+        lens: &CameraProjection,
+        terms: &[&LightTerm],
+    ) -> Result<(), Error> {
+        passes.counted_picture(target, lens, terms)
+    }
+
+    fn view(
+        &self,
+        passes: &mut Passes<'_>,
+        view: View,
+        label: &str,
+        term: &LightTerm,
+    ) -> Result<Option<ImageId>, Error> {
+        term.counting.as_ref().map(|counting| passes.counted_view(view, label, term, counting)).transpose()
+    }
+}
+
+/// Refuses lights with different ledges: all volumes are counted in one depth buffer.
+fn check_ledges(terms: &[&LightTerm]) -> Result<(), Error> {
+    let ledge =
+        |term: &&LightTerm| term.counting.as_ref().and_then(|counting| counting.ledge).map(|ledge| (term.index, ledge));
+    let mut ledges = terms.iter().filter_map(ledge);
+    let Some((first, depths)) = ledges.next() else { return Ok(()) };
+    let other = ledges.find(|(_, other)| *other != depths);
+    other.map_or(Ok(()), |(second, _)| Err(Error::TwoLedges { first, second }))
+}
+
+impl Passes<'_> {
+    /// The surfaces in all lights, of which some are counted.
+    fn counted_picture(&mut self, target: Target, lens: &CameraProjection, terms: &[&LightTerm]) -> Result<(), Error> {
+        let counted: Vec<&LightTerm> = terms.iter().filter(|term| term.counting.is_some()).copied().collect();
+        let keeps = self.keeps_count(&counted);
+        if let Some(chosen) = counted.iter().find(|term| lighting(term) == Lighting::LitAndUnlit) {
+            return self.lit_and_unlit(target, lens, terms, chosen, keeps);
+        }
+        let mut uncounted = self.first("uncounted light", target, lens, self.background());
+        if keeps {
+            self.depth_first(target, lens, Redraw::WhenChanged);
+            for term in &counted {
+                self.count_term(target, lens, term, Redraw::WhenChanged)?;
+            }
+            uncounted.clear.depth = None;
+            uncounted.state = lens.of_surfaces(DrawState::REPEAT);
+        }
+        let scene = self.without_count(&counted);
+        let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
+        self.surfaces(&scene, &uncounted, &first, &Ending::Lit)?;
+        for term in &counted {
+            if !keeps {
+                self.count_term(target, lens, term, Redraw::Always)?;
+            }
+            self.add_light(target, lens, term)?;
+        }
+        Ok(())
+    }
+
+    /// The surfaces in all lights: with `chosen` where its count is 0, without it where it is not. Other counted lights are
+    /// added.
+    fn lit_and_unlit(
+        &mut self,
+        target: Target,
+        lens: &CameraProjection,
+        terms: &[&LightTerm],
+        chosen: &LightTerm,
+        keeps: bool,
+    ) -> Result<(), Error> {
+        let redraw = if keeps { Redraw::WhenChanged } else { Redraw::Always };
+        self.depth_first(target, lens, redraw);
+        self.count_term(target, lens, chosen, redraw)?;
+        let index = chosen.index;
+        let others = |term: &&&LightTerm| term.counting.is_some() && term.index != index;
+        let others: Vec<&LightTerm> = terms.iter().filter(others).copied().collect();
+        for (stencil, is_lit) in [(LIT, true), (UNLIT, false)] {
+            let counted =
+                if is_lit { others.clone() } else { terms.iter().filter(|t| t.counting.is_some()).copied().collect() };
+            let scene = self.without_count(&counted);
+            let part = |term: &&LightTerm| match is_lit && term.index == index {
+                true => Some(once_counted(&scene, term)),
+                false => uncounted_part(&scene, term),
+            };
+            let parts: Vec<LightTerm> = terms.iter().filter_map(part).collect();
+            let label = format!("{} light {index}", if is_lit { "with" } else { "without" });
+            let state = lens.of_surfaces(DrawState { stencil: Some(stencil), ..DrawState::REPEAT });
+            let mut onto = Onto { state, ..self.first(&label, target, lens, self.background()) };
+            onto.clear.depth = None;
+            onto.clear.color = onto.clear.color.filter(|_| is_lit);
+            self.surfaces(&scene, &onto, &parts, &Ending::Lit)?;
+        }
+        for term in others {
+            if lighting(term) == Lighting::LitAndUnlit {
+                let why =
+                    format!("light {index} has the two passes of light and shadow: what they show is there already");
+                self.notes.chosen(format!("light {}", term.index), "added where its count is 0", why);
+            }
+            self.count_term(target, lens, term, Redraw::Always)?;
+            self.add_light(target, lens, term)?;
+        }
+        Ok(())
+    }
+
+    /// Tests whether depth and count of a frame serve the next: one count, and frames that may use it again.
+    fn keeps_count(&self, counted: &[&LightTerm]) -> bool {
+        let [term] = counted else { return false };
+        let may = term.counting.as_ref().is_some_and(|counting| counting.redraw == Redraw::WhenChanged);
+        may && self.frames > 1 && !self.keep_all
+    }
+
+    /// A pass of depth only; with [`Redraw::WhenChanged`] it is kept from frame to frame.
+    fn depth_first(&mut self, target: Target, lens: &CameraProjection, redraw: Redraw) {
+        let clip_from_world = lens.camera.clip_from_world();
+        // The same faces as the passes with depth EQUAL draw: at a silhouette a back face may tie with a front one.
+        let items = self.cut_items(lens);
+        let (front, both): (Vec<&Drawable>, Vec<&Drawable>) =
+            items.iter().partition(|item| shows_no_back_face(item, &(clip_from_world * item.world_from_model)));
+        let mut batches = depth_batches(&front, &clip_from_world, self.list);
+        batches.iter_mut().for_each(|batch| batch.cull = Some(Face::Back));
+        batches.extend(depth_batches(&both, &clip_from_world, self.list));
+        self.cut_at_far(lens, &mut batches);
+        let pass = DrawPass {
+            target: Target { color: None, ..target },
+            viewport: self.scene.image.size,
+            clear: Clear { depth: Some(1.0), ..Clear::default() },
+            state: lens.of_surfaces(DrawState::DEPTH_ONLY),
+            batches,
+        };
+        self.push("depth", redraw, pass);
+    }
+
+    fn count_term(
+        &mut self,
+        target: Target,
+        lens: &CameraProjection,
+        term: &LightTerm,
+        redraw: Redraw,
+    ) -> Result<(), Error> {
+        let Some(counting) = &term.counting else { return Ok(()) };
+        self.count(target, lens, term, counting, "", redraw)
+    }
+
+    /// Passes that count, over existing depth.
+    fn count(
+        &mut self,
+        target: Target,
+        lens: &CameraProjection,
+        term: &LightTerm,
+        counting: &Counting,
+        prefix: &str,
+        redraw: Redraw,
+    ) -> Result<(), Error> {
+        for (index, pass) in counting.passes.iter().enumerate() {
+            let label = format!("{prefix}{}", pass.label);
+            let onto = Onto {
+                clear: Clear { stencil: (index == 0).then_some(0), ..Clear::default() },
+                state: lens.state(counting, &pass.state, pass.layer),
+                ..self.first(&label, Target { color: None, ..target }, lens, [0.0; 4])
+            };
+            match &pass.counted {
+                Counted::Volumes(draws) => self.volumes(redraw, &onto, draws, pass.layer),
+                Counted::Shadowed => {
+                    // Surfaces are clipped like those whose depth they must equal.
+                    let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
+                    let ending = Ending::View { chunk: glsl!("stencil_counted/tag.frag"), shade: true };
+                    let asked = LightTerm { meaning: Shade::Shader("a shade that only tags"), ..term.clone() };
+                    self.surfaces_if(redraw, self.scene, &Onto { state, ..onto }, &[asked], &ending)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn volumes(&mut self, redraw: Redraw, onto: &Onto<'_>, draws: &[VolumeDraw], layer: Layer) {
+        let (viewer, meaning) = (onto.lens.viewer(layer), FixedFunctionDesc::Depth(Texturing::default()));
+        let batches = Counting::batches(draws, &viewer, None, glsl!("common/depth.frag"), meaning, Vec::new());
+        let Onto { target, viewport, clear, state, .. } = *onto;
+        self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
+    }
+
+    /// Adds one light where its count is 0.
+    fn add_light(&mut self, target: Target, lens: &CameraProjection, term: &LightTerm) -> Result<(), Error> {
+        let mut scene = self.scene.clone();
+        scene.shading.ambient = [0.0; 3];
+        let source = &mut scene.lights[term.index];
+        source.ambient = [0.0; 3];
+        let dimming = if of_all(term) { term.dimming } else { 0.0 };
+        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming + dimming));
+        let label = format!("light {}", term.index);
+        let onto = Onto {
+            clear: Clear::default(),
+            state: lens.of_surfaces(DrawState {
+                stencil: Some(LIT),
+                blend: Some(Blend::Add),
+                scissor: term.counting.as_ref().and_then(|counting| counting.scissor),
+                ..DrawState::REPEAT
+            }),
+            ..self.first(&label, target, lens, [0.0; 4])
+        };
+        let mut lit = LightTerm { dimming, added: true, ..once_counted(&scene, term) };
+        if scene.shading.per_vertex {
+            // Lighting per vertex is clamped beside the ambient light, which is there already.
+            (scene.shading.ambient, scene.lights[term.index]) =
+                (self.scene.shading.ambient, self.scene.lights[term.index].clone());
+            lit.defines.push(String::from("ADDED"));
+            let left = term.dimming - lit.dimming;
+            weigh(&mut lit, 1.0 - left);
+        }
+        self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
+    }
+
+    /// A copy of the scene in which counted lights have only the part that a shadow leaves.
+    fn without_count(&self, counted: &[&LightTerm]) -> Scene {
+        let mut scene = self.scene.clone();
+        for term in counted {
+            let source = &mut scene.lights[term.index];
+            source.specular = [0.0; 3];
+            let left = if of_all(term) { 0.0 } else { term.dimming };
+            source.diffuse = source.diffuse.map(|channel| channel * left);
+        }
+        // Lighting per vertex is clamped before it is weighed.
+        for term in counted.iter().filter(|_| scene.shading.per_vertex) {
+            let (own, source) = (&self.scene.lights[term.index], &mut scene.lights[term.index]);
+            source.diffuse = if source.diffuse == [0.0; 3] { source.diffuse } else { own.diffuse };
+        }
+        scene
+    }
+
+    /// A view of a counted light.
+    fn counted_view(
+        &mut self,
+        view: View,
+        label: &str,
+        term: &LightTerm,
+        counting: &Counting,
+    ) -> Result<ImageId, Error> {
+        let lens = CameraProjection::for_counts(self.scene, std::iter::once(counting));
+        let buffers = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
+        let target = buffers.target();
+        match view {
+            View::Volume | View::Silhouette if counting.volumes.is_empty() => {
+                return Err(Error::NoCount { view: view.name(), light: term.index });
+            }
+            View::Volume | View::Silhouette => {
+                return self.volume_view(view, label, buffers, &lens, term, counting);
+            }
+            View::StencilCount | View::StencilColors => {
+                let onto = self.first(label, target, &lens, [0.0; 4]);
+                self.surfaces(self.scene, &onto, &[], &Ending::Lit)?;
+                self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
+                return Ok(buffers.depth);
+            }
+            _ => {}
+        }
+        let lit = once_counted(self.scene, term);
+        let Some((ending, lit)) = views::camera_pass(view, &lit) else {
+            return Err(Error::NoCount { view: view.name(), light: term.index });
+        };
+        let shadowed = term.under(self.scene, glsl!("common/shadowed.frag"), Shade::Dark);
+        let onto = self.first(label, target, &lens, [0.0; 4]);
+        self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
+        self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
+        let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
+        let label = format!("{label}: where the count is 0");
+        let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
+        self.surfaces(self.scene, &onto, &[lit], &ending)?;
+        Ok(buffers.color)
+    }
+
+    /// Volumes, translucent, or their silhouettes over the unshadowed scene [GDC, "Visualizing Shadow Volumes"].
+    fn volume_view(
+        &mut self,
+        view: View,
+        label: &str,
+        buffers: Buffers,
+        lens: &CameraProjection,
+        term: &LightTerm,
+        counting: &Counting,
+    ) -> Result<ImageId, Error> {
+        let target = buffers.target();
+        let unshadowed = unshadowed(self.scene, term);
+        let onto = self.first(label, target, lens, self.background());
+        self.surfaces(self.scene, &onto, &[unshadowed], &Ending::Lit)?;
+        let (draws, name): (&[VolumeDraw], _) = match view {
+            View::Silhouette => (&counting.silhouettes, "silhouettes"),
+            _ => (&counting.volumes, "volumes"),
+        };
+        // The outside of a volume is warm, its inside cold.
+        let layers: &[(Option<Face>, [f32; 4])] = match view {
+            View::Silhouette => &[(None, [1.0, 0.85, 0.0, 1.0])],
+            _ => &[(Some(Face::Front), [0.1, 0.3, 0.9, 0.25]), (Some(Face::Back), [0.95, 0.55, 0.1, 0.25])],
+        };
+        let batches = layers.iter().flat_map(|(cull, color)| {
+            let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
+            let fragment = glsl!("stencil_counted/colored.frag");
+            Counting::batches(draws, &lens.camera, *cull, fragment, FixedFunctionDesc::Constant(*color), uniforms)
+        });
+        let pass = DrawPass {
+            target,
+            viewport: self.scene.image.size,
+            clear: Clear::default(),
+            state: lens.of_surfaces(DrawState {
+                depth_test: Some(Compare::LessEqual),
+                depth_write: false,
+                blend: Some(Blend::Over),
+                ..DrawState::OPAQUE
+            }),
+            batches: batches.collect(),
+        };
+        self.push(&format!("{label}: {name}"), Redraw::Always, pass);
+        Ok(buffers.color)
+    }
+}
+
+/// The part of a light that needs no count: a light that is not counted, or the part of a counted light that its shadow
+/// leaves.
+fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
+    let source = &scene.lights[term.index];
+    let gives = |color: [f32; 3]| color != [0.0; 3];
+    match term.counting {
+        None => Some(term.clone()),
+        Some(_) if gives(source.ambient) || gives(source.diffuse) => {
+            let mut left = LightTerm { dimming: 0.0, ..unshadowed(scene, term) };
+            if scene.shading.per_vertex {
+                weigh(&mut left, term.dimming);
+            }
+            Some(left)
+        }
+        Some(_) => None,
+    }
+}
+
+/// Passes in which the light joins the picture.
+fn lighting(term: &LightTerm) -> Lighting {
+    term.counting.as_ref().map_or(Lighting::Added, |counting| counting.lighting)
+}
+
+/// Tests whether the light's own shade finds what a shadow leaves.
+fn of_all(term: &LightTerm) -> bool {
+    term.counting.as_ref().is_some_and(|counting| counting.of_all)
+}
+
+/// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
+fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
+    let tagged = term.counting.as_ref().is_some_and(Counting::tags);
+    if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
+}
+
+/// Weights the light's diffuse colour.
+fn weigh(term: &mut LightTerm, weight: f32) {
+    if weight < 1.0 {
+        term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));
+        term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
+    }
+}
+
+fn unshadowed(scene: &Scene, term: &LightTerm) -> LightTerm {
+    term.under(scene, glsl!("common/unshadowed.frag"), Shade::Lit)
+}

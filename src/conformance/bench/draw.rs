@@ -1,0 +1,165 @@
+//! One bench draw: triangles under a complete state. And a table of inputs mapped through a fragment shader.
+
+use std::cmp::Ordering;
+
+use glow::HasContext;
+
+use super::image::{Format, Image, Sampling};
+use super::mutation::Mutation;
+use super::program::Shader;
+use super::state::{Compare, State, apply};
+use super::surface::Surface;
+use super::{Bench, Error};
+
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Position in clip space, unless the shader says otherwise.
+    pub position: [f32; 4],
+    pub value: [f32; 4],
+}
+
+/// The value of a uniform; matrices by columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uniform {
+    Float(f32),
+    Vec4([f32; 4]),
+    Mat4([f32; 16]),
+}
+
+/// All that a draw takes.
+#[derive(Clone, Copy)]
+pub struct Draw<'a> {
+    pub surface: &'a Surface,
+    pub state: State,
+    pub shader: Shader,
+    /// Three for each triangle.
+    pub vertices: &'a [Vertex],
+    pub uniforms: &'a [(&'a str, Uniform)],
+    /// Images by sampler name; one that is compared is called `shadow`.
+    pub images: &'a [(&'a str, &'a Image, Sampling)],
+}
+
+impl<'a> Draw<'a> {
+    /// A draw without uniforms or images.
+    pub fn plain(surface: &'a Surface, state: State, vertices: &'a [Vertex]) -> Self {
+        Self { surface, state, shader: Shader::PLAIN, vertices, uniforms: &[], images: &[] }
+    }
+}
+
+/// A triangle from clip-space positions, without values.
+pub fn triangle(corners: [[f32; 4]; 3]) -> [Vertex; 3] {
+    corners.map(|position| Vertex { position, value: [0.0; 4] })
+}
+
+/// A rectangle of normalised device coordinates from `low` to `high` at depth `z`, counter-clockwise, with one value.
+pub fn rectangle(low: [f32; 2], high: [f32; 2], z: f32, value: [f32; 4]) -> [Vertex; 6] {
+    let corner = |x: f32, y: f32| Vertex { position: [x, y, z, 1.0], value };
+    let [a, b] = [corner(low[0], low[1]), corner(high[0], low[1])];
+    let [c, d] = [corner(high[0], high[1]), corner(low[0], high[1])];
+    [a, b, c, a, c, d]
+}
+
+/// The whole viewport at depth `z` of normalised device coordinates.
+pub fn full(z: f32) -> [Vertex; 6] {
+    rectangle([-1.0; 2], [1.0; 2], z, [0.0; 4])
+}
+
+/// Inputs of [`Bench::map`] a row.
+const ROW: usize = 256;
+
+impl Bench {
+    /// Draws.
+    ///
+    /// # Errors
+    ///
+    /// A shader that is refused, and GL's errors.
+    pub fn draw(&self, draw: &Draw) -> Result<(), Error> {
+        let filter_first = self.mutation == Some(Mutation::FilterThenCompare);
+        let program = self.program(draw.shader, filter_first)?;
+        let gl = &self.gl;
+        self.prepare(draw.surface, draw.state);
+        // SAFETY: the context is current; the objects are not deleted; positions and values lie in turn, as the vertex array has it.
+        unsafe {
+            gl.use_program(Some(program));
+            for (unit, &(name, image, sampling)) in draw.images.iter().enumerate() {
+                self.bind_image(unit as u32, image, sampling);
+                gl.uniform_1_i32(gl.get_uniform_location(program, name).as_ref(), unit as i32);
+                if filter_first && let Some(compare) = sampling.compare {
+                    let location = gl.get_uniform_location(program, "shadow_function");
+                    gl.uniform_1_i32(location.as_ref(), function_bits(compare));
+                }
+            }
+            for &(name, value) in draw.uniforms {
+                let location = gl.get_uniform_location(program, name);
+                match value {
+                    Uniform::Float(value) => gl.uniform_1_f32(location.as_ref(), value),
+                    Uniform::Vec4(value) => gl.uniform_4_f32_slice(location.as_ref(), &value),
+                    Uniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(location.as_ref(), false, &value),
+                }
+            }
+            gl.bind_vertex_array(Some(self.vertex_array));
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.vertex_buffer));
+            let floats: Vec<_> = draw.vertices.iter().flat_map(|vertex| [vertex.position, vertex.value]).collect();
+            gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, bytemuck::cast_slice(&floats), glow::STREAM_DRAW);
+            gl.draw_arrays(glow::TRIANGLES, 0, draw.vertices.len() as i32);
+            gl.bind_vertex_array(None);
+            gl.use_program(None);
+        }
+        self.check("a draw")
+    }
+
+    /// Binds the surface and sets the whole state.
+    pub(crate) fn prepare(&self, surface: &Surface, state: State) {
+        let state = self.mutation.map_or(state, |mutation| mutation.state(state));
+        // SAFETY: the context is current, and the framebuffer is not deleted.
+        unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name)) };
+        apply(&self.gl, self.offset_clamp, &state, surface.size);
+    }
+
+    /// Maps each of `inputs` by `fragment`: its body reads `at`, a vec4, and sets `result`, of float precision.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn map(
+        &self,
+        fragment: &'static str,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &Image, Sampling)],
+    ) -> Result<Vec<[f32; 4]>, Error> {
+        let size = [ROW.min(inputs.len()).max(1), inputs.len().div_ceil(ROW).max(1)].map(|side| side as u32);
+        let surface = self.surface(size, Some(Format::Rgba32F), None)?;
+        self.map_into(&surface, State { depth: None, ..State::WRITE }, fragment, inputs, images)?;
+        let mut results = surface.floats();
+        results.truncate(inputs.len());
+        Ok(results)
+    }
+
+    /// The same as [`map`](Self::map) into a given surface and state: an input for each pixel, rows from below.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn map_into(
+        &self,
+        surface: &Surface,
+        state: State,
+        fragment: &'static str,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &Image, Sampling)],
+    ) -> Result<(), Error> {
+        let mut padded = inputs.to_vec();
+        padded.resize(surface.size[0] as usize * surface.size[1] as usize, [0.0; 4]);
+        let inputs = self.float_image(surface.size, &padded)?;
+        let images: Vec<_> = images.iter().copied().chain([("inputs", &inputs, Sampling::NEAREST)]).collect();
+        let shader = Shader { declarations: "uniform sampler2D inputs;", fragment, ..Shader::PLAIN };
+        self.draw(&Draw { shader, images: &images, ..Draw::plain(surface, state, &full(0.0)) })
+    }
+}
+
+/// Bits of the orders for which the function holds: less 1, equal 2, greater 4.
+fn function_bits(compare: Compare) -> i32 {
+    let orders = [Ordering::Less, Ordering::Equal, Ordering::Greater];
+    orders.into_iter().enumerate().map(|(bit, order)| i32::from(compare.holds(order)) << bit).sum()
+}

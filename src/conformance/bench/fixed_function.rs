@@ -1,0 +1,205 @@
+//! The fixed-function side of the [bench](crate::conformance::bench): single draws by glTexGen, texture matrix, glTexEnv and
+//! DEPTH_TEXTURE_MODE, or by a shader of GLSL 1.20 that reads the same state. Knows no pass and no scene.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use glam::{DMat4, DVec4};
+use glow::HasContext;
+
+use super::{Bench, Error, Image, Mutation, Program, Sampling, State, Surface, Vertex, build};
+use crate::context::Context;
+use crate::context::compatibility::{Binding, BindingError, raw};
+
+/// Channels that a depth texture's comparison is written to [GL 4.6 compatibility, 8.23.1].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthMode {
+    Luminance,
+    Intensity,
+    Alpha,
+    Red,
+}
+
+/// glTexGen for all four coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Texgen {
+    /// EYE_LINEAR, else OBJECT_LINEAR.
+    pub eye: bool,
+    /// Rows give s, t, r and q of a vertex.
+    pub planes: DMat4,
+    /// The modelview when eye planes are given.
+    pub modelview: DMat4,
+}
+
+/// One draw. The colour is replaced by the texture's, where there is one.
+#[derive(Clone, Copy)]
+pub struct FixedDraw<'a> {
+    pub surface: &'a Surface,
+    pub state: State,
+    pub projection: DMat4,
+    pub modelview: DMat4,
+    pub texture_matrix: DMat4,
+    /// `None`: coordinates are the vertices' values.
+    pub texgen: Option<Texgen>,
+    pub image: Option<(&'a Image, Sampling, DepthMode)>,
+    pub color: [f32; 4],
+    /// Three for each triangle, positions in model space.
+    pub vertices: &'a [Vertex],
+    /// Vertex and fragment shader of GLSL 1.20 in place of the fixed stages; `map` is the image.
+    pub shaders: Option<[&'static str; 2]>,
+}
+
+impl<'a> FixedDraw<'a> {
+    /// Clip space as it comes, without a texture.
+    pub fn plain(surface: &'a Surface, state: State, vertices: &'a [Vertex]) -> Self {
+        Self {
+            surface,
+            state,
+            projection: DMat4::IDENTITY,
+            modelview: DMat4::IDENTITY,
+            texture_matrix: DMat4::IDENTITY,
+            texgen: None,
+            image: None,
+            color: [1.0; 4],
+            vertices,
+            shaders: None,
+        }
+    }
+}
+
+/// The fixed-function pipeline of the context that a bench is on.
+pub struct FixedBench {
+    gl: Rc<glow::Context>,
+    binding: Binding,
+    programs: RefCell<HashMap<[&'static str; 2], Program>>,
+    mutation: Option<Mutation>,
+}
+
+const COORDINATES: [(u32, u32); 4] = [
+    (raw::S, raw::TEXTURE_GEN_S),
+    (raw::T, raw::TEXTURE_GEN_T),
+    (raw::R, raw::TEXTURE_GEN_R),
+    (raw::Q, raw::TEXTURE_GEN_Q),
+];
+
+impl FixedBench {
+    /// A bench on `context`, which is current and outlives it.
+    ///
+    /// # Errors
+    ///
+    /// A context without the fixed-function pipeline.
+    pub fn new(context: &dyn Context, mutation: Option<Mutation>) -> Result<Self, BindingError> {
+        let binding = Binding::load(context)?;
+        Ok(Self { gl: context.gl().clone(), binding, programs: RefCell::default(), mutation })
+    }
+
+    fn load_matrix(&self, mode: u32, matrix: DMat4) {
+        // SAFETY: the context is current; sixteen numbers, by columns.
+        unsafe {
+            self.binding.MatrixMode(mode);
+            self.binding.LoadMatrixd(matrix.to_cols_array().as_ptr());
+        }
+    }
+
+    /// Gives GL the planes, eye planes under their modelview.
+    pub fn set_texgen(&self, texgen: &Texgen) {
+        let transposed = self.mutation == Some(Mutation::PlanesTransposed);
+        let planes = if transposed { texgen.planes.transpose() } else { texgen.planes };
+        let wrong = self.mutation == Some(Mutation::PlanesUnderWrongModelview);
+        self.load_matrix(raw::MODELVIEW, if wrong { DMat4::IDENTITY } else { texgen.modelview });
+        let (mode, name) =
+            if texgen.eye { (raw::EYE_LINEAR, raw::EYE_PLANE) } else { (raw::OBJECT_LINEAR, raw::OBJECT_PLANE) };
+        for (row, (coordinate, _)) in COORDINATES.into_iter().enumerate() {
+            let plane: [f64; 4] = planes.row(row).to_array();
+            // SAFETY: the context is current; four numbers.
+            unsafe {
+                self.binding.TexGeni(coordinate, raw::TEXTURE_GEN_MODE, mode as i32);
+                self.binding.TexGendv(coordinate, name, plane.as_ptr());
+            }
+        }
+    }
+
+    /// The eye planes that GL holds, as rows.
+    pub fn eye_planes(&self) -> DMat4 {
+        let rows = COORDINATES.map(|(coordinate, _)| {
+            let mut plane = [0.0; 4];
+            // SAFETY: the context is current; four numbers are written.
+            unsafe { self.binding.GetTexGendv(coordinate, raw::EYE_PLANE, plane.as_mut_ptr()) };
+            DVec4::from_array(plane)
+        });
+        DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
+    }
+
+    /// Draws.
+    ///
+    /// # Errors
+    ///
+    /// A shader that is refused, and GL's errors.
+    pub fn draw(&self, bench: &Bench, draw: &FixedDraw) -> Result<(), Error> {
+        let program = draw.shaders.map(|shaders| self.program(shaders)).transpose()?;
+        bench.prepare(draw.surface, draw.state);
+        if let Some(texgen) = &draw.texgen {
+            self.set_texgen(texgen);
+        }
+        self.load_matrix(glow::TEXTURE, draw.texture_matrix);
+        self.load_matrix(raw::PROJECTION, draw.projection);
+        self.load_matrix(raw::MODELVIEW, draw.modelview);
+        let enable = |what, on| unsafe { if on { self.gl.enable(what) } else { self.gl.disable(what) } };
+        // SAFETY: the context is current; the image and the program are not deleted.
+        unsafe {
+            for (_, coordinate) in COORDINATES {
+                enable(coordinate, draw.texgen.is_some());
+            }
+            for off in [raw::LIGHTING, raw::FOG, raw::ALPHA_TEST] {
+                self.gl.disable(off);
+            }
+            if let Some((image, sampling, mode)) = draw.image {
+                bench.bind_image(0, image, sampling);
+                let mode = match mode {
+                    DepthMode::Luminance => raw::LUMINANCE,
+                    DepthMode::Intensity => raw::INTENSITY,
+                    DepthMode::Alpha => glow::ALPHA,
+                    DepthMode::Red => glow::RED,
+                };
+                self.gl.tex_parameter_i32(glow::TEXTURE_2D, raw::DEPTH_TEXTURE_MODE, mode as i32);
+                self.binding.TexEnvi(raw::TEXTURE_ENV, raw::TEXTURE_ENV_MODE, glow::REPLACE as i32);
+            }
+            enable(glow::TEXTURE_2D, draw.image.is_some());
+            self.gl.use_program(program);
+            if let Some(program) = program {
+                self.gl.uniform_1_i32(self.gl.get_uniform_location(program, "map").as_ref(), 0);
+            }
+            self.submit(draw);
+            self.gl.use_program(None);
+            self.gl.disable(glow::TEXTURE_2D);
+        }
+        bench.check("a fixed-function draw")
+    }
+
+    /// # Safety
+    ///
+    /// The context is current.
+    unsafe fn submit(&self, draw: &FixedDraw) {
+        // SAFETY: as the caller promises; each call reads four numbers.
+        unsafe {
+            self.binding.Begin(glow::TRIANGLES);
+            self.binding.Color4fv(draw.color.as_ptr());
+            for vertex in draw.vertices {
+                self.binding.TexCoord4fv(vertex.value.as_ptr());
+                self.binding.Vertex4fv(vertex.position.as_ptr());
+            }
+            self.binding.End();
+        }
+    }
+
+    fn program(&self, shaders: [&'static str; 2]) -> Result<glow::Program, Error> {
+        if let Some(known) = self.programs.borrow().get(&shaders) {
+            return Ok(known.name);
+        }
+        let program = build(&self.gl, shaders[0], shaders[1])?;
+        let name = program.name;
+        self.programs.borrow_mut().insert(shaders, program);
+        Ok(name)
+    }
+}

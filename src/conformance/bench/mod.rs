@@ -1,0 +1,182 @@
+//! A bench for measuring GL itself: images, surfaces and draws under any state, read back exactly. Raw GL behind plain
+//! values; knows no pass, scene or rule.
+//!
+//! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
+
+mod draw;
+pub mod fixed_function;
+mod image;
+mod mutation;
+mod program;
+mod state;
+mod surface;
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ffi::c_void;
+use std::rc::Rc;
+
+use glow::HasContext;
+
+pub use draw::{Draw, Uniform, Vertex, full, rectangle, triangle};
+pub use image::{Encoding, Format, Image, Sampling, Wrap};
+#[doc(hidden)]
+pub use mutation::Mutation;
+pub use program::Shader;
+pub(crate) use program::{Program, build};
+pub use state::{Blend, Compare, Face, Mode, Offset, State, Stencil, StencilOp};
+pub use surface::Surface;
+
+use crate::context::{Context, Profile, error_name};
+
+/// An error of the driver.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    #[error("the driver makes no {what}: {reason}")]
+    Object { what: &'static str, reason: String },
+    #[error("the bench's shader: {0}")]
+    Shader(String),
+    #[error("{format} is refused by the driver ({reason})")]
+    Refused { format: &'static str, reason: String },
+    #[error("{what} makes {codes}")]
+    Gl { what: &'static str, codes: String },
+}
+
+pub(super) fn no(what: &'static str) -> impl FnOnce(String) -> Error {
+    move |reason| Error::Object { what, reason }
+}
+
+/// GL objects that every draw needs. The context must be current in every call, and outlive the bench.
+pub struct Bench {
+    gl: Rc<glow::Context>,
+    programs: RefCell<HashMap<(Shader, bool), program::Program>>,
+    vertex_array: glow::VertexArray,
+    vertex_buffer: glow::Buffer,
+    offset_clamp: Option<state::OffsetClamp>,
+    compatibility: bool,
+    mutation: Option<Mutation>,
+}
+
+/// glGetError keeps one flag a kind of error; a context that is lost reports the same one without end.
+const MOST_FLAGS: usize = 8;
+
+impl Bench {
+    /// A bench on the current context, whose functions `gl` is.
+    ///
+    /// # Errors
+    ///
+    /// A driver that makes no vertex array or buffer.
+    pub fn new(gl: &Rc<glow::Context>) -> Result<Self, Error> {
+        // SAFETY: the context is current; what is made is deleted on drop or on failure.
+        let (vertex_array, vertex_buffer) = unsafe {
+            let vertex_array = gl.create_vertex_array().map_err(no("vertex array"))?;
+            let vertex_buffer = gl.create_buffer().inspect_err(|_| gl.delete_vertex_array(vertex_array));
+            let vertex_buffer = vertex_buffer.map_err(no("buffer"))?;
+            gl.bind_vertex_array(Some(vertex_array));
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(vertex_buffer));
+            for (index, offset) in [(0, 0), (1, size_of::<[f32; 4]>())] {
+                gl.enable_vertex_attrib_array(index);
+                let stride = 2 * size_of::<[f32; 4]>() as i32;
+                gl.vertex_attrib_pointer_f32(index, 4, glow::FLOAT, false, stride, offset as i32);
+            }
+            gl.bind_vertex_array(None);
+            (vertex_array, vertex_buffer)
+        };
+        let programs = RefCell::default();
+        let (offset_clamp, compatibility, mutation) = (None, false, None);
+        Ok(Self { gl: gl.clone(), programs, vertex_array, vertex_buffer, offset_clamp, compatibility, mutation })
+    }
+
+    /// A bench on `context`, which is current, with the functions that glow lacks.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn of(context: &dyn Context) -> Result<Self, Error> {
+        let mut bench = Self::new(context.gl())?;
+        let extensions = context.gl().supported_extensions();
+        let name = match () {
+            () if extensions.contains("GL_ARB_polygon_offset_clamp") => Some(c"glPolygonOffsetClamp"),
+            () if extensions.contains("GL_EXT_polygon_offset_clamp") => Some(c"glPolygonOffsetClampEXT"),
+            () => None,
+        };
+        let address = name.map_or(std::ptr::null(), |name| context.address_of(name));
+        if !address.is_null() {
+            // SAFETY: the extension is there, and its function has this signature.
+            let function = unsafe { std::mem::transmute::<*const c_void, state::OffsetClamp>(address) };
+            bench.offset_clamp = Some(function);
+        }
+        bench.compatibility = context.profile() == Profile::Compatibility;
+        Ok(bench)
+    }
+
+    /// The same bench, which makes one mistake at every draw.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_mutation(mut self, mutation: Option<Mutation>) -> Self {
+        self.mutation = mutation;
+        self
+    }
+
+    /// The mistake that it makes.
+    #[doc(hidden)]
+    pub fn mutation(&self) -> Option<Mutation> {
+        self.mutation
+    }
+
+    /// Tests whether glPolygonOffsetClamp exists.
+    pub fn has_offset_clamp(&self) -> bool {
+        self.offset_clamp.is_some()
+    }
+
+    /// Tests whether the context has the functions that the core profile removed.
+    pub fn is_compatible(&self) -> bool {
+        self.compatibility
+    }
+
+    /// GL_SUBPIXEL_BITS: what the driver says of its raster.
+    pub fn subpixel_bits(&self) -> u32 {
+        // SAFETY: a query of one integer.
+        unsafe { self.gl.get_parameter_i32(glow::SUBPIXEL_BITS) }.max(0) as u32
+    }
+
+    /// The largest side that textures and viewports share.
+    pub fn largest_side(&self) -> u32 {
+        let mut viewport = [0; 2];
+        // SAFETY: queries of one integer and of two.
+        let texture = unsafe {
+            self.gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport);
+            self.gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE)
+        };
+        viewport.into_iter().chain([texture]).min().unwrap_or(0).max(0) as u32
+    }
+
+    /// Fails if GL has noted an error.
+    pub(crate) fn check(&self, what: &'static str) -> Result<(), Error> {
+        self.take_errors().map_or(Ok(()), |codes| Err(Error::Gl { what, codes }))
+    }
+
+    /// Names of the errors that GL has recorded.
+    fn take_errors(&self) -> Option<String> {
+        // SAFETY: reads and clears the context's error flags.
+        let next = || match unsafe { self.gl.get_error() } {
+            glow::NO_ERROR => None,
+            code => Some(error_name(code)),
+        };
+        let names: Vec<String> = std::iter::from_fn(next).take(MOST_FLAGS).collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    }
+}
+
+impl Drop for Bench {
+    fn drop(&mut self) {
+        // SAFETY: the objects are the bench's own and are not used again.
+        unsafe {
+            self.gl.use_program(None);
+            self.gl.bind_vertex_array(None);
+            self.gl.bind_framebuffer(glow::FRAMEBUFFER, None);
+            self.gl.delete_vertex_array(self.vertex_array);
+            self.gl.delete_buffer(self.vertex_buffer);
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! The complete draw state of one bench draw, and the GL calls that set it. Nothing relies on earlier state.
+
+use std::cmp::Ordering;
+
+use glow::HasContext;
+
+/// Comparison functions of the depth test, the stencil test and depth textures [GL 4.6, 17.3.4].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Compare {
+    Never,
+    Less,
+    Equal,
+    LessEqual,
+    Greater,
+    NotEqual,
+    GreaterEqual,
+    Always,
+}
+
+impl Compare {
+    /// All eight, in GL's order.
+    pub const ALL: [Self; 8] = [
+        Self::Never,
+        Self::Less,
+        Self::Equal,
+        Self::LessEqual,
+        Self::Greater,
+        Self::NotEqual,
+        Self::GreaterEqual,
+        Self::Always,
+    ];
+
+    /// Tests whether `left OP right` holds when `left` is so ordered against `right`.
+    pub fn holds(self, left_to_right: Ordering) -> bool {
+        match self {
+            Self::Never => false,
+            Self::Less => left_to_right.is_lt(),
+            Self::Equal => left_to_right.is_eq(),
+            Self::LessEqual => left_to_right.is_le(),
+            Self::Greater => left_to_right.is_gt(),
+            Self::NotEqual => left_to_right.is_ne(),
+            Self::GreaterEqual => left_to_right.is_ge(),
+            Self::Always => true,
+        }
+    }
+
+    /// GL numbers them in this order from GL_NEVER.
+    pub(crate) fn code(self) -> u32 {
+        glow::NEVER + self as u32
+    }
+}
+
+/// glPolygonOffset and, where it is not 0, glPolygonOffsetClamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offset {
+    pub factor: f32,
+    pub units: f32,
+    pub clamp: f32,
+}
+
+/// Operation on a stencil value [GL 4.6, 17.3.3].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StencilOp {
+    Keep,
+    Zero,
+    Replace,
+    Increment,
+    IncrementWrap,
+    Decrement,
+    DecrementWrap,
+    Invert,
+}
+
+impl StencilOp {
+    pub const ALL: [Self; 8] = [
+        Self::Keep,
+        Self::Zero,
+        Self::Replace,
+        Self::Increment,
+        Self::IncrementWrap,
+        Self::Decrement,
+        Self::DecrementWrap,
+        Self::Invert,
+    ];
+
+    fn code(self) -> u32 {
+        match self {
+            Self::Keep => glow::KEEP,
+            Self::Zero => glow::ZERO,
+            Self::Replace => glow::REPLACE,
+            Self::Increment => glow::INCR,
+            Self::IncrementWrap => glow::INCR_WRAP,
+            Self::Decrement => glow::DECR,
+            Self::DecrementWrap => glow::DECR_WRAP,
+            Self::Invert => glow::INVERT,
+        }
+    }
+}
+
+/// The stencil test and operations of one side of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stencil {
+    pub compare: Compare,
+    pub reference: i32,
+    pub read_mask: u32,
+    pub write_mask: u32,
+    /// Stencil test fails, depth test fails, both pass.
+    pub ops: [StencilOp; 3],
+}
+
+impl Stencil {
+    /// Always passes, and does `op` where the depth test passes too.
+    pub const fn on_pass(op: StencilOp) -> Self {
+        Self {
+            compare: Compare::Always,
+            reference: 0,
+            read_mask: 0xFF,
+            write_mask: 0xFF,
+            ops: [StencilOp::Keep, StencilOp::Keep, op],
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    Front,
+    Back,
+}
+
+/// result = source * first + destination * second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blend {
+    /// ONE, ONE.
+    Add,
+    /// DST_COLOR, ZERO.
+    Multiply,
+    /// ONE, ZERO: the source alone, by way of the blender.
+    Replace,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    Fill,
+    Line,
+}
+
+/// All of GL's state that a bench draw can have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// `None`: depth test and depth writing are off.
+    pub depth: Option<Compare>,
+    pub depth_write: bool,
+    pub depth_range: [f64; 2],
+    pub depth_clamp: bool,
+    pub offset: Option<Offset>,
+    /// The polygon modes that the offset is for: POLYGON_OFFSET_FILL and POLYGON_OFFSET_LINE.
+    pub offset_modes: [bool; 2],
+    /// Stencil states of front and back faces.
+    pub stencil: Option<[Stencil; 2]>,
+    /// Faces that are not drawn.
+    pub cull: Option<Face>,
+    /// True if front faces wind clockwise in window space.
+    pub clockwise: bool,
+    /// Polygon modes of front and back faces; a core context knows only equal ones.
+    pub mode: [Mode; 2],
+    pub blend: Option<Blend>,
+    pub color_write: bool,
+    /// x, y, width, height in pixels from the lower left.
+    pub scissor: Option<[i32; 4]>,
+    /// Rectangle like the scissor; `None`: all of the surface.
+    pub viewport: Option<[i32; 4]>,
+    /// Number of gl_ClipDistance values that clip.
+    pub clip_distances: u32,
+    pub encode_srgb: bool,
+}
+
+impl State {
+    /// Every fragment is written, colour and depth.
+    pub const WRITE: Self = Self {
+        depth: Some(Compare::Always),
+        depth_write: true,
+        depth_range: [0.0, 1.0],
+        depth_clamp: false,
+        offset: None,
+        offset_modes: [true; 2],
+        stencil: None,
+        cull: None,
+        clockwise: false,
+        mode: [Mode::Fill; 2],
+        blend: None,
+        color_write: true,
+        scissor: None,
+        viewport: None,
+        clip_distances: 0,
+        encode_srgb: false,
+    };
+
+    /// Fragments only count: no depth test, no writes but the stencil's.
+    pub const fn counting(front: StencilOp, back: StencilOp) -> Self {
+        Self {
+            depth: None,
+            color_write: false,
+            stencil: Some([Stencil::on_pass(front), Stencil::on_pass(back)]),
+            ..Self::WRITE
+        }
+    }
+}
+
+/// Functions that glow lacks, looked up once.
+pub(super) type OffsetClamp = unsafe extern "system" fn(f32, f32, f32);
+
+/// Sets all of `state`; `size` is the surface's.
+pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &State, size: [u32; 2]) {
+    let enable = |what, on| unsafe { if on { gl.enable(what) } else { gl.disable(what) } };
+    // SAFETY: the context is current; only state is set.
+    unsafe {
+        enable(glow::DEPTH_TEST, state.depth.is_some());
+        gl.depth_func(state.depth.unwrap_or(Compare::Always).code());
+        gl.depth_mask(state.depth_write);
+        gl.depth_range(state.depth_range[0], state.depth_range[1]);
+        enable(glow::DEPTH_CLAMP, state.depth_clamp);
+        apply_stencil(gl, state);
+        enable(glow::CULL_FACE, state.cull.is_some());
+        gl.cull_face(if state.cull == Some(Face::Front) { glow::FRONT } else { glow::BACK });
+        gl.front_face(if state.clockwise { glow::CW } else { glow::CCW });
+        apply_mode(gl, state.mode);
+        enable(glow::BLEND, state.blend.is_some());
+        let (source, destination) = match state.blend {
+            Some(Blend::Add) => (glow::ONE, glow::ONE),
+            Some(Blend::Multiply) => (glow::DST_COLOR, glow::ZERO),
+            Some(Blend::Replace) | None => (glow::ONE, glow::ZERO),
+        };
+        gl.blend_func(source, destination);
+        gl.color_mask(state.color_write, state.color_write, state.color_write, state.color_write);
+        enable(glow::SCISSOR_TEST, state.scissor.is_some());
+        let whole = [0, 0, size[0] as i32, size[1] as i32];
+        let [x, y, width, height] = state.scissor.unwrap_or(whole);
+        gl.scissor(x, y, width, height);
+        let [x, y, width, height] = state.viewport.unwrap_or(whole);
+        gl.viewport(x, y, width, height);
+        for index in 0..2 {
+            enable(glow::CLIP_DISTANCE0 + index, index < state.clip_distances);
+        }
+        enable(glow::FRAMEBUFFER_SRGB, state.encode_srgb);
+        enable(glow::DITHER, false);
+    }
+    apply_offset(gl, offset_clamp, state);
+}
+
+fn apply_stencil(gl: &glow::Context, state: &State) {
+    // SAFETY: as in `apply`.
+    unsafe {
+        let Some(sides) = state.stencil else { return gl.disable(glow::STENCIL_TEST) };
+        gl.enable(glow::STENCIL_TEST);
+        for (face, side) in [glow::FRONT, glow::BACK].into_iter().zip(sides) {
+            gl.stencil_func_separate(face, side.compare.code(), side.reference, side.read_mask);
+            gl.stencil_mask_separate(face, side.write_mask);
+            let [fail, depth_fail, pass] = side.ops.map(StencilOp::code);
+            gl.stencil_op_separate(face, fail, depth_fail, pass);
+        }
+    }
+}
+
+fn apply_mode(gl: &glow::Context, mode: [Mode; 2]) {
+    let code = |mode| if mode == Mode::Fill { glow::FILL } else { glow::LINE };
+    // SAFETY: as in `apply`.
+    unsafe {
+        if mode[0] == mode[1] {
+            gl.polygon_mode(glow::FRONT_AND_BACK, code(mode[0]));
+        } else {
+            gl.polygon_mode(glow::FRONT, code(mode[0]));
+            gl.polygon_mode(glow::BACK, code(mode[1]));
+        }
+    }
+}
+
+fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &State) {
+    // SAFETY: as in `apply`; glPolygonOffsetClamp has the signature that it was loaded with.
+    unsafe {
+        for (mode, on) in [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE].into_iter().zip(state.offset_modes) {
+            if on && state.offset.is_some() { gl.enable(mode) } else { gl.disable(mode) }
+        }
+        let Offset { factor, units, clamp } = state.offset.unwrap_or(Offset { factor: 0.0, units: 0.0, clamp: 0.0 });
+        match offset_clamp {
+            Some(function) => function(factor, units, clamp),
+            None => gl.polygon_offset(factor, units),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Findings of a rule: verdicts with measurements, and facts without a verdict.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::bench::Error;
+use super::verify::{Grade, Tally};
+use super::{Outcome, Rule};
+
+/// Verdicts, in order of severity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// This context cannot be tested.
+    Untestable,
+    Pass,
+    /// Allowed, but not as good as could be.
+    Warning,
+    /// Fails, as a waiver says it does.
+    Waived,
+    Fail,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Untestable => "cannot be tested here",
+            Self::Pass => "pass",
+            Self::Warning => "quality warning",
+            Self::Waived => "waived",
+            Self::Fail => "FAIL",
+        })
+    }
+}
+
+/// One check of a rule, and its result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    pub what: String,
+    pub verdict: Verdict,
+    /// The measurement, or the reason why there is none.
+    pub measured: String,
+}
+
+impl Finding {
+    /// Message that a waiver quotes.
+    pub fn message(&self) -> String {
+        format!("{}: {}", self.what, self.measured)
+    }
+}
+
+/// A number that a user of the driver wants to know.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fact {
+    pub name: String,
+    pub value: String,
+}
+
+/// Findings of a rule so far.
+#[derive(Debug, Default)]
+pub struct Findings {
+    list: Vec<Finding>,
+    facts: Vec<Fact>,
+}
+
+impl Findings {
+    pub fn add(&mut self, what: impl Into<String>, verdict: Verdict, measured: impl Into<String>) {
+        self.list.push(Finding { what: what.into(), verdict, measured: measured.into() });
+    }
+
+    /// Fails unless `holds`; `measured` says what was seen.
+    pub fn must_hold(&mut self, what: impl Into<String>, holds: bool, measured: impl Into<String>) {
+        self.add(what, if holds { Verdict::Pass } else { Verdict::Fail }, measured);
+    }
+
+    /// Fails if `wrong` of `count` is not 0, or if nothing was counted.
+    pub fn none_wrong(&mut self, what: impl Into<String>, wrong: usize, count: usize) {
+        let measured = match wrong {
+            0 => format!("all {count} right"),
+            _ => format!("{wrong} of {count} wrong"),
+        };
+        self.must_hold(what, wrong == 0 && count > 0, measured);
+    }
+
+    /// By the tally's worst grade; `unit` names what its worst distance is counted in.
+    pub fn tally(&mut self, what: impl Into<String>, tally: Tally, unit: &str) {
+        let Tally { good, allowed, wrong, worst } = tally;
+        let count = tally.count();
+        let off =
+            if worst > 0.0 && !unit.is_empty() { format!(", at most {worst:.3} {unit} off") } else { String::new() };
+        let (verdict, measured) = match () {
+            () if wrong > 0 => (Verdict::Fail, format!("{wrong} of {count} wrong{off}")),
+            () if count == 0 => (Verdict::Fail, "nothing was drawn".to_owned()),
+            () if allowed > 0 => (Verdict::Warning, format!("{allowed} of {count} only just allowed{off}")),
+            () => (Verdict::Pass, format!("all {good} good{off}")),
+        };
+        self.add(what, verdict, measured);
+    }
+
+    /// By one grade.
+    pub fn grade(&mut self, what: impl Into<String>, grade: Grade, measured: impl Into<String>) {
+        let verdict = match grade {
+            Grade::Good => Verdict::Pass,
+            Grade::Allowed => Verdict::Warning,
+            Grade::Wrong => Verdict::Fail,
+        };
+        self.add(what, verdict, measured);
+    }
+
+    pub fn untestable(&mut self, what: impl Into<String>, why: impl Into<String>) {
+        self.add(what, Verdict::Untestable, why);
+    }
+
+    pub fn fact(&mut self, name: impl Into<String>, value: impl Into<String>) {
+        self.facts.push(Fact { name: name.into(), value: value.into() });
+    }
+
+    /// A format that is not there cannot be tested; any other error is a failure.
+    pub fn error(&mut self, error: &Error) {
+        match error {
+            Error::Refused { format, reason } => self.untestable(*format, format!("refused: {reason}")),
+            error => self.add("draws", Verdict::Fail, error.to_string()),
+        }
+    }
+
+    /// Runs a part of a rule, whose error is a finding and does not end the rule.
+    pub fn part(&mut self, part: impl FnOnce(&mut Self) -> Result<(), Error>) {
+        if let Err(error) = part(self) {
+            self.error(&error);
+        }
+    }
+
+    pub(super) fn outcome(self, rule: &Rule, seconds: f64) -> Outcome {
+        let verdict = self.list.iter().map(|finding| finding.verdict).max().unwrap_or(Verdict::Untestable);
+        Outcome {
+            id: rule.id,
+            title: rule.title,
+            section: rule.section,
+            says: rule.says,
+            tolerance: rule.tolerance,
+            verdict,
+            findings: self.list,
+            facts: self.facts,
+            seconds,
+        }
+    }
+}

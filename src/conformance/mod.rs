@@ -1,0 +1,132 @@
+//! GL's rules for shadows as checks of a driver: [`TABLE`] has them, [`run`] runs them on a [`mod@bench`]. Knows no scene
+//! and no technique.
+//!
+//! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
+//! To add a rule: one row in the table, one function in the file of its kind.
+
+pub mod bench;
+mod compare;
+mod coordinates;
+mod copies;
+mod depth;
+mod filter;
+mod findings;
+mod fixed;
+mod invariance;
+mod offset;
+mod planes;
+mod print;
+pub mod probe;
+mod random;
+mod raster;
+mod stencil;
+mod table;
+pub mod verify;
+mod volumes;
+pub mod waivers;
+mod write;
+
+use serde::Serialize;
+
+pub use filter::{UnknownFilter, choose};
+pub use findings::{Fact, Finding, Findings, Verdict};
+pub use print::print;
+pub use table::TABLE;
+pub use write::{json, junit};
+
+use self::bench::fixed_function::FixedBench;
+use self::bench::{Bench, Mutation};
+use crate::context::{Context, ContextInfo};
+
+/// One rule of GL, and how it is checked.
+#[derive(Debug)]
+pub struct Rule {
+    /// Id like `GL-C1`: a letter for the kind.
+    pub id: &'static str,
+    pub title: &'static str,
+    /// Section of the OpenGL 4.6 specification, compatibility profile.
+    pub section: &'static str,
+    /// Summary of the specification's rule.
+    pub says: &'static str,
+    /// Tolerance, and its reason.
+    pub tolerance: &'static str,
+    pub check: fn(&Subject, &mut Findings) -> Result<(), bench::Error>,
+}
+
+/// A driver, checked by way of one context.
+pub struct Subject {
+    pub bench: Bench,
+    /// The fixed-function pipeline, or why there is none.
+    pub fixed: Result<FixedBench, String>,
+    pub info: ContextInfo,
+}
+
+impl Subject {
+    /// The driver of `context`, which is current and outlives the subject.
+    ///
+    /// # Errors
+    ///
+    /// A driver that has not even a vertex array.
+    pub fn new(context: &dyn Context, mutation: Option<Mutation>) -> Result<Self, bench::Error> {
+        let bench = Bench::of(context)?.with_mutation(mutation);
+        let fixed = FixedBench::new(context, mutation).map_err(|error| error.to_string());
+        Ok(Self { bench, fixed, info: context.describe() })
+    }
+}
+
+/// Result of one rule.
+#[derive(Clone, Debug, Serialize)]
+pub struct Outcome {
+    pub id: &'static str,
+    pub title: &'static str,
+    pub section: &'static str,
+    pub says: &'static str,
+    pub tolerance: &'static str,
+    /// The worst verdict of the findings.
+    pub verdict: Verdict,
+    pub findings: Vec<Finding>,
+    pub facts: Vec<Fact>,
+    pub seconds: f64,
+}
+
+/// Results of a run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Checked {
+    pub context: ContextInfo,
+    pub outcomes: Vec<Outcome>,
+    /// Waivers for this driver that nothing needed: each is a failure.
+    pub stale_waivers: Vec<String>,
+}
+
+impl Checked {
+    /// Number of rules with this verdict.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.outcomes.iter().filter(|outcome| outcome.verdict == verdict).count()
+    }
+
+    /// Tests whether a rule failed that is not waived, or a waiver is out of date.
+    pub fn fails(&self) -> bool {
+        self.count(Verdict::Fail) > 0 || !self.stale_waivers.is_empty()
+    }
+
+    /// Tests whether nothing could be tested.
+    pub fn is_empty(&self) -> bool {
+        self.count(Verdict::Untestable) == self.outcomes.len()
+    }
+}
+
+/// Runs `rules` and gives `seen` each outcome.
+pub fn run(subject: &Subject, rules: &[&'static Rule], mut seen: impl FnMut(&Outcome)) -> Vec<Outcome> {
+    let one = |rule: &&'static Rule| {
+        let start = std::time::Instant::now();
+        let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));
+        let mut findings = Findings::default();
+        if let Err(error) = (rule.check)(subject, &mut findings) {
+            findings.error(&error);
+        }
+        let outcome = findings.outcome(rule, start.elapsed().as_secs_f64());
+        seen(&outcome);
+        outcome
+    };
+    rules.iter().map(one).collect()
+}

@@ -1,0 +1,107 @@
+//! A run as text: the table, the driver's numbers, a line that sums up.
+
+use std::fmt::Write;
+
+use comfy_table::{ColumnConstraint, ContentArrangement, Table, Width, presets};
+
+use super::{Checked, Finding, Outcome, Verdict};
+
+/// The whole text. `width` in columns; `all` lists checks that pass, too.
+pub fn print(checked: &Checked, width: u16, all: bool) -> String {
+    let mut table = Table::new();
+    table
+        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(width);
+    table.set_header(["rule", "GL 4.6 says", "measured", "verdict", "tolerance"]);
+    for outcome in &checked.outcomes {
+        table.add_row([
+            format!("{} {}", outcome.id, outcome.title),
+            format!("{} [{}]", outcome.says, outcome.section),
+            measured(outcome, all),
+            outcome.verdict.to_string(),
+            outcome.tolerance.to_owned(),
+        ]);
+    }
+    let narrow = [(0, 18), (3, 10)];
+    for (column, most) in narrow {
+        if let Some(column) = table.column_mut(column) {
+            column.set_constraint(ColumnConstraint::UpperBoundary(Width::Fixed(most)));
+        }
+    }
+    let mut text = format!("{table}\n");
+    // Writing to a string cannot fail.
+    let _ = numbers(&mut text, checked);
+    for stale in &checked.stale_waivers {
+        let _ = writeln!(text, "FAIL: {stale}");
+    }
+    let _ = writeln!(text, "{}", summary(checked));
+    text
+}
+
+/// Text of the measurements: passes are counted, the rest is listed.
+fn measured(outcome: &Outcome, all: bool) -> String {
+    let told = |finding: &&Finding| all || finding.verdict != Verdict::Pass;
+    let mut lines: Vec<String> = outcome.findings.iter().filter(told).map(line).collect();
+    let passed = outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Pass).count();
+    if !all && passed > 0 {
+        let asked = outcome.findings.len();
+        lines.insert(
+            0,
+            if passed == asked {
+                format!("{passed} checks, all pass")
+            } else {
+                format!("{passed} of {asked} checks pass")
+            },
+        );
+    }
+    lines.join("\n")
+}
+
+fn line(finding: &Finding) -> String {
+    let mark = match finding.verdict {
+        Verdict::Pass => "",
+        Verdict::Warning => "warning: ",
+        Verdict::Waived => "waived: ",
+        Verdict::Fail => "FAIL: ",
+        Verdict::Untestable => "not here: ",
+    };
+    format!("{mark}{}", finding.message())
+}
+
+fn numbers(text: &mut String, checked: &Checked) -> std::fmt::Result {
+    let facts: Vec<_> =
+        checked.outcomes.iter().flat_map(|outcome| outcome.facts.iter().map(move |fact| (outcome.id, fact))).collect();
+    if !facts.is_empty() {
+        writeln!(text, "\nNumbers of this driver")?;
+    }
+    for (id, fact) in facts {
+        writeln!(text, "  {id}  {}: {}", fact.name, fact.value)?;
+    }
+    writeln!(text)
+}
+
+fn summary(checked: &Checked) -> String {
+    let verdicts = [
+        (Verdict::Pass, "pass"),
+        (Verdict::Warning, "with a quality warning"),
+        (Verdict::Waived, "waived"),
+        (Verdict::Fail, "FAIL"),
+        (Verdict::Untestable, "cannot be tested here"),
+    ];
+    let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
+    let parts: Vec<String> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+    let context = &checked.context;
+    let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
+    format!(
+        "{} rule{}: {}; {seconds:.1} s on {} ({}, {}, {} profile)",
+        checked.outcomes.len(),
+        if checked.outcomes.len() == 1 { "" } else { "s" },
+        parts.join(", "),
+        context.renderer,
+        context.version,
+        context.backend,
+        context.profile
+    )
+}

@@ -1,0 +1,19 @@
+//! Cargo's build script: writes the binding of the fixed-function pipeline's entry points from Khronos's registry.
+//!
+//! They are what OpenGL 2.1 has and the 3.3 core profile has not; for the rest there is glow.
+
+use std::path::Path;
+use std::{env, fs, io};
+
+use gl_generator::{Api, Fallbacks, Profile, Registry, StructGenerator};
+
+fn main() -> io::Result<()> {
+    println!("cargo::rerun-if-changed=src/context/compatibility/build.rs");
+    let mut registry = Registry::new(Api::Gl, (2, 1), Profile::Compatibility, Fallbacks::None, []);
+    let core = Registry::new(Api::Gl, (3, 3), Profile::Core, Fallbacks::None, []);
+    registry.cmds.retain(|command| !core.cmds.iter().any(|kept| kept.proto.ident == command.proto.ident));
+    registry.enums.retain(|value| !core.enums.iter().any(|kept| kept.ident == value.ident));
+    let folder = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets no OUT_DIR"))?;
+    let mut file = io::BufWriter::new(fs::File::create(Path::new(&folder).join("fixed_function.rs"))?);
+    registry.write_bindings(StructGenerator, &mut file)
+}

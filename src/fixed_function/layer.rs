@@ -1,0 +1,150 @@
+//! One drawing of a batch by the fixed-function pipeline, as plain values: what the primary colour is, which texture units
+//! are on and what they combine, and how the result is blended into the framebuffer. Knows no GL.
+
+use glam::DMat4;
+
+use crate::geometry::{ObjectLinear, Placement};
+use crate::pass::Compare;
+
+/// One drawing of all the draws of a batch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Name for errors: `ambient`, `light 0`.
+    pub name: String,
+    pub primary: Primary,
+    /// Units in the order of the texture units.
+    pub units: Vec<Unit>,
+    /// GL_ALPHA_TEST with its reference value.
+    pub alpha_test: Option<(Compare, f32)>,
+    pub blend: Blend,
+    /// True if it decides visibility by the pass's own depth test; `false`: depth EQUAL to what an earlier layer left.
+    pub first: bool,
+    pub alpha_write: bool,
+}
+
+/// Blending of a fragment with the stored colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blend {
+    Replace,
+    /// ONE, ONE.
+    Add,
+    /// ZERO, ZERO: what passes the tests becomes 0.
+    Erase,
+}
+
+/// The colour before texturing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Primary {
+    /// glColor.
+    Color([f32; 4]),
+    /// GL_LIGHTING, per vertex and clamped to [0, 1].
+    Lighting(Lighting),
+}
+
+/// glMaterial and glLight.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lighting {
+    pub emission: [f32; 3],
+    pub ambient: [f32; 3],
+    pub diffuse: [f32; 3],
+    pub specular: [f32; 3],
+    /// Exponent in [0, 128].
+    pub shininess: f32,
+    pub opacity: f32,
+    pub sources: Vec<Source>,
+}
+
+/// A point light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Position in eye space.
+    pub position: [f32; 4],
+    pub ambient: [f32; 3],
+    pub diffuse: [f32; 3],
+    pub specular: [f32; 3],
+    pub attenuation: [f32; 3],
+}
+
+/// One texture unit: its image, the coordinates, and the two combiners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    pub image: UnitImage,
+    pub coordinates: Coordinates,
+    /// Texture matrix for coordinates of the surface's own textures.
+    pub placement: Placement,
+    pub rgb: Combine,
+    pub alpha: Combine,
+    /// 1, 2 or 4; what it makes of alpha is clamped to [0, 1].
+    pub alpha_scale: f32,
+    pub constant: [f32; 4],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitImage {
+    /// A texture of the batch's inputs.
+    Input {
+        index: usize,
+        /// True if its red channel is read as alpha (GL_TEXTURE_SWIZZLE_A).
+        red_as_alpha: bool,
+    },
+    Mask(Mask),
+}
+
+/// Small textures of our own, which say where a light reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mask {
+    /// 1 everywhere.
+    White,
+    /// 1 inside [0, 1] x [0, 1], 0 outside.
+    Square,
+    /// 0 for s < 0.5, 1 from there on [LEC, "Careful about Back Projecting Shadow Maps"].
+    Step,
+    /// (s', t', 0.5, 1) with s' and t' from 0 to 1 as s and t go from 0.25 to 0.75, in 32-bit float.
+    Ramp,
+}
+
+/// Source of a unit's (s, t, r, q).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Coordinates {
+    /// Nothing that varies.
+    Constant,
+    /// glTexCoordPointer.
+    Mesh,
+    /// glTexGen GL_OBJECT_LINEAR for s and t; the texture matrix scales both.
+    ObjectLinear(ObjectLinear),
+    /// glTexGen GL_EYE_LINEAR for all four.
+    EyeLinear(Box<EyeLinear>),
+}
+
+/// Planes, the modelview under which they are set, and the texture matrix behind them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EyeLinear {
+    /// Rows: s, t, r, q.
+    pub planes: DMat4,
+    pub modelview: DMat4,
+    pub texture_matrix: DMat4,
+}
+
+/// Argument of a combiner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operand {
+    Texture,
+    Constant,
+    /// The constant's alpha, also for RGB.
+    ConstantAlpha,
+    Primary,
+    /// The unit before; the primary colour for the first.
+    Previous,
+}
+
+/// GL_COMBINE's functions [GL 4.6 compatibility, table 16.20].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Combine {
+    Replace(Operand),
+    Modulate(Operand, Operand),
+    Subtract(Operand, Operand),
+    /// The first by the third, the second by 1 less the third.
+    Interpolate(Operand, Operand, Operand),
+    /// Four times the dot product of both less 0.5, into RGB and alpha.
+    Dot3Rgba(Operand, Operand),
+}

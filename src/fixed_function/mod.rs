@@ -1,0 +1,157 @@
+//! The same passes that the device draws with shaders, through the driver's own fixed-function pipeline in a
+//! compatibility context [GL 4.6 compatibility, 12 and 16]: the second reader of every pass list.
+//!
+//! It reads what a batch *means* ([`crate::pass::FixedFunctionDesc`]) and never its shaders: [`reading`] turns that into
+//! layers of primary colour, texture units and combiners, [`FixedFunction`] draws them. Texture coordinates are left to
+//! glTexGen with the planes and the modelview of the scene's set-up, so that GL itself multiplies by the inverse; lighting
+//! to glLight. Anything that the pipeline cannot express is an error with the pass's name.
+//!
+//! Images, framebuffers and raster state are the device's own; so are copies.
+
+mod bounds;
+mod draw;
+mod driver;
+mod error;
+pub mod layer;
+mod lighting;
+mod masks;
+pub mod reading;
+mod stack;
+mod units;
+
+use std::rc::Rc;
+
+use glow::HasContext;
+
+pub use error::{Error, Inexpressible};
+
+use crate::context::Context;
+pub use crate::context::compatibility::BindingError;
+use crate::context::compatibility::{Binding, raw};
+use crate::device::{Device, Pixels};
+use crate::pass::{Batch, Compare, DrawState, FixedFunctionDesc, ImageId, PassList, Work};
+
+/// The fixed-function pipeline of one compatibility context.
+pub struct FixedFunction {
+    gl: Rc<glow::Context>,
+    binding: Binding,
+    device: Device,
+    masks: masks::Masks,
+    /// GL_MAX_TEXTURE_UNITS.
+    most_units: usize,
+    /// GL_MAX_LIGHTS.
+    most_lights: usize,
+}
+
+impl FixedFunction {
+    /// A reader on `context`, which is current on this thread and stays so. Drop it before the context.
+    ///
+    /// # Errors
+    ///
+    /// A context that has no fixed-function pipeline.
+    pub fn new(context: &dyn Context) -> Result<Self, Error> {
+        let binding = Binding::load(context)?;
+        let gl = context.gl().clone();
+        // SAFETY: the context is current.
+        let limit = |name| unsafe { gl.get_parameter_i32(name) }.max(0) as usize;
+        let (most_units, most_lights) = (limit(raw::MAX_TEXTURE_UNITS), limit(raw::MAX_LIGHTS));
+        let (device, masks) = (Device::new(context), masks::Masks::new(&gl));
+        Ok(Self { gl, binding, device, masks, most_units, most_lights })
+    }
+
+    /// Everything in the list that the pipeline cannot compute; empty: it draws all of it.
+    pub fn inexpressible(&self, list: &PassList) -> Vec<Inexpressible> {
+        let mut found = Vec::new();
+        for pass in &list.passes {
+            let Work::Draw(draw) = &pass.work else { continue };
+            for batch in &draw.batches {
+                if let Err(why) = check_state(&draw.state, batch).and_then(|()| self.layers(batch)) {
+                    found.push(Inexpressible { pass: pass.label.clone(), what: names(batch), why });
+                }
+            }
+        }
+        found
+    }
+
+    /// Draws every pass of the list, whatever its targets hold.
+    ///
+    /// # Errors
+    ///
+    /// Passes that the pipeline cannot compute, before anything is drawn; else as [`Device::run`].
+    pub fn run(&mut self, list: &PassList) -> Result<(), Error> {
+        let inexpressible = self.inexpressible(list);
+        if !inexpressible.is_empty() {
+            return Err(Error::Inexpressible(inexpressible));
+        }
+        self.device.prepare_images(list)?;
+        for pass in &list.passes {
+            match &pass.work {
+                Work::Draw(draw) => self.draw(list, &pass.label, draw)?,
+                Work::CopyDepth { .. } => self.device.copy(list, pass)?,
+            }
+            self.device.check(&pass.label)?;
+        }
+        Ok(())
+    }
+
+    /// Waits until GL has finished.
+    pub fn finish(&self) {
+        self.device.finish();
+    }
+
+    /// Reads an image of the list that was run last.
+    ///
+    /// # Errors
+    ///
+    /// See [`Device::read`].
+    pub fn read(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
+        Ok(self.device.read(list, image)?)
+    }
+
+    /// A batch's layers, within the driver's limits.
+    fn layers(&self, batch: &Batch) -> Result<Vec<layer::Layer>, String> {
+        let layers = reading::layers(batch)?;
+        for layer in &layers {
+            let (units, most) = (layer.units.len(), self.most_units);
+            if units > most {
+                return Err(format!("\"{}\" takes {units} texture units, the driver has {most}", layer.name));
+            }
+            if let layer::Primary::Lighting(lighting) = &layer.primary
+                && lighting.sources.len() > self.most_lights
+            {
+                let (lights, most) = (lighting.sources.len(), self.most_lights);
+                return Err(format!("\"{}\" takes {lights} lights, the driver has {most}", layer.name));
+            }
+        }
+        Ok(layers)
+    }
+}
+
+/// A lit surface takes several layers, which blend and share positions only with one another.
+fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
+    let layered = matches!(batch.meaning, FixedFunctionDesc::Lit(_) | FixedFunctionDesc::Sampled(_));
+    let why = match state {
+        DrawState { depth_test: Some(Compare::Equal), stencil: Some(_), .. } => {
+            "a count or tag in the stencil buffer at depth EQUAL to another pass, whose positions fixed function may \
+             compute otherwise"
+        }
+        DrawState { depth_test: Some(Compare::Equal), .. } => {
+            "depth EQUAL to another pass, whose positions fixed function may compute otherwise"
+        }
+        DrawState { stencil: Some(_), .. } => {
+            "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
+             caps where it puts the surfaces"
+        }
+        _ if batch.clip_planes > 0 => "a clip plane of the vertex stage's own",
+        DrawState { blend: Some(_), .. } if layered => "a pass that blends, as its own layers do",
+        _ => return Ok(()),
+    };
+    Err(String::from(why))
+}
+
+/// The names of what a batch draws, each once.
+fn names(batch: &Batch) -> String {
+    let mut names: Vec<&str> = batch.draws.iter().map(|draw| draw.label.as_str()).collect();
+    names.dedup();
+    names.join(", ")
+}

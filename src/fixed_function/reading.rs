@@ -1,0 +1,310 @@
+//! Turns a batch's description into layers of the fixed-function pipeline, or says why that is impossible. Knows no GL.
+//!
+//! A lit batch is drawn in several passes [LEC, "Advice for Shadowed Illumination Model"; Segal 1992, 3.3]: ambient light
+//! first, then each light, added where it reaches; specular light by itself where a decal must not modulate it. A light
+//! alone needs one.
+
+use glam::Vec3;
+
+use super::bounds::{self, Reach};
+use super::layer::{Blend, Layer, Lighting, Primary, Source};
+use super::stack::{Stack, Weight};
+use crate::pass::{Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing};
+
+/// The layers of a batch, in the order in which they are drawn.
+///
+/// # Errors
+///
+/// Reason why fixed function cannot draw it.
+pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
+    match &batch.meaning {
+        FixedFunctionDesc::Depth(texturing) => Ok(vec![cut_out("depth", batch, texturing)?]),
+        FixedFunctionDesc::Constant(color) => Ok(vec![Layer::first("colour", Primary::Color(*color))]),
+        FixedFunctionDesc::Lit(lit) => lit_layers(batch, lit),
+        FixedFunctionDesc::Sampled(view) => view_layers(batch, view),
+        FixedFunctionDesc::Shader(what) => Err((*what).to_owned()),
+    }
+}
+
+impl Layer {
+    fn first(name: &str, primary: Primary) -> Self {
+        let name = name.to_owned();
+        let (units, alpha_test, blend) = (Vec::new(), None, Blend::Replace);
+        Self { name, primary, units, alpha_test, blend, first: true, alpha_write: true }
+    }
+}
+
+/// Black, and only where the surface has no holes.
+fn cut_out(name: &str, batch: &Batch, texturing: &Texturing) -> Result<Layer, String> {
+    let mut layer = Layer::first(name, Primary::Color([0.0, 0.0, 0.0, opacity(texturing)]));
+    let mut stack = Stack::new(batch);
+    stack.surface(texturing, false, true)?;
+    layer.units = stack.finish();
+    layer.alpha_test = tested(texturing);
+    Ok(layer)
+}
+
+fn tested(texturing: &Texturing) -> Option<(Compare, f32)> {
+    texturing.alpha_test.as_ref().map(|_| (Compare::GreaterEqual, 0.5))
+}
+
+fn opacity(texturing: &Texturing) -> f32 {
+    texturing.alpha_test.as_ref().map_or(1.0, |test| test.opacity)
+}
+
+/// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha test
+/// has one comparison and alpha must be 1 in the end.
+fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
+    let projection = view.projection.as_ref();
+    let reach = reach(batch, projection)?;
+    check_reference(batch, &view.shade, reach)?;
+    let mut stack = Stack::new(batch);
+    stack.shade(&view.shade, projection, Weight::Shade)?;
+    if let Some(projection) = projection {
+        stack.reach(projection, reach.behind, true);
+    }
+    let mut shown = Layer::first("shade", Primary::Color([1.0; 4]));
+    shown.units = stack.finish();
+    let mut layers = Vec::new();
+    if view.texturing.alpha_test.is_some() {
+        layers.push(Layer { blend: Blend::Erase, ..cut_out("holes", batch, &view.texturing)? });
+        shown.first = false;
+    }
+    layers.push(shown);
+    if let Some(projection) = projection.filter(|projection| projection.cone) {
+        let mut stack = Stack::new(batch);
+        stack.cone(projection);
+        let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
+        outside.units = stack.finish();
+        outside.alpha_test = Some((Compare::LessEqual, 0.0));
+        outside.blend = Blend::Erase;
+        outside.first = false;
+        layers.push(outside);
+    }
+    Ok(layers)
+}
+
+/// Cases that may occur in a batch; none if a light has no coordinates.
+fn reach(batch: &Batch, projection: Option<&Projection>) -> Result<Reach, String> {
+    projection.map_or(Ok(Reach::default()), |projection| bounds::of(batch, projection))
+}
+
+/// Fixed-point formats clamp r/q to [0, 1]; for others the shader does, and no combiner can. It matters only where a
+/// draw reaches beyond the depths of the map.
+fn check_reference(batch: &Batch, shade: &Shade, reach: Reach) -> Result<(), String> {
+    let Shade::Texture { input, clamped: true } = shade else { return Ok(()) };
+    let input = batch.inputs.iter().find(|each| each.name == *input);
+    let (beyond, where_) = match input.and_then(|input| input.sampler.compare) {
+        Some(Compare::GreaterEqual) => (reach.below_zero, "r < 0"),
+        _ => (reach.above_one, "r/q > 1"),
+    };
+    if beyond {
+        return Err(format!(
+            "it reaches beyond the light's far plane ({where_}), where a floating-point map does not clamp what it is \
+             compared with: choose a fixed-point format or a farther plane"
+        ));
+    }
+    Ok(())
+}
+
+fn lit_layers(batch: &Batch, lit: &Lit) -> Result<Vec<Layer>, String> {
+    check_lighting(lit)?;
+    let mut layers = Vec::new();
+    let base = ambient_layer(batch, lit)?;
+    let lights = lit.lights.iter().map(|light| light_layers(batch, lit, light)).collect::<Result<Vec<_>, _>>()?;
+    let mut lights: Vec<Layer> = lights.into_iter().flatten().collect();
+    let dark = base.primary == Primary::Color([0.0, 0.0, 0.0, 1.0]);
+    match lights.first_mut() {
+        // Nothing is there to be added to, and what the light does not reach is black by its units.
+        Some(only) if dark && base.alpha_test.is_none() && only.alpha_test.is_none() => {
+            (only.first, only.blend, only.alpha_write) = (true, Blend::Replace, true);
+        }
+        _ => layers.push(base),
+    }
+    layers.extend(lights);
+    Ok(layers)
+}
+
+fn check_lighting(lit: &Lit) -> Result<(), String> {
+    let attenuated = lit.lights.iter().any(|light| light.attenuation != [1.0, 0.0, 0.0]);
+    if !lit.per_vertex && !lit.lights.is_empty() && (lit.lit || attenuated) {
+        return Err(String::from(
+            "its lighting is found for each fragment, fixed function's for each vertex: choose lighting = \"per-vertex\"",
+        ));
+    }
+    if lit.lit && lit.shininess > 128.0 {
+        return Err(format!("its specular exponent is {}, GL_SHININESS ends at 128", lit.shininess));
+    }
+    Ok(())
+}
+
+fn product(a: [f32; 3], b: [f32; 3]) -> Vec3 {
+    Vec3::from(a) * Vec3::from(b)
+}
+
+/// Ambient colour of a light, bounded by what the scene's ambient light leaves below 1.
+fn own_ambient(lit: &Lit, light: &FixedFunctionLight) -> Vec3 {
+    let room = (Vec3::ONE - Vec3::from(lit.scene_ambient)).max(Vec3::ZERO);
+    let most = product(light.ambient, lit.ambient);
+    if lit.per_vertex { most.min(room) } else { most }
+}
+
+/// The first layer: all ambient light times the decal, and the surface's visibility.
+fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
+    let scene = Vec3::from(lit.scene_ambient);
+    let lit_by: Vec<&FixedFunctionLight> =
+        lit.lights.iter().filter(|light| product(light.ambient, lit.ambient) != Vec3::ZERO).collect();
+    let most = scene + lit_by.iter().map(|light| own_ambient(lit, light)).sum::<Vec3>();
+    if most.max_element() > 1.0 && (lit.texturing.decal || lit_by.iter().any(|light| is_attenuated(light))) {
+        return Err(String::from("its ambient light exceeds 1, where fixed function clamps it"));
+    }
+    let opacity = opacity(&lit.texturing);
+    let primary = if lit_by.iter().any(|light| is_attenuated(light)) {
+        let sources = lit_by.iter().map(|light| Source { ambient: light.ambient, ..unlit_source(light) }).collect();
+        let (emission, ambient) = (lit.scene_ambient, lit.ambient);
+        Primary::Lighting(Lighting { emission, ambient, opacity, sources, ..Lighting::default() })
+    } else {
+        Primary::Color(most.min(Vec3::ONE).extend(opacity).to_array())
+    };
+    let mut layer = Layer::first("ambient", primary);
+    let mut stack = Stack::new(batch);
+    let decal = lit.texturing.decal && most != Vec3::ZERO;
+    stack.surface(&lit.texturing, decal, true)?;
+    layer.units = stack.finish();
+    layer.alpha_test = tested(&lit.texturing);
+    // The picture's alpha stays 1 as cleared, whatever the alpha test used.
+    layer.alpha_write = layer.alpha_test.is_none();
+    Ok(layer)
+}
+
+fn is_attenuated(light: &FixedFunctionLight) -> bool {
+    light.attenuation != [1.0, 0.0, 0.0]
+}
+
+fn unlit_source(light: &FixedFunctionLight) -> Source {
+    let (position, attenuation) = (light.position, light.attenuation);
+    Source { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
+}
+
+/// Colours of a light that a layer adds, and their weights.
+#[derive(Clone, Copy, PartialEq)]
+struct Parts {
+    diffuse: bool,
+    specular: bool,
+    weight: Weight,
+}
+
+fn light_layers(batch: &Batch, lit: &Lit, light: &FixedFunctionLight) -> Result<Vec<Layer>, String> {
+    let reach = reach(batch, light.projection.as_ref())?;
+    check_reference(batch, &light.shade, reach)?;
+    let has_diffuse = product(light.diffuse, lit.diffuse) != Vec3::ZERO;
+    let has_specular = lit.lit && product(light.specular, lit.specular) != Vec3::ZERO;
+    let dimmed = if light.dimming > 0.0 { Weight::Dimmed(light.dimming) } else { Weight::Shade };
+    let mut parts = Vec::new();
+    if has_diffuse && has_specular && !lit.texturing.decal {
+        // Both saturate together: what a dimmed shadow leaves of the diffuse light alone is added to it.
+        parts.push(Parts { diffuse: true, specular: true, weight: Weight::Shade });
+        if light.dimming > 0.0 && light.shade != Shade::Lit {
+            parts.push(Parts { diffuse: true, specular: false, weight: Weight::Left(light.dimming) });
+        }
+    } else {
+        let each = [(has_diffuse, true, dimmed), (has_specular, false, Weight::Shade)].into_iter();
+        parts.extend(each.filter(|(has, ..)| *has).map(|(_, diffuse, weight)| {
+            let specular = !diffuse;
+            Parts { diffuse, specular, weight }
+        }));
+    }
+    parts.into_iter().map(|parts| light_layer(batch, lit, light, parts, reach)).collect()
+}
+
+fn light_layer(
+    batch: &Batch,
+    lit: &Lit,
+    light: &FixedFunctionLight,
+    parts: Parts,
+    reach: Reach,
+) -> Result<Layer, String> {
+    let projection = light.projection.as_ref();
+    let cone = projection.filter(|projection| projection.cone);
+    let (primary, already) = primary(lit, light, parts)?;
+    let name = match parts {
+        Parts { diffuse: true, specular: true, .. } => "light",
+        Parts { diffuse: true, .. } => "diffuse light",
+        Parts { .. } => "specular light",
+    };
+    let mut stack = Stack::new(batch);
+    cone.iter().for_each(|projection| stack.cone(projection));
+    if let Some(already) = already {
+        if parts.weight != Weight::Shade && light.shade != Shade::Lit {
+            return Err(String::from(
+                "its light saturates at vertices and its shadow is dimmed: no combiner does both",
+            ));
+        }
+        stack.subtract(already.to_array());
+    }
+    stack.shade(&light.shade, projection, parts.weight)?;
+    if let Some(projection) = projection {
+        if let Some(beam) = &light.beam {
+            stack.beam(beam, projection)?;
+        }
+        stack.reach(projection, reach.behind, false);
+    }
+    if parts.diffuse {
+        stack.surface(&lit.texturing, lit.texturing.decal, false)?;
+    }
+    Ok(Layer {
+        name: format!("{name} {}", light.index),
+        primary,
+        units: stack.finish(),
+        alpha_test: cone.map(|_| (Compare::Greater, 0.0)),
+        blend: Blend::Add,
+        first: false,
+        alpha_write: false,
+    })
+}
+
+/// The primary colour of a light's layer, and what of it is ambient light that is there already: GL clamps the sum of
+/// both to 1, and so a light alone would come out too bright where the sum saturates.
+fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Primary, Option<Vec3>), String> {
+    let ambient = Vec3::from(lit.scene_ambient) + own_ambient(lit, light);
+    let strength = if light.attenuation[0] > 0.0 { 1.0 / light.attenuation[0] } else { f32::INFINITY };
+    let diffuse = product(light.diffuse, lit.diffuse);
+    let specular = product(light.specular, lit.specular);
+    if !lit.lit && !is_attenuated(light) {
+        let room = if lit.per_vertex { (Vec3::ONE - ambient).max(Vec3::ZERO) } else { Vec3::INFINITY };
+        let color = diffuse.min(room);
+        if color.max_element() > 1.0 {
+            return Err(String::from("its unlit colour exceeds 1, where fixed function clamps it"));
+        }
+        return Ok((Primary::Color(color.extend(1.0).to_array()), None));
+    }
+    let sum = ambient + strength * (diffuse + if lit.lit { specular } else { Vec3::ZERO });
+    let relevant = if parts.specular { sum } else { ambient + strength * diffuse };
+    let saturates = relevant.max_element() > 1.0 && ambient != Vec3::ZERO;
+    if !parts.diffuse && sum.max_element() > 1.0 {
+        return Err(String::from(
+            "its specular light may saturate beside the diffuse, and fixed function clamps the sum",
+        ));
+    }
+    if saturates && is_attenuated(light) && own_ambient(lit, light) != Vec3::ZERO {
+        return Err(String::from(
+            "its light saturates beside ambient light that is attenuated, and fixed function clamps the sum",
+        ));
+    }
+    let mut source = unlit_source(light);
+    let mut lighting = Lighting { opacity: 1.0, shininess: lit.shininess, ..Lighting::default() };
+    if !lit.lit {
+        // Ambient light needs no normal.
+        (source.ambient, lighting.ambient) = (light.diffuse, lit.diffuse);
+    } else if parts.diffuse {
+        (source.diffuse, lighting.diffuse) = (light.diffuse, lit.diffuse);
+    }
+    if parts.specular {
+        (source.specular, lighting.specular) = (light.specular, lit.specular);
+    }
+    if saturates {
+        lighting.emission = ambient.to_array();
+    }
+    lighting.sources.push(source);
+    Ok((Primary::Lighting(lighting), saturates.then_some(ambient)))
+}

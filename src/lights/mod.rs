@@ -1,0 +1,28 @@
+//! Types that techniques, surfaces, compositions and views share: drawable parts of objects, a light as a technique sees
+//! it, the light term, guards, and the visible part of the scene. Knows no technique and no GL.
+
+pub mod alpha;
+pub mod camera_visibility;
+pub mod caster_culling;
+mod coordinates;
+mod crop;
+pub mod cut;
+pub mod drawable;
+mod ending;
+pub mod guard;
+pub mod light;
+pub mod map;
+mod notes;
+pub mod projector;
+pub mod sides;
+mod viewer;
+
+pub use camera_visibility::CameraView;
+pub use coordinates::Coordinates;
+pub use crop::Crop;
+pub use drawable::Drawable;
+pub use ending::Ending;
+pub use light::{FrustumView, LightTerm, LightView};
+pub use map::{MapInfo, MapShape};
+pub use notes::{Chosen, LeftOut, Notes};
+pub use viewer::Viewer;

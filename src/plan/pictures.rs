@@ -1,0 +1,147 @@
+//! The pictures of a frame: the camera's or a light's, and the views beside it. The passes in which light becomes a picture
+//! are left to the table of [compositions].
+
+use super::{Error, Request, ViewRequest};
+use crate::compositions;
+use crate::compositions::passes::{Buffers, Onto, Passes};
+use crate::compositions::projection::CameraProjection;
+use crate::lights::guard::Guard;
+use crate::lights::{Ending, LightTerm, Viewer};
+use crate::pass::{Clear, DrawPass, Format, ImageId, Redraw};
+use crate::scene::LightKind;
+use crate::surfaces;
+use crate::views::{self, View, frustum_lines};
+
+/// A light's term, and whether the picture needs it.
+pub struct PlannedLight {
+    pub term: LightTerm,
+    pub contributes: bool,
+    /// True if the picture or a view needs it.
+    pub is_drawn: bool,
+}
+
+/// The passes of a frame's pictures.
+pub struct Pictures<'a> {
+    pub passes: Passes<'a>,
+    pub request: &'a Request,
+}
+
+impl Pictures<'_> {
+    /// The picture from the camera: the surfaces in the light of all that contribute, then the frusta's lines over them.
+    pub fn of_camera(&mut self, lights: &[PlannedLight]) -> Result<Buffers, Error> {
+        let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).map(|l| &l.term).collect();
+        let counts = terms.iter().filter_map(|term| term.counting.as_ref());
+        let lens = CameraProjection::for_counts(self.passes.scene, counts);
+        let composition = compositions::chosen(&terms)?;
+        check_cuts(&terms)?;
+        composition.check(&terms)?;
+        let items = self.passes.cut_items(&lens);
+        surfaces::explain_guards(self.passes.scene, &items, &lens.camera, &terms, self.passes.notes);
+        let buffers = self.buffers(composition.needs_stencil());
+        let target = buffers.target();
+        composition.picture(&mut self.passes, target, &lens, &terms)?;
+        if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {
+            let state = lens.of_surfaces(frustum_lines::STATE);
+            let (viewport, clear) = (self.passes.scene.image.size, Clear::default());
+            let pass = DrawPass { target, viewport, clear, state, batches: vec![batch] };
+            self.passes.push("guides", Redraw::Always, pass);
+        }
+        Ok(buffers)
+    }
+
+    /// The picture as light `index` sees it.
+    pub fn of_light(&mut self, index: usize) -> Result<Buffers, Error> {
+        let buffers = self.buffers(false);
+        let side = self.passes.scene.image.size[0].min(self.passes.scene.image.size[1]);
+        self.seen_by_light("lit", buffers, 1 << side.max(1).ilog2(), index)?;
+        Ok(buffers)
+    }
+
+    fn buffers(&mut self, stencil: bool) -> Buffers {
+        let format = if self.request.float_picture { Format::Rgba32F } else { Format::Rgba8 };
+        self.passes.color_and_depth("picture", self.passes.scene.image.size, format, stencil)
+    }
+
+    /// The scene as a light sees it, lit by it alone and unshadowed, in a square of `side` pixels.
+    fn seen_by_light(&mut self, label: &str, buffers: Buffers, side: u32, index: usize) -> Result<(), Error> {
+        let scene = self.passes.scene;
+        let Some(source) = scene.lights.get(index) else {
+            let view = format!("{}@{index}", View::LightView.name());
+            return Err(Error::NoSuchLight { view, count: scene.lights.len() });
+        };
+        let Some(frustum) = source.frustum() else {
+            let (view, why) = (View::LightView.name(), "has no one frustum to look through");
+            return Err(Error::NoView { view, light: index, kind: source.kind.name(), why });
+        };
+        let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
+        let lens = CameraProjection::of_viewer(viewer);
+        let term = LightTerm::unshadowed(scene, index);
+        let first = self.passes.first(label, buffers.target(), &lens, self.passes.background());
+        let onto = Onto { viewport: [side; 2], ..first };
+        Ok(self.passes.surfaces(scene, &onto, &[term], &Ending::Lit)?)
+    }
+
+    /// The image that a requested view ends in.
+    pub fn view(&mut self, wanted: &ViewRequest, lights: &[PlannedLight], picture: Buffers) -> Result<ImageId, Error> {
+        let (view, name) = (wanted.view, wanted.view.name());
+        if view == View::Depth {
+            return Ok(picture.depth);
+        }
+        let Some(PlannedLight { term, .. }) = lights.get(wanted.light) else {
+            return Err(Error::NoSuchLight { view: format!("{name}@{}", wanted.light), count: lights.len() });
+        };
+        if view.needs_map() && term.map.is_none() {
+            let why = "its technique draws none, or no caster lies in its frustum";
+            return Err(Error::NoMap { view: name, light: wanted.light, why });
+        }
+        let kind = &self.passes.scene.lights[wanted.light].kind;
+        let why = match (view, kind) {
+            (View::LightDistance, LightKind::Point(_)) => Some("has no plane to measure distance from"),
+            (View::LightDistance, _) if term.coordinates.is_none() => Some("draws no map to measure distance from"),
+            (View::ProjectedMap, LightKind::Point(_)) => Some("looks its map up by direction, not by projection"),
+            _ => None,
+        };
+        if let Some(why) = why {
+            return Err(Error::NoView { view: name, light: wanted.light, kind: kind.name(), why });
+        }
+        if let (View::LightDepth, Some(map)) = (view, term.map) {
+            return Ok(map);
+        }
+        let label = format!("view: {name} of light {}", wanted.light);
+        if view == View::LightView {
+            return self.light_view(&label, wanted.light);
+        }
+        if view.depends_on_shade()
+            && let Some(image) = compositions::chosen(&[term])?.view(&mut self.passes, view, &label, term)?
+        {
+            return Ok(image);
+        }
+        let Some((ending, term)) = views::camera_pass(view, term) else {
+            return Err(compositions::Error::NoCount { view: name, light: wanted.light }.into());
+        };
+        let scene = self.passes.scene;
+        let lens = CameraProjection::of_scene(scene);
+        let buffers = self.passes.color_and_depth(&label, scene.image.size, Format::Rgba32F, false);
+        let onto = self.passes.first(&label, buffers.target(), &lens, [0.0; 4]);
+        self.passes.surfaces(scene, &onto, &[term], &ending)?;
+        Ok(buffers.color)
+    }
+
+    /// The scene as a light sees it, unshadowed, in the largest square that fits the picture.
+    fn light_view(&mut self, label: &str, index: usize) -> Result<ImageId, Error> {
+        let side = self.passes.scene.image.size[0].min(self.passes.scene.image.size[1]);
+        let buffers = self.passes.color_and_depth(label, [side; 2], Format::Rgba32F, false);
+        self.seen_by_light(label, buffers, side, index)?;
+        Ok(buffers.color)
+    }
+}
+
+/// Checks that no more lights cut surfaces at clip planes than there are planes.
+fn check_cuts(terms: &[&LightTerm]) -> Result<(), Error> {
+    let cutting: Vec<usize> =
+        terms.iter().filter(|term| term.guard == Guard::ClipPlane).map(|term| term.index).collect();
+    match cutting.len() > surfaces::MOST_CLIP_PLANES {
+        true => Err(Error::TooManyCuts { lights: cutting, most: surfaces::MOST_CLIP_PLANES }),
+        false => Ok(()),
+    }
+}

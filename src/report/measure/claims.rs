@@ -1,0 +1,211 @@
+//! Claims of the techniques' documents, measured on a report's scene: each with its two numbers, and whether it holds here.
+//! The claims are the techniques' own data; their contenders are drawn and tuned here.
+
+use glam::{DMat4, DVec3, DVec4};
+
+use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, Split};
+use super::run::{draw_shade, size_of, with_shadow};
+use super::tune::{self, Point, Search};
+use crate::frame::Renderer;
+use crate::report::numbers::plain;
+use crate::report::store::claimed::{Claimed, Measurement, Verdict};
+use crate::scene::{Scene, Value};
+use crate::techniques::TABLE;
+use crate::techniques::claims::{Contender, Quantity, Relation};
+use crate::truth::{Answer, Hit, Truth};
+
+/// Slope factors that are tried; a constant offset has none.
+const FACTORS: [f64; 5] = [1.0, 1.5, 2.0, 3.0, 4.0];
+
+/// Measures every claim of the techniques that serve the light on its scene.
+///
+/// # Errors
+///
+/// A frame that cannot be drawn, for reasons other than a technique's: see [`tune::Error`].
+pub fn measure(
+    scene: &Scene,
+    light: usize,
+    truth: &Truth,
+    band_texels: f64,
+    renderer: &mut Renderer,
+) -> Result<Vec<Claimed>, tune::Error> {
+    let size = size_of(&scene.lights[light].shadow);
+    let options = tune::Options { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
+    let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
+    let kind = &scene.lights[light].kind;
+    let mut claimed = Vec::new();
+    for technique in TABLE.iter().filter(|technique| technique.serves(kind).is_ok()) {
+        for claim in technique.claims() {
+            let [first, second] = [claim.first, claim.second].map(|who| contest.measurement(who, claim.quantity));
+            let (first, second) = (first?, second?);
+            claimed.push(Claimed {
+                technique: technique.name().to_owned(),
+                source: technique.source().to_owned(),
+                says: claim.says.to_owned(),
+                quantity: name(claim.quantity).to_owned(),
+                verdict: judge(claim.relation, &first, &second),
+                relation: match claim.relation {
+                    Relation::AtMost(times) => format!("at most {} ×", plain(times)),
+                    Relation::Greater => String::from("more than"),
+                },
+                first,
+                second,
+            });
+        }
+    }
+    Ok(claimed)
+}
+
+fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::FalseShadow => "false shadow facing the light, beyond the band, %",
+        Quantity::FalseShadowWithBand => "false shadow facing the light, %",
+        Quantity::Leak => "leak on all surfaces, %",
+        Quantity::LeakFacing => "leak facing the light, %",
+        Quantity::WrongFacing => "wrong facing the light, %",
+        Quantity::WrongAway => "wrong of what is turned away, %",
+        Quantity::Offset => "median offset, 2⁻²⁴ of the depth range",
+    }
+}
+
+fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> Verdict {
+    let (Some(a), Some(b)) = (first.value, second.value) else { return Verdict::Unknown };
+    let holds = match relation {
+        Relation::AtMost(times) => a <= times * b,
+        Relation::Greater => a > b,
+    };
+    if holds { Verdict::Holds } else { Verdict::Fails }
+}
+
+/// The contenders of one scene, each drawn once.
+struct Contest<'a> {
+    scene: &'a Scene,
+    truth: &'a Truth,
+    options: tune::Options,
+    size: u32,
+    renderer: &'a mut Renderer,
+    seen: Vec<(Contender, Seen)>,
+}
+
+/// One contender: its settings, its offset where it has one, and its errors, or the reason why it has none.
+#[derive(Clone)]
+struct Seen {
+    settings: String,
+    point: Option<Point>,
+    metrics: Result<Metrics, String>,
+}
+
+impl Contest<'_> {
+    fn measurement(&mut self, who: Contender, quantity: Quantity) -> Result<Measurement, tune::Error> {
+        let seen = self.seen(who)?;
+        let (value, why) = match &seen.metrics {
+            Err(why) => (None, Some(why.clone())),
+            Ok(metrics) if compared(metrics, quantity) < FEWEST_COMPARED => {
+                (None, Some(format!("fewer than {FEWEST_COMPARED} pixels could be compared")))
+            }
+            Ok(metrics) => {
+                let value = match quantity {
+                    Quantity::FalseShadow => Some(metrics.facing.false_shadow.outside_percent),
+                    Quantity::FalseShadowWithBand => Some(metrics.facing.false_shadow_percent),
+                    Quantity::Leak => Some(metrics.all.leak_percent),
+                    Quantity::LeakFacing => Some(metrics.facing.leak_percent),
+                    Quantity::WrongFacing => Some(metrics.facing.wrong_percent),
+                    Quantity::WrongAway => wrong_away(metrics),
+                    Quantity::Offset => seen.point.and_then(|point| self.median_offset(&point)),
+                };
+                let why = value.is_none().then(|| String::from("nothing in the picture shows it"));
+                (value, why)
+            }
+        };
+        Ok(Measurement { settings: seen.settings, value, why })
+    }
+
+    fn seen(&mut self, who: Contender) -> Result<Seen, tune::Error> {
+        if let Some((_, seen)) = self.seen.iter().find(|(other, _)| *other == who) {
+            return Ok(seen.clone());
+        }
+        let seen = match who {
+            Contender::SlopeScaled => self.tuned(&FACTORS, &|point| point.clean)?,
+            Contender::Constant => {
+                let most = self.seen(Contender::SlopeScaled)?.point.map_or(0.0, |p| p.false_shadow_with_band_percent);
+                self.tuned(&[0.0], &|point| point.false_shadow_with_band_percent <= most)?
+            }
+            Contender::Keys(keys) => {
+                Seen { settings: format!("{keys}, size = {}", self.size), point: None, metrics: self.errors(keys) }
+            }
+        };
+        self.seen.push((who, seen.clone()));
+        Ok(seen)
+    }
+
+    /// A shadow map whose offset has one of these factors and is `enough`.
+    fn tuned(&mut self, factors: &[f64], enough: &dyn Fn(&Point) -> bool) -> Result<Seen, tune::Error> {
+        let mut tick = |_: &Point| ();
+        let mut search = Search::new(self.scene, self.truth, &self.options, self.renderer, &mut tick);
+        let Some(point) = search.best_of(self.size, factors, |point| point.leak_facing_percent, enough)? else {
+            let metrics = Err(String::from("no such offset has as little false shadow"));
+            return Ok(Seen { settings: String::from("technique = \"shadow-map\""), point: None, metrics });
+        };
+        let point = search.refined(point, enough)?;
+        let keys = format!(
+            "technique = \"shadow-map\", offset = {{ factor = {:?}, units = {:?} }}",
+            point.factor, point.units
+        );
+        let metrics = self.errors(&keys);
+        Ok(Seen { settings: format!("{keys}, size = {}", self.size), point: Some(point), metrics })
+    }
+
+    fn errors(&mut self, keys: &str) -> Result<Metrics, String> {
+        let light = self.options.light;
+        let shadow = tune::under(&self.scene.lights[light].shadow, self.size, keys).map_err(|e| e.to_string())?;
+        let shade = draw_shade(&with_shadow(self.scene, light, &shadow), light, self.renderer);
+        let band = Band { texels: self.options.band_texels, map_size: [self.size; 2] };
+        metrics::compare(self.truth, &shade.map_err(|e| e.to_string())?, &band).map_err(|e| e.to_string())
+    }
+
+    /// Median offset over the lit pixels that face the light, in 2⁻²⁴ of the depth range; `None` without such a pixel, or
+    /// without a frustum whose depth it could be measured in.
+    fn median_offset(&self, point: &Point) -> Option<f64> {
+        let window_from_world = window_from_world(self.scene, self.options.light, point.size)?;
+        let unit = match self.scene.lights[self.options.light].shadow.get("format").map(|entry| &entry.value) {
+            Some(Value::String(format)) if format == "depth16" => 1.0 / 65535.0,
+            _ => (-24.0_f64).exp2(),
+        };
+        let lit = self.truth.pixels.iter().filter(|pixel| pixel.answer == Answer::Lit).filter_map(|pixel| pixel.hit);
+        let offset = |hit: Hit| point.factor * slope(&hit, &window_from_world) + point.units * unit;
+        let mut offsets: Vec<f64> = lit.filter(Hit::faces_light).map(offset).collect();
+        offsets.sort_by(f64::total_cmp);
+        Some(offsets.get(offsets.len() / 2)? * 24.0_f64.exp2())
+    }
+}
+
+/// Matrix to texels and depths in [0, 1].
+fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
+    let clip_from_world = scene.lights[light].frustum()?.clip_from_world();
+    let half = 0.5 * f64::from(size);
+    let scale = DMat4::from_scale(DVec3::new(half, half, 0.5));
+    Some(scale * DMat4::from_translation(DVec3::ONE) * clip_from_world)
+}
+
+/// GL's maximum depth slope of the plane that a pixel shows [GL 4.6, 14.6.5]: a projection maps planes to planes.
+fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
+    let plane: DVec4 = hit.normal.extend(-hit.normal.dot(hit.position));
+    let plane = window_from_world.inverse().transpose() * plane;
+    (plane.x / plane.z).abs().max((plane.y / plane.z).abs())
+}
+
+/// The pixels that a quantity is measured over, or those beside them.
+fn compared(metrics: &Metrics, quantity: Quantity) -> usize {
+    match quantity {
+        Quantity::Leak | Quantity::WrongAway => metrics.all.compared,
+        _ => metrics.facing.compared,
+    }
+}
+
+/// Share of wrong pixels on surfaces turned away; `None` if none was compared.
+fn wrong_away(metrics: &Metrics) -> Option<f64> {
+    let count = |split: Split| split.inside + split.outside;
+    let wrong = |errors: &metrics::Errors| count(errors.false_shadow) + count(errors.leak);
+    let compared = metrics.all.compared.checked_sub(metrics.facing.compared).filter(|count| *count > 0)?;
+    Some(100.0 * wrong(&metrics.all).saturating_sub(wrong(&metrics.facing)) as f64 / compared as f64)
+}

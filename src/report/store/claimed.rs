@@ -1,0 +1,73 @@
+//! Claims of documents as a report holds them: plain values, written as JSON and read back.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::report::numbers::plain;
+
+/// A claim of a document, and its result on this scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Claimed {
+    /// Technique that the claim is about, and its document.
+    pub technique: String,
+    pub source: String,
+    pub says: String,
+    /// Compared quantity, with its unit.
+    pub quantity: String,
+    pub first: Measurement,
+    /// Relation between both, in words: "at most 0.5 ×", "more than".
+    pub relation: String,
+    pub second: Measurement,
+    pub verdict: Verdict,
+}
+
+/// A number of a claim.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// Settings in TOML.
+    pub settings: String,
+    pub value: Option<f64>,
+    /// Reason why there is no value.
+    pub why: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    Holds,
+    Fails,
+    /// One of the numbers is missing.
+    Unknown,
+}
+
+impl Verdict {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "does not hold",
+            Self::Unknown => "not known",
+        }
+    }
+}
+
+impl Claimed {
+    /// The first number over the second, if that is meaningful.
+    pub fn ratio(&self) -> Option<f64> {
+        let (first, second) = (self.first.value?, self.second.value?);
+        (second > 0.0).then_some(first / second)
+    }
+}
+
+/// One line: the claim, both numbers, the verdict.
+impl fmt::Display for Claimed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = |side: &Measurement| match (side.value, &side.why) {
+            (Some(value), _) => plain(value),
+            (None, why) => why.clone().unwrap_or_default(),
+        };
+        let ratio = self.ratio().map_or_else(String::new, |ratio| format!(" ({} ×)", plain(ratio)));
+        write!(f, "{}: {}: {}: ", self.technique, self.says, self.verdict.name())?;
+        write!(f, "{} against {}{ratio}, {}", text(&self.first), text(&self.second), self.quantity)
+    }
+}

@@ -1,0 +1,11 @@
+//! A report as data and as files.
+
+pub mod claimed;
+pub mod csv;
+pub mod fingerprint;
+pub mod journal;
+pub mod merge;
+pub mod picture_files;
+pub mod pictures;
+pub mod results;
+pub mod write;

@@ -1,0 +1,77 @@
+//! The pictures of a report: the scene, the truth, and the errors of the rows that matter.
+
+use super::results::{Row, SceneReport};
+use crate::device::Pixels;
+use crate::frame::{self, Renderer};
+use crate::plan::Request;
+use crate::report::measure::difference::{self, difference_picture, truth_picture};
+use crate::report::measure::metrics;
+use crate::report::measure::picks::{Goals, Pick, Picks};
+use crate::report::measure::run::{Sweep, draw_shade};
+use crate::report::show::html::{DifferencePicture, ScenePictures};
+
+/// Reason why a picture could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Frame(#[from] frame::Error),
+    #[error(transparent)]
+    Difference(#[from] metrics::Error),
+    #[error("a picture of the report cannot be encoded: {0}")]
+    Encode(#[from] image::ImageError),
+}
+
+/// Draws the pictures of one scene.
+///
+/// # Errors
+///
+/// An error of the device; a picture that does not fit its truth.
+pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Renderer) -> Result<ScenePictures, Error> {
+    let mut differences = Vec::new();
+    for (row, caption) in rows_that_matter(report, goals) {
+        let shade = draw_shade(&sweep.scene_of(row.index), report.light, renderer)?;
+        let png = difference::to_png(&difference_picture(&sweep.truth, &shade)?)?;
+        differences.push(DifferencePicture { row: row.index, caption, png });
+    }
+    Ok(ScenePictures {
+        picture: Some(picture(sweep, renderer)?),
+        truth: Some(difference::to_png(&truth_picture(&sweep.truth))?),
+        differences,
+    })
+}
+
+/// The scene as written, the rows that reach the goals, and the most wrong one; each once.
+pub(super) fn rows_that_matter<'r>(report: &'r SceneReport, goals: &Goals) -> Vec<(&'r Row, String)> {
+    let measured = || report.rows.iter().filter(|row| row.measured().is_some());
+    let wrong = |row: &Row| row.measured().map_or(0.0, |measured| measured.wrong_percent());
+    let picks = Picks::of(report, goals);
+    let picked = |pick: &Option<Pick<'r>>| pick.as_ref().map(|pick| pick.row);
+    let candidates = [
+        (measured().find(|row| row.index == 0), String::from("as the scene is written")),
+        (picked(&picks.cheapest), format!("the cheapest that is wrong in at most {} %", goals.wrong_percent)),
+        (picked(&picks.most_exact), format!("the most exact within {} ms", goals.milliseconds)),
+        (measured().min_by(|a, b| wrong(a).total_cmp(&wrong(b))), String::from("the most exact of all")),
+        (measured().max_by(|a, b| wrong(a).total_cmp(&wrong(b))), String::from("the most wrong of all")),
+    ];
+    let mut rows: Vec<(&Row, String)> = Vec::new();
+    for (row, caption) in candidates {
+        let Some(row) = row else { continue };
+        match rows.iter_mut().find(|(have, _)| have.index == row.index) {
+            Some((_, have)) => have.push_str(&format!("; {caption}")),
+            None => rows.push((row, caption)),
+        }
+    }
+    rows
+}
+
+fn picture(sweep: &Sweep, renderer: &mut Renderer) -> Result<Vec<u8>, Error> {
+    let plan = renderer.plan(&sweep.scene, &Request::default())?;
+    renderer.draw(&plan)?;
+    let [width, height] = sweep.report.size;
+    let rgb = match renderer.read(&plan)?.picture {
+        Pixels::Rgba8 { data, .. } => data.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect(),
+        _ => Vec::new(),
+    };
+    let picture = image::RgbImage::from_raw(width, height, rgb).unwrap_or_default();
+    Ok(difference::to_png(&picture)?)
+}

@@ -1,0 +1,239 @@
+//! Contents of a report: plain values that are written as JSON, read back, merged and drawn.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::claimed::Claimed;
+use crate::report::measure::metrics::{FEWEST_COMPARED, Metrics};
+
+/// A whole report, or a part of one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Version of this layout.
+    pub version: u32,
+    /// True if every row of the grid is there.
+    pub complete: bool,
+    pub machine: Machine,
+    /// Notes for the reader: what was joined, what went wrong.
+    #[serde(default)]
+    pub notes: Vec<String>,
+    /// Requested scenes, of which [`Self::scenes`] may be a part.
+    pub asked_scenes: usize,
+    pub scenes: Vec<SceneReport>,
+}
+
+/// The layout that this crate writes and reads.
+pub const VERSION: u32 = 1;
+
+/// Machine and driver that it was measured on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    /// The processor, as the system names it, and its logical cores.
+    pub processor: String,
+    pub cores: usize,
+    /// GL_RENDERER and GL_VERSION, and the way the context was made.
+    pub renderer: String,
+    pub gl_version: String,
+    pub backend: String,
+    pub glumbra: String,
+    /// Rows measured at once; above 1 the times disturb each other.
+    pub jobs: usize,
+}
+
+/// One scene over the grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneReport {
+    /// Path as text; bytes that are not UTF-8 are replaced.
+    #[serde(serialize_with = "as_text")]
+    pub path: PathBuf,
+    /// The path's bytes in hexadecimal, if it is not UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path_bytes: Option<String>,
+    /// Fingerprint of the scene, the files that it names, the grid, the light and the layout: parts with the same one can be merged.
+    pub fingerprint: String,
+    /// Index into the scene's lights.
+    pub light: usize,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    pub triangles: u64,
+    pub truth: TruthSummary,
+    /// Parts that the plan leaves out of the scene as written, and the time that this saves.
+    #[serde(default)]
+    pub saved: Option<Saved>,
+    /// Claims of the techniques' documents, measured here.
+    #[serde(default)]
+    pub claims: Vec<Claimed>,
+    /// Rows of the whole grid, of which [`Self::rows`] may be a part.
+    pub grid_rows: usize,
+    /// Rows by their index in the grid.
+    pub rows: Vec<Row>,
+}
+
+/// Costs of the scene as written, compared with everything drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Saved {
+    /// True if both drew the same picture, to the bit. If not, nothing here counts.
+    pub same_pixels: bool,
+    pub whole: Cost,
+    /// A frame that keeps what a static scene's first frame drew.
+    pub pruned: Cost,
+    pub left_out: Vec<crate::lights::LeftOut>,
+}
+
+/// Cost of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    pub frame: Spread,
+    pub image_bytes: u64,
+    pub draw_calls: usize,
+    pub triangles: u64,
+}
+
+/// Summary of the ray tracer's answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TruthSummary {
+    pub drawn: usize,
+    pub lit: usize,
+    pub shadowed: usize,
+    pub ambiguous: usize,
+    /// Ambiguous pixels, in percent of `drawn`.
+    pub ambiguous_percent: f64,
+    /// Time to trace it, in milliseconds, on all cores.
+    pub trace_ms: f64,
+}
+
+/// One setting of one technique.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Index in the grid, from 0; row 0 is the scene as written.
+    pub index: usize,
+    pub technique: String,
+    /// `key = value` in TOML, without the technique: all keys of `[light.shadow]`, the scene's own among them.
+    pub settings: Vec<(String, String)>,
+    pub outcome: Outcome,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    Measured(Box<Measured>),
+    /// Reason why the row could not be drawn or compared.
+    Failed(String),
+}
+
+/// Errors and costs of a setting.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    pub metrics: Metrics,
+    /// Every pass drawn, the maps among them, in milliseconds from the first call to the end of glFinish.
+    pub frame_redrawn: Spread,
+    /// A frame that keeps what a static scene's first frame drew.
+    pub frame_kept: Spread,
+    pub passes: Vec<PassCost>,
+    /// Images of the plan: maps, buffers, textures.
+    pub image_bytes: u64,
+    /// Vertex and index buffers.
+    #[serde(default)]
+    pub buffer_bytes: u64,
+    /// Draws and triangles of a frame with everything drawn.
+    pub draw_calls: usize,
+    pub triangles: u64,
+    /// Hash of the work of its passes: rows with the same one should take the same time. Empty in older reports.
+    #[serde(default)]
+    pub work: String,
+    pub left_out: Vec<crate::lights::LeftOut>,
+    pub warnings: Vec<String>,
+}
+
+/// Times of several runs in milliseconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    pub median: f64,
+    pub least: f64,
+    pub greatest: f64,
+    pub runs: usize,
+}
+
+impl Spread {
+    /// Statistics of at least one time.
+    pub fn of(times: &[f64]) -> Self {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);
+        let runs = sorted.len();
+        let median = if runs % 2 == 1 { at(runs / 2) } else { 0.5 * (at(runs / 2) + at((runs / 2).saturating_sub(1))) };
+        Self { median, least: at(0), greatest: at(runs.saturating_sub(1)), runs }
+    }
+}
+
+/// Cost of one pass when it is drawn and waited for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PassCost {
+    pub label: String,
+    pub wall: Spread,
+    /// GL_TIME_ELAPSED, where the driver counts it.
+    pub gpu: Option<Spread>,
+    pub triangles: u64,
+    /// GL_SAMPLES_PASSED: fragments that passed the depth test.
+    pub fragments: Option<u64>,
+}
+
+impl Report {
+    /// Tests whether every row of every requested scene is there.
+    pub fn has_all_rows(&self) -> bool {
+        self.scenes.len() == self.asked_scenes && self.scenes.iter().all(|scene| scene.rows.len() == scene.grid_rows)
+    }
+}
+
+impl Row {
+    /// The measurement, if there is one.
+    pub fn measured(&self) -> Option<&Measured> {
+        match &self.outcome {
+            Outcome::Measured(measured) => Some(measured),
+            Outcome::Failed(_) => None,
+        }
+    }
+
+    /// `key = value, …`, without the technique.
+    pub fn settings_text(&self) -> String {
+        let keys = self.settings.iter().map(|(key, value)| format!("{key} = {value}"));
+        keys.collect::<Vec<_>>().join(", ")
+    }
+
+    /// `[light.shadow]` as a scene would have it.
+    pub fn to_toml(&self) -> String {
+        let keys = self.settings.iter().map(|(key, value)| format!("{key} = {value}\n"));
+        format!("[light.shadow]\ntechnique = \"{}\"\n{}", self.technique, keys.collect::<String>())
+    }
+}
+
+/// Replaces bytes that are not UTF-8, which JSON cannot hold: see [`SceneReport::path_bytes`].
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
+}
+
+/// Value of [`SceneReport::path_bytes`].
+pub fn bytes_of(path: &Path) -> Option<String> {
+    let hexadecimal = |byte: &u8| format!("{byte:02x}");
+    path.to_str().is_none().then(|| path.as_os_str().as_encoded_bytes().iter().map(hexadecimal).collect())
+}
+
+impl SceneReport {
+    /// The rows that could not be drawn or compared.
+    pub fn failed(&self) -> Vec<&Row> {
+        self.rows.iter().filter(|row| row.measured().is_none()).collect()
+    }
+}
+
+impl Measured {
+    /// Tests whether enough pixels could be compared to say how wrong it is. Otherwise it is not right, only unjudged.
+    pub fn is_judged(&self) -> bool {
+        self.metrics.all.compared >= FEWEST_COMPARED
+    }
+
+    /// Wrong pixels, in percent of all that were compared.
+    pub fn wrong_percent(&self) -> f64 {
+        self.metrics.all.wrong_percent
+    }
+}

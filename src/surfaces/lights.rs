@@ -1,0 +1,259 @@
+//! Parts of the lit pass's shader variants for each light: chunks, defines, uniforms, textures [LEC, "Advice for Shadowed
+//! Illumination Model"]. They depend on how much of the light an item is drawn with. Knows lights and terms; no item's
+//! material.
+
+use glam::{DMat4, Vec3, Vec4};
+
+use super::Ending;
+use super::guarded::{self, Reach};
+use crate::lights::drawable::{side_map, upload};
+use crate::lights::guard::Guard;
+use crate::lights::{Drawable, LightTerm, Viewer};
+use crate::math::texgen;
+use crate::pass::{
+    Chunk, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
+};
+use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
+
+/// Parts of one light in every variant.
+pub struct LightParts {
+    pub index: usize,
+    pub defines: Vec<String>,
+    pub shade: Chunk,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+    /// Defines `bool in_reach_@()`.
+    pub reach: Chunk,
+    /// Defines `void find_side_@(vec4 eye)`, and `float side_@()` of what that found, 0 behind the light.
+    pub side: Option<[Chunk; 2]>,
+    pub has_coordinates: bool,
+    pub meaning: FixedFunctionLight,
+    pub has_specular: bool,
+    pub has_ambient: bool,
+    /// True if its direction differs from point to point.
+    pub has_position: bool,
+    pub has_attenuation: bool,
+}
+
+/// One light, as the pieces need it.
+pub struct Variants<'a> {
+    term: &'a LightTerm,
+    /// A light's plane, times a power of two: see [`Reach::Texture`].
+    side_plane: Vec4,
+    /// Parts in the order of [`Reach::ALL`], each made on first use; `None` within: nothing is left of the light.
+    made: [Option<Option<LightParts>>; Reach::ALL.len()],
+}
+
+/// The side map's coordinate at the greatest q, as a power of two: a driver's texel coordinates must stay below 2^31, and
+/// the texels meet at 1/2, which is closer to q = 0 than f32 resolves.
+const SIDE_EXPONENT: f64 = 28.0;
+
+impl<'a> Variants<'a> {
+    pub fn new(scene: &Scene, items: &[Drawable], term: &'a LightTerm, viewer: &Viewer) -> Self {
+        let plane = guarded::plane(scene, term, viewer).filter(|_| term.guard == Guard::Texture1d);
+        let side_plane = plane.map_or(Vec4::ZERO, |plane| {
+            let exponent = SIDE_EXPONENT - plane.extent(items, viewer).max(1e-30).log2().ceil();
+            plane.q_from_eye.as_vec4() * exponent.clamp(-100.0, 100.0).exp2() as f32
+        });
+        Self { term, side_plane, made: Default::default() }
+    }
+
+    /// `None` where the light's transform has no inverse.
+    pub fn make(
+        &mut self,
+        scene: &Scene,
+        viewer: &Viewer,
+        reach: Reach,
+        ending: &Ending,
+        list: &mut PassList,
+    ) -> Option<()> {
+        let made = &mut self.made[reach as usize];
+        if made.is_none() {
+            let mut source = scene.lights[self.term.index].clone();
+            *made = Some(match reach {
+                Reach::Nowhere if source.ambient == [0.0; 3] => None,
+                Reach::Nowhere => {
+                    (source.diffuse, source.specular) = ([0.0; 3], [0.0; 3]);
+                    let mut term = self.term.under(scene, glsl!("common/shadowed.frag"), Shade::Dark);
+                    (term.coordinates, term.frustum_from_map, term.dimming) = (None, None, 0.0);
+                    Some(light_parts(&source, viewer, &term, reach, ending, list)?)
+                }
+                _ => Some(light_parts(&source, viewer, self.term, reach, ending, list)?),
+            });
+            if let (Reach::Texture, Some(Some(parts))) = (reach, made) {
+                parts.uniforms.push(Uniform::of_light("side_plane", parts.index, self.side_plane));
+            }
+        }
+        Some(())
+    }
+
+    pub fn of(&self, reach: Reach) -> Option<&LightParts> {
+        self.made[reach as usize].as_ref()?.as_ref()
+    }
+}
+
+const SPOT_IMAGE_SAMPLER: Sampler =
+    Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+
+fn light_parts(
+    source: &Light,
+    viewer: &Viewer,
+    term: &LightTerm,
+    reach: Reach,
+    ending: &Ending,
+    list: &mut PassList,
+) -> Option<LightParts> {
+    let index = term.index;
+    let spot = source.spot().filter(|_| reach != Reach::Nowhere);
+    let cone = spot.is_some_and(|spot| spot.shape == LightShape::Cone);
+    let projection = match &term.coordinates {
+        Some(coordinates) => {
+            let spaces = coordinates.spaces(viewer.eye_from_world);
+            let texgen = texgen::set_up(&spaces, coordinates.set_up, coordinates.split)?;
+            let bounded = spot.is_some();
+            Some(Projection { light: index, texgen, frustum_from_map: term.frustum_from_map, bounded, cone })
+        }
+        None => None,
+    };
+    let in_reach = match spot {
+        Some(_) => glsl!("surfaces/reach.frag"),
+        None if reach == Reach::Nowhere => glsl!("surfaces/nowhere.frag"),
+        None => glsl!("surfaces/everywhere.frag"),
+    };
+    let mut parts = LightParts {
+        index,
+        defines: term.defines.clone(),
+        shade: term.shade.for_light(index),
+        uniforms: term.uniforms.clone(),
+        inputs: term.inputs.clone(),
+        reach: in_reach.for_light(index),
+        side: None,
+        has_coordinates: projection.is_some(),
+        meaning: meaning(source, spot, viewer, term, projection.clone()),
+        has_position: source.position().is_some(),
+        has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
+        has_specular: source.specular != [0.0; 3],
+        has_ambient: source.ambient != [0.0; 3],
+    };
+    if let Some(projection) = &projection {
+        add_texgen(&mut parts, &projection.texgen);
+    }
+    if cone {
+        parts.defines.push(format!("CONE_{index}"));
+    }
+    if spot.is_some() {
+        add_guard(&mut parts, reach, list);
+        if term.guard == Guard::None {
+            parts.meaning.shade = Shade::Shader("light behind a light, which guard = \"none\" asks for");
+        }
+    }
+    if let Some(frustum_from_map) = term.frustum_from_map {
+        parts.defines.push(format!("MAP_ADDRESSING_{index}"));
+        parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
+    }
+    if let Ending::Lit = ending {
+        add_lighting(&mut parts, source, spot, viewer, term, list);
+    }
+    Some(parts)
+}
+
+/// Adds the guard that replaces the fragment's test of q.
+fn add_guard(parts: &mut LightParts, reach: Reach, list: &mut PassList) {
+    let index = parts.index;
+    if reach != Reach::Fragment {
+        parts.defines.push(format!("UNGUARDED_{index}"));
+    }
+    parts.side = match reach {
+        Reach::Texture => Some([glsl!("surfaces/side_map.vert"), glsl!("surfaces/side_map.frag")]),
+        Reach::Cutoff => Some([glsl!("surfaces/spot_cutoff.vert"), glsl!("surfaces/spot_cutoff.frag")]),
+        Reach::Free | Reach::Fragment | Reach::Nowhere => None,
+    }
+    .map(|chunks| chunks.map(|chunk| chunk.for_light(index)));
+    if parts.side.is_some() {
+        parts.defines.push(format!("SIDE_{index}"));
+    }
+    if reach == Reach::Texture {
+        parts.inputs.push(side_map(format!("side_map_{index}"), list));
+    }
+}
+
+/// The light in the terms of fixed function, which guards by a texture of its own.
+fn meaning(
+    source: &Light,
+    spot: Option<&Spot>,
+    viewer: &Viewer,
+    term: &LightTerm,
+    projection: Option<Projection>,
+) -> FixedFunctionLight {
+    let has_image = spot.is_some_and(|spot| spot.image.is_some());
+    FixedFunctionLight {
+        index: term.index,
+        position: eye_position(source, viewer).to_array(),
+        ambient: source.ambient,
+        diffuse: source.diffuse,
+        specular: source.specular,
+        attenuation: source.attenuation(),
+        beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
+        dimming: term.dimming,
+        projection,
+        shade: term.meaning.clone(),
+    }
+}
+
+/// Homogeneous position; for an infinitely far light, the unit vector to it, and w = 0.
+fn eye_position(source: &Light, viewer: &Viewer) -> Vec4 {
+    let position = match &source.kind {
+        LightKind::Spot(spot) => spot.frustum.position,
+        LightKind::Point(point) => point.position,
+        LightKind::Directional { direction } => {
+            return viewer.eye_from_world.transform_vector3(-*direction).as_vec3().extend(0.0);
+        }
+    };
+    viewer.eye_from_world.transform_point3(position).as_vec3().extend(1.0)
+}
+
+fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
+    let rows = generated.eye_planes.as_mat4().transpose();
+    let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
+    parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
+    if generated.texture_matrix != DMat4::IDENTITY {
+        parts.defines.push(format!("TEXTURE_MATRIX_{}", parts.index));
+        parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
+    }
+}
+
+fn add_lighting(
+    parts: &mut LightParts,
+    source: &Light,
+    spot: Option<&Spot>,
+    viewer: &Viewer,
+    term: &LightTerm,
+    list: &mut PassList,
+) {
+    let index = parts.index;
+    let position = eye_position(source, viewer);
+    if parts.has_position {
+        parts.uniforms.push(Uniform::of_light("light_position", index, position.truncate()));
+    } else {
+        parts.defines.push(format!("DIRECTIONAL_{index}"));
+        parts.uniforms.push(Uniform::of_light("light_direction", index, position.truncate()));
+    }
+    parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
+    if parts.has_ambient {
+        parts.defines.push(format!("LIGHT_AMBIENT_{index}"));
+        parts.uniforms.push(Uniform::of_light("light_ambient", index, Vec3::from(source.ambient)));
+    }
+    if parts.has_attenuation {
+        parts.defines.push(format!("ATTENUATION_{index}"));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
+    }
+    if term.dimming > 0.0 {
+        parts.defines.push(format!("DIMMING_{index}"));
+        parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
+    }
+    if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
+        parts.defines.push(format!("SPOT_IMAGE_{index}"));
+        parts.inputs.push(upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
+    }
+    parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
+}

@@ -1,0 +1,87 @@
+//! The lit pass: every visible surface once, with the light of every contributing light in one shader variant [LEC, "Advice
+//! for Shadowed Illumination Model"].
+
+mod explain;
+mod guarded;
+mod lights;
+mod partition;
+mod variant;
+
+use glam::Mat3;
+
+use self::guarded::Reach;
+use self::lights::{LightParts, Variants};
+use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
+use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
+use crate::scene::Scene;
+pub use explain::explain_guards;
+pub use guarded::MOST_CLIP_PLANES;
+
+/// The batches that draw `items` as `viewer` sees them, lit by `terms`; `ending` decides what a fragment shows.
+///
+/// `None` where a light's transform has no inverse.
+pub fn batches(
+    scene: &Scene,
+    items: &[Drawable],
+    viewer: &Viewer,
+    terms: &[LightTerm],
+    ending: &Ending,
+    list: &mut PassList,
+) -> Option<Vec<Batch>> {
+    let clip_from_world = viewer.clip_from_world();
+    let mut pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    if terms.iter().any(|term| term.added) {
+        pieces.retain(|piece| piece.reaches.iter().any(|reach| *reach != Reach::Nowhere));
+    }
+    let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
+    for piece in &pieces {
+        for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
+            variants.make(scene, viewer, *reach, ending, list)?;
+        }
+    }
+    let mut batches: Vec<Batch> = Vec::new();
+    for piece in &pieces {
+        let item = &piece.item;
+        let lights = lights.iter().zip(&piece.reaches).filter_map(|(variants, reach)| variants.of(*reach));
+        let lights: Vec<&LightParts> = lights.collect();
+        let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
+        let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
+        let clip_planes = piece.clip_planes.len() as u8;
+        let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
+        let cull = culls.then_some(Face::Back);
+        let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
+        let joins =
+            |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
+        match batches.iter_mut().find(joins) {
+            Some(batch) => {
+                debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
+                batch.draws.push(draw);
+            }
+            None => batches.push(Batch {
+                program,
+                meaning,
+                uniforms,
+                inputs,
+                cull,
+                scissor: None,
+                clip_planes,
+                draws: vec![draw],
+            }),
+        }
+    }
+    Some(batches)
+}
+
+fn draw_uniforms(viewer: &Viewer, item: &Drawable, program: &Program) -> Vec<Uniform> {
+    let eye_from_model = viewer.eye_from_world * item.world_from_model;
+    let mut uniforms = Vec::new();
+    if program.defines.iter().any(|(name, _)| name == "EYE_SPACE") {
+        uniforms.push(Uniform::new("eye_from_model", eye_from_model.as_mat4()));
+    }
+    if program.attributes.contains(&Attribute::Normal) {
+        let normal = Mat3::from_mat4(eye_from_model.inverse().transpose().as_mat4());
+        uniforms.push(Uniform::new("eye_from_model_normal", normal));
+    }
+    uniforms
+}

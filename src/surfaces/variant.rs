@@ -1,0 +1,257 @@
+//! The shader variant of one item: what its material and the lights need, and nothing else.
+
+use std::borrow::Cow;
+
+use glam::{Vec3, Vec4};
+
+use super::lights::LightParts;
+use crate::geometry::Material;
+use crate::lights::drawable::{Cutout, WAVES, cutout};
+use crate::lights::{Drawable, Ending, Viewer};
+use crate::pass::{
+    Attribute, Chunk, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, Sampled, Uniform, glsl,
+};
+use crate::scene::Scene;
+
+/// Features that an item's picture depends on.
+#[derive(Clone, Copy)]
+struct Needs {
+    specular: bool,
+    normals: bool,
+    per_vertex: bool,
+    /// True if the fragment stage needs the point's position.
+    position: bool,
+    ambient: bool,
+    /// True if no normal is seen from behind, so that none must be reversed.
+    one_sided: bool,
+}
+
+/// The shader variant of an item, with its uniforms and inputs.
+pub struct Variant {
+    pub program: Program,
+    pub meaning: FixedFunctionDesc,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+impl Variant {
+    /// The same, cut to half-spaces in eye space.
+    pub fn cut(mut self, clip_planes: &[Vec4]) -> Self {
+        if !clip_planes.is_empty() {
+            let defines = &mut self.program.defines;
+            defines.push(("CLIP_PLANES".into(), clip_planes.len().to_string()));
+            if !defines.iter().any(|(name, _)| name == "EYE_SPACE") {
+                defines.push(("EYE_SPACE".into(), String::new()));
+            }
+            self.uniforms.push(Uniform::new("clip_planes", clip_planes.to_vec()));
+        }
+        self
+    }
+}
+
+/// The variant of `item`.
+pub fn of(
+    scene: &Scene,
+    item: &Drawable,
+    one_sided: bool,
+    lights: &[&LightParts],
+    viewer: &Viewer,
+    ending: &Ending,
+    list: &mut PassList,
+) -> Variant {
+    let lit = *ending == Ending::Lit;
+    let cut = if lit || item.needs_alpha_test() { cutout(item, lit, list) } else { Cutout::default() };
+    let specular = lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
+    let normals = lit && item.lit && !lights.is_empty();
+    let per_vertex = lit && scene.shading.per_vertex && !lights.is_empty();
+    let lit_from_near = |light: &LightParts| light.has_position && (item.lit || light.has_attenuation);
+    let two_sided = normals && !one_sided;
+    let needs = Needs {
+        specular,
+        normals,
+        per_vertex,
+        position: lit && !per_vertex && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
+        ambient: lit && lights.iter().any(|l| l.has_ambient),
+        one_sided,
+    };
+    let mut inputs = cut.inputs.clone();
+    let mut uniforms = cut.uniforms.clone();
+    for light in lights {
+        inputs.extend(light.inputs.iter().cloned());
+        uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
+    }
+    if lit {
+        uniforms.extend(material_uniforms(scene, &item.material, needs, !lights.is_empty()));
+    }
+    let mut attributes = vec![Attribute::Position];
+    if needs.normals {
+        attributes.push(Attribute::Normal);
+    }
+    attributes.extend(cut.attributes.iter().copied());
+    let program = Program {
+        label: String::from("surface"),
+        defines: defines(item, lights, ending, needs, &cut),
+        vertex: vertex(lights, ending, needs, &cut),
+        fragment: fragment(lights, ending, needs, &cut),
+        attributes,
+    };
+    let meaning = if item.wave.is_some() { WAVES } else { meaning(scene, item, lights, viewer, ending, needs, &cut) };
+    Variant { program, meaning, uniforms, inputs }
+}
+
+/// The variant in the terms of fixed function.
+fn meaning(
+    scene: &Scene,
+    item: &Drawable,
+    lights: &[&LightParts],
+    viewer: &Viewer,
+    ending: &Ending,
+    needs: Needs,
+    cut: &Cutout,
+) -> FixedFunctionDesc {
+    let clip_from_eye = viewer.clip_from_eye;
+    let texturing = cut.meaning.clone();
+    let material = &item.material;
+    match (ending, lights.first()) {
+        (Ending::Lit, _) => FixedFunctionDesc::Lit(Box::new(Lit {
+            clip_from_eye,
+            per_vertex: scene.shading.per_vertex,
+            lit: item.lit,
+            scene_ambient: scene_ambient(scene, material).to_array(),
+            ambient: if needs.ambient { material.ambient } else { [0.0; 3] },
+            diffuse: if lights.is_empty() { [0.0; 3] } else { material.diffuse },
+            specular: if needs.specular { material.specular } else { [0.0; 3] },
+            shininess: if needs.specular { material.shininess } else { 0.0 },
+            texturing,
+            lights: lights.iter().map(|light| light.meaning.clone()).collect(),
+        })),
+        (Ending::View { .. }, Some(light)) => {
+            let FixedFunctionLight { projection, shade, .. } = light.meaning.clone();
+            FixedFunctionDesc::Sampled(Box::new(Sampled { clip_from_eye, texturing, projection, shade }))
+        }
+        (Ending::View { .. }, None) => FixedFunctionDesc::Shader("a view of no light"),
+    }
+}
+
+fn scene_ambient(scene: &Scene, material: &Material) -> Vec3 {
+    Vec3::from(scene.shading.ambient) * Vec3::from(material.ambient)
+}
+
+fn is_specular(uniform: &Uniform) -> bool {
+    uniform.name.starts_with("light_specular_")
+}
+
+fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light: bool) -> Vec<Uniform> {
+    let ambient = Vec3::from(material.ambient);
+    let mut uniforms = vec![Uniform::new("scene_ambient", scene_ambient(scene, material))];
+    if needs.ambient {
+        uniforms.push(Uniform::new("material_ambient", ambient));
+    }
+    if any_light {
+        uniforms.push(Uniform::new("material_diffuse", Vec3::from(material.diffuse)));
+    }
+    if needs.specular {
+        uniforms.push(Uniform::new("material_specular", Vec3::from(material.specular)));
+        uniforms.push(Uniform::new("shininess", material.shininess));
+    }
+    uniforms
+}
+
+type Define = (Cow<'static, str>, String);
+
+fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
+    let lit = *ending == Ending::Lit;
+    let decal = lit && item.decal().is_some();
+    let per_fragment = needs.normals && !needs.per_vertex;
+    let flags = [
+        ("WAVE", item.wave.is_some()),
+        ("ANY_LIGHT", lit && !lights.is_empty()),
+        ("EYE_SPACE", needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
+        ("EYE_POSITION", needs.position),
+        ("NORMALS", needs.normals),
+        ("EYE_NORMAL", per_fragment),
+        ("TWO_SIDED", per_fragment && !needs.one_sided),
+        ("UNLIT", lit && !item.lit),
+        ("SPECULAR", needs.specular),
+        ("PER_VERTEX", needs.per_vertex),
+        ("MATERIAL_AMBIENT", needs.ambient),
+        ("DECAL", decal),
+        ("DECAL_COORDINATES", !cut.vertex.is_empty()),
+    ];
+    let mut defines: Vec<Define> = cut.defines.clone();
+    defines.extend(flags.iter().filter(|(_, set)| *set).map(|(name, _)| (Cow::Borrowed(*name), String::new())));
+    for light in lights {
+        defines.extend(light.defines.iter().map(|define| {
+            let (name, value) = define.split_once(' ').unwrap_or((define, ""));
+            (Cow::Owned(name.to_owned()), value.to_owned())
+        }));
+    }
+    let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
+    let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
+    let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
+        let found = if light.side.is_some() { "find_side_@(eye);" } else { "" };
+        call_of(light, &format!("texgen_@(eye);{found}"))
+    });
+    defines.push(("TEXGEN(eye)".into(), generated.collect()));
+    if needs.per_vertex {
+        defines.push(("LIGHT_VERTEX(surface)".into(), calls("light_vertex_@(surface);")));
+    }
+    if lit {
+        defines.push(("ILLUMINATE(surface, lit)".into(), calls("illuminate_@(surface, lit);")));
+    }
+    defines
+}
+
+fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+    let mut chunks = vec![glsl!("common/position.vert")];
+    chunks.extend(cut.vertex.iter().cloned());
+    if *ending == Ending::Lit && needs.per_vertex {
+        chunks.push(glsl!("surfaces/material.glsl"));
+    }
+    for light in lights {
+        if light.has_coordinates {
+            chunks.push(glsl!("surfaces/texgen.vert").for_light(light.index));
+        }
+        chunks.extend(light.side.iter().map(|[vertex, _]| vertex.clone()));
+        if needs.per_vertex {
+            chunks.push(glsl!("surfaces/lighting.glsl").for_light(light.index));
+            chunks.push(glsl!("surfaces/per_vertex.vert").for_light(light.index));
+        }
+    }
+    chunks.push(glsl!("surfaces/surface.vert"));
+    chunks
+}
+
+fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+    let mut chunks = cut.fragment.clone();
+    if let Ending::View { chunk, shade } = ending {
+        for light in lights {
+            chunks.extend(reach(light));
+            if *shade {
+                chunks.push(light.shade.clone());
+            }
+            chunks.push(chunk.for_light(light.index));
+        }
+        return chunks;
+    }
+    chunks.push(glsl!("surfaces/material.glsl"));
+    for light in lights {
+        chunks.extend(reach(light));
+        chunks.push(light.shade.clone());
+        chunks.push(if needs.per_vertex {
+            glsl!("surfaces/per_vertex.frag").for_light(light.index)
+        } else {
+            glsl!("surfaces/lighting.glsl").for_light(light.index)
+        });
+        chunks.extend(light.side.iter().map(|[_, fragment]| fragment.clone()));
+        chunks.push(glsl!("surfaces/illuminate.frag").for_light(light.index));
+    }
+    chunks.push(glsl!("surfaces/surface.frag"));
+    chunks
+}
+
+/// The light's texture coordinates, where it has any, and its reach.
+fn reach(light: &LightParts) -> impl Iterator<Item = Chunk> {
+    let coordinates = light.has_coordinates.then(|| glsl!("surfaces/texgen.frag").for_light(light.index));
+    coordinates.into_iter().chain([light.reach.clone()])
+}

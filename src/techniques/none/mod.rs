@@ -1,0 +1,44 @@
+//! No shadow: the light reaches everything in its cone, if it has one.
+
+use super::{Axis, Technique};
+use crate::lights::{LightTerm, LightView, Notes};
+use crate::pass::PassList;
+use crate::scene::{LightKind, Reader, SettingsError};
+
+pub struct Unshadowed;
+
+impl Technique for Unshadowed {
+    fn name(&self) -> &'static str {
+        "none"
+    }
+
+    fn summary(&self) -> &'static str {
+        "no shadow: everything that the light can reach is lit"
+    }
+
+    fn source(&self) -> &'static str {
+        "GL 4.6 compatibility, 12.2"
+    }
+
+    fn serves(&self, _kind: &LightKind) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn axes(&self) -> &'static [Axis] {
+        &[]
+    }
+
+    fn check(&self, _settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+        Ok(())
+    }
+
+    fn describe(
+        &self,
+        view: &LightView<'_>,
+        _settings: &mut Reader<'_>,
+        _list: &mut PassList,
+        _notes: &mut Notes,
+    ) -> Result<LightTerm, SettingsError> {
+        Ok(LightTerm::unshadowed(view.scene, view.index))
+    }
+}

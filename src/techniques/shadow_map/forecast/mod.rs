@@ -1,0 +1,401 @@
+//! Forecasts wrong pixels of a map's picture, by sampling. Points that the camera sees in the middles of pixels are looked
+//! up in the map as in the lit pass, in texels that rays find (`texels.rs`, `lookup.rs`), and compared with a ray to the
+//! light. Warns, with the share, if
+//! - more than about 1.2 % of the points that the light reaches are wrong, for too few texels or too few codes of depth;
+//! - a point before the near plane is lit by mistake;
+//! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
+//!   or a caster that the map does not hold.
+
+mod lookup;
+mod points;
+mod texels;
+mod told;
+
+use glam::{DVec2, DVec3};
+
+use self::lookup::Receiver;
+use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
+use self::texels::Texels;
+pub use self::texels::{Alone, Stored};
+use super::bias;
+use crate::lights::projector::{Projector, Rays};
+use crate::lights::{Drawable, LightView, Notes};
+use crate::pass::{DepthFormat, Face, PolygonOffset};
+use crate::scene::{LightKind, LightShape};
+use crate::techniques::shadow_map::settings::{Mipmaps, Offset, Settings};
+
+/// Fewest pixels that the light must reach for a share to be meaningful.
+const FEWEST_PIXELS: u32 = 1000;
+
+/// Greatest number of points to sample first, and if any of them is wrong.
+const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
+
+/// Lengths below this share of a point's coordinates and of its distance from the eye count as zero.
+const SLACK: f64 = 1e-7;
+
+/// Error of an interpolated value, in steps of 2^-24 of its value at the window's origin: two products and three sums are
+/// rounded on the way there and back, each by up to one step, and add up by chance to √5 of it.
+const ROUNDINGS: f64 = 2.24;
+
+/// Error of a place in a map, in texels: weights have 8 bits, and a caster's edge is snapped to 1/256 of a texel, on both axes.
+const PLACE_ERROR: f64 = 0.02;
+
+/// Greatest error of a filtered shade that is reckoned with: beyond it nothing could be told.
+const MOST_SHADE_ERROR: f64 = 0.25;
+
+/// No polygon offset.
+pub const NO_OFFSET: Offset = Offset { polygon: PolygonOffset { factor: 0.0, units: 0.0 }, texels: 0.0 };
+
+/// A map whose pictures are forecast.
+pub struct Map<'a> {
+    pub settings: &'a Settings,
+    pub offset: Offset,
+    pub stored: Stored,
+    /// Casters in the map.
+    pub casters: &'a [&'a Drawable],
+    /// One projector, or a cube's six.
+    pub projectors: Vec<Projector>,
+}
+
+/// Warns of points that will be wrong.
+pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
+    if !view.sampled_warnings {
+        return;
+    }
+    let items = Items::new(view);
+    let mut forecast = Forecast::new(view, map, &items);
+    let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
+    // A map of far sides may be wrong in single pixels where a caster is open: a few samples do not show the rest.
+    let starts_with_few = map.settings.cull.is_none() && few > many;
+    if starts_with_few {
+        forecast.sample(few);
+    }
+    if !starts_with_few || forecast.is_uncertain() {
+        forecast.sample(many);
+    }
+    told::all(&forecast, notes);
+}
+
+/// Pixels from one sample to the next, on each axis.
+fn step(view: &LightView<'_>, most: u32) -> u32 {
+    let [width, height] = view.scene.image.size;
+    (1..).find(|step| width.div_ceil(*step) * height.div_ceil(*step) <= most).unwrap_or(1)
+}
+
+/// A point that the picture will show wrong.
+struct Wrong {
+    /// True if lit by mistake, false if dark by mistake.
+    is_lit: bool,
+    /// True if wrong by the rounding of depths and the offset's units.
+    is_rounded: bool,
+    /// True if wrong although nothing changes as far as a lookup reaches.
+    is_even: bool,
+    /// True if lit by mistake before the near plane, where a map has no depths.
+    is_before_near: bool,
+    /// Item whose shadow is missing, or that is dark: index into the items.
+    item: usize,
+    /// The width of a texel, in pixels.
+    texel_pixels: f64,
+    /// Length of one code of depth there, and distance from the light, in world units.
+    code: f64,
+    distance: f64,
+}
+
+/// Surfaces between a point and the light.
+struct Way<'p> {
+    point: &'p Seen,
+    met: Vec<Met>,
+    /// Parameters up to this are the point's own place, and from `end` on the light's.
+    slack: f64,
+    end: f64,
+    /// World units for a parameter of 1.
+    length: f64,
+}
+
+impl Way<'_> {
+    /// Surfaces that shadow the point.
+    fn blockers(&self) -> impl Iterator<Item = &Met> {
+        self.met.iter().filter(|met| !met.is_own && met.t > self.slack && met.t < self.end)
+    }
+
+    /// Distance from something met to the point, in world units.
+    fn gap(&self, met: &Met) -> f64 {
+        met.t * self.length
+    }
+}
+
+struct Forecast<'a> {
+    view: &'a LightView<'a>,
+    map: &'a Map<'a>,
+    items: &'a Items<'a>,
+    texels: Vec<Texels<'a>>,
+    /// Pixels from sample to sample.
+    step: u32,
+    /// Samples that face the light, within its reach.
+    reached: u32,
+    wrong: Vec<Wrong>,
+}
+
+impl<'a> Forecast<'a> {
+    fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a Items<'a>) -> Self {
+        let texels = |projector: &Projector| Texels::new(items, map, projector.clone());
+        let texels = map.projectors.iter().map(texels).collect();
+        Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
+    }
+
+    /// Tests whether a few samples do not show that all is well.
+    fn is_uncertain(&self) -> bool {
+        self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
+    }
+
+    /// Samples every `step`-th pixel of every `step`-th row, from scratch.
+    fn sample(&mut self, step: u32) {
+        (self.step, self.reached) = (step, 0);
+        self.wrong.clear();
+        let size = self.view.scene.image.size;
+        let world_from_clip = self.view.camera.clip_from_world.inverse();
+        let ray = |x: u32, y: u32| {
+            let [x, y] =
+                [(x, size[0]), (y, size[1])].map(|(at, size)| (2.0 * f64::from(at) + 1.0) / f64::from(size) - 1.0);
+            [-1.0, 1.0].map(|z| world_from_clip.project_point3(DVec3::new(x, y, z)))
+        };
+        let middles = |size: u32| (step / 2..size).step_by(step as usize);
+        for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
+            let [near, far] = ray(x, y);
+            let Some(point) = seen(self.items, self.view.scene.camera.eye, near, far - near) else { continue };
+            // Points where the rays of the neighbouring pixels meet the same plane.
+            let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
+                near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
+            });
+            if let Some(wrong) = self.judge(&point, [x, y], beside) {
+                self.wrong.push(wrong);
+            }
+        }
+    }
+
+    /// Counts a point within the light's reach, and says what the picture will show wrong.
+    fn judge(&mut self, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> Option<Wrong> {
+        let map = self.map;
+        let index = self.texels.iter().position(|texels| is_in(texels.projector(), point.point))?;
+        if !self.is_in_cone(point.point) || point.normal.dot(to_light(point.point, &self.rays())) <= 0.0 {
+            return None;
+        }
+        self.reached += 1;
+        let way = self.way(point);
+        let receiver = receiver(&self.texels[index], point, beside);
+        let is_blocked = way.blockers().next().is_some();
+        // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
+        // compared one.
+        let interpolation = self.interpolation_error(index, point, pixel, beside);
+        let rounding = 2.0 * code(DepthFormat::Depth32F) + interpolation;
+        // The place in the map is interpolated as the depth is; a filtered shade changes by as much as its weights.
+        let shade_error = (PLACE_ERROR + interpolation * f64::from(map.settings.size)).min(MOST_SHADE_ERROR);
+        let texels = &mut self.texels[index];
+        let mut shade = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper);
+        let doubt = if is_blocked { -shade_error } else { shade_error };
+        let outcome = shade(0.0) >= 0.5 + doubt;
+        let lit = if is_blocked { outcome || shade(-rounding) >= 0.5 } else { outcome && shade(rounding) >= 0.5 };
+        if lit != is_blocked {
+            return None;
+        }
+        let pixel_width = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
+        let wrong = self.wrong(&way, &receiver, &self.texels[index], lit);
+        let texel_pixels = wrong.texel_pixels / pixel_width;
+        Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
+    }
+
+    /// Error of a point's window depth by interpolation in f32. A rasterizer starts from the value at the window's origin,
+    /// which lies the farther off the more steeply the camera sees the surface. Both r and q, each divided by the camera's w,
+    /// are rounded there ([`ROUNDINGS`]).
+    fn interpolation_error(&self, texels: usize, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> f64 {
+        let camera = &self.view.scene.camera;
+        let ahead = (camera.target - camera.eye).normalize_or_zero();
+        let texels = &self.texels[texels];
+        let is_parallel = matches!(texels.projector().rays, Rays::Along(_));
+        let value = |at: DVec3| {
+            let light = texels.projector().light_from_world.transform_point3(at);
+            if is_parallel { texels.place(light).1 } else { -light.z }
+        };
+        let w = |at: DVec3| ahead.dot(at - camera.eye);
+        let here = value(point.point);
+        let steps = beside.map(|beside| (value(beside) / w(beside) - here / w(point.point)).abs());
+        let at_origin = f64::from(pixel[0]) * steps[0] + f64::from(pixel[1]) * steps[1];
+        // For parallel light only z counts, a depth in [0, 1].
+        let relative = if is_parallel { 1.0 } else { 2.0 / here };
+        let error = ROUNDINGS * 2.0_f64.powi(-24) * at_origin * w(point.point) * relative;
+        if error.is_finite() { error.abs().min(1.0) } else { 1.0 }
+    }
+
+    /// Surfaces between a point and the light.
+    fn way<'p>(&self, point: &'p Seen) -> Way<'p> {
+        let slack = self.slack(point);
+        // A surface that the light lies in is edge-on to it, and shadows nothing.
+        let end = if matches!(self.rays(), Rays::From { .. }) { 1.0 - SLACK } else { f64::INFINITY };
+        let length = to_light(point.point, &self.rays()).length();
+        Way { point, met: on_the_way(self.items, point, -slack, &self.rays()), slack, end, length }
+    }
+
+    /// Reason why a point is wrong, whose pixel is one world unit wide.
+    fn wrong(&self, way: &Way<'_>, receiver: &Receiver, texels: &Texels<'_>, lit: bool) -> Wrong {
+        let map = self.map;
+        let texel = texels.width_at(receiver.point);
+        let distance = if matches!(texels.projector().rays, Rays::From { .. }) { -receiver.point.z } else { 1.0 };
+        let code = code(map.settings.format) * length_of_depth(texels.projector(), distance);
+        // The coarser one of the two levels that are met.
+        let coarse = if map.settings.mipmaps == Mipmaps::All { 2.0 * receiver.pixel_texels.max(1.0) } else { 1.0 };
+        let is_even = || self.is_even(way, coarse * texel);
+        let is_even = match (lit, self.has_far_sides()) {
+            (false, _) => is_even(),
+            (true, false) => false,
+            (true, true) => {
+                let far_sides = || way.blockers().filter(|met| met.is_far_side);
+                let is_apart = |met: &Met| way.gap(met) > self.taken(way.point, met, texel, code);
+                far_sides().next().is_none() || (far_sides().any(is_apart) && is_even())
+            }
+        };
+        let nearest = way.blockers().min_by(|a, b| a.t.total_cmp(&b.t));
+        let taken = (2.0 + self.unit_codes() * f64::from(map.offset.polygon.units)) * code;
+        Wrong {
+            is_lit: lit,
+            is_rounded: lit && nearest.is_some_and(|met| way.gap(met) < taken),
+            is_even,
+            is_before_near: lit && texels.place(receiver.point).1 <= 0.0,
+            item: nearest.map_or(way.point.item, |met| met.item),
+            texel_pixels: texel,
+            code,
+            distance,
+        }
+    }
+
+    /// Length that counts as zero at a point, as a share of its way to the light.
+    fn slack(&self, point: &Seen) -> f64 {
+        let length = match self.rays() {
+            Rays::From { position, .. } => position.distance(point.point),
+            Rays::Along(_) => 1.0,
+        };
+        let eye = point.point.distance(self.view.scene.camera.eye);
+        SLACK * (point.point.abs().max_element() + eye) / length
+    }
+
+    /// Greatest distance before a point of a caster whose shadow bias and slopes remove, along the ray and in world units.
+    fn taken(&self, point: &Seen, met: &Met, texel: f64, code: f64) -> f64 {
+        let map = self.map;
+        let reach = bias::reach_texels(map.settings);
+        let factor = f64::from(map.offset.polygon.factor.abs());
+        let slope = |normal: DVec3| self.slope(point.point, normal);
+        let caster = slope(self.items.placed[met.item].normal(met.triangle));
+        let slopes = (factor + reach) * caster + reach * slope(point.normal);
+        let units = self.unit_codes() * f64::from(map.offset.polygon.units.abs());
+        texel * (slopes + map.offset.texels + 1.0) + (units + 2.0) * code
+    }
+
+    /// Slope of a plane along the light's ray for a step across it, both of unit length.
+    fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
+        let way = to_light(point, &self.rays()).normalize_or_zero();
+        let along = normal.dot(way).abs();
+        (1.0 - along * along).max(0.0).sqrt() / along.max(1e-6)
+    }
+
+    /// Codes that one unit of polygon offset moves a depth by, at most.
+    fn unit_codes(&self) -> f64 {
+        let format = self.map.settings.format;
+        texels::unit(format, 1.0) / code(format)
+    }
+
+    fn has_far_sides(&self) -> bool {
+        self.map.settings.cull == Some(Face::Front)
+    }
+
+    fn rays(&self) -> Rays {
+        self.map.projectors.first().map_or(Rays::Along(DVec3::NEG_Y), |projector| projector.rays)
+    }
+
+    fn is_in_cone(&self, point: DVec3) -> bool {
+        match &self.view.light().kind {
+            LightKind::Spot(spot) if spot.shape == LightShape::Cone => {
+                let clip = spot.frustum.clip_from_world() * point.extend(1.0);
+                clip.truncate().truncate().length() <= clip.w
+            }
+            _ => true,
+        }
+    }
+
+    /// Tests whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup
+    /// reaches; or, for a map of far sides, nothing at all before the plane of the seen surface.
+    fn is_even(&self, way: &Way<'_>, texel: f64) -> bool {
+        let Way { point: seen, slack, .. } = *way;
+        let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
+        let rays = self.rays();
+        let Some(projector) = self.map.projectors.first() else { return false };
+        let rows = projector.light_from_world.transpose();
+        let axes = match self.map.projectors.len() {
+            1 => [rows.x_axis, rows.y_axis].map(|axis| axis.truncate()),
+            _ => {
+                let way = to_light(seen.point, &rays).normalize_or_zero();
+                [way.any_orthonormal_vector(), way.cross(way.any_orthonormal_vector())]
+            }
+        };
+        let signature = signature(&way.met, slack);
+        let mut is_lit = self.has_far_sides();
+        let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
+        let mut is_alike = true;
+        for step in around {
+            let across = seen.point + reach * (step.x * axes[0] + step.y * axes[1]);
+            let way = to_light(across, &rays);
+            // In the seen triangle's plane, so that surfaces at its depth stay there.
+            let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
+            let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays);
+            is_alike = is_alike && self::signature(&met, slack) == signature;
+            is_lit = is_lit && !met.iter().any(|met| !met.is_own && met.t > slack);
+            if !(is_alike || is_lit) {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.
+fn receiver(texels: &Texels<'_>, point: &Seen, beside: [DVec3; 2]) -> Receiver {
+    let light_from_world = texels.projector().light_from_world;
+    let light = light_from_world.transform_point3(point.point);
+    let place = texels.place(light).0;
+    let across = beside.map(|beside| (texels.place(light_from_world.transform_point3(beside)).0 - place).length());
+    Receiver {
+        point: light,
+        normal: light_from_world.transform_vector3(point.normal),
+        pixel_texels: across[0].max(across[1]),
+    }
+}
+
+/// Sides of items that a ray meets, whatever their order.
+fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
+    let mut all: Vec<_> = met.iter().map(|met| (met.item, met.is_far_side, met.t.abs() <= slack)).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Tests whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
+fn is_in(projector: &Projector, point: DVec3) -> bool {
+    let clip = projector.clip_from_world() * point.extend(1.0);
+    clip.w > 0.0
+        && (matches!(projector.rays, Rays::Along(_)) || clip.truncate().truncate().abs().max_element() <= clip.w)
+}
+
+/// World units along the axis for one unit of window depth, at a distance along it.
+fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
+    // z = A w - B: depth is (1 + A - B / w) / 2. For parallel light w is 1, and z linear.
+    match projector.rays {
+        Rays::From { .. } => 2.0 * distance * distance / projector.clip_from_light.w_axis.z.abs(),
+        Rays::Along(_) => 2.0 / projector.clip_from_light.z_axis.z.abs(),
+    }
+}
+
+/// Least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
+/// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
+fn code(format: DepthFormat) -> f64 {
+    match format {
+        DepthFormat::Depth16 => 1.0 / 65535.0,
+        _ => 2.0_f64.powi(-23),
+    }
+}

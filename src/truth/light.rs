@@ -1,0 +1,246 @@
+//! The light as a place or a direction, an axis and an angle: where it comes from and what its shape holds.
+
+use glam::{DVec2, DVec3};
+
+use super::answers::Reason;
+use super::beam::{Apex, Side};
+use crate::scene::{Frustum, Light, LightKind, LightShape};
+
+pub(super) struct Lamp {
+    source: Source,
+    shape: Shape,
+}
+
+/// Position or direction of a light.
+#[derive(Clone, Copy)]
+enum Source {
+    At(DVec3),
+    /// From infinitely far away. `travel`: the way of the light, of unit length; a ball holds all that it may meet.
+    Along {
+        travel: DVec3,
+        center: DVec3,
+        radius: f64,
+    },
+}
+
+/// Region that the light reaches, and the layout of a map of it.
+enum Shape {
+    /// `axes`: ahead, right, up; of unit length and square to each other.
+    Spot { axes: [DVec3; 3], ends: LightShape, half_angle_radians: f64, near: f64, far: f64 },
+    /// Every way, between near and far along the nearest coordinate axis.
+    Cube { near: f64, far: f64 },
+    /// Everywhere. A map would be the square around the ball that holds all the scene, as the light sees it.
+    Square { right: DVec3, up: DVec3, center: DVec3, radius: f64 },
+}
+
+impl Lamp {
+    /// `center` and `radius`: of a ball that holds all that may be in the light's way.
+    pub fn new(light: &Light, center: DVec3, radius: f64) -> Self {
+        match &light.kind {
+            LightKind::Spot(spot) => {
+                let Frustum { position, target, up, cone_radians, near, far } = spot.frustum;
+                let ahead = (target - position).normalize();
+                let right = ahead.cross(up).normalize();
+                let axes = [ahead, right, right.cross(ahead)];
+                let (ends, half_angle_radians) = (spot.shape, 0.5 * cone_radians);
+                Self { source: Source::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
+            }
+            LightKind::Point(point) => {
+                let (near, far) = (point.near, point.far);
+                Self { source: Source::At(point.position), shape: Shape::Cube { near, far } }
+            }
+            LightKind::Directional { direction } => {
+                let travel = direction.normalize();
+                let (right, up) = travel.any_orthonormal_pair();
+                Self {
+                    source: Source::Along { travel, center, radius },
+                    shape: Shape::Square { right, up, center, radius },
+                }
+            }
+        }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        let (Source::At(vector) | Source::Along { travel: vector, .. }) = self.source;
+        vector.is_finite()
+            && match &self.shape {
+                Shape::Spot { axes, half_angle_radians, .. } => {
+                    axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0
+                }
+                Shape::Cube { near, far } => 0.0 < *near && near < far,
+                Shape::Square { center, radius, .. } => center.is_finite() && radius.is_finite(),
+            }
+    }
+
+    /// Apex of a beam to `base`.
+    pub fn apex(&self, base: DVec3) -> Apex {
+        match self.source {
+            Source::At(position) => Apex::At(position),
+            // Back to before the ball, however far behind it the base lies.
+            Source::Along { travel, center, radius } => {
+                Apex::Infinity { travel, length: travel.dot(base - center).max(0.0) + 1.5 * radius }
+            }
+        }
+    }
+
+    /// Position; `None`: infinitely far away.
+    pub fn place(&self) -> Option<DVec3> {
+        if let Source::At(position) = self.source { Some(position) } else { None }
+    }
+
+    /// From a point to the light; of unit length for one that is infinitely far away.
+    pub fn towards(&self, point: DVec3) -> DVec3 {
+        match self.source {
+            Source::At(position) => position - point,
+            Source::Along { travel, .. } => -travel,
+        }
+    }
+
+    /// The distance along the light's axis (a point light's: along the nearest coordinate axis); 1 for parallel light.
+    pub fn depth_at(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { .. } | Shape::Cube { .. } => self.depth(point),
+            Shape::Square { .. } => 1.0,
+        }
+    }
+
+    /// Distance from `from` to `to` along the light's axis at `to`, in world units.
+    pub fn depth_between(&self, from: DVec3, to: DVec3) -> f64 {
+        self.axis_at(to).dot(to - from)
+    }
+
+    /// The way that a map's depth grows at a point: the spotlight's axis, the coordinate axis of a cube's face, or the way
+    /// of parallel light. Of unit length.
+    fn axis_at(&self, point: DVec3) -> DVec3 {
+        let from_light = -self.towards(point);
+        match &self.shape {
+            Shape::Spot { axes: [ahead, ..], .. } => *ahead,
+            Shape::Cube { .. } => {
+                let axis = from_light.abs().max_position();
+                DVec3::AXES[axis] * from_light[axis].signum()
+            }
+            Shape::Square { .. } => from_light,
+        }
+    }
+
+    /// Slope of a plane through `point` across a map: depth along the axis, over a length across it at the point's own
+    /// depth.
+    pub fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
+        let axis = self.axis_at(point);
+        let ray = -self.towards(point) / self.depth_at(point);
+        normal.cross(axis).length() / normal.dot(ray).abs()
+    }
+
+    /// The halves of a square around `point` across the light's axis, `reach` at distance 1 along it, or in world units
+    /// for parallel light, whose maps may be turned any way: there the square holds every turned one.
+    pub fn footprint(&self, point: DVec3, reach: f64) -> [DVec3; 2] {
+        let reach = reach * self.depth_at(point);
+        match &self.shape {
+            Shape::Spot { axes: [_, right, up], .. } => [*right * reach, *up * reach],
+            Shape::Cube { .. } => {
+                let from_light = -self.towards(point);
+                let size = from_light.abs();
+                // The two axes of the face that the point lies in.
+                if size.x >= size.y && size.x >= size.z {
+                    [DVec3::Y * reach, DVec3::Z * reach]
+                } else if size.y >= size.z {
+                    [DVec3::X * reach, DVec3::Z * reach]
+                } else {
+                    [DVec3::X * reach, DVec3::Y * reach]
+                }
+            }
+            Shape::Square { right, up, .. } => [*right, *up].map(|side| side * reach * std::f64::consts::SQRT_2),
+        }
+    }
+
+    /// The distance that near and far are measured by.
+    fn depth(&self, point: DVec3) -> f64 {
+        let from_light = -self.towards(point);
+        match &self.shape {
+            Shape::Spot { axes, .. } => axes[0].dot(from_light),
+            Shape::Cube { .. } => from_light.abs().max_element(),
+            Shape::Square { .. } => f64::INFINITY,
+        }
+    }
+
+    /// Place of the point in a map that holds all of the light, in half sides of the map (see
+    /// [`crate::truth::Hit::in_map`]).
+    pub fn in_map(&self, point: DVec3) -> DVec3 {
+        match &self.shape {
+            Shape::Spot { axes, half_angle_radians, .. } => {
+                let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
+                if depth <= 0.0 {
+                    return DVec3::INFINITY;
+                }
+                (DVec2::new(right, up) / (depth * half_angle_radians.tan())).extend(0.0)
+            }
+            Shape::Cube { .. } => -self.towards(point) / self.depth(point),
+            Shape::Square { right, up, center, radius } => {
+                let from_center = (point - center) / radius;
+                DVec3::new(right.dot(from_center), up.dot(from_center), 0.0)
+            }
+        }
+    }
+
+    /// `Ok(true)`: all of `point ± spread` is lit by the light's shape; `Ok(false)`: none of it.
+    ///
+    /// Distance to the sides is concave, and so or convex are the distances to the planes; over a parallelogram neither
+    /// the rise nor the fall of such a function from the middle is more than the largest change to a corner.
+    pub fn holds(&self, point: DVec3, spread: &[DVec3; 2], error: f64) -> Result<bool, Reason> {
+        let side = |inside: &dyn Fn(DVec3) -> f64| {
+            let value = inside(point);
+            let [a, b] = *spread;
+            let moved = [a + b, a - b, b - a, -a - b]
+                .into_iter()
+                .fold(0.0, |most: f64, offset| most.max((inside(point + offset) - value).abs()));
+            match value {
+                _ if value.abs() <= moved + error => Side::Near,
+                _ if value > 0.0 => Side::Beyond,
+                _ => Side::Before,
+            }
+        };
+        let ends = [
+            (Reason::ConeEdge, side(&|at| self.inside_sides(at))),
+            (Reason::ClipPlane, side(&|at| self.beyond_near(at))),
+            (Reason::ClipPlane, side(&|at| self.before_far(at))),
+        ];
+        if ends.iter().any(|(_, side)| *side == Side::Before) {
+            return Ok(false);
+        }
+        ends.iter().find(|(_, side)| *side == Side::Near).map_or(Ok(true), |(reason, _)| Err(*reason))
+    }
+
+    /// Tests the point itself, without error.
+    pub fn holds_exactly(&self, point: DVec3) -> bool {
+        [self.inside_sides(point), self.beyond_near(point), self.before_far(point)].iter().all(|inside| *inside >= 0.0)
+    }
+
+    /// Distance to the cone's or the frustum's surface, positive inside. Never steeper than 1, as are the next two.
+    fn inside_sides(&self, point: DVec3) -> f64 {
+        let Shape::Spot { axes, ends, half_angle_radians, .. } = &self.shape else { return UNBOUNDED };
+        let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
+        let beside = match ends {
+            LightShape::Cone => right.hypot(up),
+            LightShape::Frustum => right.abs().max(up.abs()),
+        };
+        let (sin, cos) = half_angle_radians.sin_cos();
+        depth * sin - beside * cos
+    }
+
+    fn beyond_near(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { near, .. } | Shape::Cube { near, .. } => self.depth(point) - near,
+            Shape::Square { .. } => UNBOUNDED,
+        }
+    }
+
+    fn before_far(&self, point: DVec3) -> f64 {
+        match &self.shape {
+            Shape::Spot { far, .. } | Shape::Cube { far, .. } => far - self.depth(point),
+            Shape::Square { .. } => UNBOUNDED,
+        }
+    }
+}
+
+/// The distance to an end that a light does not have; finite, so that differences of it are 0.
+const UNBOUNDED: f64 = f64::MAX;

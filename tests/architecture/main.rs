@@ -1,0 +1,194 @@
+//! The library's order: which module may use which, that no files use each other in a circle, where `unsafe` and raw GL
+//! may stand, and that every row of a table has its folders.
+
+mod code;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use code::{Arrow, Code, Module};
+
+/// Each module, and those that it may use directly; it may use what these may use, too.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("cli", &["viewer", "figures", "stress", "report", "fixed_function", "conformance"]),
+    ("viewer", &["frame", "output"]),
+    ("figures", &["frame", "output"]),
+    // The measures and the plots of stress are a report's.
+    ("stress", &["report"]),
+    ("report", &["frame", "truth", "output"]),
+    // A view decides the channels of its file.
+    ("output", &["device", "views"]),
+    // A renderer warns of depth formats that are not what they are called: it has them measured.
+    ("frame", &["plan", "device", "conformance"]),
+    ("plan", &["techniques", "surfaces", "compositions", "views"]),
+    ("techniques", &["lights"]),
+    ("surfaces", &["lights"]),
+    // A counted light has views of its own: its volumes, its silhouettes, the count.
+    ("compositions", &["lights", "views"]),
+    ("views", &["lights"]),
+    ("lights", &["pass", "scene"]),
+    // The images and the raster state of its passes are the device's.
+    ("fixed_function", &["device"]),
+    ("device", &["pass", "context"]),
+    ("conformance", &["context", "math"]),
+    ("context", &["process"]),
+    ("pass", &["geometry"]),
+    ("truth", &["scene"]),
+    ("scene", &["geometry"]),
+    ("geometry", &["math"]),
+    ("math", &[]),
+    // What the process is doing when it crashes; locks and signals.
+    ("process", &[]),
+];
+
+/// Modules that any module may use.
+const EVERYWHERE: &[&str] = &["process"];
+
+/// Modules that talk to GL, in which `unsafe` may stand.
+const GL: &[&str] = &["context", "device", "fixed_function", "conformance"];
+
+/// Modules in which `unsafe` may stand besides: signal handlers, and locks on files, are calls to the C library.
+const UNSAFE: &[&str] = &["process"];
+
+/// Folders of `glsl/` that belong to no row: what rows share, what surfaces and views are made of.
+const SHARED_SHADERS: &[&str] = &["common", "surfaces", "views"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Whether `from` may use `to`, directly or through others.
+fn may_use(from: &str, to: &str) -> bool {
+    let direct = ARROWS.iter().find(|(name, _)| *name == from).map_or(&[][..], |(_, direct)| direct);
+    from == to || EVERYWHERE.contains(&to) || direct.iter().any(|next| may_use(next, to))
+}
+
+fn wrong_arrows(code: &Code) -> Vec<String> {
+    let is_wrong = |arrow: &Arrow| {
+        let (from, to) = (&arrow.from[0], &arrow.to[0]);
+        // Ray casting shares no formula with the renderer.
+        let shares = from == "truth" && arrow.to.starts_with(&["math".into(), "texgen".into()]);
+        !may_use(from, to) || shares
+    };
+    let arrows = code.arrows();
+    let wrong = arrows.iter().filter(|arrow| !arrow.from.is_empty()).filter(|arrow| is_wrong(arrow));
+    wrong.map(|arrow| in_words(code, arrow)).collect()
+}
+
+fn in_words(code: &Code, arrow: &Arrow) -> String {
+    format!("src/{} uses {} (src/{})", code.files[&arrow.from].path, arrow.path, code.files[&arrow.to].path)
+}
+
+fn circles(code: &Code) -> Vec<String> {
+    let lines = |circle: &Vec<Arrow>| {
+        // One path for each two files.
+        let mut arrows = circle.clone();
+        arrows.dedup_by(|a, b| (&a.from, &a.to) == (&b.from, &b.to));
+        arrows.iter().map(|arrow| in_words(code, arrow)).collect::<Vec<_>>().join("\n  ")
+    };
+    code.circles().iter().map(lines).collect()
+}
+
+#[test]
+fn no_module_uses_one_above_it() {
+    let code = Code::read(&root().join("src"));
+    let wrong = wrong_arrows(&code);
+    assert!(wrong.is_empty(), "arrows that `ARROWS` does not have:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_module_has_its_arrows() {
+    let code = Code::read(&root().join("src"));
+    let there: BTreeSet<&str> = code.files.keys().filter(|path| path.len() == 1).map(|path| path[0].as_str()).collect();
+    let listed: BTreeSet<&str> = ARROWS.iter().map(|(name, _)| *name).collect();
+    assert_eq!(there, listed, "modules of src/lib.rs, and rows of `ARROWS`");
+}
+
+#[test]
+fn no_files_use_each_other_in_a_circle() {
+    let code = Code::read(&root().join("src"));
+    let circles = circles(&code);
+    assert!(circles.is_empty(), "{} circles:\n{}", circles.len(), circles.join("\n\n"));
+}
+
+#[test]
+fn unsafe_code_and_gl_stand_where_they_may() {
+    let code = Code::read(&root().join("src"));
+    for (module, file) in code.files.iter().filter(|(module, _)| !module.is_empty()) {
+        let top = module[0].as_str();
+        assert!(!file.names_gl || GL.contains(&top), "src/{} names glow: only {GL:?} may", file.path);
+        let may = GL.contains(&top) || UNSAFE.contains(&top);
+        assert!(!file.is_unsafe || may, "src/{} is unsafe: only {GL:?} and {UNSAFE:?} may be", file.path);
+    }
+}
+
+/// Reads a library of a few files.
+fn planted(files: &[(&str, &str)]) -> Code {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    Code::read(folder.path())
+}
+
+#[test]
+fn an_arrow_that_is_planted_is_found() {
+    let lib = ("lib.rs", "pub mod math; pub mod lights; pub mod truth;");
+    let math = ("math/mod.rs", "pub mod texgen;");
+    let texgen = ("math/texgen.rs", "pub struct Texgen;");
+    let lights = ("lights/mod.rs", "mod light; pub use light::LightTerm;");
+    let light = ("lights/light.rs", "pub struct LightTerm;");
+    let wrong = |truth: &str| wrong_arrows(&planted(&[lib, math, texgen, lights, light, ("truth.rs", truth)]));
+    assert_eq!(wrong("pub struct Ray;"), Vec::<String>::new());
+    let expected = ["src/truth.rs uses lights::LightTerm (src/lights/light.rs)"];
+    for text in [
+        "use crate::lights::LightTerm;",
+        "use crate::lights::{self, LightTerm as Term};",
+        "fn f(_: super::lights::LightTerm) {}",
+        "fn f() { println!(\"{}\", crate::lights::LightTerm); }",
+        "use crate::lights; fn f() { let _ = lights::LightTerm; }",
+    ] {
+        let found = wrong(text);
+        assert!(found.iter().any(|line| expected.contains(&line.as_str())), "{text}: {found:?}");
+    }
+    assert_eq!(wrong("#[cfg(test)] mod tests { use crate::lights::LightTerm; }"), Vec::<String>::new());
+    assert_eq!(
+        wrong("use crate::math::texgen::Texgen;"),
+        ["src/truth.rs uses math::texgen::Texgen (src/math/texgen.rs)"]
+    );
+}
+
+#[test]
+fn a_circle_that_is_planted_is_found() {
+    let lib = ("lib.rs", "mod pass;");
+    let head = ("pass/mod.rs", "mod image; mod state; pub use image::Image; pub struct PassList;");
+    let circles = |state: &str| {
+        let image = ("pass/image.rs", "use super::PassList; use super::state::State; pub struct Image;");
+        circles(&planted(&[lib, head, image, ("pass/state.rs", state)])).len()
+    };
+    assert_eq!(circles("use super::PassList; pub struct State;"), 0, "what the head has is no circle");
+    assert_eq!(circles("use super::image::Image; pub struct State;"), 1);
+    assert_eq!(circles("use super::Image; pub struct State;"), 1, "a name that the head re-exports is its file's");
+}
+
+#[test]
+fn every_folder_of_a_table_has_a_row_and_every_row_a_folder() {
+    let techniques: Module = glumbra::techniques::TABLE.iter().map(|row| row.name().replace('-', "_")).collect();
+    let compositions: Module = glumbra::compositions::TABLE.iter().map(|row| row.name().replace('-', "_")).collect();
+    for (table, rows) in [("techniques", &techniques), ("compositions", &compositions)] {
+        let rows: BTreeSet<String> = rows.iter().cloned().collect();
+        assert_eq!(folders(&root().join("src").join(table)), rows, "folders of src/{table}, and rows of its TABLE");
+    }
+    for folder in folders(&root().join("glsl")) {
+        let known = techniques.contains(&folder) || compositions.contains(&folder);
+        assert!(known || SHARED_SHADERS.contains(&folder.as_str()), "glsl/{folder} is the folder of no row");
+    }
+}
+
+fn folders(path: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(path).unwrap().map(Result::unwrap).filter(|entry| entry.path().is_dir());
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+}
