@@ -16,6 +16,8 @@ pub struct MapInfo {
     /// The width of a texel along its longer side. For a parallel map, anywhere. For a perspective map, at a distance of 1
     /// along its axis: at a distance d along that axis (for a cube, the face's axis) it is d times as wide.
     pub texel: f64,
+    /// The width of a texel along its shorter side, as `texel`.
+    pub texel_short: f64,
     /// Reach of one lookup from its point along each axis of the map, in texels: the kernel's taps, the texels that each
     /// tap's filter weighs, and the movement of the point by a normal offset. With several levels, in texels of the first
     /// under "8-tap", and of the finer one of the two that are used under `mipmaps = true`.

@@ -291,21 +291,25 @@ fn in_one_light(scene: &Scene, light: usize) -> Scene {
     scene
 }
 
-/// The part of the light that a pixel shows of what it would show without shadow. NaN if there is no light to compare; 1
-/// for light where there should be none.
+/// Least light that a picture of 8 bits shows: half a code. Shading at 90 degrees to the light comes to less in one pass and
+/// to none in another, by the rounding of its cosine.
+const LEAST_LIGHT: f32 = 0.5 / 255.0;
+
+/// Part of the light that a pixel shows of what it would show without shadow. NaN where there is no light to be
+/// wrong about; 1 for light where there should be none.
 fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
-    match (shown > 0.0, unshadowed > 0.0) {
+    match (shown > LEAST_LIGHT, unshadowed > LEAST_LIGHT) {
         (_, true) => shown / unshadowed,
         (true, false) => 1.0,
         (false, false) => f32::NAN,
     }
 }
 
-/// Tests whether a surface beside a point shades it for all of its own polygon offset, of which GL's slope is the steeper of the
-/// two along the map's axes: at least a part of 1/√2 of the slope itself.
+/// Whether a surface beside a point shades it for all of its own polygon offset. GL's slope is the steeper of the two along the
+/// map's axes, each for a step of one texel: at least a part of 1/√2 of the slope itself, for the texel's shorter side.
 fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
     let factor = f64::from(map.polygon.factor) * std::f64::consts::FRAC_1_SQRT_2;
-    near.by > map.texel * around.scale * (factor * near.slope + map.texels)
+    near.by > around.scale * (map.texel_short * factor * near.slope + map.texel * map.texels)
 }
 
 /// Tests whether the map is drawn from a blocker's side.
@@ -327,8 +331,11 @@ fn bias_reach(map: &MapInfo, around: &Around, blocker: &Blocker) -> f64 {
         Bias::Offset => map.reach_texels * around.slope,
         Bias::ReceiverPlane | Bias::NormalOffset | Bias::Adaptive => 2.0 * map.reach_texels * around.slope,
     };
-    texel * (caster + receiver + map.texels + 1.0)
-        + (f64::from(map.polygon.units.abs()) + 2.0) * code(map, around.scale)
+    // Drivers take two codes for one unit: of 24 bits they are one `code`.
+    let unit = if map.format == DepthFormat::Depth16 { 2.0 } else { 1.0 };
+    let codes = (unit * f64::from(map.polygon.units.abs()) + 2.0) * code(map, around.scale);
+    // Depths are differences along the axis, gaps along the ray.
+    around.ray * (texel * (caster + receiver + map.texels + 1.0) + codes)
 }
 
 /// Length of one code of the map's depth along the light's axis at distance `depth`, in world units.

@@ -42,6 +42,9 @@ pub struct Around {
     pub slope: f64,
     /// Length in world units at the point of a length of 1 on the plane at distance 1 from the light; 1 for parallel light.
     pub scale: f64,
+    /// Length of the light's ray for a depth of 1 along the light's axis: 1 on the axis and for parallel light, the greater
+    /// the farther off the axis.
+    pub ray: f64,
 }
 
 /// A surface beside a point that is nearer to the light.
@@ -98,7 +101,11 @@ impl<'a> Surroundings<'a> {
         let seen = self.tracer.look(x, y).0?;
         let scale = self.tracer.lamp.depth_at(seen.position);
         let beam = self.beam(&seen, reach);
-        let mut around = Around { scale, slope: self.slope(&seen, seen.normal), ..Around::default() };
+        let ray = match self.tracer.lamp.apex(seen.position) {
+            Apex::At(apex) => seen.position.distance(apex) / scale,
+            Apex::Infinity { .. } => 1.0,
+        };
+        let mut around = Around { scale, ray, slope: self.slope(&seen, seen.normal), ..Around::default() };
         let (mut blockers, mut met) = (Vec::new(), Vec::new());
         let longer = beam.surface_spread[0].length() + beam.surface_spread[1].length();
         self.visit(&beam, beam.radius(self.tracer.largest_error) + longer, |triangle| {

@@ -84,7 +84,7 @@ impl Places {
         }
         let (mut counts, mut worst, mut lost) = (Counts::default(), None, 0);
         for line in logical_lines(text) {
-            let mut words = line.text.split_ascii_whitespace();
+            let mut words = line.text.split_whitespace();
             match words.next() {
                 Some("v") => counts.v += 1,
                 Some("vt") => counts.vt += 1,

@@ -7,8 +7,11 @@ const MOST_CORNERS_TO_CLIP: usize = 8192;
 
 /// Cuts the polygon whose corners are `indices` into `positions`; calls `emit` with each triangle, all wound as it is.
 ///
-/// Right for planar simple polygons, concave ones too. Others give some `n - 2` triangles.
+/// Right for planar simple polygons, concave ones too. Others give some `n - 2` triangles; fewer than three corners give none.
 pub(super) fn triangulate(indices: &[u32], positions: &[[f32; 3]], emit: &mut impl FnMut([u32; 3])) {
+    if indices.len() < 3 {
+        return;
+    }
     if let &[a, b, c] = indices {
         return emit([a, b, c]);
     }

@@ -53,7 +53,7 @@ struct Rewriter<'a> {
 
 impl Rewriter<'_> {
     fn add_line(&mut self, line: &str) {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
                 self.counts.v += 1;

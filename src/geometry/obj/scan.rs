@@ -70,7 +70,7 @@ pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
 
 impl Scanner<'_> {
     fn read_line(&mut self, number: usize, line: &str) -> Result<(), Wrong> {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => self.read_position(number, words),
             Some("f") => self.read_face(number, words),

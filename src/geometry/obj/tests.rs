@@ -315,3 +315,18 @@ fn what_is_too_fine_for_floats_is_warned_of() {
     let (_, warnings) = load("v 1 1 0\nv 1.00000000001 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
     assert!(warnings.is_empty(), "{warnings:?}");
 }
+
+#[test]
+fn words_end_at_every_white_space() {
+    // U+0085 and U+00A0, as Latin-1 has them, and a vertical tab.
+    for space in ['\u{85}', '\u{a0}', '\u{b}'] {
+        let text = format!("v 0 0 0\nv{space}1 0 0\nv 0 1 0\nf{space}{space}\nf{space}1 2 3\n");
+        let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        std::fs::write(&path, latin).unwrap();
+        let (mesh, warnings) = load_obj(&path).unwrap();
+        assert_eq!((mesh.positions.len(), mesh.indices.len()), (3, 3), "{space:?}");
+        assert_eq!(warnings.len(), 1, "{space:?}: {warnings:?}");
+    }
+}

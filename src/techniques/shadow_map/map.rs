@@ -16,6 +16,7 @@ pub(super) fn map_info(view: &FrustumView<'_>, settings: &Settings, texels: f64)
         levels: bias::levels(settings),
         format: settings.format,
         texel: bias::texel_at_one(&view.projector, settings),
+        texel_short: bias::texel_sides_at_one(&view.projector, settings).min_element(),
         reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
         bias: settings.bias,
         cull: settings.cull,

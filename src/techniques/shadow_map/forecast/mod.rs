@@ -1,8 +1,7 @@
 //! Forecasts wrong pixels of a map's picture, by sampling. Points that the camera sees in the middles of pixels are looked
 //! up in the map as in the lit pass, in texels that rays find (`texels.rs`, `lookup.rs`), and compared with a ray to the
 //! light. Warns, with the share, if
-//! - more than [`told::MOST_WRONG`] of the points that the light reaches are wrong, for too few texels or too few codes of
-//!   depth;
+//! - more than about 1.2 % of the points that the light reaches are wrong, for too few texels or too few codes of depth;
 //! - a point before the near plane is lit by mistake;
 //! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
 //!   or a caster that the map does not hold.
@@ -33,6 +32,16 @@ const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
 
 /// Lengths below this share of a point's coordinates and of its distance from the eye count as zero.
 const SLACK: f64 = 1e-7;
+
+/// Error of an interpolated value, in steps of 2^-24 of its value at the window's origin: two products and three sums are
+/// rounded on the way there and back, each by up to one step, and add up by chance to √5 of it.
+const ROUNDINGS: f64 = 2.24;
+
+/// Error of a place in a map, in texels: weights have 8 bits, and a caster's edge is snapped to 1/256 of a texel, on both axes.
+const PLACE_ERROR: f64 = 0.02;
+
+/// Greatest error of a filtered shade that is reckoned with: beyond it nothing could be told.
+const MOST_SHADE_ERROR: f64 = 0.25;
 
 /// No polygon offset.
 pub const NO_OFFSET: Offset = Offset { polygon: PolygonOffset { factor: 0.0, units: 0.0 }, texels: 0.0 };
@@ -177,11 +186,15 @@ impl<'a> Forecast<'a> {
         let is_blocked = way.blockers().next().is_some();
         // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
         // compared one.
-        let rounding = 2.0 * code(DepthFormat::Depth32F) + self.interpolation_error(index, point, pixel, beside);
+        let interpolation = self.interpolation_error(index, point, pixel, beside);
+        let rounding = 2.0 * code(DepthFormat::Depth32F) + interpolation;
+        // The place in the map is interpolated as the depth is; a filtered shade changes by as much as its weights.
+        let shade_error = (PLACE_ERROR + interpolation * f64::from(map.settings.size)).min(MOST_SHADE_ERROR);
         let texels = &mut self.texels[index];
-        let mut is_lit = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper) >= 0.5;
-        let outcome = is_lit(0.0);
-        let lit = if is_blocked { outcome || is_lit(-rounding) } else { outcome && is_lit(rounding) };
+        let mut shade = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper);
+        let doubt = if is_blocked { -shade_error } else { shade_error };
+        let outcome = shade(0.0) >= 0.5 + doubt;
+        let lit = if is_blocked { outcome || shade(-rounding) >= 0.5 } else { outcome && shade(rounding) >= 0.5 };
         if lit != is_blocked {
             return None;
         }
@@ -191,9 +204,9 @@ impl<'a> Forecast<'a> {
         Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
     }
 
-    /// Error of f32 interpolation in a point's window depth. A rasterizer extrapolates from the value at the window's
-    /// origin, which is the greater the more steeply the camera sees the surface. r and q, each divided by the camera's w,
-    /// are both rounded there.
+    /// Error of a point's window depth by interpolation in f32. A rasterizer starts from the value at the window's origin,
+    /// which lies the farther off the more steeply the camera sees the surface. Both r and q, each divided by the camera's w,
+    /// are rounded there ([`ROUNDINGS`]).
     fn interpolation_error(&self, texels: usize, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> f64 {
         let camera = &self.view.scene.camera;
         let ahead = (camera.target - camera.eye).normalize_or_zero();
@@ -209,7 +222,7 @@ impl<'a> Forecast<'a> {
         let at_origin = f64::from(pixel[0]) * steps[0] + f64::from(pixel[1]) * steps[1];
         // For parallel light only z counts, a depth in [0, 1].
         let relative = if is_parallel { 1.0 } else { 2.0 / here };
-        let error = 2.0_f64.powi(-24) * at_origin * w(point.point) * relative;
+        let error = ROUNDINGS * 2.0_f64.powi(-24) * at_origin * w(point.point) * relative;
         if error.is_finite() { error.abs().min(1.0) } else { 1.0 }
     }
 
@@ -241,7 +254,7 @@ impl<'a> Forecast<'a> {
             }
         };
         let nearest = way.blockers().min_by(|a, b| a.t.total_cmp(&b.t));
-        let taken = (2.0 + f64::from(map.offset.polygon.units)) * code;
+        let taken = (2.0 + self.unit_codes() * f64::from(map.offset.polygon.units)) * code;
         Wrong {
             is_lit: lit,
             is_rounded: lit && nearest.is_some_and(|met| way.gap(met) < taken),
@@ -272,7 +285,8 @@ impl<'a> Forecast<'a> {
         let slope = |normal: DVec3| self.slope(point.point, normal);
         let caster = slope(self.items.placed[met.item].normal(met.triangle));
         let slopes = (factor + reach) * caster + reach * slope(point.normal);
-        texel * (slopes + map.offset.texels + 1.0) + (f64::from(map.offset.polygon.units.abs()) + 2.0) * code
+        let units = self.unit_codes() * f64::from(map.offset.polygon.units.abs());
+        texel * (slopes + map.offset.texels + 1.0) + (units + 2.0) * code
     }
 
     /// Slope of a plane along the light's ray for a step across it, both of unit length.
@@ -280,6 +294,12 @@ impl<'a> Forecast<'a> {
         let way = to_light(point, &self.rays()).normalize_or_zero();
         let along = normal.dot(way).abs();
         (1.0 - along * along).max(0.0).sqrt() / along.max(1e-6)
+    }
+
+    /// Codes that one unit of polygon offset moves a depth by, at most.
+    fn unit_codes(&self) -> f64 {
+        let format = self.map.settings.format;
+        texels::unit(format, 1.0) / code(format)
     }
 
     fn has_far_sides(&self) -> bool {
@@ -371,7 +391,7 @@ fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
     }
 }
 
-/// The least step of depth that is resolved: the format's, and no less than what the comparison's f32 is off by, half a
+/// Least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
 /// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
 fn code(format: DepthFormat) -> f64 {
     match format {

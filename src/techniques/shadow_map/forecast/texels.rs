@@ -211,13 +211,7 @@ impl<'a> Texels<'a> {
     /// Movement of a layer by the polygon offset, in window depth [GL 4.6, 14.6.5].
     fn moved(&self, level: u32, center: DVec2, layer: &Layer) -> f64 {
         let PolygonOffset { factor, units } = self.offset;
-        // GL's r, the least resolvable difference [GL 4.6, 14.6.5]: with 24 bits drivers take up to two codes, of floats
-        // what it is between 1/2 and 1.
-        let unit = match self.settings.format {
-            DepthFormat::Depth16 => 2.0_f64.powi(-16),
-            DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0_f64.powi(-23),
-            DepthFormat::Depth32F => 2.0_f64.powi(-24),
-        };
+        let unit = unit(self.settings.format, layer.depth);
         if factor == 0.0 {
             return f64::from(units) * unit;
         }
@@ -232,6 +226,16 @@ impl<'a> Texels<'a> {
         // A surface seen edge-on is moved to the far plane.
         let slope = if slope.is_finite() { slope.min(1.0) } else { 1.0 };
         f64::from(factor) * slope + f64::from(units) * unit
+    }
+}
+
+/// GL's r, the length of one unit of polygon offset, in window depth [GL 4.6, 14.6.5]: of fixed-point formats drivers take two
+/// codes, of floats the last bit of the depth.
+pub(super) fn unit(format: DepthFormat, depth: f64) -> f64 {
+    match format {
+        DepthFormat::Depth16 => 2.0_f64.powi(-15),
+        DepthFormat::Depth24 | DepthFormat::Depth32 => 2.0_f64.powi(-23),
+        DepthFormat::Depth32F => 2.0_f64.powf(depth.clamp(1e-30, 1.0).log2().floor() - 23.0),
     }
 }
 

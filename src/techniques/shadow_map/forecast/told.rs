@@ -7,9 +7,12 @@ use crate::lights::Notes;
 use crate::lights::projector::Rays;
 use crate::pass::DepthFormat;
 
-/// The greatest share of the points in the light's reach that may be wrong without a warning. A picture with more than 1.5
-/// % is too coarse; a forecast is off by up to 0.2 points and 10 %, so that 1.5 % may be forecast as 1.18 %.
-pub const MOST_WRONG: f64 = 0.0118;
+/// The greatest share of the points in the light's reach that may be wrong without a warning. A picture with more than 1.5 %
+/// is too coarse; a forecast is off by up to 10 %.
+const MOST_WRONG: f64 = 0.9 * 0.015;
+
+/// Standard deviations by which a count may fall short: `n` points found by chance are off by √n.
+const DEVIATIONS: f64 = 2.0;
 
 /// Adds every warning.
 pub fn all(forecast: &Forecast<'_>, notes: &mut Notes) {
@@ -27,7 +30,8 @@ impl Forecast<'_> {
     /// Warns of too many wrong points.
     fn warn_of_share(&self, notes: &mut Notes) {
         let pixels = self.reached.saturating_mul(self.step.pow(2));
-        if pixels < FEWEST_PIXELS || self.wrong.len() as f64 <= MOST_WRONG * f64::from(self.reached) {
+        let count = self.wrong.len() as f64;
+        if pixels < FEWEST_PIXELS || count + DEVIATIONS * count.sqrt() <= MOST_WRONG * f64::from(self.reached) {
             return;
         }
         let (index, percent) = (self.view.index, self.percent(self.wrong.len()));
