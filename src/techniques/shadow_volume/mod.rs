@@ -17,7 +17,7 @@ use self::shapes::Shape;
 use super::{Axis, ShadowSettings, Technique};
 use crate::geometry::volume::{Kind, Source};
 use crate::lights::light::Counting;
-use crate::lights::{LightTerm, LightView, Notes, camera_visibility};
+use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -94,7 +94,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped).then_some(settings.ledge),
         lighting: settings.lighting,
-        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
+        scissor: if view.keep_all { None } else { view.camera.scissor(view.light(), view.scene.image.size) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }
