@@ -114,6 +114,16 @@ impl Renderer {
         Ok(plan)
     }
 
+    /// Holds a plan that was made without a context against the driver: adds what the driver's formats give to warn of.
+    ///
+    /// # Errors
+    ///
+    /// A plan beyond the driver's limits.
+    pub fn accept(&mut self, plan: &mut Plan) -> Result<(), Error> {
+        plan.check(&self.limits)?;
+        self.warn_of_formats(plan)
+    }
+
     /// Draws one frame of a plan; waits for nothing.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use assert_cmd::cargo::CommandCargoExt;
 use glow::HasContext;
 use glumbra::conformance::probe;
 use glumbra::context::compatibility::{Binding, BindingError, raw};
-use glumbra::context::{self, Choice, Context, ContextRequest, Error, Profile, Road, egl};
+use glumbra::context::{self, Backend, Choice, Context, ContextRequest, Error, Profile, egl};
 use glumbra::device::debug::Debug;
 use glumbra::device::queries::Timer;
 

@@ -1,5 +1,5 @@
 //! What the camera sees in extreme scenes, moved, scaled and with stiff planes: each pixel shows the object that the ray
-//! ray tracer sees, or a warning says why not.
+//! tracer sees, or a warning says why not.
 
 use std::fmt::Write as _;
 use std::path::Path;

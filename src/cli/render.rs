@@ -122,10 +122,10 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
         ..Request::default()
     };
     // A scene that cannot be planned needs no context to be refused.
-    crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..request.clone() })?;
+    let mut plan = crate::plan::make(&loaded.scene, &request)?;
     let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(context.as_ref());
-    let plan = renderer.plan(&loaded.scene, &request)?;
+    renderer.accept(&mut plan)?;
     for warning in &plan.warnings {
         super::say(format_args!("warning: {warning}"));
     }

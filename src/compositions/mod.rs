@@ -79,17 +79,17 @@ pub const TABLE: &[&dyn Composition] = &[&single_pass::SinglePass, &stencil_coun
 pub enum Error {
     #[error("no composition draws lights {lights:?} in one picture")]
     Unserved { lights: Vec<usize> },
-    #[error("--aov {view}: light {light} counts no volumes: choose a technique that does for it")]
+    #[error("--aov {view}: light {light} counts no shadow volumes: give it a technique that does, such as \"shadow-volume\"")]
     NoCount { view: &'static str, light: usize },
     #[error(
-        "guard = \"clip-plane\" of light {light}: what it cuts does not keep its depth, which the pass of light {counted} must meet again, as that is counted in the stencil buffer: choose another guard"
+        "guard = \"clip-plane\" (light {light}) cannot be combined with a stencil-counted light (light {counted}): clipping changes depth values, and that light is drawn with depth EQUAL. Choose another guard."
     )]
     CutDepths { light: usize, counted: usize },
     #[error(
         "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
     )]
     TwoLedges { first: usize, second: usize },
-    #[error("light {light}: the transform to its map has no inverse: bring its near and far nearer to each other")]
+    #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }
 

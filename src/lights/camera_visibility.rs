@@ -2,11 +2,11 @@
 
 use glam::{DMat4, DVec3};
 
-use super::{Drawable, LightView, Viewer};
+use super::{Drawable, Viewer};
 use crate::geometry::volume;
 use crate::math::Aabb;
 use crate::math::frustum::{self, Overlap, corners};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 
 /// The camera of a scene, and what it sees. Found once a plan.
 #[derive(Clone, Debug)]
@@ -44,20 +44,19 @@ impl<'a> CameraView<'a> {
             scene_bounds: items.iter().map(world).fold(Aabb::EMPTY, Aabb::union),
         }
     }
-}
 
-/// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights reach them all.
-pub fn scissor(view: &LightView<'_>) -> Option<[u32; 4]> {
-    let frustum = view.light().frustum()?;
-    let bounds = view.camera.seen_bounds;
-    // Its pyramid, from the light to beyond all that is seen.
-    let depth = bounds.corners().map(|corner| corner.distance(frustum.position)).into_iter().fold(0.0, f64::max);
-    let side = depth * (0.5 * frustum.cone_radians).tan();
-    let world_from_light = frustum.view_from_world().inverse();
-    let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
-    let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
-    let size = view.scene.image.size;
-    // No pixel at all: the light contributes nothing, and the plan has seen that already.
-    volume::scissor(&points, &view.camera.clip_from_world, size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])
+    /// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights reach them all.
+    pub fn scissor(&self, light: &Light, size: [u32; 2]) -> Option<[u32; 4]> {
+        let frustum = light.frustum()?;
+        let bounds = self.seen_bounds;
+        // Its pyramid, from the light to beyond all that is seen.
+        let depth = bounds.corners().map(|corner| corner.distance(frustum.position)).into_iter().fold(0.0, f64::max);
+        let side = depth * (0.5 * frustum.cone_radians).tan();
+        let world_from_light = frustum.view_from_world().inverse();
+        let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
+        let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
+        // No pixel at all: the light contributes nothing, and the plan has seen that already.
+        volume::scissor(&points, &self.clip_from_world, size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])
+    }
 }

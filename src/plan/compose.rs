@@ -12,11 +12,12 @@ use crate::math::frustum::{self, Overlap};
 use crate::pass::PassList;
 use crate::scene::{Light, Scene};
 use crate::surfaces;
-use crate::techniques;
+use crate::techniques::{self, LightShadow};
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
-    let moved = techniques::needs_vertices(scene);
+    let shadows = techniques::read(scene)?;
+    let moved = shadows.iter().any(|shadow| shadow.technique.needs_vertices());
     let items = items(scene, moved);
     let mut list = PassList::default();
     let mut notes = Notes::default();
@@ -26,7 +27,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
     let camera = CameraView::new(scene, &items);
-    let terms = light_terms(scene, &items, &camera, request, &mut list, &mut notes)?;
+    let terms = light_terms(&shadows, scene, &items, &camera, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
@@ -59,6 +60,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
 /// errors do not depend on where the camera looks.
 fn light_terms(
+    shadows: &[LightShadow],
     scene: &Scene,
     items: &[Drawable],
     camera: &CameraView<'_>,
@@ -67,7 +69,7 @@ fn light_terms(
     notes: &mut Notes,
 ) -> Result<Vec<PlannedLight>, Error> {
     let mut planned = Vec::new();
-    for (index, source) in scene.lights.iter().enumerate() {
+    for (index, shadow) in shadows.iter().enumerate() {
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
         let shown = request.views.iter().any(|v| of_this(&v));
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
@@ -77,16 +79,12 @@ fn light_terms(
         let sampled_warnings = request.sampled_warnings;
         let view = LightView { scene, items, camera, index, shown_whole, keep_all, sampled_warnings };
         let absent = why_absent(&view).filter(|_| !keep_all);
-        let mut keys = source.shadow.read();
-        let technique = techniques::chosen(&source.kind, &mut keys)?;
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
         let mut term = if absent.is_none() || shown {
-            technique.describe(&view, &mut keys, list, notes)?
+            shadow.settings.describe(&view, list, notes)?
         } else {
-            technique.describe(&view, &mut keys, &mut spare_list, &mut spare_notes)?
+            shadow.settings.describe(&view, &mut spare_list, &mut spare_notes)?
         };
-        techniques::check_others(technique, &mut keys)?;
-        keys.finish()?;
         if keep_all && term.guard == Guard::Auto {
             term.guard = Guard::Fragment;
         }

@@ -132,22 +132,29 @@ pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let near = scene.brought_near();
     let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request)?;
     prune::prune(&mut plan, request);
-    check_limits(&plan, &request.limits)?;
+    plan.check(&request.limits)?;
     Ok(plan)
 }
 
-fn check_limits(plan: &Plan, limits: &Limits) -> Result<(), Error> {
-    for desc in &plan.list.images {
-        let size = desc.size[0].max(desc.size[1]);
-        if size > limits.max_image_size {
-            return Err(Error::TooLarge { what: desc.label.clone(), size, limit: limits.max_image_size });
+impl Plan {
+    /// Checks that a driver with these limits can draw it.
+    ///
+    /// # Errors
+    ///
+    /// An image that is too large, or a pass with too many textures.
+    pub fn check(&self, limits: &Limits) -> Result<(), Error> {
+        for desc in &self.list.images {
+            let size = desc.size[0].max(desc.size[1]);
+            if size > limits.max_image_size {
+                return Err(Error::TooLarge { what: desc.label.clone(), size, limit: limits.max_image_size });
+            }
         }
+        let needed = self.list.passes.iter().map(|pass| pass.most_inputs()).max().unwrap_or(0);
+        if needed > limits.max_inputs as usize {
+            return Err(Error::TooManyInputs { needed, limit: limits.max_inputs });
+        }
+        Ok(())
     }
-    let needed = plan.list.passes.iter().map(|pass| pass.most_inputs()).max().unwrap_or(0);
-    if needed > limits.max_inputs as usize {
-        return Err(Error::TooManyInputs { needed, limit: limits.max_inputs });
-    }
-    Ok(())
 }
 
 /// A plan as `--json` prints it.

@@ -24,7 +24,7 @@ pub use error::Error;
 pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::{MAX_IMAGE_SIDE, MAX_LIGHTS};
-pub use settings::{Entry, Origin, Reader, Settings, SettingsError, Value, suggest};
+pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};
 
 use crate::math::Aabb;
 use assets::{Assets, has_extension};

@@ -41,6 +41,21 @@ impl SettingsError {
     }
 }
 
+/// Where a key stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    origin: Origin,
+    /// The dotted name.
+    key: String,
+}
+
+impl Place {
+    /// An error at the key.
+    pub fn error(&self, message: impl fmt::Display) -> SettingsError {
+        SettingsError::new(&self.origin, format!("`{}` {message}", self.key))
+    }
+}
+
 /// A value with its place.
 #[derive(Clone, Debug)]
 pub struct Entry {
@@ -142,8 +157,13 @@ impl<'a> Reader<'a> {
 
     /// An error at `key`, or at the table where the key is absent.
     pub fn error(&self, key: &str, message: impl fmt::Display) -> SettingsError {
+        self.place(key).error(message)
+    }
+
+    /// Where `key` stands, or the table where the key is absent: for an error that is found later.
+    pub fn place(&self, key: &str) -> Place {
         let origin = self.settings.get(key).map_or(&self.settings.origin, |entry| &entry.origin);
-        SettingsError::new(origin, format!("`{}` {message}", self.settings.key(key)))
+        Place { origin: origin.clone(), key: self.settings.key(key) }
     }
 
     /// The error of a missing key.

@@ -291,8 +291,8 @@ fn in_one_light(scene: &Scene, light: usize) -> Scene {
     scene
 }
 
-/// Least light that a picture of 8 bits shows: half a code. Shading at 90 degrees to the light comes to less in one pass and
-/// to none in another, by the rounding of its cosine.
+/// Least light that a picture of 8 bits shows: half a code. Shading at 90 degrees to the light is less in one pass and none
+/// in another, by the rounding of its cosine.
 const LEAST_LIGHT: f32 = 0.5 / 255.0;
 
 /// Part of the light that a pixel shows of what it would show without shadow. NaN where there is no light to be
@@ -305,8 +305,8 @@ fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
     }
 }
 
-/// Whether a surface beside a point shades it for all of its own polygon offset. GL's slope is the steeper of the two along the
-/// map's axes, each for a step of one texel: at least a part of 1/√2 of the slope itself, for the texel's shorter side.
+/// Tests whether a surface beside a point shades it in spite of its own polygon offset. GL's slope is the greater of the
+/// two along the map's axes, each for a step of one texel: at least 1/√2 of the slope itself, for the texel's shorter side.
 fn shades(map: &MapInfo, around: &Around, near: &Nearer) -> bool {
     let factor = f64::from(map.polygon.factor) * std::f64::consts::FRAC_1_SQRT_2;
     near.by > around.scale * (map.texel_short * factor * near.slope + map.texel * map.texels)

@@ -18,7 +18,7 @@ mod shadow_volume;
 use self::claims::Claim;
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
-use crate::scene::{LightKind, Reader, Scene, Settings, SettingsError, suggest};
+use crate::scene::{Light, LightKind, Reader, Scene, Settings, SettingsError, suggest};
 
 /// A way to find which points a light reaches.
 pub trait Technique: Sync {
@@ -56,26 +56,42 @@ pub trait Technique: Sync {
         &[]
     }
 
-    /// Validates the technique's keys of `[light.shadow]` without planning anything.
+    /// Reads the technique's keys of `[light.shadow]`, each with its default, and checks them one by one.
     ///
     /// # Errors
     ///
     /// A key with a wrong value, with its place in the scene file.
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError>;
+    fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError>;
 
-    /// Reads the technique's keys of `[light.shadow]`, adds the passes that prepare the light to `list`, and returns the
-    /// light's term for the lit pass. Notes what it leaves out in `notes`.
+    /// Reads the same for a light of this `kind`, and refuses what does not go together.
     ///
     /// # Errors
     ///
-    /// A light that it does not serve, a key with a wrong value; with its place in the scene file.
+    /// A key with a wrong value, or one that does not go with the light or with other keys; with its place in the scene
+    /// file.
+    fn read(&self, keys: &mut Reader<'_>, kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError>;
+}
+
+/// A light's keys as its technique has read them.
+pub trait ShadowSettings {
+    /// Adds the passes that prepare the light to `list`, and returns the light's term for the lit pass. Notes what it leaves out in
+    /// `notes`.
+    ///
+    /// # Errors
+    ///
+    /// A scene whose objects the technique cannot draw.
     fn describe(
         &self,
         view: &LightView<'_>,
-        settings: &mut Reader<'_>,
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError>;
+}
+
+/// A light's technique and what it has read.
+pub struct LightShadow {
+    pub technique: &'static dyn Technique,
+    pub settings: Box<dyn ShadowSettings>,
 }
 
 /// A key of `[light.shadow]` that a report varies.
@@ -97,13 +113,27 @@ pub const TABLE: &[&dyn Technique] = &[
     &shadow_volume::ShadowVolume,
 ];
 
-/// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
+/// Reads `[light.shadow]` of every light, in the scene's order. An absent table means none.
 ///
 /// # Errors
 ///
-/// A key with a wrong value, with its place in the scene file.
-pub fn check_others(chosen: &dyn Technique, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-    TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(settings))
+/// A name that no row of the table has, a technique that does not serve such lights, a key that no technique reads, a key
+/// with a wrong value.
+pub fn read(scene: &Scene) -> Result<Vec<LightShadow>, SettingsError> {
+    let one = |light: &Light| {
+        let mut keys = light.shadow.read();
+        let technique = chosen(&light.kind, &mut keys)?;
+        let settings = technique.read(&mut keys, &light.kind)?;
+        check_others(technique, &mut keys)?;
+        keys.finish()?;
+        Ok(LightShadow { technique, settings })
+    };
+    scene.lights.iter().map(one).collect()
+}
+
+/// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
+fn check_others(chosen: &dyn Technique, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
+    TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(keys))
 }
 
 /// The keys of `[light.shadow]` that a technique reads.
@@ -115,20 +145,8 @@ pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
     keys.known().to_vec()
 }
 
-/// Tests whether the technique of some light of the scene reads casters' vertices.
-pub fn needs_vertices(scene: &Scene) -> bool {
-    scene.lights.iter().any(|source| {
-        let mut keys = source.shadow.read();
-        chosen(&source.kind, &mut keys).is_ok_and(|technique| technique.needs_vertices())
-    })
-}
-
-/// The technique that `[light.shadow]` of a light of this `kind` names; an absent table means none.
-///
-/// # Errors
-///
-/// A name that no row of the table has, or one whose technique does not serve such lights.
-pub fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
+/// The technique that `[light.shadow]` of a light of this `kind` names.
+fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
     let name = settings.string("technique")?.unwrap_or("none");
     let Some(technique) = TABLE.iter().find(|row| row.name() == name) else {
         let names = TABLE.iter().map(|row| row.name());

@@ -28,7 +28,7 @@ use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, Ending, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
-use super::{Axis, Technique};
+use super::{Axis, ShadowSettings, Technique};
 use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{
     Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
@@ -92,20 +92,27 @@ impl Technique for Midpoint {
         CLAIMS
     }
 
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-        settings::read(settings).map(|_| ())
+    fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(keys).map(|_| ())
     }
 
+    fn read(&self, keys: &mut Reader<'_>, kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError> {
+        let settings = settings::read(keys)?;
+        refuse(&settings.map, keys)?;
+        shadow_map::refuse(&settings.map, kind, keys)?;
+        Ok(Box::new(settings))
+    }
+}
+
+impl ShadowSettings for Settings {
     fn describe(
         &self,
         view: &LightView<'_>,
-        keys: &mut Reader<'_>,
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let settings = settings::read(keys)?;
-        refuse(&settings.map, keys)?;
-        let Some(view) = &shadow_map::one_view(view, &settings.map, keys, notes)? else {
+        let settings = self;
+        let Some(view) = &shadow_map::one_view(view, &settings.map, notes) else {
             return Ok(shadow_map::without_casters(view, &settings.map, notes));
         };
         let mut layers = second::layers(view, notes);
@@ -138,7 +145,7 @@ impl Technique for Midpoint {
         };
         // Without a second layer beside it, the nearest one is only stored itself.
         let nearest = draw("nearest layer", "nearest layer", None, NO_OFFSET, single != Single::First);
-        let peel = peel(view, nearest, clamped, &settings);
+        let peel = peel(view, nearest, clamped, settings);
         let midpoint = draw("midpoint", "midpoint map", Some(peel), NO_OFFSET, true);
         let first = match single {
             Single::Far => None,
@@ -157,7 +164,7 @@ impl Technique for Midpoint {
                 midpoint
             }
         };
-        forecast::warn(view, &forecast_of(view, &settings, single, &layers.casters), notes);
+        forecast::warn(view, &forecast_of(view, settings, single, &layers.casters), notes);
         let mut term = shadow_map::looked_up(view, map, &settings.map, 0.0, notes);
         term.map_info = term.map_info.map(|info| MapInfo { middle: true, ..info });
         Ok(term)

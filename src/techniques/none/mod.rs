@@ -1,6 +1,6 @@
 //! No shadow: the light reaches everything in its cone, if it has one.
 
-use super::{Axis, Technique};
+use super::{Axis, ShadowSettings, Technique};
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
@@ -28,14 +28,19 @@ impl Technique for Unshadowed {
         &[]
     }
 
-    fn check(&self, _settings: &mut Reader<'_>) -> Result<(), SettingsError> {
+    fn check(&self, _keys: &mut Reader<'_>) -> Result<(), SettingsError> {
         Ok(())
     }
 
+    fn read(&self, _keys: &mut Reader<'_>, _kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError> {
+        Ok(Box::new(Self))
+    }
+}
+
+impl ShadowSettings for Unshadowed {
     fn describe(
         &self,
         view: &LightView<'_>,
-        _settings: &mut Reader<'_>,
         _list: &mut PassList,
         _notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {

@@ -13,10 +13,10 @@ use super::shadow_map::casters::casters;
 use super::shadow_map::depth::{self, Layer};
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
-use super::{Axis, Technique};
+use super::{Axis, ShadowSettings, Technique};
 use crate::lights::{Drawable, LightTerm, LightView, Notes};
 use crate::pass::{Face, PassList, PolygonOffset};
-use crate::scene::{LightKind, Reader, SettingsError};
+use crate::scene::{LightKind, Place, Reader, SettingsError};
 use crate::techniques::shadow_map::forecast::{self, Stored};
 
 pub struct SecondDepth;
@@ -73,50 +73,66 @@ impl Technique for SecondDepth {
         CLAIMS
     }
 
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-        read(settings).map(|_| ())
+    fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
+        read(keys).map(|_| ())
     }
 
+    fn read(&self, keys: &mut Reader<'_>, kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError> {
+        let settings = read(keys)?;
+        shadow_map::refuse(&settings.map, kind, keys)?;
+        Ok(Box::new(settings))
+    }
+}
+
+/// The map's keys, with the faces towards the light left out, and what is known of casters.
+struct SecondDepthSettings {
+    map: Settings,
+    /// Whether casters are assumed to be closed.
+    is_assumed: bool,
+    /// The key `technique`.
+    place: Place,
+}
+
+impl ShadowSettings for SecondDepthSettings {
     fn describe(
         &self,
         view: &LightView<'_>,
-        keys: &mut Reader<'_>,
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let (settings, is_assumed) = read(keys)?;
-        let Some(mut view) = shadow_map::one_view(view, &settings, keys, notes)? else {
-            return Ok(shadow_map::without_casters(view, &settings, notes));
+        let settings = &self.map;
+        let Some(mut view) = shadow_map::one_view(view, settings, notes) else {
+            return Ok(shadow_map::without_casters(view, settings, notes));
         };
-        let mut casters = casters(&view, &settings, notes);
-        view.projector.crop = fit::crop(&view, &mut casters, &settings, notes);
+        let mut casters = casters(&view, settings, notes);
+        view.projector.crop = fit::crop(&view, &mut casters, settings, notes);
         let view = &view;
-        if !is_assumed {
-            refuse_open(&casters, &mut closed_test(), keys)?;
+        if !self.is_assumed {
+            refuse_open(&casters, &mut closed_test(), &self.place)?;
         }
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, &settings, notes));
+            return Ok(shadow_map::without_casters(view, settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = Layer::plain("second depth", "map", offset, &casters);
-        let map = depth::draw(view, &layer, &settings, list, notes);
+        let map = depth::draw(view, &layer, settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
         let forecast = forecast::Map {
-            settings: &settings,
+            settings,
             offset: forecast::NO_OFFSET,
             stored: Stored::Nearest,
             casters: &casters,
             projectors: vec![view.projector.clone()],
         };
         forecast::warn(view, &forecast, notes);
-        Ok(shadow_map::looked_up(view, map, &settings, 0.0, notes))
+        Ok(shadow_map::looked_up(view, map, settings, 0.0, notes))
     }
 }
 
-/// The map's keys, with the faces towards the light left out, and whether casters are assumed to be closed.
-fn read(keys: &mut Reader<'_>) -> Result<(Settings, bool), SettingsError> {
+fn read(keys: &mut Reader<'_>) -> Result<SecondDepthSettings, SettingsError> {
     let is_assumed = keys.choice("closed", &[("assume", true), ("check", false)])?.unwrap_or(false);
-    Ok((Settings { cull: Some(Face::Front), ..map::read(keys)? }, is_assumed))
+    let map = Settings { cull: Some(Face::Front), ..map::read(keys)? };
+    Ok(SecondDepthSettings { map, is_assumed, place: keys.place("technique") })
 }
 
 /// Tests whether an item has a far side all over: each mesh is examined once.
@@ -140,7 +156,7 @@ fn closed_test() -> impl FnMut(&Drawable) -> bool {
 fn refuse_open(
     casters: &[&Drawable],
     is_closed: &mut dyn FnMut(&Drawable) -> bool,
-    keys: &Reader<'_>,
+    place: &Place,
 ) -> Result<(), SettingsError> {
     let mut open: Vec<&str> = Vec::new();
     for item in casters {
@@ -156,5 +172,5 @@ fn refuse_open(
          or draw their back faces alone with closed = \"assume\" (--set light.shadow.closed=assume)",
         open.join(", ")
     );
-    Err(keys.error("technique", message))
+    Err(place.error(message))
 }

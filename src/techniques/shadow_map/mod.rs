@@ -20,7 +20,7 @@ use self::depth::Layer;
 use self::forecast::Stored;
 use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::{Axis, Technique};
+use super::{Axis, ShadowSettings, Technique};
 use crate::lights::projector::Projector;
 use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{ImageId, PassList};
@@ -88,26 +88,40 @@ impl Technique for ShadowMap {
         CLAIMS
     }
 
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-        settings::read(settings).map(|_| ())
+    fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(keys).map(|_| ())
     }
 
+    fn read(&self, keys: &mut Reader<'_>, kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError> {
+        let settings = settings::read(keys)?;
+        refuse(&settings, kind, keys)?;
+        Ok(Box::new(settings))
+    }
+}
+
+impl ShadowSettings for Settings {
     fn describe(
         &self,
         view: &LightView<'_>,
-        keys: &mut Reader<'_>,
         list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let settings = settings::read(keys)?;
         if let LightKind::Point(point) = &view.light().kind {
-            cube::refuse(&settings, keys)?;
-            return Ok(cube::describe(view, point, &settings, list, notes));
+            return Ok(cube::describe(view, point, self, list, notes));
         }
-        match one_view(view, &settings, keys, notes)? {
-            Some(view) => Ok(one_map(view, &settings, list, notes)),
-            None => Ok(without_casters(view, &settings, notes)),
-        }
+        Ok(match one_view(view, self, notes) {
+            Some(view) => one_map(view, self, list, notes),
+            None => without_casters(view, self, notes),
+        })
+    }
+}
+
+/// Refuses what maps of such lights do not have.
+pub(super) fn refuse(settings: &Settings, kind: &LightKind, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    match kind {
+        LightKind::Spot(_) => Ok(()),
+        LightKind::Directional { .. } => parallel::refuse(settings, keys),
+        LightKind::Point(_) => cube::refuse(settings, keys),
     }
 }
 
@@ -160,26 +174,15 @@ pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
     }
 }
 
-/// The light as its one map sees it; `None` where a directional light has nothing to shadow.
-///
-/// # Errors
-///
-/// A key that does not go with the light's kind, or a light that has no one map.
-pub(super) fn one_view<'a>(
-    view: &LightView<'a>,
-    settings: &Settings,
-    keys: &Reader<'_>,
-    notes: &mut Notes,
-) -> Result<Option<FrustumView<'a>>, SettingsError> {
+/// The light as its one map sees it. `None`: a directional light that has nothing to shadow, or a point light, which has
+/// no one map.
+pub(super) fn one_view<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Option<FrustumView<'a>> {
     let projector = match &view.light().kind {
         LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
-        LightKind::Directional { direction } => {
-            parallel::refuse(settings, keys)?;
-            parallel::projector(view, *direction, settings, notes)
-        }
-        LightKind::Point(_) => return Err(keys.error("technique", "draws one square map, and a point light needs six")),
+        LightKind::Directional { direction } => parallel::projector(view, *direction, settings, notes),
+        LightKind::Point(_) => None,
     };
-    Ok(projector.map(|projector| FrustumView { light_view: *view, projector }))
+    projector.map(|projector| FrustumView { light_view: *view, projector })
 }
 
 /// Term of a light in whose frustum nothing casts a visible shadow.

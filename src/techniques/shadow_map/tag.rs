@@ -4,8 +4,8 @@
 //! main.toml at 512 and 1024: 9 to 11 %), that of GL_NEAREST not at all.
 
 use super::settings::{Outcome, Settings};
+use crate::lights::LightView;
 use crate::lights::light::{CountPass, Counted, Counting, Layer, Lighting};
-use crate::lights::{LightView, camera_visibility};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 
 /// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
@@ -32,7 +32,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
         casters: Vec::new(),
         ledge: None,
         lighting: Lighting::Added,
-        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
+        scissor: if view.keep_all { None } else { view.camera.scissor(view.light(), view.scene.image.size) },
         volumes: Vec::new(),
         silhouettes: Vec::new(),
     })

@@ -14,10 +14,10 @@ use self::casters::{Casting, casting};
 use self::choice::Way;
 use self::settings::Settings;
 use self::shapes::Shape;
-use super::{Axis, Technique};
+use super::{Axis, ShadowSettings, Technique};
 use crate::geometry::volume::{Kind, Source};
 use crate::lights::light::Counting;
-use crate::lights::{LightTerm, LightView, Notes, camera_visibility};
+use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
@@ -48,32 +48,36 @@ impl Technique for ShadowVolume {
         settings::AXES
     }
 
-    fn check(&self, settings: &mut Reader<'_>) -> Result<(), SettingsError> {
-        settings::read(settings).map(|_| ())
+    fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
+        settings::read(keys).map(|_| ())
     }
 
+    fn read(&self, keys: &mut Reader<'_>, _kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError> {
+        Ok(Box::new(settings::read(keys)?))
+    }
+}
+
+impl ShadowSettings for Settings {
     fn describe(
         &self,
         view: &LightView<'_>,
-        keys: &mut Reader<'_>,
         _list: &mut PassList,
         notes: &mut Notes,
     ) -> Result<LightTerm, SettingsError> {
-        let settings = settings::read(keys)?;
         let mut term = LightTerm::unshadowed(view.scene, view.index);
-        term.dimming = settings.dimming;
+        term.dimming = self.dimming;
         let casting = casting(view.items);
         explain(view, &casting, notes);
-        let ways = choice::ways(view, &casting, &settings, notes);
-        let shapes = shapes::shapes(view, &casting, &ways, source(view), &settings, notes);
+        let ways = choice::ways(view, &casting, self, notes);
+        let shapes = shapes::shapes(view, &casting, &ways, source(view), self, notes);
         if shapes.is_empty() {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
             return Ok(term);
         }
         if view.sampled_warnings {
-            doubt::warn(view, &casting, &ways, &settings, notes);
+            doubt::warn(view, &casting, &ways, self, notes);
         }
-        term.counting = Some(counting(view, &shapes, &settings));
+        term.counting = Some(counting(view, &shapes, self));
         Ok(term)
     }
 }
@@ -90,7 +94,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
         casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
         ledge: has(Way::ZPassCapped).then_some(settings.ledge),
         lighting: settings.lighting,
-        scissor: if view.keep_all { None } else { camera_visibility::scissor(view) },
+        scissor: if view.keep_all { None } else { view.camera.scissor(view.light(), view.scene.image.size) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
         silhouettes: shapes.iter().map(|shape| shape.silhouette.clone()).collect(),
     }

@@ -40,7 +40,7 @@ const ROUNDINGS: f64 = 2.24;
 /// Error of a place in a map, in texels: weights have 8 bits, and a caster's edge is snapped to 1/256 of a texel, on both axes.
 const PLACE_ERROR: f64 = 0.02;
 
-/// Greatest error of a filtered shade that is reckoned with: beyond it nothing could be told.
+/// Greatest error of a filtered shade that is allowed for: beyond it nothing could be decided.
 const MOST_SHADE_ERROR: f64 = 0.25;
 
 /// No polygon offset.
@@ -391,7 +391,7 @@ fn length_of_depth(projector: &Projector, distance: f64) -> f64 {
     }
 }
 
-/// Least step of depth that is told apart: the format's, and no less than what the comparison's f32 is off by, half a
+/// Least difference of depth that is resolved: the format's, and no less than what the comparison's f32 is off by, half a
 /// step of 2^-24 in the quotient and as much in each of its two terms and in the stored depth.
 fn code(format: DepthFormat) -> f64 {
     match format {
