@@ -9,8 +9,8 @@ use super::Notes;
 use crate::geometry::{Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
-    AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId, IndexOrder, Input,
-    MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
+    AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
+    IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 

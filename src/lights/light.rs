@@ -12,8 +12,8 @@ use super::projector::Projector;
 use super::{Drawable, Viewer, drawable};
 use crate::math::Aabb;
 use crate::pass::{
-    Attribute, Batch, Chunk, Define, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef, Primitive,
-    Program, Redraw, Shade, Uniform, glsl,
+    Attribute, Batch, Chunk, Define, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef,
+    Primitive, Program, Redraw, Shade, Uniform, glsl,
 };
 use crate::scene::{Light, Scene};
 

@@ -7,7 +7,8 @@ use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::{Drawable, Ending, Viewer};
 use crate::pass::{
-    Attribute, Chunk, FixedFunctionDesc, FixedFunctionLight, Define, Input, Lit, PassList, Program, Sampled, Uniform, glsl,
+    Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, Sampled, Uniform,
+    glsl,
 };
 use crate::scene::Scene;
 

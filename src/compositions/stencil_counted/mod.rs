@@ -13,8 +13,8 @@ use crate::lights::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
-    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade, Stencil,
-    StencilOps, Target, Texturing, Uniform, glsl,
+    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade,
+    Stencil, StencilOps, Target, Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::views::{self, View};

@@ -8,8 +8,8 @@ use glam::{DMat4, DVec4};
 use crate::geometry::{Mesh, primitive};
 use crate::lights::FrustumView;
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Draw, Define, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId, IndexOrder, Input,
-    MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId,
+    IndexOrder, Input, MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};

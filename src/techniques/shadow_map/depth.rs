@@ -11,8 +11,8 @@ use crate::lights::drawable::depth_batches;
 use crate::lights::projector::Rays;
 use crate::lights::{Chosen, Drawable, FrustumView, LightView, Notes};
 use crate::pass::{
-    Batch, Chunk, Clear, Compare, Define, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input, Pass,
-    PassList, PolygonOffset, Storage, Target, Uniform, Work,
+    Batch, Chunk, Clear, Compare, Define, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input,
+    Pass, PassList, PolygonOffset, Storage, Target, Uniform, Work,
 };
 
 /// One pass of depth over the casters.
