@@ -143,7 +143,7 @@ fn a_wave_of_no_amplitude_is_none() {
         glumbra::pass::Work::Draw(draw) => draw.batches.iter().map(|batch| batch.program.clone()).collect(),
         glumbra::pass::Work::CopyDepth { .. } => Vec::new(),
     });
-    assert!(programs.all(|program| program.defines.iter().all(|(name, _)| name != "WAVE")));
+    assert!(programs.all(|program| program.defines.iter().all(|define| define.name() != "WAVE")));
 }
 
 /// A surface that folds over has no inside by which a far side could be told.

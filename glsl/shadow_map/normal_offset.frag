@@ -5,7 +5,6 @@
 // distance along the light's axis. A point moved by d along n lies on the plane at h - d. There 1/w is at least what the
 // first plane has anywhere within (a, b) in u and v if d = w (a |n.x| + b |n.y|), w being that of the moved point. So the
 // angle that counts is the normal's with the light's axis, not with the light's ray. Of parallel light w is 1.
-uniform sampler2DShadow shadow_map_@;
 #ifdef PARALLEL_@
 uniform mat4 light_from_texture_@;  // of a box, not of a frustum
 #else
@@ -47,17 +46,4 @@ void derive_shade_@()
 #endif
     // Of parallel light q is 1.
     offset_coord_@ = coord + reach * coord.w * (texture_from_light_@ * vec4(normal, 0.0));
-}
-
-float shade_@()
-{
-    vec3 at = offset_coord_@.xyz / offset_coord_@.w;
-    at.z = clamp(at.z, 0.0, 1.0);
-    vec2 texel = 1.0 / vec2(textureSize(shadow_map_@, 0));
-    const float FIRST = 0.5 * float(1 - KERNEL_@);
-    float lit = 0.0;
-    for (int y = 0; y < KERNEL_@; ++y)
-        for (int x = 0; x < KERNEL_@; ++x)
-            lit += texture(shadow_map_@, vec3(at.xy + (FIRST + vec2(x, y)) * texel, at.z));
-    return lit / float(KERNEL_@ * KERNEL_@);
 }

@@ -1,7 +1,5 @@
-// The hardware's comparison [GL 4.6, 8.23.1]: r/q against the map at (s/q, t/q); 1 lit, 0 shadowed, between them what
-// GL_LINEAR makes of four comparisons.
-uniform sampler2DShadow shadow_map_@;
-
+// One comparison of the texture unit [GL 4.6, 8.23.1]: r/q against the map at (s/q, t/q); 1 lit, 0 shadowed, between them
+// what GL_LINEAR makes of four comparisons.
 float shade_@()
 {
     vec4 coord = light_coord_@;

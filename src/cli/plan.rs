@@ -23,12 +23,26 @@ pub struct PlanArgs {
     frames: u32,
 
     /// Prints JSON
-    #[arg(long)]
+    #[arg(long, group = "listing")]
     json: bool,
+
+    /// Prints the finished GLSL of every program, as the driver compiles it, with file and line marks; with PASS, of the
+    /// passes whose name contains it
+    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", group = "listing")]
+    shaders: Option<String>,
+
+    /// Prints each light's matrices with their numbers: S, P_light, L^-1, V, and the texgen planes E_po and E_e of each
+    /// set-up, with the modelview under which they are loaded
+    #[arg(long, group = "listing")]
+    matrices: bool,
+
+    /// Prints each pass as OpenGL calls, in C that compiles: glTexGenfv, glPolygonOffset, glCopyTexSubImage2D and so on
+    #[arg(long, group = "listing")]
+    gl: bool,
 
     /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from;
     /// it names files by absolute paths, so that it may be saved in any folder
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, group = "listing")]
     print_scene: bool,
 }
 
@@ -42,7 +56,17 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
         ..Request::default()
     };
     // A scene that cannot be drawn is not printed either.
-    let summary = plan::make(&loaded.scene, &request)?.summary();
+    let plan = plan::make(&loaded.scene, &request)?;
+    if let Some(pass) = &arguments.shaders {
+        return super::print(&plan.shaders(pass)?);
+    }
+    if arguments.matrices {
+        return super::print(&plan.matrices_text());
+    }
+    if arguments.gl {
+        return super::print(&crate::fixed_function::listing::c_source(&plan.list));
+    }
+    let summary = plan.summary();
     if arguments.print_scene {
         let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.overrides())?;
         return super::print(&settings.to_toml());

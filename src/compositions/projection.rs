@@ -6,7 +6,7 @@ use crate::lights::Viewer;
 use crate::lights::light::{Counting, Layer, LedgeDepths};
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
-use crate::pass::{Batch, DrawState};
+use crate::pass::{Batch, Define, DrawState};
 use crate::scene::Scene;
 
 /// The bits of the depth buffer that volumes are counted against.
@@ -104,7 +104,7 @@ impl CameraProjection {
     /// Makes the vertex stage write what `state` clips by.
     pub fn adapt(state: &DrawState, batches: &mut [Batch]) {
         for batch in batches.iter_mut().filter(|_| state.clip_distances > 0) {
-            batch.program.defines.push(("CLIP_NEAR".into(), String::new()));
+            batch.program.defines.push(Define::flag("CLIP_NEAR"));
         }
     }
 }

@@ -5,14 +5,18 @@
 pub enum Error {
     #[error(transparent)]
     Gl(#[from] super::debug::GlError),
-    #[error("the {stage} shader of {program} does not compile:\n{log}\nfiles by number: {files}")]
-    Compile { program: String, stage: &'static str, log: String, files: String },
+    #[error("the {stage} shader of {program} does not compile:\n{log}")]
+    Compile { program: String, stage: &'static str, log: String },
     #[error("{program} does not link: {log}")]
     Link { program: String, log: String },
     #[error("{pass}: {program} has no uniform or sampler `{name}`")]
     UnknownUniform { pass: String, program: String, name: String },
-    #[error("{pass}: {program} needs `{name}`, and the pass does not set it")]
-    MissingUniform { pass: String, program: String, name: String },
+    #[error("{pass}: {program} needs `{name}`, and nothing sets it for {draw}")]
+    MissingUniform { pass: String, program: String, name: String, draw: String },
+    #[error(
+        "{pass}: `{name}` of {program} is set for all draws of a batch and again for {draw}: draws after that would have its value"
+    )]
+    UniformSetTwice { pass: String, program: String, name: String, draw: String },
     #[error("{pass}: {program} reads the attribute `{name}`, which {mesh} does not have")]
     MissingAttribute { pass: String, program: String, name: &'static str, mesh: String },
     #[error("{pass}: the driver cannot draw into {target}: {status}")]

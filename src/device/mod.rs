@@ -4,6 +4,7 @@
 //! a fixed number. A pass whose target already holds its result is skipped
 //! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
+mod compile_log;
 pub mod debug;
 mod error;
 mod for_fixed_function;

@@ -1,12 +1,12 @@
-//! Shader programs: assembled, compiled and linked once a variant; uniforms by name, checked when linked.
+//! Shader programs: compiled and linked once a variant; uniforms by name, checked for every batch.
 
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use glow::HasContext;
 
-use super::Error;
-use crate::pass::{Batch, Chunk, Program, Uniform, UniformValue};
+use super::{Error, compile_log};
+use crate::pass::{Batch, Program, Source, Stage, Uniform, UniformValue};
 
 /// A linked program, deleted on drop.
 pub struct GpuProgram {
@@ -28,14 +28,12 @@ impl Drop for GpuProgram {
 
 /// Compiles and links a variant.
 pub fn create(gl: &Rc<glow::Context>, program: &Program) -> Result<GpuProgram, Error> {
-    let vertex = assemble(program, &program.vertex);
-    let fragment = assemble(program, &program.fragment);
+    let sources = Stage::ALL.map(|stage| (stage, program.source(stage)));
     let name = unsafe {
         let name = gl.create_program().map_err(Error::Create)?;
-        let stages = [(glow::VERTEX_SHADER, "vertex", &vertex), (glow::FRAGMENT_SHADER, "fragment", &fragment)];
         let mut shaders = Vec::new();
-        for (kind, stage, source) in stages {
-            match compile(gl, program, kind, stage, source) {
+        for (stage, source) in &sources {
+            match compile(gl, program, *stage, source) {
                 Ok(shader) => {
                     gl.attach_shader(name, shader);
                     shaders.push(shader);
@@ -58,7 +56,7 @@ pub fn create(gl: &Rc<glow::Context>, program: &Program) -> Result<GpuProgram, E
         name,
         uniforms: HashMap::new(),
         samplers: HashMap::new(),
-        identifiers: identifiers(&vertex).chain(identifiers(&fragment)).map(str::to_owned).collect(),
+        identifiers: sources.iter().flat_map(|(_, source)| identifiers(&source.text)).map(str::to_owned).collect(),
     };
     if !unsafe { gl.get_program_link_status(name) } {
         let log = unsafe { gl.get_program_info_log(name) };
@@ -68,53 +66,43 @@ pub fn create(gl: &Rc<glow::Context>, program: &Program) -> Result<GpuProgram, E
     Ok(linked)
 }
 
-/// `EXACT`: what is computed as it is written, where the driver has the word for it [GLSL 4.60, 4.9.1]. Without it Mesa
-/// 24.1 and later move arithmetic across interpolation, from the fragments to the vertices, in one program and not in another.
-const HEAD: &str = "#version 330 core
-#ifdef GL_ARB_gpu_shader5
-#extension GL_ARB_gpu_shader5 : enable
-#define EXACT precise
-#else
-#define EXACT
-#endif
-";
-
-/// `#version`, the defines, then each chunk under a `#line` that numbers its file.
-fn assemble(program: &Program, chunks: &[Chunk]) -> String {
-    let mut source = String::from(HEAD);
-    for (name, value) in &program.defines {
-        source.push_str(&format!("#define {name} {value}\n"));
-    }
-    for (number, chunk) in chunks.iter().enumerate() {
-        source.push_str(&format!("#line 1 {number}\n{}", chunk.text));
-    }
-    source
-}
-
 fn identifiers(source: &str) -> impl Iterator<Item = &str> {
     source.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-fn compile(
-    gl: &glow::Context,
-    program: &Program,
-    kind: u32,
-    stage: &'static str,
-    source: &str,
-) -> Result<glow::Shader, Error> {
+fn compile(gl: &glow::Context, program: &Program, stage: Stage, source: &Source) -> Result<glow::Shader, Error> {
+    let kind = match stage {
+        Stage::Vertex => glow::VERTEX_SHADER,
+        Stage::Fragment => glow::FRAGMENT_SHADER,
+    };
+    let log = match compile_text(gl, kind, &source.text)? {
+        Ok(shader) => return Ok(shader),
+        Err(log) => log,
+    };
+    // Once more, for the lines of the whole text.
+    let log = match compile_text(gl, kind, &source.without_line_marks())? {
+        Ok(shader) => {
+            // SAFETY: the shader has just been made.
+            unsafe { gl.delete_shader(shader) };
+            log
+        }
+        Err(log) => compile_log::explain(&log, source),
+    };
+    Err(Error::Compile { program: program.label.clone(), stage: stage.name(), log })
+}
+
+/// A shader, or the driver's log.
+fn compile_text(gl: &glow::Context, kind: u32, text: &str) -> Result<Result<glow::Shader, String>, Error> {
     unsafe {
         let shader = gl.create_shader(kind).map_err(Error::Create)?;
-        gl.shader_source(shader, source);
+        gl.shader_source(shader, text);
         gl.compile_shader(shader);
         if gl.get_shader_compile_status(shader) {
-            return Ok(shader);
+            return Ok(Ok(shader));
         }
         let log = gl.get_shader_info_log(shader);
         gl.delete_shader(shader);
-        let chunks = if kind == glow::VERTEX_SHADER { &program.vertex } else { &program.fragment };
-        let files = chunks.iter().enumerate().map(|(number, chunk)| format!("{number} {}", chunk.name));
-        let files = files.collect::<Vec<_>>().join(", ");
-        Err(Error::Compile { program: program.label.clone(), stage, log, files })
+        Ok(Err(log))
     }
 }
 
@@ -137,24 +125,38 @@ impl GpuProgram {
         }
     }
 
-    /// Holds what `batch` sets against what the program reads: nothing missing, nothing unknown.
+    /// Holds what a batch sets, and each of its draws, against what the program reads: nothing missing, nothing unknown,
+    /// nothing that a draw would leave to the draws after it.
     pub fn check(&self, pass: &str, batch: &Batch) -> Result<(), Error> {
-        let first = batch.draws.first().map_or(&[][..], |draw| &draw.uniforms);
-        let set: HashSet<&str> = batch
-            .uniforms
-            .iter()
-            .chain(first)
-            .map(|uniform| uniform.name.as_ref())
-            .chain(batch.inputs.iter().map(|input| input.name.as_ref()))
-            .chain(["clip_from_model"])
-            .collect();
-        let program = &batch.program.label;
-        if let Some(name) = set.iter().find(|name| !self.identifiers.contains(**name)) {
-            let (pass, program, name) = (pass.to_owned(), program.clone(), (*name).to_owned());
-            return Err(Error::UnknownUniform { pass, program, name });
+        let in_batch = |name: &str| {
+            batch.uniforms.iter().any(|set| set.name == name) || batch.inputs.iter().any(|set| set.name == name)
+        };
+        let (pass, program) = (|| pass.to_owned(), || batch.program.label.clone());
+        let unknown = |name: &str| Error::UnknownUniform { pass: pass(), program: program(), name: name.to_owned() };
+        let uniforms = batch.uniforms.iter().map(|uniform| &uniform.name);
+        let mut names = uniforms.chain(batch.inputs.iter().map(|input| &input.name));
+        if let Some(name) = names.find(|name| !self.identifiers.contains(name.as_ref())) {
+            return Err(unknown(name));
         }
-        if let Some(name) = self.uniforms.keys().chain(self.samplers.keys()).find(|name| !set.contains(name.as_str())) {
-            return Err(Error::MissingUniform { pass: pass.to_owned(), program: program.clone(), name: name.clone() });
+        let read = self.uniforms.keys().chain(self.samplers.keys());
+        let left: Vec<&String> = read.filter(|name| *name != "clip_from_model" && !in_batch(name)).collect();
+        for draw in &batch.draws {
+            if let Some(uniform) = draw.uniforms.iter().find(|set| !self.identifiers.contains(set.name.as_ref())) {
+                return Err(unknown(&uniform.name));
+            }
+            if let Some(uniform) = draw.uniforms.iter().find(|set| in_batch(&set.name)) {
+                let name = uniform.name.to_string();
+                return Err(Error::UniformSetTwice {
+                    pass: pass(),
+                    program: program(),
+                    name,
+                    draw: draw.label.clone(),
+                });
+            }
+            if let Some(name) = left.iter().find(|name| !draw.uniforms.iter().any(|set| set.name == name.as_str())) {
+                let name = (*name).clone();
+                return Err(Error::MissingUniform { pass: pass(), program: program(), name, draw: draw.label.clone() });
+            }
         }
         Ok(())
     }

@@ -21,10 +21,11 @@ impl<K: Eq + Hash, V> Recent<K, V> {
         self.known.get(key).map(|(_, value)| value)
     }
 
-    /// Marks a value as used in this round. Returns whether it is there.
-    pub fn touch(&mut self, key: &K) -> bool {
-        let round = self.round;
-        self.known.get_mut(key).map(|(used, _)| *used = round).is_some()
+    /// Marks a value as used in this round.
+    pub fn touch(&mut self, key: &K) -> Option<&V> {
+        let (used, value) = self.known.get_mut(key)?;
+        *used = self.round;
+        Some(value)
     }
 
     /// Adds a value that is used in this round.
@@ -58,7 +59,7 @@ mod tests {
         let mut recent = Recent::new(8);
         for key in 0..100 {
             recent.insert(key, ());
-            assert!(recent.touch(&0), "0 is used in every round");
+            assert!(recent.touch(&0).is_some(), "0 is used in every round");
             recent.end_round();
             assert!(recent.known.len() <= 8, "{} after {key}", recent.known.len());
             assert!(recent.get(&key).is_some());

@@ -184,11 +184,12 @@ impl Device {
     }
 
     fn make_program(&mut self, pass: &str, batch: &Batch) -> Result<(), Error> {
-        if !self.programs.touch(&batch.program) {
-            let linked = program::create(&self.gl, &batch.program)?;
-            linked.check(pass, batch)?;
-            self.programs.insert(batch.program.clone(), linked);
+        if let Some(known) = self.programs.touch(&batch.program) {
+            return known.check(pass, batch);
         }
+        let linked = program::create(&self.gl, &batch.program)?;
+        linked.check(pass, batch)?;
+        self.programs.insert(batch.program.clone(), linked);
         Ok(())
     }
 

@@ -14,6 +14,7 @@ mod driver;
 mod error;
 pub mod layer;
 mod lighting;
+pub mod listing;
 mod masks;
 pub mod reading;
 mod stack;

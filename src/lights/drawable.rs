@@ -9,8 +9,8 @@ use super::Notes;
 use crate::geometry::{Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
-    AlphaTest, Attribute, Batch, Chunk, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId, IndexOrder, Input,
-    MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
+    AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
+    IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::Scene;
 
@@ -166,7 +166,7 @@ pub const WAVES: FixedFunctionDesc = FixedFunctionDesc::Shader("a surface that w
 /// The part of a shader variant that decides which fragments exist: shared by depth and lit passes.
 #[derive(Default)]
 pub struct Cutout {
-    pub defines: Vec<(std::borrow::Cow<'static, str>, String)>,
+    pub defines: Vec<Define>,
     pub vertex: Vec<Chunk>,
     pub fragment: Vec<Chunk>,
     pub attributes: Vec<Attribute>,
@@ -218,18 +218,18 @@ pub fn cutout(item: &Drawable, decal: bool, list: &mut PassList) -> Cutout {
         ("ALPHA_PLACED", "alpha_placement", material.alpha_placement, alpha_map.is_some()),
     ];
     for (define, uniform, placement, _) in placed.into_iter().filter(|placed| placed.3 && !placed.2.is_plain()) {
-        out.defines.push((define.into(), String::new()));
+        out.defines.push(Define::flag(define));
         out.uniforms.push(Uniform::new(uniform, Vec4::from(placement.scale_and_offset())));
     }
     if let Some(texgen) = &material.texgen {
-        out.defines.push(("OBJECT_LINEAR".into(), String::new()));
+        out.defines.push(Define::flag("OBJECT_LINEAR"));
         out.uniforms.push(Uniform::new("object_planes", vec![texgen.s.into(), texgen.t.into()]));
         out.uniforms.push(Uniform::new("texture_scale", texgen.scale));
     } else {
         out.attributes.push(Attribute::Texcoord);
     }
     if tested {
-        out.defines.push(("ALPHA_TEST".into(), String::new()));
+        out.defines.push(Define::flag("ALPHA_TEST"));
         out.fragment.push(glsl!("common/alpha_test.frag"));
         out.uniforms.push(Uniform::new("opacity", material.opacity));
     }
@@ -237,12 +237,12 @@ pub fn cutout(item: &Drawable, decal: bool, list: &mut PassList) -> Cutout {
         out.inputs.push(upload("decal_map", texture, placed_by(&material.decal_placement, DECAL_SAMPLER), list));
     }
     if let Some(texture) = decal_alpha {
-        out.defines.push(("DECAL_ALPHA".into(), String::new()));
+        out.defines.push(Define::flag("DECAL_ALPHA"));
         let sampler = placed_by(&material.decal_placement, ALPHA_SAMPLER);
         out.inputs.push(upload("decal_alpha_map", texture, sampler, list));
     }
     if let Some(texture) = alpha_map {
-        out.defines.push(("ALPHA_MAP".into(), String::from(if texture.has_alpha { "a" } else { "r" })));
+        out.defines.push(Define::word("ALPHA_MAP", if texture.has_alpha { "a" } else { "r" }));
         out.inputs.push(upload("alpha_map", texture, placed_by(&material.alpha_placement, ALPHA_SAMPLER), list));
     }
     out
@@ -262,7 +262,7 @@ pub fn depth_batches(items: &[&Drawable], clip_from_world: &DMat4, list: &mut Pa
         attributes.extend(test.attributes);
         let mut defines = test.defines;
         if item.wave.is_some() {
-            defines.push(("WAVE".into(), String::new()));
+            defines.push(Define::flag("WAVE"));
         }
         let program = Program { label: String::from("depth"), defines, vertex, fragment, attributes };
         let draw = item.draw(clip_from_world, Vec::new());

@@ -12,8 +12,8 @@ use super::projector::Projector;
 use super::{Drawable, Viewer, drawable};
 use crate::math::Aabb;
 use crate::pass::{
-    Attribute, Batch, Chunk, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef, Primitive,
-    Program, Redraw, Shade, Uniform, glsl,
+    Attribute, Batch, Chunk, Define, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef,
+    Primitive, Program, Redraw, Shade, Uniform, glsl,
 };
 use crate::scene::{Light, Scene};
 
@@ -66,13 +66,12 @@ impl FrustumView<'_> {
 pub struct LightTerm {
     /// Index into [`Scene::lights`].
     pub index: usize,
-    /// Defines `float shade_@()`.
-    pub shade: Chunk,
+    /// Chunks that define `float shade_@()`, together.
+    pub shade: Vec<Chunk>,
     /// Description of the shade in the terms of fixed function.
     pub meaning: Shade,
-    /// Defines in addition to those that [`crate::surfaces`] adds for every light. Names end in the light's index; a value
-    /// may follow.
-    pub defines: Vec<String>,
+    /// Defines in addition to those that [`crate::surfaces`] adds for every light.
+    pub defines: Vec<Define>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Generation of `light_coord_@`; `None`: neither the shade nor the light's reach needs it.
@@ -253,7 +252,7 @@ impl LightTerm {
     pub fn under(&self, scene: &Scene, shade: Chunk, meaning: Shade) -> Self {
         let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
         Self {
-            shade,
+            shade: vec![shade],
             meaning,
             defines: Vec::new(),
             uniforms: Vec::new(),
@@ -269,7 +268,7 @@ impl LightTerm {
     pub fn new(scene: &Scene, index: usize, shade: Chunk) -> Self {
         Self {
             index,
-            shade,
+            shade: vec![shade],
             meaning: Shade::Shader("a shade that its technique has a shader for"),
             defines: Vec::new(),
             uniforms: Vec::new(),

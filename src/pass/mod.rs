@@ -1,12 +1,15 @@
 //! A frame as data: images, passes, draw state, shader variants, draws. Plain values that can be printed, compared and
 //! run by more than one reader. Knows meshes and the math of texture coordinates; no scene, no technique, no GL.
 
+mod define;
 mod draw;
 mod fixed_function_desc;
 mod image;
 mod program;
+mod source;
 mod state;
 
+pub use define::Define;
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use fixed_function_desc::{
     AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing,
@@ -15,6 +18,7 @@ pub use image::{
     Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
 };
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
+pub use source::{Place, Source, Stage};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
 pub(crate) use program::glsl;

@@ -1,8 +1,10 @@
-//! Shader variants as data: sources in order, defines, attributes, uniforms by name.
+//! Shader variants as data: chunks in order, defines, attributes, uniforms by name.
 
 use std::borrow::Cow;
 
 use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
+
+use super::Define;
 
 /// A piece of GLSL with the name of its file under `glsl/`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -12,14 +14,6 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// Both as one chunk.
-    pub fn followed_by(&self, next: &Self) -> Self {
-        Self {
-            name: format!("{} + {}", self.name, next.name).into(),
-            text: format!("{}\n{}", self.text, next.text).into(),
-        }
-    }
-
     /// The chunk for light `index`: every `@` in it becomes that number.
     pub fn for_light(&self, index: usize) -> Self {
         Self {
@@ -44,8 +38,8 @@ pub(crate) use glsl;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Program {
     pub label: String,
-    /// `#define NAME VALUE`, before both stages' sources.
-    pub defines: Vec<(Cow<'static, str>, String)>,
+    /// Stand before both stages' chunks.
+    pub defines: Vec<Define>,
     pub vertex: Vec<Chunk>,
     pub fragment: Vec<Chunk>,
     /// What the vertex stage reads; others are neither uploaded nor bound.

@@ -2,6 +2,7 @@
 
 use glam::DMat4;
 
+use super::matrices::Matrices;
 use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::compositions::passes::Passes;
@@ -54,7 +55,8 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     }
     let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps })
+    let matrices = Matrices::new(scene, &terms);
+    Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps, matrices })
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that

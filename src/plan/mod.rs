@@ -1,12 +1,15 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
 mod compose;
+pub mod matrices;
 mod pictures;
 mod print;
 mod prune;
+mod shaders;
 #[cfg(test)]
 mod tests;
 
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::compositions;
@@ -97,6 +100,8 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// Maps of the lights that the picture or a view needs, in the scene's order.
     pub maps: Vec<MapInfo>,
+    /// How texture coordinates are made of a light's and the camera's matrices.
+    pub matrices: matrices::Matrices,
 }
 
 /// Reason why a scene cannot be planned.
@@ -120,6 +125,8 @@ pub enum Error {
         "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
+    #[error("--shaders {wanted}: no pass has that in its name; the passes are {names}")]
+    NoSuchPass { wanted: String, names: String },
 }
 
 /// Plans a frame of `scene`.
@@ -131,6 +138,7 @@ pub enum Error {
 pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let near = scene.brought_near();
     let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request)?;
+    plan.matrices.moved = near.map_or(DVec3::ZERO, |near| near.camera.eye - scene.camera.eye);
     prune::prune(&mut plan, request);
     plan.check(&request.limits)?;
     Ok(plan)

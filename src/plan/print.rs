@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
 use crate::pass::{
-    Blend, Compare, CubeFace, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil, StencilOp,
-    StencilOps, Work,
+    Blend, Compare, CubeFace, Define, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil,
+    StencilOp, StencilOps, Work,
 };
 
 impl Plan {
@@ -101,8 +101,8 @@ impl Plan {
             triangles: 0,
         };
         for batch in &pass.batches {
-            let defines: Vec<&str> =
-                batch.program.defines.iter().map(|(n, _)| n.as_ref()).filter(|n| !n.contains('(')).collect();
+            let defines = batch.program.defines.iter().filter(|define| !define.has_parameters());
+            let defines: Vec<String> = defines.map(Define::full_name).collect();
             push_new(&mut summary.shaders, format!("{}[{}]", batch.program.label, defines.join(" ")));
             for input in &batch.inputs {
                 push_new(&mut summary.inputs, self.input_words(input));

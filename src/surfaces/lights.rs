@@ -11,15 +11,16 @@ use crate::lights::guard::Guard;
 use crate::lights::{Drawable, LightTerm, Viewer};
 use crate::math::texgen;
 use crate::pass::{
-    Chunk, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
+    Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
 use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
 
 /// Parts of one light in every variant.
 pub struct LightParts {
     pub index: usize,
-    pub defines: Vec<String>,
-    pub shade: Chunk,
+    pub defines: Vec<Define>,
+    /// Define `float shade_@()`.
+    pub shade: Vec<Chunk>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
     /// Defines `bool in_reach_@()`.
@@ -123,7 +124,7 @@ fn light_parts(
     let mut parts = LightParts {
         index,
         defines: term.defines.clone(),
-        shade: term.shade.for_light(index),
+        shade: term.shade.iter().map(|chunk| chunk.for_light(index)).collect(),
         uniforms: term.uniforms.clone(),
         inputs: term.inputs.clone(),
         reach: in_reach.for_light(index),
@@ -139,7 +140,7 @@ fn light_parts(
         add_texgen(&mut parts, &projection.texgen);
     }
     if cone {
-        parts.defines.push(format!("CONE_{index}"));
+        parts.defines.push(Define::flag("CONE").of_light(index));
     }
     if spot.is_some() {
         add_guard(&mut parts, reach, list);
@@ -148,7 +149,7 @@ fn light_parts(
         }
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
-        parts.defines.push(format!("MAP_ADDRESSING_{index}"));
+        parts.defines.push(Define::flag("MAP_ADDRESSING").of_light(index));
         parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
     }
     if let Ending::Lit = ending {
@@ -161,7 +162,7 @@ fn light_parts(
 fn add_guard(parts: &mut LightParts, reach: Reach, list: &mut PassList) {
     let index = parts.index;
     if reach != Reach::Fragment {
-        parts.defines.push(format!("UNGUARDED_{index}"));
+        parts.defines.push(Define::flag("UNGUARDED").of_light(index));
     }
     parts.side = match reach {
         Reach::Texture => Some([glsl!("surfaces/side_map.vert"), glsl!("surfaces/side_map.frag")]),
@@ -170,7 +171,7 @@ fn add_guard(parts: &mut LightParts, reach: Reach, list: &mut PassList) {
     }
     .map(|chunks| chunks.map(|chunk| chunk.for_light(index)));
     if parts.side.is_some() {
-        parts.defines.push(format!("SIDE_{index}"));
+        parts.defines.push(Define::flag("SIDE").of_light(index));
     }
     if reach == Reach::Texture {
         parts.inputs.push(side_map(format!("side_map_{index}"), list));
@@ -217,7 +218,7 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
     parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
     if generated.texture_matrix != DMat4::IDENTITY {
-        parts.defines.push(format!("TEXTURE_MATRIX_{}", parts.index));
+        parts.defines.push(Define::flag("TEXTURE_MATRIX").of_light(parts.index));
         parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
     }
 }
@@ -235,24 +236,24 @@ fn add_lighting(
     if parts.has_position {
         parts.uniforms.push(Uniform::of_light("light_position", index, position.truncate()));
     } else {
-        parts.defines.push(format!("DIRECTIONAL_{index}"));
+        parts.defines.push(Define::flag("DIRECTIONAL").of_light(index));
         parts.uniforms.push(Uniform::of_light("light_direction", index, position.truncate()));
     }
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
     if parts.has_ambient {
-        parts.defines.push(format!("LIGHT_AMBIENT_{index}"));
+        parts.defines.push(Define::flag("LIGHT_AMBIENT").of_light(index));
         parts.uniforms.push(Uniform::of_light("light_ambient", index, Vec3::from(source.ambient)));
     }
     if parts.has_attenuation {
-        parts.defines.push(format!("ATTENUATION_{index}"));
+        parts.defines.push(Define::flag("ATTENUATION").of_light(index));
         parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
     }
     if term.dimming > 0.0 {
-        parts.defines.push(format!("DIMMING_{index}"));
+        parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
     if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
-        parts.defines.push(format!("SPOT_IMAGE_{index}"));
+        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
         parts.inputs.push(upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
     }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));

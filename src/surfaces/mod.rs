@@ -76,7 +76,7 @@ pub fn batches(
 fn draw_uniforms(viewer: &Viewer, item: &Drawable, program: &Program) -> Vec<Uniform> {
     let eye_from_model = viewer.eye_from_world * item.world_from_model;
     let mut uniforms = Vec::new();
-    if program.defines.iter().any(|(name, _)| name == "EYE_SPACE") {
+    if program.defines.contains(&variant::EYE_SPACE) {
         uniforms.push(Uniform::new("eye_from_model", eye_from_model.as_mat4()));
     }
     if program.attributes.contains(&Attribute::Normal) {

@@ -1,7 +1,5 @@
 //! The shader variant of one item: what its material and the lights need, and nothing else.
 
-use std::borrow::Cow;
-
 use glam::{Vec3, Vec4};
 
 use super::lights::LightParts;
@@ -9,9 +7,13 @@ use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::{Drawable, Ending, Viewer};
 use crate::pass::{
-    Attribute, Chunk, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, Sampled, Uniform, glsl,
+    Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, Sampled, Uniform,
+    glsl,
 };
 use crate::scene::Scene;
+
+/// The vertex stage needs positions in eye space.
+pub const EYE_SPACE: Define = Define::flag("EYE_SPACE");
 
 /// Features that an item's picture depends on.
 #[derive(Clone, Copy)]
@@ -39,9 +41,9 @@ impl Variant {
     pub fn cut(mut self, clip_planes: &[Vec4]) -> Self {
         if !clip_planes.is_empty() {
             let defines = &mut self.program.defines;
-            defines.push(("CLIP_PLANES".into(), clip_planes.len().to_string()));
-            if !defines.iter().any(|(name, _)| name == "EYE_SPACE") {
-                defines.push(("EYE_SPACE".into(), String::new()));
+            defines.push(Define::number("CLIP_PLANES", clip_planes.len() as u32));
+            if !defines.contains(&EYE_SPACE) {
+                defines.push(EYE_SPACE);
             }
             self.uniforms.push(Uniform::new("clip_planes", clip_planes.to_vec()));
         }
@@ -157,47 +159,40 @@ fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light
     uniforms
 }
 
-type Define = (Cow<'static, str>, String);
-
 fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
     let lit = *ending == Ending::Lit;
     let decal = lit && item.decal().is_some();
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
-        ("WAVE", item.wave.is_some()),
-        ("ANY_LIGHT", lit && !lights.is_empty()),
-        ("EYE_SPACE", needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
-        ("EYE_POSITION", needs.position),
-        ("NORMALS", needs.normals),
-        ("EYE_NORMAL", per_fragment),
-        ("TWO_SIDED", per_fragment && !needs.one_sided),
-        ("UNLIT", lit && !item.lit),
-        ("SPECULAR", needs.specular),
-        ("PER_VERTEX", needs.per_vertex),
-        ("MATERIAL_AMBIENT", needs.ambient),
-        ("DECAL", decal),
-        ("DECAL_COORDINATES", !cut.vertex.is_empty()),
+        (Define::flag("WAVE"), item.wave.is_some()),
+        (Define::flag("ANY_LIGHT"), lit && !lights.is_empty()),
+        (EYE_SPACE, needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
+        (Define::flag("EYE_POSITION"), needs.position),
+        (Define::flag("NORMALS"), needs.normals),
+        (Define::flag("EYE_NORMAL"), per_fragment),
+        (Define::flag("TWO_SIDED"), per_fragment && !needs.one_sided),
+        (Define::flag("UNLIT"), lit && !item.lit),
+        (Define::flag("SPECULAR"), needs.specular),
+        (Define::flag("PER_VERTEX"), needs.per_vertex),
+        (Define::flag("MATERIAL_AMBIENT"), needs.ambient),
+        (Define::flag("DECAL"), decal),
+        (Define::flag("DECAL_COORDINATES"), !cut.vertex.is_empty()),
     ];
     let mut defines: Vec<Define> = cut.defines.clone();
-    defines.extend(flags.iter().filter(|(_, set)| *set).map(|(name, _)| (Cow::Borrowed(*name), String::new())));
-    for light in lights {
-        defines.extend(light.defines.iter().map(|define| {
-            let (name, value) = define.split_once(' ').unwrap_or((define, ""));
-            (Cow::Owned(name.to_owned()), value.to_owned())
-        }));
-    }
+    defines.extend(flags.into_iter().filter(|(_, set)| *set).map(|(define, _)| define));
+    defines.extend(lights.iter().flat_map(|light| light.defines.iter().cloned()));
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
     let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
         let found = if light.side.is_some() { "find_side_@(eye);" } else { "" };
         call_of(light, &format!("texgen_@(eye);{found}"))
     });
-    defines.push(("TEXGEN(eye)".into(), generated.collect()));
+    defines.push(Define::calls("TEXGEN", "eye", generated.collect()));
     if needs.per_vertex {
-        defines.push(("LIGHT_VERTEX(surface)".into(), calls("light_vertex_@(surface);")));
+        defines.push(Define::calls("LIGHT_VERTEX", "surface", calls("light_vertex_@(surface);")));
     }
     if lit {
-        defines.push(("ILLUMINATE(surface, lit)".into(), calls("illuminate_@(surface, lit);")));
+        defines.push(Define::calls("ILLUMINATE", "surface, lit", calls("illuminate_@(surface, lit);")));
     }
     defines
 }
@@ -228,7 +223,7 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
         for light in lights {
             chunks.extend(reach(light));
             if *shade {
-                chunks.push(light.shade.clone());
+                chunks.extend(light.shade.iter().cloned());
             }
             chunks.push(chunk.for_light(light.index));
         }
@@ -237,7 +232,7 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
     chunks.push(glsl!("surfaces/material.glsl"));
     for light in lights {
         chunks.extend(reach(light));
-        chunks.push(light.shade.clone());
+        chunks.extend(light.shade.iter().cloned());
         chunks.push(if needs.per_vertex {
             glsl!("surfaces/per_vertex.frag").for_light(light.index)
         } else {

@@ -2,7 +2,8 @@
 //!
 //! # How to add a technique
 //!
-//! 1. A folder here with a type that implements [`Technique`]; its shaders in a folder of the same name under `glsl/`.
+//! 1. A folder here with a type that implements [`Technique`]; its shaders in a folder of the same name under `glsl/`,
+//!    whose README says what a shade must define and what it may read.
 //! 2. Its row in [`TABLE`].
 //! 3. A case folder of the same name under `data/cases/`.
 //!

@@ -28,21 +28,29 @@ pub enum Kind {
 
 /// The shader that finds the shade, glumbra's own where it is more than one lookup: the floor is of calls.
 pub fn shade(kind: Kind) -> (&'static str, String) {
+    const MAP: &str = include_str!("../../glsl/shadow_map/map.glsl");
+    const CLOSER: &str = include_str!("../../glsl/shadow_map/percentage_closer.glsl");
+    const KERNEL: &str = include_str!("../../glsl/shadow_map/kernel.frag");
     const SLOPE: &str = include_str!("../../glsl/shadow_map/slope.glsl");
-    let of = |text: &str| text.replace('@', "0");
+    let of = |chunks: &[&str]| chunks.concat().replace('@', "0");
     match kind {
-        Kind::Kernel => ("#define SHADE\n#define KERNEL_0 3\n", of(include_str!("../../glsl/shadow_map/kernel.frag"))),
+        Kind::Kernel => ("#define SHADE\n#define KERNEL_0 3\n", of(&[MAP, CLOSER, KERNEL])),
         Kind::ReceiverPlane => (
             "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n",
-            of(SLOPE) + &of(include_str!("../../glsl/shadow_map/receiver_plane.frag")),
+            of(&[MAP, CLOSER, SLOPE, include_str!("../../glsl/shadow_map/receiver_plane.frag")]),
         ),
         Kind::NormalOffset => (
-            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n",
-            of(include_str!("../../glsl/shadow_map/normal_offset.frag")),
+            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n#define NORMAL_OFFSET_0\n#define CLAMP_REFERENCE_0\n",
+            of(&[MAP, CLOSER, include_str!("../../glsl/shadow_map/normal_offset.frag"), KERNEL]),
         ),
         Kind::Adaptive => (
-            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n#define LINEAR_0\n",
-            of(SLOPE) + &of(include_str!("../../glsl/shadow_map/adaptive.frag")),
+            "#define SHADE\n#define DERIVE\n#define KERNEL_0 1\n",
+            of(&[
+                MAP,
+                SLOPE,
+                include_str!("../../glsl/shadow_map/adaptive.glsl"),
+                include_str!("../../glsl/shadow_map/adaptive_linear.frag"),
+            ]),
         ),
         Kind::Cube | Kind::Face => ("#define CUBE\n", String::new()),
         Kind::Parallel => ("#define PARALLEL\n", String::new()),

@@ -13,8 +13,8 @@ use crate::lights::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade, Stencil,
-    StencilOps, Target, Texturing, Uniform, glsl,
+    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade,
+    Stencil, StencilOps, Target, Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::views::{self, View};
@@ -262,7 +262,7 @@ impl Passes<'_> {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             (scene.shading.ambient, scene.lights[term.index]) =
                 (self.scene.shading.ambient, self.scene.lights[term.index].clone());
-            lit.defines.push(String::from("ADDED"));
+            lit.defines.push(Define::flag("ADDED"));
             let left = term.dimming - lit.dimming;
             weigh(&mut lit, 1.0 - left);
         }
@@ -409,7 +409,7 @@ fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
 /// Weights the light's diffuse colour.
 fn weigh(term: &mut LightTerm, weight: f32) {
     if weight < 1.0 {
-        term.defines.push(format!("DIFFUSE_WEIGHT_{}", term.index));
+        term.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(term.index));
         term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
     }
 }

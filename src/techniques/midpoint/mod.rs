@@ -31,7 +31,7 @@ use super::shadow_map::{self, bias};
 use super::{Axis, ShadowSettings, Technique};
 use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{
-    Compare, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
+    Compare, Define, DepthFormat, Filter, ImageId, Input, PassList, PolygonOffset, Sampler, Uniform, Wrap, glsl,
 };
 use crate::scene::{Frustum, LightKind, Reader, SettingsError};
 use crate::techniques::shadow_map::forecast::{self, Alone, Stored};
@@ -248,20 +248,20 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
         inputs: vec![input("nearest", None)],
     };
     if clamped {
-        ending.defines.push("CLAMPED");
+        ending.defines.push(Define::flag("CLAMPED"));
     }
     if settings.map.order == Order::GreaterEqual {
-        ending.defines.push("REVERSED");
+        ending.defines.push(Define::flag("REVERSED"));
     }
     if settings.peel == Peel::Compare {
-        ending.defines.push("COMPARE");
+        ending.defines.push(Define::flag("COMPARE"));
         ending.inputs.push(input("nearest_compared", Some(behind)));
     }
     // Under parallel light window depth is linear: the mean of two is that of the middle point.
     if settings.average == Average::EyeLinear
         && let Some(Frustum { near, far, .. }) = view.light().frustum()
     {
-        ending.defines.push("EYE_LINEAR");
+        ending.defines.push(Define::flag("EYE_LINEAR"));
         ending.uniforms.push(Uniform::new("near_over_range", (near / (far - near)) as f32));
     }
     ending

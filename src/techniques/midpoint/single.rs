@@ -8,8 +8,8 @@ use glam::{DMat4, DVec4};
 use crate::geometry::{Mesh, primitive};
 use crate::lights::FrustumView;
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId, IndexOrder, Input,
-    MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId,
+    IndexOrder, Input, MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
@@ -27,7 +27,7 @@ pub fn fill(
     let input = |name: &'static str, image| Input { name: name.into(), image, sampler };
     let defines = match settings.order {
         Order::LessEqual => Vec::new(),
-        Order::GreaterEqual => vec![("REVERSED".into(), String::new())],
+        Order::GreaterEqual => vec![Define::flag("REVERSED")],
     };
     let batch = Batch {
         program: Program {

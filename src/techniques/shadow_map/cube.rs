@@ -19,8 +19,8 @@ use crate::lights::projector::{Projector, Rays};
 use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Clear, Cube, CubeFace, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform, Work,
-    glsl,
+    Clear, Cube, CubeFace, Define, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform,
+    Work, glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
 
@@ -227,13 +227,15 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     let sampler = sampler(rays, settings);
     term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
     term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
-    term.defines.push(format!("CUBE_{index}"));
+    term.defines.push(Define::flag("CUBE").of_light(index));
+    term.shade.insert(0, glsl!("shadow_map/map.glsl"));
     if settings.kernel > 1 {
-        term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
+        term.shade.insert(1, glsl!("shadow_map/percentage_closer.glsl"));
+        term.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
     }
     let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
-        term.defines.push(format!("SEAMS_{index}"));
+        term.defines.push(Define::flag("SEAMS").of_light(index));
         // Width of the seam, for a face of side 2; rounding may bring a lookup nearer.
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
         term.uniforms.push(Uniform::of_light("seam", index, seam as f32));

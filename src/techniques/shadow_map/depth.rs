@@ -11,8 +11,8 @@ use crate::lights::drawable::depth_batches;
 use crate::lights::projector::Rays;
 use crate::lights::{Chosen, Drawable, FrustumView, LightView, Notes};
 use crate::pass::{
-    Batch, Chunk, Clear, Compare, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input, Pass,
-    PassList, PolygonOffset, Storage, Target, Uniform, Work,
+    Batch, Chunk, Clear, Compare, Define, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input,
+    Pass, PassList, PolygonOffset, Storage, Target, Uniform, Work,
 };
 
 /// One pass of depth over the casters.
@@ -67,7 +67,7 @@ pub struct Ending {
     pub label: &'static str,
     /// Chunk with `main`.
     pub fragment: Chunk,
-    pub defines: Vec<&'static str>,
+    pub defines: Vec<Define>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,
 }
@@ -243,7 +243,7 @@ pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, l
         batch.program.label = ending.label.to_owned();
         batch.program.fragment.pop();
         batch.program.fragment.push(ending.fragment.clone());
-        batch.program.defines.extend(ending.defines.iter().map(|name| ((*name).into(), String::new())));
+        batch.program.defines.extend(ending.defines.iter().cloned());
         batch.uniforms.extend(ending.uniforms.iter().cloned());
         batch.inputs.extend(ending.inputs.iter().cloned());
     }

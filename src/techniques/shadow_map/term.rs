@@ -8,7 +8,9 @@ use super::{bias, tag};
 use crate::lights::projector::Rays;
 use crate::lights::{Coordinates, Crop, FrustumView, LightTerm};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
-use crate::pass::{Border, Compare, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl};
+use crate::pass::{
+    Border, Chunk, Compare, Define, DepthFormat, Filter, ImageId, Input, Sampler, Shade, Uniform, Wrap, glsl,
+};
 
 /// Light term that compares against `map`, with receivers moved towards the light by `texels`.
 pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f64) -> LightTerm {
@@ -18,8 +20,11 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
     term.meaning = Shade::Texture { input: name.clone().into(), clamped };
     term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) });
-    if clamped {
-        term.defines.push(format!("CLAMP_REFERENCE_{index}"));
+    term.shade = chunks(settings);
+    // A floating-point map does not clamp the reference. A normal offset may move it out of any map's depths; the other
+    // biases clamp each tap's own.
+    if clamped && settings.bias == Bias::Offset || settings.bias == Bias::NormalOffset {
+        term.defines.push(Define::flag("CLAMP_REFERENCE").of_light(index));
     }
     let mut coordinates = Coordinates {
         texture_from_light_clip: texture_from_light_clip(settings) * view.projector.crop.map_clip_from_light_clip(),
@@ -90,28 +95,23 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
         return;
     }
     term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
-    term.defines.push(format!("KERNEL_{index} {}", settings.kernel));
+    term.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
     if let Rays::Along(_) = view.projector.rays {
-        term.defines.push(format!("PARALLEL_{index}"));
+        term.defines.push(Define::flag("PARALLEL").of_light(index));
     }
     let towards_light = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
     match settings.bias {
-        Bias::Offset => term.shade = glsl!("shadow_map/kernel.frag"),
+        Bias::Offset => {}
         Bias::ReceiverPlane => {
-            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/receiver_plane.frag"));
             term.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
             term.uniforms.push(of_light("towards_light", towards_light));
         }
         Bias::Adaptive => {
-            term.shade = glsl!("shadow_map/slope.glsl").followed_by(&glsl!("shadow_map/adaptive.frag"));
             term.uniforms.push(of_light("towards_light", towards_light));
-            if settings.filter == Filter::Linear {
-                term.defines.push(format!("LINEAR_{index}"));
-            }
         }
         Bias::NormalOffset => {
-            term.shade = glsl!("shadow_map/normal_offset.frag");
+            term.defines.push(Define::flag("NORMAL_OFFSET").of_light(index));
             let texture = coordinates.texture_from_light_clip * coordinates.receiver_bias;
             let light_clip = coordinates.light_clip_from_light;
             let texture_from_light = texture * light_clip;
@@ -129,11 +129,35 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
         }
     }
     if settings.bias != Bias::Offset {
-        term.defines.push(format!("DERIVATIVES_{index}"));
+        term.defines.push(Define::flag("DERIVATIVES").of_light(index));
     }
-    // These shaders clamp the reference themselves, whatever the format.
-    if settings.bias != Bias::Offset {
-        term.defines.retain(|name| !name.starts_with("CLAMP_REFERENCE"));
+}
+
+/// The chunks that find the shade: of one comparison, of a kernel, or of a bias that the comparison itself brings.
+fn chunks(settings: &Settings) -> Vec<Chunk> {
+    let [map, closer] = [glsl!("shadow_map/map.glsl"), glsl!("shadow_map/percentage_closer.glsl")];
+    match (settings.bias, settings.filter) {
+        (Bias::Offset, _) if settings.kernel == 1 => vec![map, glsl!("shadow_map/shade.frag")],
+        (Bias::Offset, _) => vec![map, closer, glsl!("shadow_map/kernel.frag")],
+        (Bias::ReceiverPlane, _) => {
+            vec![map, closer, glsl!("shadow_map/slope.glsl"), glsl!("shadow_map/receiver_plane.frag")]
+        }
+        (Bias::Adaptive, Filter::Linear) => vec![
+            map,
+            glsl!("shadow_map/slope.glsl"),
+            glsl!("shadow_map/adaptive.glsl"),
+            glsl!("shadow_map/adaptive_linear.frag"),
+        ],
+        (Bias::Adaptive, _) => vec![
+            map,
+            closer,
+            glsl!("shadow_map/slope.glsl"),
+            glsl!("shadow_map/adaptive.glsl"),
+            glsl!("shadow_map/adaptive_nearest.frag"),
+        ],
+        (Bias::NormalOffset, _) => {
+            vec![map, closer, glsl!("shadow_map/normal_offset.frag"), glsl!("shadow_map/kernel.frag")]
+        }
     }
 }
 

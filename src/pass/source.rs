@@ -1,0 +1,136 @@
+//! The finished GLSL of a program, as the device compiles it and `glumbra plan --shaders` prints it.
+
+use std::fmt::Write;
+
+use super::{Chunk, Program};
+
+/// A stage of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    Vertex,
+    Fragment,
+}
+
+impl Stage {
+    pub const ALL: [Self; 2] = [Self::Vertex, Self::Fragment];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vertex => "vertex",
+            Self::Fragment => "fragment",
+        }
+    }
+}
+
+/// The text of one stage, and which file each of its lines is from.
+///
+/// `#line` gives every file a number (GLSL's source string number) and counts its lines from 1. File 0 is what stands before
+/// the first file: `#version` and the defines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    pub text: String,
+    /// Name of each file, and its first line in the whole text, from 1.
+    files: Vec<(String, usize)>,
+}
+
+/// A line of a [`Source`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place<'a> {
+    pub file: &'a str,
+    /// In the file, from 1.
+    pub line: usize,
+    pub text: &'a str,
+}
+
+/// `EXACT`: what is computed as it is written, where the driver has the word for it [GLSL 4.60, 4.9.1]. Without it Mesa
+/// 24.1 and later move arithmetic across interpolation, from the fragments to the vertices, in one program and not in another.
+const HEAD: &str = "#version 330 core
+#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : enable
+#define EXACT precise
+#else
+#define EXACT
+#endif
+";
+
+impl Program {
+    /// The finished GLSL of a stage: `#version`, the defines, then each chunk under a `#line` of its own.
+    pub fn source(&self, stage: Stage) -> Source {
+        let mut source = Source { text: String::from(HEAD), files: vec![(String::from("#version and defines"), 1)] };
+        for define in &self.defines {
+            // Writing into a string cannot fail.
+            let _ = writeln!(source.text, "{define}");
+        }
+        self.chunks(stage).iter().for_each(|chunk| source.push(chunk));
+        source
+    }
+
+    /// The chunks of a stage, in order.
+    pub fn chunks(&self, stage: Stage) -> &[Chunk] {
+        match stage {
+            Stage::Vertex => &self.vertex,
+            Stage::Fragment => &self.fragment,
+        }
+    }
+}
+
+impl Source {
+    fn push(&mut self, chunk: &Chunk) {
+        let number = self.files.len();
+        let _ = writeln!(self.text, "// file {number}: {}\n#line 1 {number}", chunk.name);
+        self.files.push((chunk.name.to_string(), self.text.lines().count() + 1));
+        self.text.push_str(&chunk.text);
+        if !chunk.text.ends_with('\n') {
+            self.text.push('\n');
+        }
+    }
+
+    /// Where line `line` of the whole text is from, from 1.
+    pub fn place(&self, line: usize) -> Option<Place<'_>> {
+        let (file, first) = self.files.iter().rev().find(|(_, first)| *first <= line)?;
+        let text = self.text.lines().nth(line - 1)?;
+        Some(Place { file, line: line - first + 1, text })
+    }
+
+    /// The text with an empty comment for each `#line`, so that a driver counts the lines of the whole text. Mesa 22.3
+    /// reads a file's number and reports 0: line 9 of every file is `0:9`.
+    pub fn without_line_marks(&self) -> String {
+        let line = |line: &str| String::from(if line.starts_with("#line ") { "//" } else { line }) + "\n";
+        self.text.lines().map(line).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pass::Define;
+
+    fn program() -> Program {
+        let chunk = |name: &str, text: &str| Chunk { name: name.to_owned().into(), text: text.to_owned().into() };
+        Program {
+            label: String::from("test"),
+            defines: vec![Define::flag("A"), Define::number("B", 2)],
+            vertex: vec![],
+            fragment: vec![chunk("one", "a\nb\n"), chunk("two", "c\n\nd"), chunk("three", "e\n")],
+            attributes: vec![],
+        }
+    }
+
+    #[test]
+    fn every_line_is_found_in_its_file() {
+        let source = program().source(Stage::Fragment);
+        let expected = "#define B 2\n// file 1: one\n#line 1 1\na\nb\n// file 2: two\n#line 1 2\nc\n\nd\n// file 3: three\n#line 1 3\ne\n";
+        assert!(source.text.ends_with(expected), "{}", source.text);
+        let found = |line| source.place(line).map(|place| (place.file, place.line, place.text));
+        let head = "#version and defines";
+        assert_eq!(found(0), None);
+        assert_eq!(found(1), Some((head, 1, "#version 330 core")));
+        assert_eq!(found(9), Some((head, 9, "#define B 2")));
+        assert_eq!((found(12), found(13)), (Some(("one", 1, "a")), Some(("one", 2, "b"))));
+        assert_eq!((found(16), found(18)), (Some(("two", 1, "c")), Some(("two", 3, "d"))));
+        assert_eq!((found(21), found(22)), (Some(("three", 1, "e")), None));
+        let plain = source.without_line_marks();
+        assert_eq!((plain.lines().count(), plain.contains("#line")), (21, false));
+        assert!(plain.ends_with("// file 3: three\n//\ne\n"), "{plain}");
+    }
+}
