@@ -15,7 +15,7 @@ pub struct CameraView<'a> {
     pub clip_from_world: DMat4,
     /// Corners of the near rectangle, in world space.
     pub near: [DVec3; 4],
-    /// What may be in view.
+    /// Drawables that may be in view.
     pub visible: Vec<&'a Drawable>,
     /// The eye, the near rectangle, and the boxes of all that is in view.
     pub seen_bounds: Aabb,
