@@ -114,7 +114,7 @@ impl Renderer {
         Ok(plan)
     }
 
-    /// Holds a plan that was made without a context against the driver: adds what the driver's formats give to warn of.
+    /// Checks a plan that was made without a context against the driver, and adds warnings of the driver's formats.
     ///
     /// # Errors
     ///

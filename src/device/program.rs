@@ -125,8 +125,8 @@ impl GpuProgram {
         }
     }
 
-    /// Holds what a batch sets, and each of its draws, against what the program reads: nothing missing, nothing unknown,
-    /// nothing that a draw would leave to the draws after it.
+    /// Compares what a batch and each of its draws set with what the program reads: nothing is missing, nothing unknown,
+    /// and no draw leaves a value to the draws after it.
     pub fn check(&self, pass: &str, batch: &Batch) -> Result<(), Error> {
         let in_batch = |name: &str| {
             batch.uniforms.iter().any(|set| set.name == name) || batch.inputs.iter().any(|set| set.name == name)

@@ -15,7 +15,7 @@ pub struct CameraView<'a> {
     pub clip_from_world: DMat4,
     /// Corners of the near rectangle, in world space.
     pub near: [DVec3; 4],
-    /// What may be in view.
+    /// Drawables that may be in view.
     pub visible: Vec<&'a Drawable>,
     /// The eye, the near rectangle, and the boxes of all that is in view.
     pub seen_bounds: Aabb,
@@ -45,7 +45,8 @@ impl<'a> CameraView<'a> {
         }
     }
 
-    /// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights reach them all.
+    /// The pixels that a spotlight's frustum may cover, where they are fewer than the picture's. Other lights may reach all
+    /// pixels.
     pub fn scissor(&self, light: &Light, size: [u32; 2]) -> Option<[u32; 4]> {
         let frustum = light.frustum()?;
         let bounds = self.seen_bounds;
@@ -56,7 +57,7 @@ impl<'a> CameraView<'a> {
         let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
             .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
         let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
-        // No pixel at all: the light contributes nothing, and the plan has seen that already.
+        // No pixel: the light contributes nothing, and the plan has left it out already.
         volume::scissor(&points, &self.clip_from_world, size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])
     }
 }

@@ -10,7 +10,7 @@ pub struct Define {
     value: DefineValue,
 }
 
-/// What the name stands for.
+/// Replacement of the name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum DefineValue {
     /// Nothing: chunks test whether the name is defined.
@@ -56,7 +56,7 @@ impl Define {
         self.name
     }
 
-    /// Whether it is a macro with parameters.
+    /// Tests whether it is a macro with parameters.
     pub fn has_parameters(&self) -> bool {
         matches!(self.value, DefineValue::Calls { .. })
     }

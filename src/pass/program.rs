@@ -38,11 +38,11 @@ pub(crate) use glsl;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Program {
     pub label: String,
-    /// Stand before both stages' chunks.
+    /// Defines before the chunks of both stages.
     pub defines: Vec<Define>,
     pub vertex: Vec<Chunk>,
     pub fragment: Vec<Chunk>,
-    /// What the vertex stage reads; others are neither uploaded nor bound.
+    /// Attributes that the vertex stage reads; others are neither uploaded nor bound.
     pub attributes: Vec<Attribute>,
 }
 

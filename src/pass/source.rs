@@ -24,7 +24,7 @@ impl Stage {
 
 /// The text of one stage, and which file each of its lines is from.
 ///
-/// `#line` gives every file a number (GLSL's source string number) and counts its lines from 1. File 0 is what stands before
+/// `#line` gives every file a number (GLSL's source string number) and counts its lines from 1. File 0 is the part before
 /// the first file: `#version` and the defines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
@@ -42,8 +42,9 @@ pub struct Place<'a> {
     pub text: &'a str,
 }
 
-/// `EXACT`: what is computed as it is written, where the driver has the word for it [GLSL 4.60, 4.9.1]. Without it Mesa
-/// 24.1 and later move arithmetic across interpolation, from the fragments to the vertices, in one program and not in another.
+/// `EXACT` marks values that are computed as written, where the driver has a word for it [GLSL 4.60, 4.9.1]. Without it
+/// Mesa 24.1 and later move arithmetic across interpolation, from the fragments to the vertices, in one program and not in
+/// another.
 const HEAD: &str = "#version 330 core
 #ifdef GL_ARB_gpu_shader5
 #extension GL_ARB_gpu_shader5 : enable
@@ -85,7 +86,7 @@ impl Source {
         }
     }
 
-    /// Where line `line` of the whole text is from, from 1.
+    /// Place of line `line` of the whole text, counted from 1.
     pub fn place(&self, line: usize) -> Option<Place<'_>> {
         let (file, first) = self.files.iter().rev().find(|(_, first)| *first <= line)?;
         let text = self.text.lines().nth(line - 1)?;

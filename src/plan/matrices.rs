@@ -17,16 +17,16 @@ use crate::scene::Scene;
 pub struct Matrices {
     /// `V⁻¹`.
     pub eye_from_world: DMat4,
-    /// What a scene far from the world's origin is moved by before it is drawn; 0 elsewhere.
+    /// Vector by which a scene far from the world's origin is moved before it is drawn; 0 elsewhere.
     pub moved: DVec3,
     /// The lights that are drawn, in the scene's order.
     pub lights: Vec<LightMatrices>,
 }
 
-/// How one light's texture coordinates are made.
+/// Making of one light's texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightMatrices {
-    /// Into the scene's lights.
+    /// Index into the scene's lights.
     pub index: usize,
     pub name: String,
     /// `spot`, `point` or `directional`.
@@ -131,7 +131,7 @@ fn planes_of(batch: &Batch) -> Vec<String> {
     found
 }
 
-/// Text that grows.
+/// Text that is appended to.
 struct Text(String);
 
 impl Text {

@@ -100,7 +100,7 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// Maps of the lights that the picture or a view needs, in the scene's order.
     pub maps: Vec<MapInfo>,
-    /// How texture coordinates are made of a light's and the camera's matrices.
+    /// Texture coordinates from a light's and the camera's matrices.
     pub matrices: matrices::Matrices,
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{Error, Plan};
 use crate::pass::{Pass, Program, Stage, Work};
 
-/// A program, and who draws with it.
+/// A program, and the passes and draws that use it.
 struct Use<'a> {
     program: &'a Program,
     passes: Vec<&'a str>,

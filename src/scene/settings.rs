@@ -41,7 +41,7 @@ impl SettingsError {
     }
 }
 
-/// Where a key stands.
+/// Place of a key in its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     origin: Origin,
@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
         self.place(key).error(message)
     }
 
-    /// Where `key` stands, or the table where the key is absent: for an error that is found later.
+    /// Place of `key`, or of its table where the key is absent: for an error that is found later.
     pub fn place(&self, key: &str) -> Place {
         let origin = self.settings.get(key).map_or(&self.settings.origin, |entry| &entry.origin);
         Place { origin: origin.clone(), key: self.settings.key(key) }

@@ -295,8 +295,8 @@ fn in_one_light(scene: &Scene, light: usize) -> Scene {
 /// in another, by the rounding of its cosine.
 const LEAST_LIGHT: f32 = 0.5 / 255.0;
 
-/// Part of the light that a pixel shows of what it would show without shadow. NaN where there is no light to be
-/// wrong about; 1 for light where there should be none.
+/// Part of the light that a pixel shows of what it would show without shadow. NaN if there is no light to compare; 1 for
+/// light where there should be none.
 fn seen_shade((shown, unshadowed): (f32, f32)) -> f32 {
     match (shown > LEAST_LIGHT, unshadowed > LEAST_LIGHT) {
         (_, true) => shown / unshadowed,

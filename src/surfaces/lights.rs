@@ -19,7 +19,7 @@ use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
 pub struct LightParts {
     pub index: usize,
     pub defines: Vec<Define>,
-    /// Define `float shade_@()`.
+    /// Chunks that define `float shade_@()`.
     pub shade: Vec<Chunk>,
     pub uniforms: Vec<Uniform>,
     pub inputs: Vec<Input>,

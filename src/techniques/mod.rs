@@ -64,12 +64,11 @@ pub trait Technique: Sync {
     /// A key with a wrong value, with its place in the scene file.
     fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError>;
 
-    /// Reads the same for a light of this `kind`, and refuses what does not go together.
+    /// Reads the keys for a light of this `kind`, and refuses keys that exclude each other.
     ///
     /// # Errors
     ///
-    /// A key with a wrong value, or one that does not go with the light or with other keys; with its place in the scene
-    /// file.
+    /// A key with a wrong value, or one that excludes the light's kind or another key; with its place in the scene file.
     fn read(&self, keys: &mut Reader<'_>, kind: &LightKind) -> Result<Box<dyn ShadowSettings>, SettingsError>;
 }
 
@@ -89,7 +88,7 @@ pub trait ShadowSettings {
     ) -> Result<LightTerm, SettingsError>;
 }
 
-/// A light's technique and what it has read.
+/// A light's technique, and the keys that it has read.
 pub struct LightShadow {
     pub technique: &'static dyn Technique,
     pub settings: Box<dyn ShadowSettings>,

@@ -4,7 +4,7 @@ use glam::DMat4;
 
 use crate::pass::{Compare, CubeFace, DepthFormat, Face, Filter, Format, StencilOp, Storage, Wrap};
 
-/// C that grows.
+/// C text that is appended to.
 #[derive(Default)]
 pub struct Text(pub String);
 
@@ -114,7 +114,7 @@ pub fn face_name(face: CubeFace) -> &'static str {
     }
 }
 
-/// What a texture is bound to.
+/// Binding target of a texture.
 pub fn binding(storage: &Storage) -> &'static str {
     match storage {
         Storage::Cube(_) => "GL_TEXTURE_CUBE_MAP",

@@ -14,7 +14,7 @@ const COORDINATES: [&str; 4] = ["S", "T", "R", "Q"];
 
 impl<'a> Listing<'a> {
     pub(super) fn fixed_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut State) {
-        // The list has been found expressible.
+        // The list was checked before.
         for layer in reading::layers(batch).unwrap_or_default() {
             self.title(&format!("{}: {}", names(batch), layer.name));
             self.set_layer(batch.state(&pass.state), &layer, now);
@@ -37,7 +37,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// The raster state of a layer: what comes after the first meets its depth.
+    /// Raster state of a layer: later layers meet the first one's depth.
     fn set_layer(&mut self, mut state: DrawState, layer: &Layer, now: &mut State) {
         if !layer.first {
             state.depth_test = state.depth_test.map(|_| Compare::Equal);
@@ -211,7 +211,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// What knows no eye space has all of its transform in the projection.
+    /// A draw without eye space has all of its transform in the projection.
     fn matrices(&mut self, batch: &Batch, draw: &Draw) {
         let eye = match &batch.meaning {
             FixedFunctionDesc::Lit(lit) => Some(lit.clip_from_eye),

@@ -61,7 +61,7 @@ const PROLOGUE: &str =
 #include <stddef.h>
 ";
 
-/// Why the fixed-function pipeline cannot draw the list; each reason once.
+/// Reasons why the fixed-function pipeline cannot draw the list, each once.
 fn refusals(list: &PassList) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for pass in &list.passes {
@@ -104,7 +104,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Sets what differs from the state so far.
+    /// Sets the parts that differ from the state so far.
     fn change(&mut self, now: &mut State, next: State) {
         state::set(&mut self.body, Some(&now.state), &next.state);
         *now = State { mirrored: now.mirrored, ..next };

@@ -1,4 +1,4 @@
-//! The objects that the passes use: images, samplers, framebuffers, planes, and what the caller must bring.
+//! Objects that the passes use: images, samplers, framebuffers, planes, and those that the caller must bring.
 
 use glam::DMat4;
 
@@ -55,7 +55,7 @@ impl<'a> Objects<'a> {
         place(&mut self.planes, (*planes, *modelview))
     }
 
-    /// Declares what the caller brings, then defines all others and `create`.
+    /// Declares the objects that the caller brings, then defines all others and `create`.
     pub fn write(&mut self, list: &PassList, out: &mut Text) {
         self.declare(list, out);
         let arrays = [

@@ -37,8 +37,7 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Gives the planes to glTexGen, whose modelview is then what the scene's set-up says, and what GL makes of them to the
-    /// program.
+    /// Gives the planes to glTexGen, under the modelview of the scene's set-up, and GL's resulting planes to the program.
     fn eye_planes(&mut self, program: usize, uniform: &Uniform, projection: &Projection) {
         let planes = self.objects.planes(&projection.texgen.planes, &projection.texgen.modelview);
         self.body.call(&format!("load_planes_{planes}()"));
@@ -71,7 +70,7 @@ fn location(program: usize, name: &str) -> String {
     format!("glGetUniformLocation(programs[{program}], \"{name}\")")
 }
 
-/// How the eye planes are made that a uniform holds.
+/// Making of the eye planes that a uniform holds.
 fn projection_of<'a>(batch: &'a Batch, uniform: &Uniform) -> Option<&'a Projection> {
     let light: usize = uniform.name.strip_prefix("eye_planes_")?.parse().ok()?;
     let is_of_light = |projection: &&Projection| projection.light == light;

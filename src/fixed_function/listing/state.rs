@@ -3,7 +3,7 @@
 use super::c::{self, Text, boolean, float, floats};
 use crate::pass::{Blend, Clear, DrawState, Stencil};
 
-/// What GL has been set to.
+/// State that GL has been set to.
 #[derive(Clone, Copy)]
 pub struct State {
     pub state: DrawState,
@@ -41,7 +41,7 @@ pub fn clear(out: &mut Text, clear: &Clear) {
     }
 }
 
-/// Sets the parts of `next` that differ from `last`; all of it where nothing is known.
+/// Sets the parts of `next` that differ from `last`; all of it where the state is unknown.
 pub fn set(out: &mut Text, last: Option<&DrawState>, next: &DrawState) {
     let changed = |differs: &dyn Fn(&DrawState) -> bool| last.is_none_or(differs);
     if changed(&|last| last.depth_test != next.depth_test) {

@@ -84,10 +84,10 @@ impl Technique for SecondDepth {
     }
 }
 
-/// The map's keys, with the faces towards the light left out, and what is known of casters.
+/// Keys of the map, which leaves out faces towards the light, and the key of closed casters.
 struct SecondDepthSettings {
     map: Settings,
-    /// Whether casters are assumed to be closed.
+    /// True if casters are assumed to be closed.
     is_assumed: bool,
     /// The key `technique`.
     place: Place,

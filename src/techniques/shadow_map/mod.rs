@@ -116,7 +116,7 @@ impl ShadowSettings for Settings {
     }
 }
 
-/// Refuses what maps of such lights do not have.
+/// Refuses keys that maps of such lights do not have.
 pub(super) fn refuse(settings: &Settings, kind: &LightKind, keys: &Reader<'_>) -> Result<(), SettingsError> {
     match kind {
         LightKind::Spot(_) => Ok(()),
@@ -175,7 +175,7 @@ pub(super) fn has_one_map(kind: &LightKind) -> Result<(), &'static str> {
 }
 
 /// The light as its one map sees it. `None`: a directional light that has nothing to shadow, or a point light, which has
-/// no one map.
+/// six.
 pub(super) fn one_view<'a>(view: &LightView<'a>, settings: &Settings, notes: &mut Notes) -> Option<FrustumView<'a>> {
     let projector = match &view.light().kind {
         LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
