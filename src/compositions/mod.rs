@@ -79,7 +79,9 @@ pub const TABLE: &[&dyn Composition] = &[&single_pass::SinglePass, &stencil_coun
 pub enum Error {
     #[error("no composition draws lights {lights:?} in one picture")]
     Unserved { lights: Vec<usize> },
-    #[error("--aov {view}: light {light} counts no shadow volumes: give it a technique that does, such as \"shadow-volume\"")]
+    #[error(
+        "--aov {view}: light {light} counts no shadow volumes: give it a technique that does, such as \"shadow-volume\""
+    )]
     NoCount { view: &'static str, light: usize },
     #[error(
         "guard = \"clip-plane\" (light {light}) cannot be combined with a stencil-counted light (light {counted}): clipping changes depth values, and that light is drawn with depth EQUAL. Choose another guard."
