@@ -14,14 +14,55 @@
 //!    the same passes by the driver's own fixed-function pipeline, and
 //! 10. [`report`] says how far apart they are, and what that cost; [`stress`] does so for scenes made to break them.
 //!
-//! ```no_run
+//! Draws a scene and writes the picture:
+//!
+//! ```
+//! use glumbra::{context, frame::Renderer, output, scene};
+//!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let scene = glumbra::scene::load("data/scenes/main.toml".as_ref(), &[])?.scene;
-//! let context = glumbra::context::open(&Default::default())?;
-//! let mut renderer = glumbra::frame::Renderer::new(context.as_ref());
+//! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &[])?.scene;
+//! let context = context::open(&Default::default())?;
+//! let mut renderer = Renderer::new(context.as_ref());
 //! let plan = renderer.plan(&scene, &Default::default())?;
 //! renderer.draw(&plan)?;
-//! let pixels = renderer.read(&plan)?.picture;
+//! let picture = renderer.read(&plan)?.picture;
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("box.png");
+//! output::write_all(&[output::Output { path: &path, pixels: &picture, view: None }])?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Tests a picture's shadow, pixel by pixel, against exact visibility:
+//!
+//! ```
+//! use glumbra::{context, device::Pixels, frame::Renderer, plan, scene, truth};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let size = ["light.shadow.size=1024".to_owned()];
+//! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &size)?.scene;
+//! let context = context::open(&Default::default())?;
+//! let mut renderer = Renderer::new(context.as_ref());
+//!
+//! // How much of light 0 reaches each pixel: 1 lit, 0 shadowed.
+//! let shade = plan::ViewRequest { view: plan::View::Shade, light: 0 };
+//! let plan = renderer.plan(&scene, &plan::Request { views: vec![shade], ..Default::default() })?;
+//! renderer.draw(&plan)?;
+//! let Some(Pixels::RgbaF32 { data, .. }) = renderer.read(&plan)?.views.pop() else { return Err("no view".into()) };
+//!
+//! let truth = truth::trace(&scene, 0, &Default::default())?;
+//! let (mut compared, mut wrong) = (0, 0);
+//! for (pixel, texel) in truth.pixels.iter().zip(data.chunks_exact(4)) {
+//!     let lit = match pixel.answer {
+//!         truth::Answer::Lit => true,
+//!         truth::Answer::Shadowed => false,
+//!         _ => continue, // nothing there, beside the cone, or at the very edge of something
+//!     };
+//!     compared += 1;
+//!     wrong += i32::from((texel[0] >= 0.5) != lit);
+//! }
+//! assert!(compared > 10_000);
+//! assert!(wrong * 200 < compared, "{wrong} of {compared} pixels are wrong: half a percent at most");
 //! # Ok(())
 //! # }
 //! ```
@@ -33,31 +74,45 @@
 // Calls of C: GL's and the system's. Nowhere but in the modules below that allow it.
 #![deny(unsafe_code)]
 
+// Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod compositions;
+#[doc(hidden)]
 #[allow(unsafe_code)]
 pub mod conformance;
 #[allow(unsafe_code)]
 pub mod context;
 #[allow(unsafe_code)]
 pub mod device;
+#[doc(hidden)]
 pub mod figures;
+#[doc(hidden)]
 #[allow(unsafe_code)]
 pub mod fixed_function;
 pub mod frame;
+#[doc(hidden)]
 pub mod geometry;
+#[doc(hidden)]
 pub mod lights;
+#[doc(hidden)]
 pub mod math;
 pub mod output;
 pub mod pass;
 pub mod plan;
+#[doc(hidden)]
 #[allow(unsafe_code)] // signal handlers, locks on files, the allocator
 pub mod process;
 pub mod report;
 pub mod scene;
 pub mod stress;
+#[doc(hidden)]
 pub mod surfaces;
+#[doc(hidden)]
 pub mod techniques;
 pub mod truth;
+#[doc(hidden)]
 pub mod viewer;
+#[doc(hidden)]
 pub mod views;

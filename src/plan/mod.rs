@@ -16,7 +16,7 @@ use crate::compositions;
 use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
-use crate::views::View;
+pub use crate::views::View;
 
 /// A request for a frame.
 #[derive(Clone, Debug)]
