@@ -1,0 +1,54 @@
+//! Everything that is tested through the library and the commands, in one program: it is linked once, and tests of
+//! different modules run side by side. No test changes the environment or the current folder of the process: what needs
+//! others runs the command in a process of its own.
+
+mod acne;
+mod architecture;
+mod bad_scenes;
+mod check;
+mod claims;
+mod cli;
+mod contexts;
+mod coverage;
+mod documents;
+mod doubt;
+mod extremes;
+#[cfg(unix)]
+mod faults;
+mod figures;
+mod fit;
+mod fixed_function;
+mod generated;
+mod geometry_files;
+mod guards;
+mod hw_shadowmaps_simple;
+mod hw_woo_shadowmaps;
+mod independent;
+mod kernels;
+mod layers;
+mod left_out;
+mod licences;
+mod light_maps;
+mod listing_drawn;
+mod mistakes;
+mod mutated;
+mod oracle;
+mod placement;
+mod plan_listings;
+mod planes;
+mod ranges;
+mod redraw;
+mod report;
+mod scenes;
+#[cfg(unix)]
+mod setup;
+mod shaders;
+mod stencil;
+mod stress;
+mod suns;
+mod support;
+mod tags;
+mod viewer;
+mod volume_warnings;
+mod volumes;
+mod waves;

@@ -1,0 +1,10 @@
+//! What several tests need.
+
+pub mod contexts;
+pub mod gl_headers;
+pub mod lit_box;
+pub mod random;
+pub mod rims;
+#[cfg(unix)]
+pub mod shell;
+pub mod xvfb;
