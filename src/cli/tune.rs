@@ -6,7 +6,7 @@ use super::scene_args::SceneArgs;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::measure::tune::{self, Options, Point, Tuned};
+use crate::report::measure::tune::{self, Point, TuneOptions, Tuned};
 
 /// Finds the polygon offset and the smallest map that a scene needs, with ray-traced truth as the judge.
 #[derive(Debug, Args)]
@@ -58,7 +58,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     let mut sizes = arguments.sizes.clone();
     sizes.sort_unstable();
     sizes.dedup();
-    let options = Options {
+    let options = TuneOptions {
         light: arguments.light,
         sizes,
         leak_percent: arguments.leak,
@@ -86,7 +86,7 @@ fn line(point: &Point) -> String {
     )
 }
 
-fn print(tuned: &Tuned, options: &Options) -> Result<(), Error> {
+fn print(tuned: &Tuned, options: &TuneOptions) -> Result<(), Error> {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
     let (compared, facing, shadowed) = (tuned.compared, tuned.compared_facing, tuned.compared_shadowed);

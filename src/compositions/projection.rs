@@ -3,7 +3,7 @@
 //! Surfaces and volumes share what is chosen here, so that their depths are comparable.
 
 use crate::lights::Viewer;
-use crate::lights::light::{Counting, Layer, LedgeDepths};
+use crate::lights::light::{LedgeDepths, StencilCount, VolumeDepths};
 use crate::math::ledge::Ledge;
 use crate::math::spaces::infinite_perspective;
 use crate::pass::{Batch, Define, DrawState};
@@ -14,7 +14,7 @@ const DEPTH_BITS: u32 = 24;
 
 /// Projection and depth ranges of the camera's picture.
 pub struct CameraProjection {
-    /// Viewer of surfaces, and of volumes on [`Layer::Scene`].
+    /// Viewer of surfaces, and of volumes on [`VolumeDepths::Scene`].
     pub camera: Viewer,
     depth_range: [f32; 2],
     /// True if the far plane is at infinity.
@@ -38,7 +38,7 @@ impl CameraProjection {
 
     /// A projection under which all of `countings` can be counted. If one needs the ledge, the far plane is not at
     /// infinity: the others clamp their depth instead (see [`CameraProjection::state`]).
-    pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a Counting> + Clone) -> Self {
+    pub fn for_counts<'a>(scene: &Scene, countings: impl Iterator<Item = &'a StencilCount> + Clone) -> Self {
         let mut lens = Self::of_scene(scene);
         let camera = &scene.camera;
         if let Some(depths) = countings.clone().find_map(|counting| counting.ledge) {
@@ -53,7 +53,7 @@ impl CameraProjection {
             lens.camera.clip_from_eye = infinite_perspective(camera.fov_y_radians, scene.aspect(), camera.near);
             lens.infinite = true;
         }
-        let clamps = |counting: &Counting| counting.clamped || (counting.infinite && !lens.infinite);
+        let clamps = |counting: &StencilCount| counting.clamped || (counting.infinite && !lens.infinite);
         lens.clamped = countings.clone().any(clamps);
         lens
     }
@@ -74,9 +74,9 @@ impl CameraProjection {
     }
 
     /// Projection of a count pass.
-    pub fn viewer(&self, layer: Layer) -> Viewer {
-        match (&self.ledge, layer) {
-            (Some(ledge), Layer::Ledge | Layer::LedgeCap) => {
+    pub fn viewer(&self, depths: VolumeDepths) -> Viewer {
+        match (&self.ledge, depths) {
+            (Some(ledge), VolumeDepths::Ledge | VolumeDepths::LedgeCap) => {
                 Viewer { clip_from_eye: ledge.volume_clip_from_view, ..self.camera }
             }
             _ => self.camera,
@@ -84,11 +84,11 @@ impl CameraProjection {
     }
 
     /// State of a count pass: its depth range, and depth clamp if the far plane would cut volumes.
-    pub fn state(&self, counting: &Counting, state: &DrawState, layer: Layer) -> DrawState {
+    pub fn state(&self, counting: &StencilCount, state: &DrawState, depths: VolumeDepths) -> DrawState {
         let range = |range: [f64; 2]| range.map(|depth| depth as f32);
-        let depth_range = match (&self.ledge, layer) {
-            (Some(ledge), Layer::Ledge) => range(ledge.volume_range),
-            (Some(ledge), Layer::LedgeCap) => range(ledge.cap_range),
+        let depth_range = match (&self.ledge, depths) {
+            (Some(ledge), VolumeDepths::Ledge) => range(ledge.volume_range),
+            (Some(ledge), VolumeDepths::LedgeCap) => range(ledge.cap_range),
             _ => self.depth_range,
         };
         let depth_clamp = state.depth_clamp || (counting.infinite && !self.infinite);

@@ -51,12 +51,12 @@ pub struct Lighting {
     /// Exponent in [0, 128].
     pub shininess: f32,
     pub opacity: f32,
-    pub sources: Vec<Source>,
+    pub sources: Vec<PointLight>,
 }
 
 /// A point light.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub struct PointLight {
     /// Position in eye space.
     pub position: [f32; 4],
     pub ambient: [f32; 3],

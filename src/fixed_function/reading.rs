@@ -7,7 +7,7 @@
 use glam::Vec3;
 
 use super::bounds::{self, Reach};
-use super::layer::{Blend, Layer, Lighting, Primary, Source};
+use super::layer::{Blend, Layer, Lighting, PointLight, Primary};
 use super::stack::{Stack, Weight};
 use crate::pass::{Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing};
 
@@ -160,7 +160,7 @@ fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     }
     let opacity = opacity(&lit.texturing);
     let primary = if lit_by.iter().any(|light| is_attenuated(light)) {
-        let sources = lit_by.iter().map(|light| Source { ambient: light.ambient, ..unlit_source(light) }).collect();
+        let sources = lit_by.iter().map(|light| PointLight { ambient: light.ambient, ..unlit_source(light) }).collect();
         let (emission, ambient) = (lit.scene_ambient, lit.ambient);
         Primary::Lighting(Lighting { emission, ambient, opacity, sources, ..Lighting::default() })
     } else {
@@ -181,9 +181,9 @@ fn is_attenuated(light: &FixedFunctionLight) -> bool {
     light.attenuation != [1.0, 0.0, 0.0]
 }
 
-fn unlit_source(light: &FixedFunctionLight) -> Source {
+fn unlit_source(light: &FixedFunctionLight) -> PointLight {
     let (position, attenuation) = (light.position, light.attenuation);
-    Source { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
+    PointLight { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
 }
 
 /// Colours of a light that a layer adds, and their weights.

@@ -90,13 +90,13 @@ pub struct LightTerm {
     pub map_info: Option<MapInfo>,
     /// Passes after which the stencil buffer is 0 where the light reaches. If they tag surfaces by `shade`, the lit pass
     /// does not evaluate it again.
-    pub counting: Option<Counting>,
+    pub counting: Option<StencilCount>,
 }
 
 /// A light's shadow as a count in the stencil buffer [GDC, "Review: Stenciled Shadow Volumes"]: plain data, for any target
 /// and eye. The plan draws the surfaces' depth first.
 #[derive(Clone, Debug)]
-pub struct Counting {
+pub struct StencilCount {
     pub passes: Vec<CountPass>,
     /// Rule for keeping the count of the frame before.
     pub redraw: Redraw,
@@ -146,7 +146,7 @@ pub struct CountPass {
     pub label: String,
     /// Draw state; the plan sets `depth_range`.
     pub state: DrawState,
-    pub layer: Layer,
+    pub depths: VolumeDepths,
     pub counted: Counted,
 }
 
@@ -161,7 +161,7 @@ pub enum Counted {
 
 /// Depth range that volumes are drawn into [GDC, "Building a "Ledge" at the Front of the Depth Buffer"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layer {
+pub enum VolumeDepths {
     /// The surfaces' depth range.
     Scene,
     /// The depth range from the ledge on.
@@ -191,7 +191,7 @@ pub enum VolumeSpace {
     Eye,
 }
 
-impl Counting {
+impl StencilCount {
     /// Tests whether the light's own shade is tagged in the stencil buffer.
     pub fn tags(&self) -> bool {
         self.passes.iter().any(|pass| matches!(pass.counted, Counted::Shadowed))

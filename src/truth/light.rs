@@ -7,13 +7,13 @@ use super::beam::{Apex, Side};
 use crate::scene::{Frustum, Light, LightKind, LightShape};
 
 pub(super) struct Lamp {
-    source: Source,
+    source: Origin,
     shape: Shape,
 }
 
 /// Position or direction of a light.
 #[derive(Clone, Copy)]
-enum Source {
+enum Origin {
     At(DVec3),
     /// From infinitely far away. `travel`: the way of the light, of unit length; a ball holds all that it may meet.
     Along {
@@ -43,17 +43,17 @@ impl Lamp {
                 let right = ahead.cross(up).normalize();
                 let axes = [ahead, right, right.cross(ahead)];
                 let (ends, half_angle_radians) = (spot.shape, 0.5 * cone_radians);
-                Self { source: Source::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
+                Self { source: Origin::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
             }
             LightKind::Point(point) => {
                 let (near, far) = (point.near, point.far);
-                Self { source: Source::At(point.position), shape: Shape::Cube { near, far } }
+                Self { source: Origin::At(point.position), shape: Shape::Cube { near, far } }
             }
             LightKind::Directional { direction } => {
                 let travel = direction.normalize();
                 let (right, up) = travel.any_orthonormal_pair();
                 Self {
-                    source: Source::Along { travel, center, radius },
+                    source: Origin::Along { travel, center, radius },
                     shape: Shape::Square { right, up, center, radius },
                 }
             }
@@ -61,7 +61,7 @@ impl Lamp {
     }
 
     pub fn is_finite(&self) -> bool {
-        let (Source::At(vector) | Source::Along { travel: vector, .. }) = self.source;
+        let (Origin::At(vector) | Origin::Along { travel: vector, .. }) = self.source;
         vector.is_finite()
             && match &self.shape {
                 Shape::Spot { axes, half_angle_radians, .. } => {
@@ -75,9 +75,9 @@ impl Lamp {
     /// Apex of a beam to `base`.
     pub fn apex(&self, base: DVec3) -> Apex {
         match self.source {
-            Source::At(position) => Apex::At(position),
+            Origin::At(position) => Apex::At(position),
             // Back to before the ball, however far behind it the base lies.
-            Source::Along { travel, center, radius } => {
+            Origin::Along { travel, center, radius } => {
                 Apex::Infinity { travel, length: travel.dot(base - center).max(0.0) + 1.5 * radius }
             }
         }
@@ -85,14 +85,14 @@ impl Lamp {
 
     /// Position; `None`: infinitely far away.
     pub fn place(&self) -> Option<DVec3> {
-        if let Source::At(position) = self.source { Some(position) } else { None }
+        if let Origin::At(position) = self.source { Some(position) } else { None }
     }
 
     /// From a point to the light; of unit length for one that is infinitely far away.
     pub fn towards(&self, point: DVec3) -> DVec3 {
         match self.source {
-            Source::At(position) => position - point,
-            Source::Along { travel, .. } => -travel,
+            Origin::At(position) => position - point,
+            Origin::Along { travel, .. } => -travel,
         }
     }
 

@@ -203,7 +203,7 @@ impl<'a> Tracer<'a> {
     /// The answers for every pixel of the scene's picture.
     fn trace(&self, scene: &Scene, options: &Options) -> Result<Truth, Error> {
         let [width, height] = scene.image.size;
-        let counting = options.depth_buffer_bits.map(|_| volumes::Counting::new(scene, self));
+        let counting = options.depth_buffer_bits.map(|_| volumes::VolumeCounter::new(scene, self));
         let answer = |(x, y)| {
             let pixel = self.answer(x, y);
             let reason = counting.as_ref().and_then(|counting| counting.doubt(x, y, pixel.answer));

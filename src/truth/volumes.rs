@@ -75,7 +75,7 @@ impl VolumeCounts {
 /// as much nearer or farther as 24 bits may misplace both.
 pub fn volume_count(scene: &Scene, light: usize, options: &Options) -> Result<VolumeCounts, Error> {
     let tracer = Tracer::new(scene, light, options)?;
-    let counting = Counting::new(scene, &tracer);
+    let counting = VolumeCounter::new(scene, &tracer);
     let [width, height] = scene.image.size;
     let places = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| counting.pixel(x, y)).collect();
@@ -103,7 +103,7 @@ pub fn volume_count_at(
     options: &Options,
 ) -> Result<Vec<Option<u32>>, Error> {
     let tracer = Tracer::new(scene, light, options)?;
-    let counting = Counting::new(scene, &tracer);
+    let counting = VolumeCounter::new(scene, &tracer);
     let count = |point: &DVec3| {
         let tally = counting.along(&counting.beam(*point, [DVec3::ZERO; 2], error), None);
         tally.reason.is_none().then_some(tally.center)
@@ -125,14 +125,14 @@ struct Tally {
     reason: Option<Reason>,
 }
 
-pub(super) struct Counting<'t, 'a> {
+pub(super) struct VolumeCounter<'t, 'a> {
     tracer: &'t Tracer<'a>,
     /// Rule of each triangle of each object.
     rules: Vec<Vec<Rule>>,
     slivers: Slivers,
 }
 
-impl<'t, 'a> Counting<'t, 'a> {
+impl<'t, 'a> VolumeCounter<'t, 'a> {
     pub fn new(scene: &Scene, tracer: &'t Tracer<'a>) -> Self {
         let light = tracer.lamp.place();
         let of_object = |(object, placed): (usize, _)| {

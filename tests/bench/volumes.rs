@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{DMat4, DVec3};
-use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Outline, Source, Volume};
+use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, LightSource, Outline, Volume};
 
 use super::child::model_file;
 use super::{Arguments, Result};
@@ -27,7 +27,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 
     let center = mesh.bounds.center();
     let light = |k: usize| center + DMat4::from_rotation_y(0.1 * k as f64).transform_vector3(DVec3::new(2.0, 3.4, 3.0));
-    let sources = |k: usize| if k.is_multiple_of(2) { Source::Point(light(k)) } else { Source::Direction(light(k)) };
+    let sources =
+        |k: usize| if k.is_multiple_of(2) { LightSource::Point(light(k)) } else { LightSource::Direction(light(k)) };
     let mut outline = Outline::default();
     let mut edges = 0;
     let mut exact = 0;

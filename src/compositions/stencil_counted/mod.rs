@@ -9,7 +9,7 @@ use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::drawable::depth_batches;
 use crate::lights::guard::Guard;
-use crate::lights::light::{Counted, Counting, Layer, Lighting, VolumeDraw};
+use crate::lights::light::{Counted, Lighting, StencilCount, VolumeDepths, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
@@ -206,7 +206,7 @@ impl Passes<'_> {
         target: Target,
         lens: &CameraProjection,
         term: &LightTerm,
-        counting: &Counting,
+        counting: &StencilCount,
         prefix: &str,
         redraw: Redraw,
     ) -> Result<(), Error> {
@@ -214,11 +214,11 @@ impl Passes<'_> {
             let label = format!("{prefix}{}", pass.label);
             let onto = Onto {
                 clear: Clear { stencil: (index == 0).then_some(0), ..Clear::default() },
-                state: lens.state(counting, &pass.state, pass.layer),
+                state: lens.state(counting, &pass.state, pass.depths),
                 ..self.first(&label, Target { color: None, ..target }, lens, [0.0; 4])
             };
             match &pass.counted {
-                Counted::Volumes(draws) => self.volumes(redraw, &onto, draws, pass.layer),
+                Counted::Volumes(draws) => self.volumes(redraw, &onto, draws, pass.depths),
                 Counted::Shadowed => {
                     // Surfaces are clipped like those whose depth they must equal.
                     let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
@@ -231,9 +231,9 @@ impl Passes<'_> {
         Ok(())
     }
 
-    fn volumes(&mut self, redraw: Redraw, onto: &Onto<'_>, draws: &[VolumeDraw], layer: Layer) {
-        let (viewer, meaning) = (onto.lens.viewer(layer), FixedFunctionDesc::Depth(Texturing::default()));
-        let batches = Counting::batches(draws, &viewer, None, glsl!("common/depth.frag"), meaning, Vec::new());
+    fn volumes(&mut self, redraw: Redraw, onto: &Onto<'_>, draws: &[VolumeDraw], depths: VolumeDepths) {
+        let (viewer, meaning) = (onto.lens.viewer(depths), FixedFunctionDesc::Depth(Texturing::default()));
+        let batches = StencilCount::batches(draws, &viewer, None, glsl!("common/depth.frag"), meaning, Vec::new());
         let Onto { target, viewport, clear, state, .. } = *onto;
         self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
     }
@@ -292,7 +292,7 @@ impl Passes<'_> {
         view: View,
         label: &str,
         term: &LightTerm,
-        counting: &Counting,
+        counting: &StencilCount,
     ) -> Result<ImageId, Error> {
         let lens = CameraProjection::for_counts(self.scene, std::iter::once(counting));
         let buffers = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
@@ -335,7 +335,7 @@ impl Passes<'_> {
         buffers: Buffers,
         lens: &CameraProjection,
         term: &LightTerm,
-        counting: &Counting,
+        counting: &StencilCount,
     ) -> Result<ImageId, Error> {
         let target = buffers.target();
         let unshadowed = unshadowed(self.scene, term);
@@ -353,7 +353,7 @@ impl Passes<'_> {
         let batches = layers.iter().flat_map(|(cull, color)| {
             let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
             let fragment = glsl!("stencil_counted/colored.frag");
-            Counting::batches(draws, &lens.camera, *cull, fragment, FixedFunctionDesc::Constant(*color), uniforms)
+            StencilCount::batches(draws, &lens.camera, *cull, fragment, FixedFunctionDesc::Constant(*color), uniforms)
         });
         let pass = DrawPass {
             target,
@@ -402,7 +402,7 @@ fn of_all(term: &LightTerm) -> bool {
 
 /// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
-    let tagged = term.counting.as_ref().is_some_and(Counting::tags);
+    let tagged = term.counting.as_ref().is_some_and(StencilCount::tags);
     if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
 }
 

@@ -16,14 +16,14 @@ const LEAST_VOLUME: f64 = 1.0 / (1u64 << 30) as f64;
 pub struct Component {
     /// Range of [`Caster::triangles`](super::Caster::triangles).
     pub triangles: Range<u32>,
-    pub kind: Kind,
+    pub kind: SurfaceKind,
     /// Bounds in model space.
     pub bounds: Aabb,
 }
 
 /// Kind of a shell's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum SurfaceKind {
     /// Every edge has exactly two triangles, in opposite directions, and the normals look outwards: the signed volume is
     /// positive.
     Closed,
@@ -33,7 +33,7 @@ pub enum Kind {
     Open,
 }
 
-impl Kind {
+impl SurfaceKind {
     pub fn is_closed(self) -> bool {
         self != Self::Open
     }
@@ -41,7 +41,7 @@ impl Kind {
 
 /// Triangles of a shell that make its volume, under one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Counting {
+pub enum CountedFaces {
     /// Those that face the light.
     Facing,
     /// All except those in whose plane the light lies; averted ones are reversed.
@@ -92,9 +92,9 @@ pub(super) fn describe(
     runs.map(|triangles| {
         let own = triangles.start as usize..triangles.end as usize;
         let kind = match is_open[own.clone()].iter().any(|open| *open) {
-            true => Kind::Open,
-            false if looks_outwards(&corners, own.clone()) => Kind::Closed,
-            false => Kind::InsideOut,
+            true => SurfaceKind::Open,
+            false if looks_outwards(&corners, own.clone()) => SurfaceKind::Closed,
+            false => SurfaceKind::InsideOut,
         };
         let bounds = Aabb::from_points(own.flat_map(&corners));
         Component { triangles, kind, bounds }

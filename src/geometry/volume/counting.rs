@@ -3,18 +3,18 @@
 use glam::DVec3;
 use robust::{Coord, orient2d};
 
-use super::{Caster, Component, Counting, Kind, Source};
+use super::{Caster, Component, CountedFaces, LightSource, SurfaceKind};
 use crate::math::Aabb;
 
 impl Caster {
-    /// Chooses the way in which a shell counts under a light: [`Counting::Facing`] only if it is [`Kind::Closed`] and does
+    /// Chooses the way in which a shell counts under a light: [`CountedFaces::Facing`] only if it is [`SurfaceKind::Closed`] and does
     /// not hold the light, inside or on its surface. Then each crossing of the surface outwards has one inwards before it,
     /// so that facing triangles alone miss no shadow; elsewhere they may.
-    pub fn counting(&self, shell: &Component, source: Source) -> Counting {
+    pub fn counting(&self, shell: &Component, source: LightSource) -> CountedFaces {
         match (shell.kind, source) {
-            (Kind::Closed, Source::Direction(_)) => Counting::Facing,
-            (Kind::Closed, Source::Point(light)) if !self.holds(shell, light) => Counting::Facing,
-            _ => Counting::All,
+            (SurfaceKind::Closed, LightSource::Direction(_)) => CountedFaces::Facing,
+            (SurfaceKind::Closed, LightSource::Point(light)) if !self.holds(shell, light) => CountedFaces::Facing,
+            _ => CountedFaces::All,
         }
     }
 
@@ -30,7 +30,8 @@ impl Caster {
         let (min, max) = (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
         let in_box = point.cmpge(min).all() && point.cmple(max).all();
         if !in_box
-            || self.planes.exact_side(&self.corners(triangle as usize), triangle as usize, Source::Point(point)) != 0
+            || self.planes.exact_side(&self.corners(triangle as usize), triangle as usize, LightSource::Point(point))
+                != 0
         {
             return false;
         }
@@ -71,7 +72,7 @@ impl Caster {
                 && i32::from(self.planes.exact_side(
                     &self.corners(triangle as usize),
                     triangle as usize,
-                    Source::Point(point),
+                    LightSource::Point(point),
                 )) == -seen
             {
                 winding += seen;

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{Caster, Outline, Source};
+use super::{Caster, LightSource, Outline};
 
 /// End of a volume.
 ///
@@ -176,7 +176,7 @@ impl Volume {
 
 /// The far end of a volume.
 struct End {
-    source: Source,
+    source: LightSource,
     extent: Extent,
 }
 
@@ -207,7 +207,7 @@ impl End {
 
 /// The normal of a triangle that the light all but touches. At infinity that triangle covers half the sky, and its corners
 /// lie almost on a great circle: rounding may turn it into the other half. A corner in its middle prevents that.
-fn normal_if_touched(source: Source, corners: [DVec3; 3]) -> Option<DVec3> {
+fn normal_if_touched(source: LightSource, corners: [DVec3; 3]) -> Option<DVec3> {
     const TOUCHES: f64 = 1.0 / (1 << 10) as f64;
     if source.is_parallel() {
         return None;

@@ -8,10 +8,10 @@
 //!
 //! # Which triangles count
 //! A caster falls into shells (triangles connected across edges). One that is closed, looks outwards, does not enclose
-//! the light and is not touched by it is counted by its light-facing triangles ([`Counting::Facing`]): every way in
+//! the light and is not touched by it is counted by its light-facing triangles ([`CountedFaces::Facing`]): every way in
 //! crosses one of them.
 //! Any other shell (open, non-manifold, inconsistently wound, inside out, around the light) is counted by all of its
-//! triangles, averted ones turned over ([`Counting::All`]), so that an open mesh casts from both its sides. A triangle
+//! triangles, averted ones turned over ([`CountedFaces::All`]), so that an open mesh casts from both its sides. A triangle
 //! in whose plane the light stands never counts.
 //!
 //! # Why it is watertight
@@ -37,10 +37,10 @@ mod seen;
 mod source;
 
 pub use caster::Caster;
-pub use components::{Component, Counting, Kind};
+pub use components::{Component, CountedFaces, SurfaceKind};
 pub use extrude::{Caps, Extent, Volume, light_touches};
 pub use loops::OutlineEdge;
 pub use near_cap::{CappedVolume, Landing};
 pub use outline::Outline;
-pub use seen::{Casting, Viewer, scissor};
-pub use source::Source;
+pub use seen::{CameraHulls, VolumeHulls, scissor};
+pub use source::LightSource;

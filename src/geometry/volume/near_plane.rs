@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::Source;
+use super::LightSource;
 use super::extrude::at_infinity;
 
 /// A place in view space, and its vertices in the volume once they exist.
@@ -55,7 +55,7 @@ impl Place {
 }
 
 pub(super) struct NearPlane {
-    source: Source,
+    source: LightSource,
     near: f64,
     /// l.
     light_height: f64,
@@ -66,7 +66,7 @@ pub(super) struct NearPlane {
 
 impl NearPlane {
     /// `source` and `end` in view space.
-    pub fn new(source: Source, near: f64, end: Option<(DVec3, f64)>) -> Self {
+    pub fn new(source: LightSource, near: f64, end: Option<(DVec3, f64)>) -> Self {
         let light = source.homogeneous();
         Self { source, near, light_height: -light.z - near * light.w, w: light.w, end }
     }
@@ -122,12 +122,12 @@ impl NearPlane {
     pub fn direction_between(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::Never) != (b.stand == Stand::Never);
         parted.then(|| match self.source {
-            Source::Point(_) => {
+            LightSource::Point(_) => {
                 let direction = self.away(b.at) * a.fall.abs() + self.away(a.at) * b.fall.abs();
                 at_infinity(direction.with_z(0.0))
             }
             // Parallel rays part so only where they run along the plane.
-            Source::Direction(_) => at_infinity(self.away(a.at).with_z(0.0)),
+            LightSource::Direction(_) => at_infinity(self.away(a.at).with_z(0.0)),
         })
     }
 

@@ -2,7 +2,7 @@
 //! count, as directed edges with multiplicity. All buffers are kept from one light or frame to the next.
 
 use super::loops::{self, OutlineEdge};
-use super::{Caster, Counting, Source};
+use super::{Caster, CountedFaces, LightSource};
 
 /// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
@@ -12,14 +12,14 @@ pub struct Outline {
     /// Per triangle of the caster: 1 if it counts, -1 if it counts with reversed winding, else 0.
     weights: Vec<i8>,
     edges: Vec<OutlineEdge>,
-    countings: Vec<Counting>,
-    source: Option<Source>,
+    countings: Vec<CountedFaces>,
+    source: Option<LightSource>,
     exact_tests: usize,
 }
 
 impl Outline {
     /// Finds the counted triangles of `caster` and their boundary, for a light in the caster's model space.
-    pub fn find(&mut self, caster: &Caster, source: Source) {
+    pub fn find(&mut self, caster: &Caster, source: LightSource) {
         self.source = Some(source);
         self.weights.resize(caster.triangles.len(), 0);
         self.countings.clear();
@@ -29,7 +29,7 @@ impl Outline {
             self.exact_tests +=
                 caster.planes.sides(|triangle| caster.corners(triangle), range.clone(), source, &mut self.weights);
             let counting = caster.counting(shell, source);
-            if counting == Counting::Facing {
+            if counting == CountedFaces::Facing {
                 self.weights[range].iter_mut().for_each(|weight| *weight = (*weight).max(0));
             }
             self.countings.push(counting);
@@ -64,12 +64,12 @@ impl Outline {
     }
 
     /// Way in which each of [`Caster::shells`] counts.
-    pub fn countings(&self) -> &[Counting] {
+    pub fn countings(&self) -> &[CountedFaces] {
         &self.countings
     }
 
     /// The light that it was found for; `None` before the first [`Outline::find`].
-    pub fn source(&self) -> Option<Source> {
+    pub fn source(&self) -> Option<LightSource> {
         self.source
     }
 

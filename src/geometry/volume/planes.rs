@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::Source;
+use super::LightSource;
 use crate::math::exact;
 
 /// Unit roundoff of f64.
@@ -74,12 +74,12 @@ impl Planes {
         &self,
         corners: impl Fn(usize) -> [DVec3; 3],
         range: Range<usize>,
-        source: Source,
+        source: LightSource,
         sides: &mut [i8],
     ) -> usize {
         let light = match source {
-            Source::Point(position) => position - self.center,
-            Source::Direction(direction) => direction,
+            LightSource::Point(position) => position - self.center,
+            LightSource::Direction(direction) => direction,
         };
         let w = source.homogeneous().w;
         let doubt = ROUNDINGS * ROUNDOFF * (light.abs().element_sum() + w * self.reach);
@@ -115,11 +115,11 @@ impl Planes {
     }
 
     /// The side of one triangle, whose `corners` these are. Exact.
-    pub fn exact_side(&self, corners: &[DVec3; 3], triangle: usize, source: Source) -> i8 {
+    pub fn exact_side(&self, corners: &[DVec3; 3], triangle: usize, source: LightSource) -> i8 {
         match source {
             _ if self.is_flat(triangle) && exact::are_collinear(corners) => 0,
-            Source::Point(position) => exact::side_of_point(corners, position),
-            Source::Direction(direction) => exact::side_of_direction(corners, direction),
+            LightSource::Point(position) => exact::side_of_point(corners, position),
+            LightSource::Direction(direction) => exact::side_of_direction(corners, direction),
         }
     }
 }

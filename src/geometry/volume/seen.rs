@@ -3,19 +3,19 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-use super::Source;
+use super::LightSource;
 use crate::math::{Aabb, frustum, hull};
 use hull::Hull;
 
-/// A camera, made ready for the tests.
+/// Convex hulls of a camera's near rectangle, of its frustum and of its rays.
 #[derive(Clone, Debug)]
-pub struct Viewer {
+pub struct CameraHulls {
     near: Hull,
     frustum: Hull,
     rays: Hull,
 }
 
-impl Viewer {
+impl CameraHulls {
     /// `clip_from_world` is invertible and has a finite far plane, beyond which nothing is visible.
     pub fn new(clip_from_world: &DMat4) -> Self {
         let corners = frustum::corners(&clip_from_world.inverse());
@@ -25,47 +25,47 @@ impl Viewer {
     }
 }
 
-/// A caster's box and what it may shadow.
+/// Convex hulls of a caster's box, of its shadow volume and of the volume's far end.
 #[derive(Clone, Debug)]
-pub struct Casting {
+pub struct VolumeHulls {
     body: Hull,
     volume: Hull,
     far_end: Hull,
 }
 
-impl Casting {
+impl VolumeHulls {
     /// `bounds` in model space; `source` in world space.
-    pub fn new(bounds: &Aabb, world_from_model: &DMat4, source: Source) -> Self {
+    pub fn new(bounds: &Aabb, world_from_model: &DMat4, source: LightSource) -> Self {
         let body = Hull::parallelepiped(bounds, world_from_model);
         let away: Vec<DVec3> = match source {
             // Inside or all but touching: which way the shadow falls is left to rounding.
-            Source::Point(_) if touches(bounds, source.transformed(&world_from_model.inverse())) => {
+            LightSource::Point(_) if touches(bounds, source.transformed(&world_from_model.inverse())) => {
                 [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]).collect()
             }
-            Source::Point(_) => body.points.iter().map(|corner| source.away(*corner)).collect(),
-            Source::Direction(direction) => vec![-direction],
+            LightSource::Point(_) => body.points.iter().map(|corner| source.away(*corner)).collect(),
+            LightSource::Direction(direction) => vec![-direction],
         };
         Self { volume: body.swept(&away), far_end: Hull::cone(&away), body }
     }
 
     /// Tests whether the volume may hold a point of the camera's near rectangle: whether the caster may meet the pyramid that
     /// the light spans with it. If not, plain z-pass counts right.
-    pub fn may_hold_near(&self, viewer: &Viewer) -> bool {
+    pub fn may_hold_near(&self, viewer: &CameraHulls) -> bool {
         !hull::are_apart(&self.volume, &viewer.near)
     }
 
     /// Tests whether the volume may meet the view frustum; if not, it is of no use to the picture.
-    pub fn may_shadow_view(&self, viewer: &Viewer) -> bool {
+    pub fn may_shadow_view(&self, viewer: &CameraHulls) -> bool {
         !hull::are_apart(&self.volume, &viewer.frustum)
     }
 
     /// Tests whether the caster itself may be in view, and with it the volume's cap at the light's end.
-    pub fn light_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
+    pub fn light_cap_may_be_seen(&self, viewer: &CameraHulls) -> bool {
         !hull::are_apart(&self.body, &viewer.frustum)
     }
 
     /// Tests whether the camera may look at the volume's far end at infinity.
-    pub fn far_cap_may_be_seen(&self, viewer: &Viewer) -> bool {
+    pub fn far_cap_may_be_seen(&self, viewer: &CameraHulls) -> bool {
         !hull::are_apart(&self.far_end, &viewer.rays)
     }
 
@@ -77,8 +77,8 @@ impl Casting {
 }
 
 /// Tests whether a light is in the box, or within the error of f32 transforms of it.
-fn touches(bounds: &Aabb, source: Source) -> bool {
-    let Source::Point(light) = source else { return false };
+fn touches(bounds: &Aabb, source: LightSource) -> bool {
+    let LightSource::Point(light) = source else { return false };
     let size = light.abs().max(bounds.min.abs()).max(bounds.max.abs()).max_element();
     let slack = DVec3::splat(size / f64::from(1 << 20));
     light.cmpge(bounds.min - slack).all() && light.cmple(bounds.max + slack).all()
@@ -126,8 +126,8 @@ mod tests {
 
     #[test]
     fn known_places_of_box_light_and_eye() {
-        let above = Source::Point(DVec3::Y * 5.0);
-        let sun = Source::Direction(DVec3::Y * 5.0);
+        let above = LightSource::Point(DVec3::Y * 5.0);
+        let sun = LightSource::Direction(DVec3::Y * 5.0);
         let side = camera(DVec3::new(8.0, 0.0, 0.0), DVec3::ZERO);
         let below = camera(DVec3::new(0.0, -3.0, 0.01), DVec3::new(0.0, -9.0, 0.0));
         let aside = camera(DVec3::new(8.0, 0.0, 0.0), DVec3::new(16.0, 3.0, 0.0));
@@ -141,7 +141,7 @@ mod tests {
             ("looking away", above, aside, [false, false, false, false]),
             ("at the sky", sun, at_sky, [false, false, false, false]),
         ] {
-            let (viewer, casting) = (Viewer::new(&clip), Casting::new(&cube(), &DMat4::IDENTITY, source));
+            let (viewer, casting) = (CameraHulls::new(&clip), VolumeHulls::new(&cube(), &DMat4::IDENTITY, source));
             let found = [
                 casting.may_hold_near(&viewer),
                 casting.may_shadow_view(&viewer),
@@ -154,10 +154,10 @@ mod tests {
 
     #[test]
     fn a_light_that_touches_may_shadow_everything() {
-        let viewer = Viewer::new(&camera(DVec3::new(0.0, 3.0, 0.01), DVec3::new(0.0, 9.0, 0.0)));
+        let viewer = CameraHulls::new(&camera(DVec3::new(0.0, 3.0, 0.01), DVec3::new(0.0, 9.0, 0.0)));
         for (y, expected) in [(1.0 + 1e-7, true), (1.0 - 1e-7, true), (1.001, false)] {
-            let light = Source::Point(DVec3::new(0.2, y, 0.3));
-            let casting = Casting::new(&cube(), &DMat4::IDENTITY, light);
+            let light = LightSource::Point(DVec3::new(0.2, y, 0.3));
+            let casting = VolumeHulls::new(&cube(), &DMat4::IDENTITY, light);
             assert_eq!(casting.far_cap_may_be_seen(&viewer), expected, "{y}");
             assert_eq!(casting.may_shadow_view(&viewer), expected, "{y}");
         }

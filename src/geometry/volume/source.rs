@@ -4,14 +4,14 @@ use glam::{DMat4, DVec3, DVec4};
 
 /// Position or direction of a light, in the space that the context names.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum LightSource {
     /// A point or spot light's position.
     Point(DVec3),
     /// A directional light: the direction *towards* it, of any length above 0.
     Direction(DVec3),
 }
 
-impl Source {
+impl LightSource {
     /// The same light in another space; `target_from_self` is affine. Exactness begins after this step: the sides of a
     /// triangle's plane are decided exactly for the light that comes out of it.
     pub fn transformed(self, target_from_self: &DMat4) -> Self {

@@ -30,7 +30,8 @@ pub fn measure(
     renderer: &mut Renderer,
 ) -> Result<Vec<Claimed>, tune::Error> {
     let size = size_of(&scene.lights[light].shadow);
-    let options = tune::Options { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
+    let options =
+        tune::TuneOptions { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
     let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
     let kind = &scene.lights[light].kind;
     let mut claimed = Vec::new();
@@ -81,7 +82,7 @@ fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> Verdi
 struct Contest<'a> {
     scene: &'a Scene,
     truth: &'a Truth,
-    options: tune::Options,
+    options: tune::TuneOptions,
     size: u32,
     renderer: &'a mut Renderer,
     seen: Vec<(Contender, Seen)>,

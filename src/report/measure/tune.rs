@@ -34,7 +34,7 @@ pub enum Error {
 
 /// Search range, and limits of a good result.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct TuneOptions {
     pub light: usize,
     /// Map sizes to try, smallest first.
     pub sizes: Vec<u32>,
@@ -61,7 +61,7 @@ pub struct Point {
     /// Leak on surfaces that face the light, where shading does not hide it, in percent of those compared.
     pub leak_facing_percent: f64,
     pub wrong_percent: f64,
-    /// True if the false shadow is within [`Options::false_per_100_000`].
+    /// True if the false shadow is within [`TuneOptions::false_per_100_000`].
     pub clean: bool,
     /// Pixels that the percentages are of: all, and those on surfaces that face the light.
     pub compared: usize,
@@ -117,7 +117,7 @@ const MOST_UNITS_LOG2: i32 = 20;
 /// A light that is not there or has no map, a truth that is not known, a frame that cannot be drawn.
 pub fn tune(
     scene: &Scene,
-    options: &Options,
+    options: &TuneOptions,
     renderer: &mut Renderer,
     mut tick: impl FnMut(&Point),
 ) -> Result<Tuned, Error> {
@@ -172,7 +172,7 @@ fn check_count(light: usize, compared: usize, facing: usize) -> Result<(), Error
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     truth: &'a Truth,
-    options: &'a Options,
+    options: &'a TuneOptions,
     renderer: &'a mut Renderer,
     curve: Vec<Point>,
     tick: &'a mut dyn FnMut(&Point),
@@ -182,7 +182,7 @@ impl<'a> Search<'a> {
     pub(super) fn new(
         scene: &'a Scene,
         truth: &'a Truth,
-        options: &'a Options,
+        options: &'a TuneOptions,
         renderer: &'a mut Renderer,
         tick: &'a mut dyn FnMut(&Point),
     ) -> Self {

@@ -8,7 +8,7 @@ use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
 use crate::scene::{Camera, Image, Object, camera_framing};
 
 /// `[camera]` as written; values that depend on the objects follow later.
-pub(super) struct Written {
+pub(super) struct CameraKeys {
     settings: Settings,
     eye: Option<DVec3>,
     target: Option<DVec3>,
@@ -18,7 +18,7 @@ pub(super) struct Written {
 }
 
 /// Reads the keys, and checks them as far as that is possible without the objects.
-pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
+pub(super) fn read(table: Option<&Settings>) -> Result<CameraKeys, SettingsError> {
     let absent = || Settings { path: String::from("camera"), ..Settings::default() };
     let settings = table.cloned().unwrap_or_else(absent);
     let mut reader = settings.read();
@@ -31,10 +31,10 @@ pub(super) fn read(table: Option<&Settings>) -> Result<Written, SettingsError> {
         reader.angle_between("fov_y", 1.0, 179.0)?.unwrap_or(camera_framing::FOV_Y_DEGREES.to_radians());
     let [near, far] = reader.near_and_far()?;
     reader.finish()?;
-    Ok(Written { eye, target, fov_y_radians, near, far, settings })
+    Ok(CameraKeys { eye, target, fov_y_radians, near, far, settings })
 }
 
-impl Written {
+impl CameraKeys {
     /// The camera, framed on `objects` where values are missing; cuts by its planes and too coarse depths are added to
     /// `warnings`.
     pub fn complete(
@@ -57,7 +57,7 @@ impl Written {
         camera.near = self.near.unwrap_or_else(|| self.far.map_or(near, |far| near.min(far / 2.0)));
         camera.far = self.far.unwrap_or_else(|| far.max(2.0 * camera.near));
         reader.check_far(camera.near, camera.far)?;
-        let view = View { camera: &camera, pyramid, objects, spans, size: image.size };
+        let view = ObjectsInView { camera: &camera, pyramid, objects, spans, size: image.size };
         let said = [view.cut_before(), view.cut_beyond(), view.coarse()].into_iter().flatten();
         warnings.extend(said.map(|(key, what)| reader.error(key, what).to_string()));
         warnings.extend(view.vague().map(|what| SettingsError::new(reader.origin(), what).to_string()));
@@ -95,7 +95,7 @@ fn off(span: Span) -> f64 {
 }
 
 /// Objects as a camera with its planes shows them; `spans` has one for each.
-struct View<'a> {
+struct ObjectsInView<'a> {
     camera: &'a Camera,
     pyramid: Pyramid,
     objects: &'a [Object],
@@ -106,7 +106,7 @@ struct View<'a> {
 /// A key, and the warning about its value.
 type Said = (&'static str, String);
 
-impl View<'_> {
+impl ObjectsInView<'_> {
     /// Each object with its depths, the nearest first.
     fn by_depth(&self) -> Vec<(&Object, Span)> {
         let mut objects: Vec<_> = self.objects.iter().zip(self.spans.iter().copied()).collect();

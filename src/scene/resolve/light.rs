@@ -14,16 +14,17 @@ const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum",
 
 /// The value of `kind`.
 #[derive(Clone, Copy)]
-enum Kind {
+enum KindKey {
     Spot,
     Point,
     Directional,
 }
 
-const KINDS: [(&str, Kind); 3] = [("spot", Kind::Spot), ("point", Kind::Point), ("directional", Kind::Directional)];
+const KINDS: [(&str, KindKey); 3] =
+    [("spot", KindKey::Spot), ("point", KindKey::Point), ("directional", KindKey::Directional)];
 
 /// `[[light]]` as written; values that depend on the objects follow later.
-pub(super) struct Written {
+pub(super) struct LightKeys {
     settings: Settings,
     /// The light; its planes are not known yet.
     light: Light,
@@ -32,15 +33,15 @@ pub(super) struct Written {
 }
 
 /// Reads the light at `index`, from 0, and checks it as far as that is possible without the objects.
-pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Result<Written, Error> {
+pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Result<LightKeys, Error> {
     let mut reader = table.read();
-    let kind = reader.choice("kind", &KINDS)?.unwrap_or(Kind::Spot);
+    let kind = reader.choice("kind", &KINDS)?.unwrap_or(KindKey::Spot);
     let [near, far] = reader.near_and_far()?;
     let image = reader.file("image")?;
     let kind = match kind {
-        Kind::Spot => LightKind::Spot(spot(&mut reader)?),
-        Kind::Point => LightKind::Point(point(&mut reader)?),
-        Kind::Directional => LightKind::Directional { direction: direction(&mut reader)? },
+        KindKey::Spot => LightKind::Spot(spot(&mut reader)?),
+        KindKey::Point => LightKind::Point(point(&mut reader)?),
+        KindKey::Directional => LightKind::Directional { direction: direction(&mut reader)? },
     };
     let name = reader.string("name")?.map_or_else(|| format!("light {index}"), str::to_owned);
     let color = reader.colour("color", BRIGHTEST)?.unwrap_or([1.0; 3]);
@@ -53,10 +54,10 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     if let (LightKind::Spot(spot), Some((name, origin))) = (&mut light.kind, image) {
         spot.image = Some(assets.texture(name, origin)?);
     }
-    Ok(Written { settings: table.clone(), light, near, far })
+    Ok(LightKeys { settings: table.clone(), light, near, far })
 }
 
-impl Written {
+impl LightKeys {
     /// The light, its maps' range around `objects` if that is missing.
     pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
         let Self { settings, mut light, near: written_near, far: written_far } = self;

@@ -25,7 +25,7 @@ use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
-use super::shadow_map::depth::{self, Ending, Layer};
+use super::shadow_map::depth::{self, DepthEnding, Layer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, ShadowSettings, Technique};
@@ -126,7 +126,7 @@ impl ShadowSettings for Settings {
         let shared = second::shared_texels(view, &layers, &settings.map);
         let clamped = is_clamped(view, &layers);
         note_chosen(view, &layers, notes);
-        let mut draw = |name, image, ending: Option<Ending>, offset, shared_alone| {
+        let mut draw = |name, image, ending: Option<DepthEnding>, offset, shared_alone| {
             let is_second = ending.is_some();
             let receivers: &[&Drawable] = if is_second { &layers.receivers } else { &[] };
             let layer = Layer { ending, clamped, receivers, ..Layer::plain(name, image, offset, &layers.casters) };
@@ -231,7 +231,7 @@ fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
 }
 
 /// Ending of the second pass's fragments.
-fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Settings) -> Ending {
+fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Settings) -> DepthEnding {
     let (sign, behind) = match settings.map.order {
         Order::LessEqual => (1.0, Compare::Greater),
         Order::GreaterEqual => (-1.0, Compare::Less),
@@ -240,7 +240,7 @@ fn peel(view: &FrustumView<'_>, nearest: ImageId, clamped: bool, settings: &Sett
         let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare, lod_halves: None };
         Input { name: name.into(), image: nearest, sampler }
     };
-    let mut ending = Ending {
+    let mut ending = DepthEnding {
         label: "peel",
         fragment: glsl!("midpoint/peel.frag"),
         defines: Vec::new(),

@@ -22,7 +22,7 @@ pub struct Layer<'a> {
     /// Name of the image, after the light's number.
     pub image: &'static str,
     /// Ending of the fragments; `None`: they write their depth only.
-    pub ending: Option<Ending>,
+    pub ending: Option<DepthEnding>,
     /// The polygon offset of the pass.
     pub offset: PolygonOffset,
     /// True if depth is clamped even if no caster comes before the near plane.
@@ -63,7 +63,7 @@ pub struct InParts<'a> {
 
 /// Work of a layer's fragment after the alpha test.
 #[derive(Clone)]
-pub struct Ending {
+pub struct DepthEnding {
     pub label: &'static str,
     /// Chunk with `main`.
     pub fragment: Chunk,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::lights::guard::{Guard, LightPlane, Side};
-use crate::lights::light::{CountPass, Counted, Counting, Layer, Lighting, VolumeDraw, VolumeSpace};
+use crate::lights::light::{CountPass, Counted, Lighting, StencilCount, VolumeDepths, VolumeDraw, VolumeSpace};
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::{Compare, DrawState, MeshRef, Primitive, Redraw, Stencil, StencilOp, StencilOps};
 use crate::scene::Frustum;
@@ -32,7 +32,7 @@ fn anything_behind(view: &LightView<'_>, term: &LightTerm) -> bool {
 }
 
 /// The count of the volume by z-fail, so that the eye may be in it; its end is at infinity, and so is the far plane.
-fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
+fn counting(view: &LightView<'_>, frustum: &Frustum) -> StencilCount {
     let ops = |depth_fail| StencilOps { depth_fail, ..StencilOps::KEEP };
     let stencil = Stencil {
         test: Compare::Always,
@@ -46,10 +46,10 @@ fn counting(view: &LightView<'_>, frustum: &Frustum) -> Counting {
     let pass = CountPass {
         label: format!("light {}: behind it", view.index),
         state: DrawState { depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY },
-        layer: Layer::Scene,
+        depths: VolumeDepths::Scene,
         counted: Counted::Volumes(vec![volume.clone()]),
     };
-    Counting {
+    StencilCount {
         passes: vec![pass],
         // One volume costs less than to keep its count.
         redraw: Redraw::Always,

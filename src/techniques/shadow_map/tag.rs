@@ -5,11 +5,11 @@
 
 use super::settings::{Outcome, Settings};
 use crate::lights::LightView;
-use crate::lights::light::{CountPass, Counted, Counting, Layer, Lighting};
+use crate::lights::light::{CountPass, Counted, Lighting, StencilCount, VolumeDepths};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 
 /// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
-pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
+pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<StencilCount> {
     if settings.into == Outcome::Shade {
         return None;
     }
@@ -20,10 +20,10 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<Counting> {
     let pass = CountPass {
         label: format!("light {}: tag", view.index),
         state: DrawState { color_write: false, stencil: Some(stencil), ..DrawState::REPEAT },
-        layer: Layer::Scene,
+        depths: VolumeDepths::Scene,
         counted: Counted::Shadowed,
     };
-    Some(Counting {
+    Some(StencilCount {
         passes: vec![pass],
         redraw: settings.redraw,
         of_all: false,

@@ -11,7 +11,7 @@ use crate::lights::Drawable;
 use crate::math::Aabb;
 
 /// An object that casts.
-pub struct Casting {
+pub struct CastingObject {
     pub label: String,
     /// Index into the scene's objects.
     pub object: usize,
@@ -24,7 +24,7 @@ pub struct Casting {
 }
 
 /// The objects of `items` that cast, each with all its parts: a surface may be closed only across them.
-pub fn casting(items: &[Drawable]) -> Vec<Casting> {
+pub fn casting_objects(items: &[Drawable]) -> Vec<CastingObject> {
     let mut casting = Vec::new();
     for parts in items.chunk_by(|a, b| a.object == b.object) {
         let [first, ..] = parts else { continue };
@@ -32,7 +32,7 @@ pub fn casting(items: &[Drawable]) -> Vec<Casting> {
             continue;
         }
         let ranges: Vec<Range<u32>> = parts.iter().map(|part| part.indices.clone()).collect();
-        casting.push(Casting {
+        casting.push(CastingObject {
             label: first.label.clone(),
             object: first.object,
             caster: adjacency(&first.mesh.0, ranges),

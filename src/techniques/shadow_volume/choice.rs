@@ -1,16 +1,16 @@
 //! Choice of the way in which each caster is counted, and of casters that need not be: z-pass costs fewer fragments and no
 //! caps, z-fail is right for any eye [GDC, "Alternative to Near Plane Capping: Carmack's Reverse"].
 
-use super::casters::Casting;
+use super::casters::CastingObject;
 use super::settings::{Method, Settings};
 use super::{extent, source};
-use crate::geometry::volume::{self, Viewer};
+use crate::geometry::volume::{self, CameraHulls};
 use crate::lights::{LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 
-/// Way in which one caster's volume is drawn.
+/// Method by which one caster's volume is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum CountMethod {
     LeftOut,
     Parity,
     ZPass,
@@ -22,13 +22,18 @@ pub enum Way {
 }
 
 /// Chooses a way for each caster.
-pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, notes: &mut Notes) -> Vec<Way> {
-    let viewer = Viewer::new(&view.camera.clip_from_world);
-    let one = |caster: &Casting| {
-        let volume = volume::Casting::new(&caster.bounds, &caster.world_from_model, source(view));
+pub fn ways(
+    view: &LightView<'_>,
+    casting: &[CastingObject],
+    settings: &Settings,
+    notes: &mut Notes,
+) -> Vec<CountMethod> {
+    let viewer = CameraHulls::new(&view.camera.clip_from_world);
+    let one = |caster: &CastingObject| {
+        let volume = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source(view));
         if let Some(why) = why_unneeded(view, caster, &volume, &viewer).filter(|_| !view.keep_all) {
             notes.left_out(format!("the volume of {} for light {}", caster.label, view.index), why);
-            return Way::LeftOut;
+            return CountMethod::LeftOut;
         }
         match settings.method {
             Method::Auto => {
@@ -36,13 +41,13 @@ pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, note
                 notes.chosen(format!("{} for light {}", caster.label, view.index), name, why);
                 way
             }
-            Method::Parity => Way::Parity,
-            Method::ZPass => Way::ZPass,
-            Method::ZPassTwoSided => Way::ZPassTwoSided,
-            Method::ZPassCapped => Way::ZPassCapped,
-            Method::ZFail => Way::ZFail,
-            Method::ZFailClamped => Way::ZFailClamped,
-            Method::ZFailTruncated => Way::ZFailTruncated,
+            Method::Parity => CountMethod::Parity,
+            Method::ZPass => CountMethod::ZPass,
+            Method::ZPassTwoSided => CountMethod::ZPassTwoSided,
+            Method::ZPassCapped => CountMethod::ZPassCapped,
+            Method::ZFail => CountMethod::ZFail,
+            Method::ZFailClamped => CountMethod::ZFailClamped,
+            Method::ZFailTruncated => CountMethod::ZFailTruncated,
         }
     };
     casting.iter().map(one).collect()
@@ -50,9 +55,9 @@ pub fn ways(view: &LightView<'_>, casting: &[Casting], settings: &Settings, note
 
 fn why_unneeded(
     view: &LightView<'_>,
-    caster: &Casting,
-    volume: &volume::Casting,
-    viewer: &Viewer,
+    caster: &CastingObject,
+    volume: &volume::VolumeHulls,
+    viewer: &CameraHulls,
 ) -> Option<&'static str> {
     if outside_cone(view, caster) {
         return Some("the caster is outside the light's cone");
@@ -65,19 +70,27 @@ fn why_unneeded(
 }
 
 /// Tests whether a spotlight's light misses the caster.
-fn outside_cone(view: &LightView<'_>, caster: &Casting) -> bool {
+fn outside_cone(view: &LightView<'_>, caster: &CastingObject) -> bool {
     view.light().frustum().is_some_and(|frustum| {
         let clip_from_model = frustum.unbounded().clip_from_world() * caster.world_from_model;
         frustum::overlap(&clip_from_model, &caster.bounds) == Overlap::Outside
     })
 }
 
-fn choose(caster: &Casting, volume: &volume::Casting, viewer: &Viewer) -> (Way, &'static str, &'static str) {
+fn choose(
+    caster: &CastingObject,
+    volume: &volume::VolumeHulls,
+    viewer: &CameraHulls,
+) -> (CountMethod, &'static str, &'static str) {
     if caster.has_holes {
-        (Way::ZFail, "z-fail", "through its holes z-pass would see the volume's missing cap")
+        (CountMethod::ZFail, "z-fail", "through its holes z-pass would see the volume's missing cap")
     } else if volume.may_hold_near(viewer) {
-        (Way::ZFail, "z-fail", "its volume may hold the eye's near rectangle")
+        (CountMethod::ZFail, "z-fail", "its volume may hold the eye's near rectangle")
     } else {
-        (Way::ZPassTwoSided, "z-pass", "its volume cannot meet the pyramid from the light to the near rectangle")
+        (
+            CountMethod::ZPassTwoSided,
+            "z-pass",
+            "its volume cannot meet the pyramid from the light to the near rectangle",
+        )
     }
 }

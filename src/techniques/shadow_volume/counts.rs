@@ -1,11 +1,11 @@
 //! The passes that count [GDC, "Stencil Inverting of Shadow Volume", "For Shadow Volumes With Intersecting Polygons",
 //! "Alternative to Near Plane Capping: Carmack's Reverse"]: which faces change the stencil value, and when.
 
-use super::choice::Way;
+use super::choice::CountMethod;
 use super::settings::Settings;
 use super::shapes::Shape;
 use crate::lights::LightView;
-use crate::lights::light::{CountPass, Counted, Layer, VolumeDraw};
+use crate::lights::light::{CountPass, Counted, VolumeDepths, VolumeDraw};
 use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 
 /// The passes for all shapes, way by way. Sums modulo 256 do not depend on the order; if counts stop at 0, all passes that
@@ -15,9 +15,10 @@ use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
 /// counts by that of the rounded ones. With culling, a side narrower than that rounding could be counted by neither pass.
 pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Vec<CountPass> {
     let label = |what: &str| format!("light {}: {what}", view.index);
-    let of = |ways: &[Way]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
-    let sides = |ways: &[Way]| of(ways).iter().map(|shape| shape.sides.clone()).collect::<Vec<_>>();
-    let whole = |ways: &[Way]| of(ways).iter().flat_map(|shape| shape.whole()).collect::<Vec<_>>();
+    let of =
+        |ways: &[CountMethod]| -> Vec<&Shape> { shapes.iter().filter(|shape| ways.contains(&shape.way)).collect() };
+    let sides = |ways: &[CountMethod]| of(ways).iter().map(|shape| shape.sides.clone()).collect::<Vec<_>>();
+    let whole = |ways: &[CountMethod]| of(ways).iter().flat_map(|shape| shape.whole()).collect::<Vec<_>>();
     let (up, down) = match settings.wrap {
         true => (StencilOp::IncrementWrap, StencilOp::DecrementWrap),
         false => (StencilOp::Increment, StencilOp::Decrement),
@@ -28,27 +29,27 @@ pub fn passes(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Ve
     let counted = |what: &str, front, back, draws: Vec<VolumeDraw>| CountPass {
         label: label(what),
         state: state(front, back, 0xFF),
-        layer: Layer::Scene,
+        depths: VolumeDepths::Scene,
         counted: Counted::Volumes(draws),
     };
     let mut passes = Vec::new();
     let parity = CountPass {
         state: state(pass(StencilOp::Invert), pass(StencilOp::Invert), 0x01),
-        ..counted("parity", keep, keep, sides(&[Way::Parity]))
+        ..counted("parity", keep, keep, sides(&[CountMethod::Parity]))
     };
     passes.push(parity);
-    let drawn = sides(&[Way::ZPass]);
+    let drawn = sides(&[CountMethod::ZPass]);
     passes.push(counted("z-pass, front faces", pass(up), keep, drawn.clone()));
     passes.push(counted("z-pass, back faces", keep, pass(down), drawn));
-    passes.push(counted("z-pass", pass(up), pass(down), sides(&[Way::ZPassTwoSided])));
-    let capped = of(&[Way::ZPassCapped]);
+    passes.push(counted("z-pass", pass(up), pass(down), sides(&[CountMethod::ZPassTwoSided])));
+    let capped = of(&[CountMethod::ZPassCapped]);
     let near_caps = capped.iter().flat_map(|shape| shape.caps.clone()).collect();
-    let ledge = counted("z-pass, sides", pass(up), pass(down), sides(&[Way::ZPassCapped]));
-    passes.push(CountPass { layer: Layer::Ledge, ..ledge });
+    let ledge = counted("z-pass, sides", pass(up), pass(down), sides(&[CountMethod::ZPassCapped]));
+    passes.push(CountPass { depths: VolumeDepths::Ledge, ..ledge });
     let caps = counted("z-pass, near caps", pass(up), pass(down), near_caps);
-    passes.push(CountPass { layer: Layer::LedgeCap, ..caps });
-    passes.push(counted("z-fail", fail(down), fail(up), whole(&[Way::ZFail, Way::ZFailTruncated])));
-    let mut clamped = counted("z-fail, depth clamped", fail(down), fail(up), whole(&[Way::ZFailClamped]));
+    passes.push(CountPass { depths: VolumeDepths::LedgeCap, ..caps });
+    passes.push(counted("z-fail", fail(down), fail(up), whole(&[CountMethod::ZFail, CountMethod::ZFailTruncated])));
+    let mut clamped = counted("z-fail, depth clamped", fail(down), fail(up), whole(&[CountMethod::ZFailClamped]));
     clamped.state.depth_clamp = true;
     passes.push(clamped);
     passes.retain(|pass| !matches!(&pass.counted, Counted::Volumes(draws) if draws.is_empty()));

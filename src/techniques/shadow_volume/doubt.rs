@@ -4,12 +4,12 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::casters::Casting;
-use super::choice::Way;
+use super::casters::CastingObject;
+use super::choice::CountMethod;
 use super::points::{Point, World};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
-use crate::geometry::volume::Kind;
+use crate::geometry::volume::SurfaceKind;
 use crate::lights::{Drawable, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
@@ -29,14 +29,20 @@ enum Fault {
 }
 
 /// Warns if a sample finds wrong pixels, with the reason. Nothing is sampled if nothing can be wrong.
-pub fn warn(view: &LightView<'_>, casting: &[Casting], ways: &[Way], settings: &Settings, notes: &mut Notes) {
-    let drawn: Vec<&Casting> =
-        casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut).map(|(caster, _)| caster).collect();
+pub fn warn(
+    view: &LightView<'_>,
+    casting: &[CastingObject],
+    ways: &[CountMethod],
+    settings: &Settings,
+    notes: &mut Notes,
+) {
+    let drawn: Vec<&CastingObject> =
+        casting.iter().zip(ways).filter(|(_, way)| **way != CountMethod::LeftOut).map(|(caster, _)| caster).collect();
     warn_of_reach(view, casting, ways, notes);
     if !may_be_wrong(&drawn, settings.method) {
         return;
     }
-    let distance = |caster: &Casting| model_distance(view, caster, settings);
+    let distance = |caster: &CastingObject| model_distance(view, caster, settings);
     let ends = settings.method == Method::ZFailTruncated;
     let world = World::new(view, &drawn, if ends { Some(&distance) } else { None });
     let [width, height] = view.scene.image.size;
@@ -81,14 +87,16 @@ const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 
 /// Warns of casters so large that GL's clipping in f32 moves their visible parts by a part of a pixel: volumes meet their
 /// casters' vertices, so that these cannot be cut before. With per-vertex lighting no item is cut.
-fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes: &mut Notes) {
+fn warn_of_reach(view: &LightView<'_>, casting: &[CastingObject], ways: &[CountMethod], notes: &mut Notes) {
     let camera = &view.scene.camera;
     let most_moved = |item: &Drawable| {
         let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
         match way {
             _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
-            Some(Way::ZFail | Way::ZFailClamped | Way::ZFailTruncated) => Some(MOST_MOVED_WHOLE),
-            None | Some(Way::LeftOut) => None,
+            Some(CountMethod::ZFail | CountMethod::ZFailClamped | CountMethod::ZFailTruncated) => {
+                Some(MOST_MOVED_WHOLE)
+            }
+            None | Some(CountMethod::LeftOut) => None,
             Some(_) => Some(MOST_MOVED),
         }
     };
@@ -110,15 +118,15 @@ fn warn_of_reach(view: &LightView<'_>, casting: &[Casting], ways: &[Way], notes:
     ));
 }
 
-fn may_be_wrong(drawn: &[&Casting], method: Method) -> bool {
+fn may_be_wrong(drawn: &[&CastingObject], method: Method) -> bool {
     let is_partial = matches!(method, Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZFailTruncated);
     is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
 }
 
 /// Greatest number of volumes that may hold one point: one for each triangle of an open shell, two for a closed one.
-fn most_layers(drawn: &[&Casting]) -> usize {
+fn most_layers(drawn: &[&CastingObject]) -> usize {
     let shells = drawn.iter().flat_map(|caster| caster.caster.shells());
-    shells.map(|shell| if shell.kind == Kind::Closed { 2 } else { shell.triangles.len() }).sum()
+    shells.map(|shell| if shell.kind == SurfaceKind::Closed { 2 } else { shell.triangles.len() }).sum()
 }
 
 /// Tests whether the count may be a multiple of 256, which looks like none. The point is then surely in shadow.
@@ -159,7 +167,13 @@ fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
     })
 }
 
-fn describe(fault: Fault, points: &[Point], drawn: &[&Casting], settings: &Settings, view: &LightView<'_>) -> String {
+fn describe(
+    fault: Fault,
+    points: &[Point],
+    drawn: &[&CastingObject],
+    settings: &Settings,
+    view: &LightView<'_>,
+) -> String {
     let most = |of: fn(&Point) -> u32| points.iter().map(of).max().unwrap_or(0);
     match fault {
         Fault::Hole => {

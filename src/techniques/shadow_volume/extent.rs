@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 
-use super::casters::Casting;
-use crate::geometry::volume::Source;
+use super::casters::CastingObject;
+use crate::geometry::volume::LightSource;
 use crate::lights::LightView;
 
 /// `normal · x = distance`; beyond it is where the dot product is greater.
@@ -26,7 +26,7 @@ const MARGIN: f64 = 1e-3;
 
 /// A plane beyond the eye, the near rectangle and all that is seen, which every ray from the light through the caster's
 /// box crosses: the one of six that cuts the volume shortest. `None`: none of the six does.
-pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Option<Plane> {
+pub fn beyond_all(view: &LightView<'_>, caster: &CastingObject, source: LightSource) -> Option<Plane> {
     let bounds = view.camera.seen_bounds;
     let rounding = SLACK * bounds.min.abs().max(bounds.max.abs()).max_element();
     let box_corners = caster.bounds.corners().map(|corner| caster.world_from_model.transform_point3(corner));
@@ -52,7 +52,7 @@ pub fn beyond_all(view: &LightView<'_>, caster: &Casting, source: Source) -> Opt
 
 /// Tests whether the caster is flat, and light, eye and all that is seen are on one side of its plane: then its volume holds
 /// nothing that is seen, itself included.
-pub fn is_flat_before_all(view: &LightView<'_>, caster: &Casting, source: Source) -> bool {
+pub fn is_flat_before_all(view: &LightView<'_>, caster: &CastingObject, source: LightSource) -> bool {
     let Some(axis) = caster.bounds.flat_axis() else { return false };
     let normal = caster.world_from_model.inverse().transpose().transform_vector3(axis).normalize();
     let middle = caster.world_from_model.transform_point3(caster.bounds.center());

@@ -10,13 +10,13 @@ mod points;
 mod settings;
 mod shapes;
 
-use self::casters::{Casting, casting};
-use self::choice::Way;
+use self::casters::{CastingObject, casting_objects};
+use self::choice::CountMethod;
 use self::settings::Settings;
 use self::shapes::Shape;
 use super::{Axis, ShadowSettings, Technique};
-use crate::geometry::volume::{Kind, Source};
-use crate::lights::light::Counting;
+use crate::geometry::volume::{LightSource, SurfaceKind};
+use crate::lights::light::StencilCount;
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
@@ -66,7 +66,7 @@ impl ShadowSettings for Settings {
     ) -> Result<LightTerm, SettingsError> {
         let mut term = LightTerm::unshadowed(view.scene, view.index);
         term.dimming = self.dimming;
-        let casting = casting(view.items);
+        let casting = casting_objects(view.items);
         explain(view, &casting, notes);
         let ways = choice::ways(view, &casting, self, notes);
         let shapes = shapes::shapes(view, &casting, &ways, source(view), self, notes);
@@ -82,17 +82,17 @@ impl ShadowSettings for Settings {
     }
 }
 
-fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Counting {
-    let has = |wanted: Way| shapes.iter().any(|shape| shape.way == wanted);
-    Counting {
+fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> StencilCount {
+    let has = |wanted: CountMethod| shapes.iter().any(|shape| shape.way == wanted);
+    StencilCount {
         passes: counts::passes(view, shapes, settings),
         redraw: settings.redraw,
         of_all: false,
         // The end of a truncated volume may lie beyond the camera's far plane too.
-        infinite: has(Way::ZFail) || has(Way::ZFailTruncated),
-        clamped: has(Way::ZFailClamped),
+        infinite: has(CountMethod::ZFail) || has(CountMethod::ZFailTruncated),
+        clamped: has(CountMethod::ZFailClamped),
         casters: shapes.iter().filter(|shape| shape.meets_surface()).map(|shape| shape.object).collect(),
-        ledge: has(Way::ZPassCapped).then_some(settings.ledge),
+        ledge: has(CountMethod::ZPassCapped).then_some(settings.ledge),
         lighting: settings.lighting,
         scissor: if view.keep_all { None } else { view.camera.scissor(view.light(), view.scene.image.size) },
         volumes: shapes.iter().flat_map(|shape| shape.whole()).collect(),
@@ -101,18 +101,18 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Coun
 }
 
 /// Position of the light, or the direction to it, in world space.
-fn source(view: &LightView<'_>) -> Source {
+fn source(view: &LightView<'_>) -> LightSource {
     match &view.light().kind {
-        LightKind::Spot(spot) => Source::Point(spot.frustum.position),
-        LightKind::Point(point) => Source::Point(point.position),
-        LightKind::Directional { direction } => Source::Direction(-*direction),
+        LightKind::Spot(spot) => LightSource::Point(spot.frustum.position),
+        LightKind::Point(point) => LightSource::Point(point.position),
+        LightKind::Directional { direction } => LightSource::Direction(-*direction),
     }
 }
 
 /// Notes how casters that are not closed are counted.
-fn explain(view: &LightView<'_>, casting: &[Casting], notes: &mut Notes) {
+fn explain(view: &LightView<'_>, casting: &[CastingObject], notes: &mut Notes) {
     for caster in casting {
-        let open = caster.caster.shells().iter().filter(|shell| shell.kind != Kind::Closed).count();
+        let open = caster.caster.shells().iter().filter(|shell| shell.kind != SurfaceKind::Closed).count();
         if open > 0 {
             let all = caster.caster.shells().len();
             notes.chosen(

@@ -3,10 +3,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::casters::Casting;
+use super::casters::CastingObject;
 use super::source;
 use crate::geometry::rays::{Ray, Triangles};
-use crate::geometry::volume::{Outline, Source};
+use crate::geometry::volume::{LightSource, Outline};
 use crate::lights::{LightView, alpha};
 use crate::scene::{LightKind, LightShape};
 
@@ -40,7 +40,7 @@ pub struct Point {
 /// Surfaces to see and volumes to count.
 pub struct World<'a> {
     view: &'a LightView<'a>,
-    source: Source,
+    source: LightSource,
     surfaces: Triangles,
     /// The item of each triangle of `surfaces`, and its number there.
     owners: Vec<(usize, u32)>,
@@ -63,7 +63,11 @@ struct Eye {
 
 impl<'a> World<'a> {
     /// Prepares the volumes of `casting`. `distance`: how far each caster's volume goes, in its model's units, if it ends.
-    pub fn new(view: &'a LightView<'a>, casting: &[&Casting], distance: Option<&dyn Fn(&Casting) -> f64>) -> Self {
+    pub fn new(
+        view: &'a LightView<'a>,
+        casting: &[&CastingObject],
+        distance: Option<&dyn Fn(&CastingObject) -> f64>,
+    ) -> Self {
         let (mut surfaces, mut owners) = (Vec::new(), Vec::new());
         for (owner, item) in view.items.iter().enumerate() {
             for triangle in 0..(item.indices.end - item.indices.start) / 3 {
@@ -192,8 +196,8 @@ impl<'a> World<'a> {
     fn rounding(&self, point: DVec3, triangle: u32) -> f64 {
         let origin = self.view.items[self.owners[triangle as usize].0].world_from_model.w_axis.truncate();
         let light = match self.source {
-            Source::Point(light) => light,
-            Source::Direction(_) => self.view.scene.camera.eye,
+            LightSource::Point(light) => light,
+            LightSource::Direction(_) => self.view.scene.camera.eye,
         };
         let met = point.distance(origin) + origin.distance(self.view.scene.camera.eye) + origin.distance(light);
         4.0 * 2.0_f64.powi(-24) * met
@@ -203,9 +207,9 @@ impl<'a> World<'a> {
     fn toward(&self, point: DVec3) -> Ray {
         let away = self.source.away(point);
         let way = match self.source {
-            Source::Point(_) => away,
+            LightSource::Point(_) => away,
             // A ray from beyond the whole scene.
-            Source::Direction(_) => away.normalize() * (4.0 * (self.largest + point.abs().max_element())),
+            LightSource::Direction(_) => away.normalize() * (4.0 * (self.largest + point.abs().max_element())),
         };
         Ray { origin: point - way, way, start: 0.0, end: 1.0 }
     }

@@ -6,7 +6,7 @@ use crate::pass::Redraw;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
 
-/// Way in which volumes are counted [GDC, "Review: Stenciled Shadow Volumes"].
+/// Method by which volumes are counted [GDC, "Review: Stenciled Shadow Volumes"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The cheapest way that is right, for each caster.

@@ -6,19 +6,19 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use super::casters::Casting;
-use super::choice::Way;
+use super::casters::CastingObject;
+use super::choice::CountMethod;
 use super::extent;
 use super::settings::Settings;
 use crate::geometry::Mesh;
-use crate::geometry::volume::{self, CappedVolume, Caps, Extent, Outline, Source, Viewer, Volume};
+use crate::geometry::volume::{self, CameraHulls, CappedVolume, Caps, Extent, LightSource, Outline, Volume};
 use crate::lights::light::{VolumeDraw, VolumeSpace};
 use crate::lights::{LightView, Notes};
 use crate::pass::{MeshRef, Primitive};
 
 /// A caster's volume. Ranges that are empty are not drawn.
 pub struct Shape {
-    pub way: Way,
+    pub way: CountMethod,
     /// Index of its caster among the scene's objects.
     pub object: usize,
     pub sides: VolumeDraw,
@@ -34,48 +34,48 @@ impl Shape {
 
     /// Tests whether it has a cap whose depths must equal its caster's to the bit.
     pub fn meets_surface(&self) -> bool {
-        self.way != Way::ZPassCapped && !self.caps.is_empty()
+        self.way != CountMethod::ZPassCapped && !self.caps.is_empty()
     }
 }
 
 /// Shapes of the casters that are drawn.
 pub fn shapes(
     view: &LightView<'_>,
-    casting: &[Casting],
-    ways: &[Way],
-    source: Source,
+    casting: &[CastingObject],
+    ways: &[CountMethod],
+    source: LightSource,
     settings: &Settings,
     notes: &mut Notes,
 ) -> Vec<Shape> {
     let camera = &view.scene.camera;
-    let viewer = Viewer::new(&view.camera.clip_from_world);
+    let viewer = CameraHulls::new(&view.camera.clip_from_world);
     let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
     let mut shapes = Vec::new();
-    for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != Way::LeftOut) {
+    for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != CountMethod::LeftOut) {
         outline.find(&caster.caster, source.transformed(&caster.world_from_model.inverse()));
         if outline.edges().is_empty() && outline.weights().iter().all(|weight| *weight == 0) {
             continue;
         }
         let name = Name { caster, light: view.index };
         let silhouette = name.silhouette(&outline);
-        let touches = *way == Way::ZPassCapped && volume::light_touches(&caster.caster, &outline);
-        let way = if touches { Way::ZFailClamped } else { *way };
+        let touches = *way == CountMethod::ZPassCapped && volume::light_touches(&caster.caster, &outline);
+        let way = if touches { CountMethod::ZFailClamped } else { *way };
         if touches {
             let why = "the light touches its surface, whose cap on the near plane has no area";
             notes.chosen(format!("{} for light {}", caster.label, view.index), "z-fail-clamped", why);
         }
-        shapes.push(if way == Way::ZPassCapped {
+        shapes.push(if way == CountMethod::ZPassCapped {
             let view_from_model = view.camera.viewer.eye_from_world * caster.world_from_model;
             let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
             let end = beyond.map(|plane| in_view(&view.camera.viewer.eye_from_world, plane));
             capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
             name.capped(&capped, silhouette)
         } else {
-            let seen = volume::Casting::new(&caster.bounds, &caster.world_from_model, source);
+            let seen = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source);
             let touches = || volume::light_touches(&caster.caster, &outline);
             let extent = match way {
-                Way::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
-                Way::ZFail | Way::ZFailClamped if touches() => Extent::Infinite,
+                CountMethod::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
+                CountMethod::ZFail | CountMethod::ZFailClamped if touches() => Extent::Infinite,
                 _ => end(view, caster, source),
             };
             let caps = caps(way, &seen, &viewer, view.keep_all, extent);
@@ -87,10 +87,10 @@ pub fn shapes(
 }
 
 /// Caps that can be seen, if the way of counting needs them.
-fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Extent) -> Caps {
+fn caps(way: CountMethod, seen: &volume::VolumeHulls, viewer: &CameraHulls, all: bool, extent: Extent) -> Caps {
     match way {
-        Way::ZFailTruncated => Caps::BOTH,
-        Way::ZFail | Way::ZFailClamped => {
+        CountMethod::ZFailTruncated => Caps::BOTH,
+        CountMethod::ZFail | CountMethod::ZFailClamped => {
             let far = all || extent != Extent::Infinite || seen.far_cap_may_be_seen(viewer);
             Caps { light: all || seen.light_cap_may_be_seen(viewer), far }
         }
@@ -100,7 +100,7 @@ fn caps(way: Way, seen: &volume::Casting, viewer: &Viewer, all: bool, extent: Ex
 
 /// End of a volume that is counted only before visible surfaces: a plane beyond all that is seen and the eye. Sides that go
 /// on behind the floor would be wasted fragments.
-fn end(view: &LightView<'_>, caster: &Casting, source: Source) -> Extent {
+fn end(view: &LightView<'_>, caster: &CastingObject, source: LightSource) -> Extent {
     let Some(end) = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all) else {
         return Extent::Infinite;
     };
@@ -117,7 +117,7 @@ fn in_view(view_from_world: &DMat4, plane: extent::Plane) -> (DVec3, f64) {
 }
 
 /// The distance that truncated volumes reach, in the caster's model units.
-pub fn model_distance(view: &LightView<'_>, caster: &Casting, settings: &Settings) -> f64 {
+pub fn model_distance(view: &LightView<'_>, caster: &CastingObject, settings: &Settings) -> f64 {
     let world = settings.distance.unwrap_or_else(|| default_distance(view));
     let scale = caster.world_from_model.determinant().abs().cbrt();
     world / scale
@@ -130,7 +130,7 @@ pub fn default_distance(view: &LightView<'_>) -> f64 {
 
 /// Name and transform of a draw.
 struct Name<'a> {
-    caster: &'a Casting,
+    caster: &'a CastingObject,
     light: usize,
 }
 
@@ -155,7 +155,7 @@ impl Name<'_> {
         MeshRef(Arc::new(Mesh { name, homogeneous, indices, ..Mesh::default() }))
     }
 
-    fn volume(&self, way: Way, volume: &Volume, silhouette: VolumeDraw) -> Shape {
+    fn volume(&self, way: CountMethod, volume: &Volume, silhouette: VolumeDraw) -> Shape {
         let mesh = self.mesh("volume", volume.vertices().to_vec(), volume.indices().to_vec());
         let draw = |what, indices| self.draw(what, &mesh, indices, self.model());
         let reversed = VolumeDraw { reversed: true, ..draw("averted light cap", volume.light_cap_reversed()) };
@@ -170,7 +170,7 @@ impl Name<'_> {
         let cap = draw("near cap", volume.near_cap());
         let caps = if cap.indices.is_empty() { Vec::new() } else { vec![cap] };
         Shape {
-            way: Way::ZPassCapped,
+            way: CountMethod::ZPassCapped,
             object: self.caster.object,
             sides: draw("sides", volume.sides()),
             caps,

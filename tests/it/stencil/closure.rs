@@ -6,9 +6,9 @@ use glam::{DMat4, DVec3};
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Device, Measure, Pixels};
 use glumbra::geometry::Mesh;
-use glumbra::geometry::volume::{Caps, Caster, Extent, Outline, Source, Volume};
+use glumbra::geometry::volume::{Caps, Caster, Extent, LightSource, Outline, Volume};
 use glumbra::lights::Viewer;
-use glumbra::lights::light::{Counting, VolumeDraw, VolumeSpace};
+use glumbra::lights::light::{StencilCount, VolumeDraw, VolumeSpace};
 use glumbra::math::spaces::{infinite_perspective, view_from_world};
 use glumbra::pass::{
     Chunk, Clear, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, MeshRef, Pass, PassList,
@@ -55,7 +55,14 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
         viewport: SIZE,
         clear: Clear { stencil: Some(0), ..Clear::default() },
         state: DrawState { depth_test: None, depth_write: false, stencil: Some(stencil), ..DrawState::DEPTH_ONLY },
-        batches: Counting::batches(&draws, viewer, None, nothing, FixedFunctionDesc::Shader("a volume"), Vec::new()),
+        batches: StencilCount::batches(
+            &draws,
+            viewer,
+            None,
+            nothing,
+            FixedFunctionDesc::Shader("a volume"),
+            Vec::new(),
+        ),
     };
     let label = String::from("depth and stencil");
     let image = ImageDesc { label, size: SIZE, format: Format::Depth24Stencil8, storage: Storage::Renderbuffer };
@@ -73,7 +80,7 @@ fn a_thousand_random_volumes_close() {
     let (mut held, mut drawn) = (0, 0);
     while held < 1000 {
         let caster = Caster::of_mesh(&soup().new_tree(&mut runner).unwrap().current());
-        let source: Source = source().new_tree(&mut runner).unwrap().current();
+        let source: LightSource = source().new_tree(&mut runner).unwrap().current();
         outline.find(&caster, source);
         volume.extrude(&caster, &outline, Extent::Infinite, Caps::BOTH);
         let eye = random.vector(4.0);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use glumbra::geometry::Mesh;
-use glumbra::geometry::volume::{Caps, Caster, Extent, Outline, Source, Volume};
+use glumbra::geometry::volume::{Caps, Caster, Extent, LightSource, Outline, Volume};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -31,7 +31,7 @@ fn open_edges(volume: &Volume) -> usize {
     edges.values().filter(|sum| **sum != 0).count()
 }
 
-fn check(case: &str, mesh: &Mesh, source: Source, outline: &mut Outline, volume: &mut Volume) {
+fn check(case: &str, mesh: &Mesh, source: LightSource, outline: &mut Outline, volume: &mut Volume) {
     let caster = Caster::of_mesh(mesh);
     outline.find(&caster, source);
     for extent in [Extent::Infinite, Extent::Truncated(3.0)] {
@@ -45,22 +45,22 @@ fn check(case: &str, mesh: &Mesh, source: Source, outline: &mut Outline, volume:
 }
 
 /// Lights in places where something is degenerate, for meshes within a radius of 2.
-fn hard_lights(mesh: &Mesh) -> Vec<Source> {
+fn hard_lights(mesh: &Mesh) -> Vec<LightSource> {
     let corner = |k: usize| DVec3::from_array(mesh.positions[k % mesh.positions.len()].map(f64::from));
     let mut lights = lights_outside();
     for k in [0, 7, 31] {
         let [a, b, c] = [0, 1, 2].map(|i| corner(mesh.indices[(3 * k + i) % mesh.indices.len()] as usize));
         lights.extend([
             // At a corner, a millionth beside it, as near as f64 can say; in the plane, far and near; within.
-            Source::Point(a),
-            Source::Point(a + DVec3::new(1e-6, -7e-7, 3e-7)),
-            Source::Point(a * (1.0 + 1e-16) + 1e-300),
-            Source::Point(a + 3.0 * (b - a) - 2.0 * (c - a)),
-            Source::Point((a + b + c) / 3.0),
-            Source::Point(0.5 * (a + b)),
-            Source::Point(mesh.bounds.center()),
-            Source::Direction(b - a),
-            Source::Direction((b - a) - 3.0 * (c - b)),
+            LightSource::Point(a),
+            LightSource::Point(a + DVec3::new(1e-6, -7e-7, 3e-7)),
+            LightSource::Point(a * (1.0 + 1e-16) + 1e-300),
+            LightSource::Point(a + 3.0 * (b - a) - 2.0 * (c - a)),
+            LightSource::Point((a + b + c) / 3.0),
+            LightSource::Point(0.5 * (a + b)),
+            LightSource::Point(mesh.bounds.center()),
+            LightSource::Direction(b - a),
+            LightSource::Direction((b - a) - 3.0 * (c - b)),
         ]);
     }
     lights.retain(|light| light.homogeneous() != glam::DVec4::ZERO);
@@ -118,7 +118,7 @@ fn a_light_in_a_plane_is_on_neither_side_of_it() {
     for k in 0..200 {
         // Points that f64 rounds to just beside the plane, or onto it.
         let (s, t) = (f64::from(k) * 0.137 - 9.0, f64::from(k % 17) * 0.31 - 2.0);
-        outline.find(&caster, Source::Point(a + s * (b - a) + t * (c - a)));
+        outline.find(&caster, LightSource::Point(a + s * (b - a) + t * (c - a)));
         assert_eq!(outline.weights()[0], -outline.weights()[1]);
         assert_eq!(outline.exact_tests(), 2);
         told[usize::from(outline.weights()[0] != 0)] += 1;

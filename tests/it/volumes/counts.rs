@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use glumbra::geometry::Mesh;
-use glumbra::geometry::volume::{Caps, Caster, Counting, Extent, Outline, Source, Volume};
+use glumbra::geometry::volume::{Caps, Caster, CountedFaces, Extent, LightSource, Outline, Volume};
 use proptest::prelude::*;
 
 use super::closure::runner;
@@ -11,7 +11,7 @@ use super::shapes::{Case, cases, lights_outside, placements, soup, source};
 use crate::oracle::scenes::{cuboid, mesh};
 
 /// Compares at random points of the cube of half 2; returns how many points were told, and the sum of their counts.
-fn compare(case: &str, mesh: &Mesh, source: Source, facing_only: bool, points: u32) -> (u32, i32) {
+fn compare(case: &str, mesh: &Mesh, source: LightSource, facing_only: bool, points: u32) -> (u32, i32) {
     let caster = Caster::of_mesh(mesh);
     let (mut outline, mut volume) = (Outline::default(), Volume::default());
     outline.find(&caster, source);
@@ -49,7 +49,7 @@ fn ways_out_are_blockers_for_random_soups() {
     let run = runner(400).run(&strategy, |(mesh, source)| {
         let caster = Caster::of_mesh(&mesh);
         // What is closed by chance has another rule.
-        prop_assume!(!caster.shells().iter().any(|shell| shell.kind == glumbra::geometry::volume::Kind::Closed));
+        prop_assume!(!caster.shells().iter().any(|shell| shell.kind == glumbra::geometry::volume::SurfaceKind::Closed));
         compare("soup", &mesh, source, false, 20);
         Ok(())
     });
@@ -95,11 +95,11 @@ fn a_light_inside_is_shut_in() {
     let caster = Caster::of_mesh(&mesh);
     let mut outline = Outline::default();
     for (light, expected) in [
-        (DVec3::new(0.0, 0.5, 0.1), [Counting::All, Counting::Facing, Counting::Facing]),
-        (DVec3::new(0.0, 0.1, 0.1), [Counting::All, Counting::All, Counting::Facing]),
-        (DVec3::new(0.0, 1.6, 0.1), [Counting::Facing; 3]),
+        (DVec3::new(0.0, 0.5, 0.1), [CountedFaces::All, CountedFaces::Facing, CountedFaces::Facing]),
+        (DVec3::new(0.0, 0.1, 0.1), [CountedFaces::All, CountedFaces::All, CountedFaces::Facing]),
+        (DVec3::new(0.0, 1.6, 0.1), [CountedFaces::Facing; 3]),
     ] {
-        outline.find(&caster, Source::Point(light));
+        outline.find(&caster, LightSource::Point(light));
         assert_eq!(outline.countings(), expected, "{light}");
         // All triangles and facing ones agree on what is in shadow.
         let mut volume = Volume::default();
@@ -109,7 +109,7 @@ fn a_light_inside_is_shut_in() {
         let mut shadowed = 0;
         for _ in 0..1000 {
             let (point, way) = (random.vector(2.5), random.vector(1.0));
-            let Some(all) = blockers(&mesh, Source::Point(light), point, false) else { continue };
+            let Some(all) = blockers(&mesh, LightSource::Point(light), point, false) else { continue };
             let found = exits(&triangles, point, way);
             assert_eq!(found > 0, all > 0, "{light} {point}");
             shadowed += u32::from(found > 0);
@@ -123,7 +123,7 @@ fn truncated_volumes_count_only_so_far() {
     let quad = glumbra::geometry::primitive("quad").unwrap();
     let caster = Caster::of_mesh(&quad);
     let (mut outline, mut volume) = (Outline::default(), Volume::default());
-    outline.find(&caster, Source::Direction(DVec3::Y));
+    outline.find(&caster, LightSource::Direction(DVec3::Y));
     volume.extrude(&caster, &outline, Extent::Truncated(2.0), Caps::BOTH);
     let triangles = triangles(&volume);
     for (y, expected) in [(0.5, 0), (-0.5, 1), (-1.9, 1), (-2.1, 0)] {

@@ -1,9 +1,9 @@
-//! Counting by brute force: how often a ray crosses a volume's homogeneous triangles, and how many triangles of a mesh
+//! Counts by brute force: how often a ray crosses a volume's homogeneous triangles, and how many triangles of a mesh
 //! stand between a light and a point.
 
 use glam::{DMat4, DVec3, DVec4};
 use glumbra::geometry::Mesh;
-use glumbra::geometry::volume::{Source, Volume};
+use glumbra::geometry::volume::{LightSource, Volume};
 
 /// A triangle's corners (w >= 0) and how often it counts.
 pub type Triangle = ([DVec4; 3], i32);
@@ -55,11 +55,11 @@ fn crossing(([a, b, c], count): &Triangle, origin: DVec3, way: DVec3) -> Option<
 
 /// How many triangles of `mesh` the way from the light to `point` crosses: those that face the light, or all. `None`
 /// where that is too near to call.
-pub fn blockers(mesh: &Mesh, source: Source, point: DVec3, facing_only: bool) -> Option<i32> {
+pub fn blockers(mesh: &Mesh, source: LightSource, point: DVec3, facing_only: bool) -> Option<i32> {
     const MARGIN: f64 = 1e-4;
     let way = match source {
-        Source::Point(light) => light - point,
-        Source::Direction(way) => way * (20.0 / way.length()),
+        LightSource::Point(light) => light - point,
+        LightSource::Direction(way) => way * (20.0 / way.length()),
     };
     let mut count = 0;
     for triangle in mesh.indices.as_chunks::<3>().0 {

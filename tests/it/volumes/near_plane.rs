@@ -3,7 +3,7 @@
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::Mesh;
-use glumbra::geometry::volume::{CappedVolume, Caster, Landing, Outline, Source};
+use glumbra::geometry::volume::{CappedVolume, Caster, Landing, LightSource, Outline};
 use glumbra::math::spaces::view_from_world;
 
 use super::homogeneous::{Random, Triangle, blockers, corners, entries, to_world};
@@ -29,12 +29,12 @@ fn check(case: &str, mesh: &Mesh, facing_only: bool, world_from_model: &DMat4, s
     let eye = random.vector(1.6);
     let view_from_world = view_from_world(eye, eye + random.vector(1.0), DVec3::Y);
     let source = match seed % 4 {
-        0 => Source::Direction(random.vector(1.0)),
+        0 => LightSource::Direction(random.vector(1.0)),
         // In the near plane itself.
         1 if seed % 8 == 1 => {
-            Source::Point(view_from_world.inverse().transform_point3(random.vector(2.0).with_z(-NEAR)))
+            LightSource::Point(view_from_world.inverse().transform_point3(random.vector(2.0).with_z(-NEAR)))
         }
-        _ => Source::Point(random.vector(3.0)),
+        _ => LightSource::Point(random.vector(3.0)),
     };
     let view_from_model = view_from_world * *world_from_model;
     let caster = Caster::of_mesh(mesh);
@@ -43,7 +43,7 @@ fn check(case: &str, mesh: &Mesh, facing_only: bool, world_from_model: &DMat4, s
     if outline.countings().iter().any(|counting| *counting != outline.countings()[0]) {
         return;
     }
-    let facing_only = facing_only && outline.countings()[0] == glumbra::geometry::volume::Counting::Facing;
+    let facing_only = facing_only && outline.countings()[0] == glumbra::geometry::volume::CountedFaces::Facing;
     volume.cut(&caster, &outline, &view_from_model, NEAR);
     let triangles = triangles(&volume);
     let seen = to_world(mesh, &view_from_model);
@@ -109,7 +109,7 @@ fn cap_triangles_lie_in_the_near_plane_and_face_the_eye() {
         let view = view_from_world(random.vector(2.0), random.vector(1.0), DVec3::Y);
         let view = if seed % 2 == 0 { view } else { view * DMat4::from_scale(DVec3::new(1.0, -1.0, 1.0)) };
         let (mut outline, mut volume) = (Outline::default(), CappedVolume::default());
-        outline.find(&caster, Source::Point(random.vector(3.0)));
+        outline.find(&caster, LightSource::Point(random.vector(3.0)));
         volume.cut(&caster, &outline, &view, NEAR);
         for [a, b, c] in corners(volume.vertices(), volume.indices(), volume.near_cap()) {
             for corner in [a, b, c] {

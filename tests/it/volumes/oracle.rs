@@ -1,7 +1,7 @@
 //! The ray tracer's counts: against known scenes, against its own visibility, against volumes that were built.
 
 use glam::{DMat4, DVec3};
-use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Landing, Outline, Source, Volume};
+use glumbra::geometry::volume::{CappedVolume, Caps, Caster, Extent, Landing, LightSource, Outline, Volume};
 use glumbra::math::spaces::view_from_world;
 use glumbra::scene::{Object, Scene};
 use glumbra::truth::{Answer, Count, Options, trace, volume_count, volume_count_at};
@@ -27,14 +27,14 @@ fn with(objects: Vec<Object>, position: DVec3) -> Scene {
 }
 
 /// Volumes of every object, at points of the cube of half 2.
-fn compare(case: &str, mesh: &glumbra::geometry::Mesh, place: DMat4, source: Source, points: usize) -> u32 {
+fn compare(case: &str, mesh: &glumbra::geometry::Mesh, place: DMat4, source: LightSource, points: usize) -> u32 {
     let mut random = Random::new(points as u64);
     let points: Vec<DVec3> = (0..points).map(|_| random.vector(2.0)).collect();
     let light = match source {
-        Source::Point(position) => {
+        LightSource::Point(position) => {
             near_nothing(light(position, if position == DVec3::ZERO { DVec3::X } else { DVec3::ZERO }))
         }
-        Source::Direction(towards) => sun(towards),
+        LightSource::Direction(towards) => sun(towards),
     };
     let scene = scene(vec![placed(mesh.clone(), place)], light);
     let expected = volume_count_at(&scene, 0, &points, 1e-5, &Options::default()).unwrap();
@@ -65,14 +65,14 @@ fn built_volumes_hold_what_the_oracle_says() {
             let mut sum = 0;
             for position in [DVec3::new(2.1, 4.3, 3.2), DVec3::new(-0.3, 2.6, 0.2), DVec3::new(0.0213, 0.0727, -0.0411)]
             {
-                sum += compare(&format!("{name} {place_name}"), &mesh, place, Source::Point(position), points);
+                sum += compare(&format!("{name} {place_name}"), &mesh, place, LightSource::Point(position), points);
             }
-            let towards = Source::Direction(DVec3::new(0.3, 1.1, -0.4));
+            let towards = LightSource::Direction(DVec3::new(0.3, 1.1, -0.4));
             sum += compare(&format!("{name} {place_name}"), &mesh, place, towards, points);
             assert!(sum > 0, "{name}");
         }
     }
-    assert!(compare("dense", &dense(), DMat4::IDENTITY, Source::Point(DVec3::new(2.1, 4.3, 3.2)), 60) > 0);
+    assert!(compare("dense", &dense(), DMat4::IDENTITY, LightSource::Point(DVec3::new(2.1, 4.3, 3.2)), 60) > 0);
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn a_millionth_from_a_corner_the_count_is_still_told() {
     for Case { name, mesh, .. } in cases().into_iter().filter(|case| case.mesh.triangle_count() < 500) {
         for k in [0, 1, 2] {
             let corner = DVec3::from_array(mesh.positions[k % mesh.positions.len()].map(f64::from));
-            let source = Source::Point(corner + DVec3::new(7e-7, 1e-6, -4e-7));
+            let source = LightSource::Point(corner + DVec3::new(7e-7, 1e-6, -4e-7));
             compare(name, &mesh, DMat4::IDENTITY, source, 100);
         }
     }
@@ -99,7 +99,7 @@ fn the_near_plane_is_capped_where_the_oracle_says_it_is_in_shadow() {
         let view = view_from_world(eye, eye + random.vector(1.0), DVec3::Y);
         let caster = Caster::of_mesh(mesh);
         let (mut outline, mut volume) = (Outline::default(), CappedVolume::default());
-        outline.find(&caster, Source::Point(position).transformed(&place.inverse()));
+        outline.find(&caster, LightSource::Point(position).transformed(&place.inverse()));
         volume.cut(&caster, &outline, &(view * place), NEAR);
         hard += u32::from(volume.landing() == Landing::Some);
         let cap: Vec<_> = corners(volume.vertices(), volume.indices(), 0..volume.indices().len() as u32);

@@ -2,7 +2,7 @@
 //! and sampled.
 
 use glam::{DMat4, DVec3};
-use glumbra::geometry::volume::{Casting, Source, Viewer, scissor};
+use glumbra::geometry::volume::{CameraHulls, LightSource, VolumeHulls, scissor};
 use glumbra::math::Aabb;
 use glumbra::math::hull::Hull;
 use glumbra::math::spaces::{perspective, view_from_world};
@@ -10,10 +10,10 @@ use glumbra::math::spaces::{perspective, view_from_world};
 use super::homogeneous::Random;
 
 /// Whether the way from the light to `point` meets the box.
-fn is_behind(bounds: &Aabb, source: Source, point: DVec3) -> bool {
+fn is_behind(bounds: &Aabb, source: LightSource, point: DVec3) -> bool {
     let way = match source {
-        Source::Point(light) => light - point,
-        Source::Direction(way) => way * 1e3,
+        LightSource::Point(light) => light - point,
+        LightSource::Direction(way) => way * 1e3,
     };
     let (mut near, mut far) = (0.0f64, 1.0f64);
     for axis in 0..3 {
@@ -32,8 +32,11 @@ fn bounds_never_deny_what_is_there() {
         let center = random.vector(2.0);
         let half = DVec3::new(1.1 + random.unit(), 1.1 + random.unit(), 1.1 + random.unit()) * 0.3;
         let bounds = Aabb { min: center - half, max: center + half };
-        let source =
-            if seed % 3 == 0 { Source::Direction(random.vector(1.0)) } else { Source::Point(random.vector(3.0)) };
+        let source = if seed % 3 == 0 {
+            LightSource::Direction(random.vector(1.0))
+        } else {
+            LightSource::Point(random.vector(3.0))
+        };
         // Half of the eyes stand about where the shadow falls.
         let behind = center + source.away(center).normalize() * (1.0 + random.unit()) * 2.0;
         let eye = if seed % 2 == 0 { random.vector(3.0) } else { behind + random.vector(0.4) };
@@ -41,7 +44,7 @@ fn bounds_never_deny_what_is_there() {
         let clip = perspective(0.8, 1.4, 0.1, 12.0) * view_from_world(eye, eye + random.vector(1.0), DVec3::Y);
         // All in the box's own space; the tests are told of the world's.
         let (clip_from_box, box_source) = (clip * place, source.transformed(&place.inverse()));
-        let (viewer, casting) = (Viewer::new(&clip), Casting::new(&bounds, &place, source));
+        let (viewer, casting) = (CameraHulls::new(&clip), VolumeHulls::new(&bounds, &place, source));
         let said = [
             casting.may_hold_near(&viewer),
             casting.may_shadow_view(&viewer),
@@ -105,12 +108,12 @@ fn scissors_hold_every_pixel_of_the_hull() {
 fn a_caster_out_of_the_lights_reach_does_not_matter() {
     let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, z)| DVec3::new(x, -4.0, z));
     let reach = Hull::pyramid(DVec3::ZERO, &base);
-    let source = Source::Point(DVec3::ZERO);
+    let source = LightSource::Point(DVec3::ZERO);
     for (center, expected) in
         [(DVec3::NEG_Y * 2.0, true), (DVec3::NEG_Y * 4.3, false), (DVec3::new(0.9, -2.0, 0.0), false)]
     {
         let bounds = Aabb { min: center - 0.2, max: center + 0.2 };
-        let casting = Casting::new(&bounds, &DMat4::IDENTITY, source);
+        let casting = VolumeHulls::new(&bounds, &DMat4::IDENTITY, source);
         assert_eq!(casting.may_matter_within(&reach), expected, "{center}");
     }
 }

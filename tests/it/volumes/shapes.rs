@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DMat4, DVec3};
-use glumbra::geometry::volume::Source;
+use glumbra::geometry::volume::LightSource;
 use glumbra::geometry::{Mesh, load_obj, primitive};
 use proptest::prelude::*;
 
@@ -154,11 +154,11 @@ pub fn ball() -> Mesh {
 }
 
 /// Lights outside of anything within a radius of 2 of the origin.
-pub fn lights_outside() -> Vec<Source> {
+pub fn lights_outside() -> Vec<LightSource> {
     vec![
-        Source::Point(DVec3::new(2.1, 4.3, 3.2)),
-        Source::Point(DVec3::new(-0.3, 2.6, 0.2)),
-        Source::Direction(DVec3::new(0.3, 1.0, -0.2)),
+        LightSource::Point(DVec3::new(2.1, 4.3, 3.2)),
+        LightSource::Point(DVec3::new(-0.3, 2.6, 0.2)),
+        LightSource::Direction(DVec3::new(0.3, 1.0, -0.2)),
     ]
 }
 
@@ -182,14 +182,14 @@ pub fn soup() -> impl Strategy<Value = Mesh> {
     shape.prop_map(|shape| mesh(&shape))
 }
 
-pub fn source() -> impl Strategy<Value = Source> {
+pub fn source() -> impl Strategy<Value = LightSource> {
     let vector = || prop::array::uniform3(-4.0f64..4.0).prop_map(DVec3::from_array);
     // On the lattice of the soups' corners too: in planes, on lines, at corners.
     let lattice = prop::array::uniform3(-12i32..=12).prop_map(|p| DVec3::from_array(p.map(|x| f64::from(x) / 6.0)));
     prop_oneof![
-        vector().prop_map(Source::Point),
-        lattice.clone().prop_map(Source::Point),
-        vector().prop_map(Source::Direction),
-        lattice.prop_filter("no direction", |way| *way != DVec3::ZERO).prop_map(Source::Direction),
+        vector().prop_map(LightSource::Point),
+        lattice.clone().prop_map(LightSource::Point),
+        vector().prop_map(LightSource::Direction),
+        lattice.prop_filter("no direction", |way| *way != DVec3::ZERO).prop_map(LightSource::Direction),
     ]
 }

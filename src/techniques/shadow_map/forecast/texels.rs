@@ -48,7 +48,7 @@ pub struct Texels<'a> {
 
 /// A layer that a texel's ray crosses.
 #[derive(Clone, Copy)]
-struct Layer {
+struct Crossing {
     /// Depth, not clamped.
     depth: f64,
     item: usize,
@@ -118,7 +118,7 @@ impl<'a> Texels<'a> {
         match self.stored {
             Stored::Nearest => moved(),
             Stored::Middle { margin, eye_linear, alone } => {
-                let clamped = |layer: &Layer| layer.depth.clamp(0.0, 1.0);
+                let clamped = |layer: &Crossing| layer.depth.clamp(0.0, 1.0);
                 let nearest = casting().map(clamped).fold(1.0, f64::min);
                 let behind = layers.iter().map(clamped).filter(|depth| depth - margin > nearest);
                 match behind.min_by(f64::total_cmp) {
@@ -181,7 +181,7 @@ impl<'a> Texels<'a> {
     }
 
     /// Layers that the ray crosses and the map draws, in no order.
-    fn layers(&self, ray: &Ray) -> Vec<Layer> {
+    fn layers(&self, ray: &Ray) -> Vec<Crossing> {
         let mut layers = Vec::new();
         let far_sides = match self.settings.cull {
             None => None,
@@ -196,7 +196,7 @@ impl<'a> Texels<'a> {
             // The ray runs away from the light: a surface that it meets from behind looks away from the light.
             if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
                 let depth = self.depth_along(met.t);
-                layers.push(Layer { depth, item, triangle: met.triangle, casts });
+                layers.push(Crossing { depth, item, triangle: met.triangle, casts });
             }
         });
         layers
@@ -209,7 +209,7 @@ impl<'a> Texels<'a> {
     }
 
     /// Movement of a layer by the polygon offset, in window depth [GL 4.6, 14.6.5].
-    fn moved(&self, level: u32, center: DVec2, layer: &Layer) -> f64 {
+    fn moved(&self, level: u32, center: DVec2, layer: &Crossing) -> f64 {
         let PolygonOffset { factor, units } = self.offset;
         let unit = unit(self.settings.format, layer.depth);
         if factor == 0.0 {
