@@ -1,5 +1,6 @@
 //! The loop: plan a scene, run the passes on the device, read the pictures back.
 
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -60,7 +61,7 @@ pub fn on_contexts<T: Send>(
                         return;
                     }
                 };
-                let mut renderer = Renderer::new(context.as_ref());
+                let mut renderer = Renderer::new(&context);
                 while !stop.load(Ordering::Relaxed) {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     if index >= count || send.send(Ok((index, work(index, &mut renderer)))).is_err() {
@@ -96,8 +97,9 @@ pub struct Times {
 }
 
 impl Renderer {
-    /// A renderer on `context`, which is current on this thread and stays so.
-    pub fn new(context: &dyn Context) -> Self {
+    /// A renderer on `context`, which is current on this thread. The renderer keeps the context alive; either may be
+    /// dropped first.
+    pub fn new(context: &Rc<dyn Context>) -> Self {
         let device = Device::new(context);
         let (max_image_size, max_inputs) = device.limits();
         Self { device, limits: Limits { max_image_size, max_inputs } }

@@ -22,7 +22,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &[])?.scene;
 //! let context = context::open(&Default::default())?;
-//! let mut renderer = Renderer::new(context.as_ref());
+//! let mut renderer = Renderer::new(&context);
 //! let plan = renderer.plan(&scene, &Default::default())?;
 //! renderer.draw(&plan)?;
 //! let picture = renderer.read(&plan)?.picture;
@@ -42,7 +42,7 @@
 //! let size = ["light.shadow.size=1024".to_owned()];
 //! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &size)?.scene;
 //! let context = context::open(&Default::default())?;
-//! let mut renderer = Renderer::new(context.as_ref());
+//! let mut renderer = Renderer::new(&context);
 //!
 //! // How much of light 0 reaches each pixel: 1 lit, 0 shadowed.
 //! let shade = plan::ViewRequest { view: plan::View::Shade, light: 0 };

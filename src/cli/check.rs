@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::rc::Rc;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -101,7 +102,7 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
 }
 
 /// A compatibility context, or a core one where there is none.
-fn open(arguments: &CheckArgs) -> Result<Box<dyn Context>, Error> {
+fn open(arguments: &CheckArgs) -> Result<Rc<dyn Context>, Error> {
     if !arguments.core
         && let Ok(context) = context::open(&arguments.context.request(Profile::Compatibility))
     {

@@ -51,7 +51,7 @@ pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|reason| figures::Error::Folder { folder: folder.clone(), reason })?;
     let context = context::open(&arguments.context.request(Profile::Core33))?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let bar = ProgressBar::new(chosen.iter().map(|figure| figure.panels.len() as u64).sum());
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} panels, {eta} left  {msg}") {
         bar.set_style(style);

@@ -1,5 +1,6 @@
 //! `--pipeline`: shaders, or the driver's fixed functions.
 
+use std::rc::Rc;
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -28,7 +29,7 @@ impl Pipeline {
     /// # Errors
     ///
     /// None to be had.
-    pub fn open(self, arguments: &ContextArgs) -> Result<Box<dyn Context>, Error> {
+    pub fn open(self, arguments: &ContextArgs) -> Result<Rc<dyn Context>, Error> {
         match self {
             Self::Shaders => Ok(context::open(&arguments.request(Profile::Core33))?),
             Self::FixedFunction => {
@@ -45,7 +46,7 @@ impl Pipeline {
     /// Passes that this pipeline cannot draw.
     pub fn draw(
         self,
-        context: &dyn Context,
+        context: &Rc<dyn Context>,
         renderer: &mut Renderer,
         plan: &Plan,
         count: u32,

@@ -124,14 +124,14 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     // A scene that cannot be planned needs no context to be refused.
     let mut plan = crate::plan::make(&loaded.scene, &request)?;
     let context = arguments.pipeline.open(&arguments.context)?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     renderer.accept(&mut plan)?;
     for warning in &plan.warnings {
         super::say(format_args!("warning: {warning}"));
     }
     let progress = progress(arguments.frames);
     let (frames, passes) = (arguments.frames, arguments.json);
-    let drawn = arguments.pipeline.draw(context.as_ref(), &mut renderer, &plan, frames, passes, || progress.inc(1));
+    let drawn = arguments.pipeline.draw(&context, &mut renderer, &plan, frames, passes, || progress.inc(1));
     progress.finish_and_clear();
     let (times, frame) = drawn?;
     let views = views.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));

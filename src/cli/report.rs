@@ -308,7 +308,7 @@ fn measure(
 /// Measures published claims on each scene.
 fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
     let context = context::open(&options.context)?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let bar = super::spinner("published claims, on {msg}");
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         bar.set_message(scene.path.display().to_string());
@@ -331,7 +331,7 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
 /// Draws the pictures, and the scene with everything that its plan leaves out.
 fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
     let context = context::open(&options.context)?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut pictures = Pictures::default();
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         scene.saved = Some(sweep.saved(options, &mut renderer)?);

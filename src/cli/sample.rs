@@ -151,9 +151,9 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
 fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
     request.float_picture = output::check_path(path)?.is_exact();
     let context = arguments.pipeline.open(&arguments.context)?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let plan = renderer.plan(scene, &request)?;
-    let (_, frame) = arguments.pipeline.draw(context.as_ref(), &mut renderer, &plan, 1, false, || {})?;
+    let (_, frame) = arguments.pipeline.draw(&context, &mut renderer, &plan, 1, false, || {})?;
     Ok(frame.picture)
 }
 

@@ -173,7 +173,7 @@ fn reduce(cases: &[Case], results: &[CaseResult], options: &Options) -> Result<V
         return Ok(Vec::new());
     }
     let context = context::open(&options.context)?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let options = Options { pictures: false, ..options.clone() };
     let bar = spinner("making {msg} small");
     let mut reduced = Vec::new();

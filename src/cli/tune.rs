@@ -66,7 +66,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
         band_texels: arguments.band,
     };
     let context = context::open(&arguments.context.request(Profile::Core33))?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let bar = super::spinner("{pos} offsets seen, {elapsed}: {msg}");
     let tuned = tune::tune(&scene, &options, &mut renderer, |point| {
         bar.inc(1);

@@ -109,13 +109,17 @@ impl ContextRequest {
 
 /// Owns a GL context that is current on this thread from its making until it is dropped or another is made current.
 ///
-/// GL objects made with [`gl`](Self::gl) must be gone before the context is: their names mean nothing without it.
+/// GL objects made with [`gl`](Self::gl) must be gone before the context is: their names mean nothing without it. A
+/// [`Device`](crate::device::Device) shares the context's ownership, and so holds to that by itself.
 pub trait Context {
     /// Data that every kind of context has.
     fn loaded(&self) -> &Loaded;
 
     /// Makes it current on this thread again, after another was.
     fn make_current(&self) -> Result<(), Error>;
+
+    /// True if it is current on the calling thread.
+    fn is_current(&self) -> bool;
 
     /// The functions of this context. They act on whatever context is current on the calling thread.
     fn gl(&self) -> &Rc<glow::Context> {
@@ -155,7 +159,7 @@ pub trait Context {
 }
 
 /// Opens a context by the first backend that works, and makes it current.
-pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
+pub fn open(request: &ContextRequest) -> Result<Rc<dyn Context>, Error> {
     let mut attempts = Vec::new();
     for backend in request.backends()? {
         match try_backend(backend, request, &attempts) {
@@ -176,13 +180,13 @@ pub fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
 }
 
 /// Opens a context by this backend only; `request.choice` is ignored.
-pub fn open_backend(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Error> {
+pub fn open_backend(backend: Backend, request: &ContextRequest) -> Result<Rc<dyn Context>, Error> {
     let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { backend, reached, answer }]);
     try_backend(backend, request, &[]).map_err(refused)
 }
 
 /// Tries one backend. The error is one line, to be read beside the backend's name. `before`: earlier attempts.
-fn try_backend(backend: Backend, request: &ContextRequest, before: &[Attempt]) -> Result<Box<dyn Context>, Refusal> {
+fn try_backend(backend: Backend, request: &ContextRequest, before: &[Attempt]) -> Result<Rc<dyn Context>, Refusal> {
     heap::keep();
     let _doing = process::doing(error::tried_before(backend, before));
     match backend {

@@ -3,6 +3,7 @@
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::null_mut;
+use std::rc::Rc;
 use std::sync::OnceLock;
 
 use libloading::Library;
@@ -58,7 +59,7 @@ struct Handle {
 ///
 /// OSMesa crashes where EGL refuses: with a driver that is not there, or without GLSL 1.30. So it is tried in a child process
 /// first, once for each profile.
-pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+pub(super) fn open(request: &ContextRequest) -> Result<Rc<dyn Context>, Refusal> {
     static TRIED: [OnceLock<Result<(), String>>; 2] = [OnceLock::new(), OnceLock::new()];
     let tried = TRIED[usize::from(request.profile == Profile::Compatibility)].get_or_init(|| {
         let request = ContextRequest { debug: false, ..*request };
@@ -68,7 +69,7 @@ pub(super) fn open(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal
     open_here(request)
 }
 
-fn open_here(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+fn open_here(request: &ContextRequest) -> Result<Rc<dyn Context>, Refusal> {
     let api = library().map_err(Refusal::nothing)?;
     let (profile, name) = match request.profile {
         Profile::Core33 => (CORE_PROFILE, "core"),
@@ -95,7 +96,7 @@ fn open_here(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
     // SAFETY: the context is current; OSMesaGetProcAddress answers with its functions or null.
     let address_of = move |name: &CStr| unsafe { (api.get_proc_address)(name.as_ptr()) };
     let loaded = unsafe { load::load(Backend::OsMesa.to_string(), request, address_of) }.map_err(Refusal::driver)?;
-    Ok(Box::new(OsMesaContext { handle, loaded }))
+    Ok(Rc::new(OsMesaContext { handle, loaded }))
 }
 
 /// libOSMesa, loaded once and kept.
@@ -139,9 +140,18 @@ impl Context for OsMesaContext {
     fn make_current(&self) -> Result<(), Error> {
         self.handle.make_current().map_err(|answer| Error::NotCurrent { backend: self.loaded.backend.clone(), answer })
     }
+
+    fn is_current(&self) -> bool {
+        self.handle.is_current()
+    }
 }
 
 impl Handle {
+    fn is_current(&self) -> bool {
+        // SAFETY: a query of the calling thread's state.
+        unsafe { (self.api.get_current)() == self.context }
+    }
+
     fn make_current(&self) -> Result<(), String> {
         // SAFETY: context and buffer live until the drop, and the buffer holds SIDE rows of SIDE RGBA pixels.
         let answered =
@@ -155,7 +165,7 @@ impl Drop for Handle {
         // SAFETY: the handles are this context's own and are not used again. It is let go before it is destroyed, and
         // destroyed before its buffer is freed.
         unsafe {
-            if (self.api.get_current)() == self.context {
+            if self.is_current() {
                 (self.api.make_current)(null_mut(), null_mut(), 0, 0, 0);
             }
             (self.api.destroy)(self.context);

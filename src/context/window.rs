@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::num::NonZeroU32;
+use std::rc::Rc;
 use std::time::Duration;
 
 use glutin::config::{Config, ConfigTemplateBuilder, GlConfig};
@@ -96,6 +97,10 @@ impl Context for WindowContext {
             .make_current(&self.surface)
             .map_err(|error| Error::NotCurrent { backend: self.loaded.backend.clone(), answer: error.to_string() })
     }
+
+    fn is_current(&self) -> bool {
+        self.context.is_current()
+    }
 }
 
 impl Drop for WindowContext {
@@ -108,7 +113,7 @@ impl Drop for WindowContext {
 }
 
 /// A context on a hidden window. The error is this backend's answer.
-pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+pub(super) fn open_hidden(request: &ContextRequest) -> Result<Rc<dyn Context>, Refusal> {
     thread_local! {
         /// winit allows one event loop a process. It is kept to the end: dropping it would close the display.
         static EVENTS: RefCell<Option<&'static mut EventLoop<()>>> = const { RefCell::new(None) };
@@ -125,7 +130,7 @@ pub(super) fn open_hidden(request: &ContextRequest) -> Result<Box<dyn Context>, 
         let mut opening = Opening { request, opened: None };
         events.pump_app_events(Some(Duration::ZERO), &mut opening);
         match opening.opened {
-            Some(Ok(context)) => Ok(Box::new(context) as Box<dyn Context>),
+            Some(Ok(context)) => Ok(Rc::new(context) as Rc<dyn Context>),
             Some(Err(answer)) => Err(answer.into()),
             None => Err("the window system does not answer".into()),
         }

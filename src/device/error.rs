@@ -25,6 +25,8 @@ pub enum Error {
     Feedback { pass: String, image: String },
     #[error("{image}: the driver has no memory for it, or refuses its size or format ({codes})")]
     Allocation { image: String, codes: String },
+    #[error(transparent)]
+    Context(#[from] crate::context::Error),
     #[error("GL cannot make {0}")]
     Create(String),
 }

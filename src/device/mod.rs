@@ -50,11 +50,21 @@ pub struct Device {
     state: Option<state::Applied>,
     debug: debug::Debug,
     timer: Option<queries::Timer>,
+    /// Last, so that it goes after all objects.
+    context: Rc<dyn Context>,
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // The objects' names mean something in their own context alone. If it cannot be had again, it takes them with it.
+        let _ = self.make_current();
+    }
 }
 
 impl Device {
-    /// A device on `context`, which is current on this thread. It must be dropped before the context is.
-    pub fn new(context: &dyn Context) -> Self {
+    /// A device on `context`, which is current on this thread. The device keeps the context alive, and makes it current
+    /// again before each frame, if another was made current meanwhile.
+    pub fn new(context: &Rc<dyn Context>) -> Self {
         // Filters of cube maps look across the faces' seams [GL 4.6, 8.14.1]; for good, as nothing of ours wants it off.
         unsafe { context.gl().enable(glow::TEXTURE_CUBE_MAP_SEAMLESS) };
         Self {
@@ -66,9 +76,19 @@ impl Device {
             samplers: HashMap::new(),
             done: HashMap::new(),
             state: None,
-            debug: debug::Debug::new(context),
-            timer: queries::Timer::new(context),
+            debug: debug::Debug::new(context.as_ref()),
+            timer: queries::Timer::new(context.as_ref()),
+            context: context.clone(),
         }
+    }
+
+    /// Makes the device's context current on this thread, if it is not.
+    ///
+    /// # Errors
+    ///
+    /// A context that is current on another thread.
+    pub fn make_current(&self) -> Result<(), Error> {
+        if self.context.is_current() { Ok(()) } else { Ok(self.context.make_current()?) }
     }
 
     /// The largest image side that can be drawn into, and the textures that one fragment shader can read.

@@ -18,6 +18,7 @@ impl Device {
     /// GL errors, and images that the driver cannot read.
     pub fn present(&mut self, list: &PassList, image: ImageId, window: [u32; 2]) -> Result<(), Error> {
         const LABEL: &str = "presenting";
+        self.make_current()?;
         self.bind_target(list, LABEL, Target { color: Some(image), depth: None, level: 0, face: None })?;
         let size = list.desc(image).size;
         let [width, height] = [0, 1].map(|axis| size[axis].min(window[axis]) as i32);
@@ -37,6 +38,7 @@ impl Device {
     /// GL errors.
     pub fn present_sheet(&mut self, sheet: &Arc<Texture>, edge: u32, window: [u32; 2]) -> Result<(), Error> {
         const LABEL: &str = "presenting a sheet";
+        self.make_current()?;
         let size = [sheet.width, sheet.height];
         let storage = Storage::Uploaded(sheet.clone());
         let desc = ImageDesc { label: sheet.name.clone(), size, format: Format::Rgba8, storage };
@@ -70,6 +72,7 @@ impl Device {
     ///
     /// GL errors.
     pub fn read_window(&mut self, size: [u32; 2]) -> Result<Pixels, Error> {
+        self.make_current()?;
         unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, None) };
         let mut data = vec![0; 4 * size[0] as usize * size[1] as usize];
         self.read_into(size, glow::RGBA, glow::UNSIGNED_BYTE, &mut data);

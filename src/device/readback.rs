@@ -37,6 +37,7 @@ impl Device {
     ///
     /// GL errors, and images that the driver cannot read.
     pub fn read(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
+        self.make_current()?;
         let desc = list.desc(image);
         if let Storage::Cube(cube) = desc.storage {
             return self.read_cross(list, image, cube);
@@ -105,6 +106,7 @@ impl Device {
     ///
     /// GL errors, and images without stencil.
     pub fn read_stencil(&mut self, list: &PassList, image: ImageId) -> Result<Pixels, Error> {
+        self.make_current()?;
         let desc = list.desc(image);
         let label = format!("reading the stencil of {}", desc.label);
         self.bind_target(list, &label, Target { color: None, depth: Some(image), level: 0, face: None })?;

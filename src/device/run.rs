@@ -52,6 +52,7 @@ impl Device {
     /// A shader that does not compile, a uniform that is missing or unknown, an image that cannot be had, a target
     /// that cannot be drawn into, and any GL error, each with the pass's label.
     pub fn run(&mut self, list: &PassList, measure: Measure) -> Result<Vec<PassTime>, Error> {
+        self.make_current()?;
         self.prepare(list)?;
         let mut times = Vec::new();
         // Images redrawn in this frame: passes that read or extend them must be redrawn too.

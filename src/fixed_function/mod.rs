@@ -42,22 +42,24 @@ pub struct FixedFunction {
     most_units: usize,
     /// GL_MAX_LIGHTS.
     most_lights: usize,
+    /// Last, so that it goes after all objects.
+    _context: Rc<dyn Context>,
 }
 
 impl FixedFunction {
-    /// A reader on `context`, which is current on this thread and stays so. Drop it before the context.
+    /// A reader on `context`, which is current on this thread. The reader keeps the context alive.
     ///
     /// # Errors
     ///
     /// A context that has no fixed-function pipeline.
-    pub fn new(context: &dyn Context) -> Result<Self, Error> {
-        let binding = Binding::load(context)?;
+    pub fn new(context: &Rc<dyn Context>) -> Result<Self, Error> {
+        let binding = Binding::load(context.as_ref())?;
         let gl = context.gl().clone();
         // SAFETY: the context is current.
         let limit = |name| unsafe { gl.get_parameter_i32(name) }.max(0) as usize;
         let (most_units, most_lights) = (limit(raw::MAX_TEXTURE_UNITS), limit(raw::MAX_LIGHTS));
         let (device, masks) = (Device::new(context), masks::Masks::new(&gl));
-        Ok(Self { gl, binding, device, masks, most_units, most_lights })
+        Ok(Self { gl, binding, device, masks, most_units, most_lights, _context: context.clone() })
     }
 
     /// Everything in the list that the pipeline cannot compute; empty: it draws all of it.
@@ -84,6 +86,7 @@ impl FixedFunction {
         if !inexpressible.is_empty() {
             return Err(Error::Inexpressible(inexpressible));
         }
+        self.device.make_current()?;
         self.device.prepare_images(list)?;
         for pass in &list.passes {
             match &pass.work {

@@ -2,6 +2,7 @@
 //! without a window and then copied, so both have the same pixels. Nothing is drawn but on an event.
 
 use std::io::Write;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -15,7 +16,7 @@ use winit::window::WindowId;
 use super::keys::{HELP_EDGE, help_sheet};
 use super::{Error, Reaction, State, help, keys};
 use crate::context::window::{self, WindowContext};
-use crate::context::{self, Choice, ContextRequest, Profile};
+use crate::context::{self, Choice, Context, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::plan::Request;
@@ -62,10 +63,10 @@ struct App {
     failed: Option<Error>,
 }
 
-/// A window with what draws in it; the objects of GL go before the context does.
+/// A window with what draws in it.
 struct Live {
     renderer: Renderer,
-    context: WindowContext,
+    context: Rc<WindowContext>,
 }
 
 #[derive(Default)]
@@ -85,7 +86,8 @@ impl App {
         };
         let context =
             WindowContext::open(event_loop, &self.title(), self.state.size(), &request).map_err(cannot_open)?;
-        let renderer = Renderer::new(&context);
+        let context = Rc::new(context);
+        let renderer = Renderer::new(&(context.clone() as Rc<dyn Context>));
         Ok(Live { renderer, context })
     }
 

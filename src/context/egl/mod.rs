@@ -7,6 +7,7 @@ mod devices;
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
+use std::rc::Rc;
 
 use khronos_egl as egl;
 use khronos_egl::api::{EGL1_0, EGL1_2, EGL1_4};
@@ -33,6 +34,10 @@ impl Context for EglContext {
     fn make_current(&self) -> Result<(), Error> {
         self.handles.make_current().map_err(|answer| Error::NotCurrent { backend: self.loaded.backend.clone(), answer })
     }
+
+    fn is_current(&self) -> bool {
+        self.handles.is_current()
+    }
 }
 
 /// Handles that are released when the context is dropped.
@@ -45,7 +50,7 @@ struct Handles {
 }
 
 /// Opens a context by one of EGL's three platforms. The error is the platform's answer.
-pub(super) fn open(backend: Backend, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+pub(super) fn open(backend: Backend, request: &ContextRequest) -> Result<Rc<dyn Context>, Refusal> {
     let egl = api::library().map_err(Refusal::nothing)?;
     match backend {
         Backend::EglDevice => open_device(egl, request),
@@ -65,7 +70,7 @@ pub(super) fn open(backend: Backend, request: &ContextRequest) -> Result<Box<dyn
 }
 
 /// Opens a context on the requested device, or on the first that works.
-fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Box<dyn Context>, Refusal> {
+fn open_device(egl: &'static Egl, request: &ContextRequest) -> Result<Rc<dyn Context>, Refusal> {
     let devices = devices::enumerate(egl)?;
     if !api::has_extension(egl, egl::NO_DISPLAY, "EGL_EXT_platform_device") {
         return Err("EGL has no EGL_EXT_platform_device".into());
@@ -125,7 +130,7 @@ fn open_on(
     backend: String,
     request: &ContextRequest,
     want_surface: bool,
-) -> Result<Box<dyn Context>, Refusal> {
+) -> Result<Rc<dyn Context>, Refusal> {
     if display == egl::NO_DISPLAY {
         return Err(format!("{origin} answers EGL_NO_DISPLAY").into());
     }
@@ -155,7 +160,7 @@ fn open_on(
     // SAFETY: the context is current; eglGetProcAddress answers with its functions.
     let loaded = unsafe { load::load(backend, request, move |name| api::address_of(egl, name)) };
     let loaded = loaded.map_err(Refusal::driver)?;
-    Ok(Box::new(EglContext { handles, loaded }))
+    Ok(Rc::new(EglContext { handles, loaded }))
 }
 
 /// Any configuration that takes OpenGL and pbuffers: glumbra draws into framebuffer objects of its own.
@@ -202,6 +207,14 @@ fn create_pbuffer(egl: &Egl, display: egl::EGLDisplay, config: egl::EGLConfig) -
 }
 
 impl Handles {
+    fn is_current(&self) -> bool {
+        // SAFETY: a query of the calling thread's state, which is the bound API's.
+        unsafe {
+            self.egl.eglBindAPI(egl::OPENGL_API);
+            self.egl.eglGetCurrentContext() == self.context
+        }
+    }
+
     fn make_current(&self) -> Result<(), String> {
         // SAFETY: the handles are this context's own.
         let answered = unsafe {
@@ -219,7 +232,7 @@ impl Drop for Handles {
         // EGL would otherwise keep it until the thread's next.
         unsafe {
             if self.context != egl::NO_CONTEXT {
-                if self.egl.eglGetCurrentContext() == self.context {
+                if self.is_current() {
                     self.egl.eglMakeCurrent(self.display, egl::NO_SURFACE, egl::NO_SURFACE, egl::NO_CONTEXT);
                 }
                 self.egl.eglDestroyContext(self.display, self.context);
