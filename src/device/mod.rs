@@ -56,7 +56,7 @@ pub struct Device {
 
 impl Drop for Device {
     fn drop(&mut self) {
-        // The objects' names mean something in their own context alone. If it cannot be had again, it takes them with it.
+        // The objects' names belong to their own context. If it cannot be made current again, they are deleted with it.
         let _ = self.make_current();
     }
 }

@@ -63,7 +63,7 @@ struct App {
     failed: Option<Error>,
 }
 
-/// A window with what draws in it.
+/// A window, with the renderer that draws in it.
 struct Live {
     renderer: Renderer,
     context: Rc<WindowContext>,

@@ -51,16 +51,16 @@ pub struct Arguments {
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
-    /// Of these the ones whose names hold this text
+    /// Only those whose names contain this text
     #[arg(long, value_name = "TEXT", requires = "techniques")]
     only: Option<String>,
     /// glumbra against itself, instead: multiples, and what is saved by what is left out
     #[arg(long)]
     pairs: bool,
-    /// What the floor draws
+    /// Kind of picture that the floor draws
     #[arg(long, value_enum, default_value_t = kinds::Kind::Map)]
     floor: kinds::Kind,
-    /// What glumbra's child draws that it leaves out otherwise
+    /// Parts that glumbra's child draws although it leaves them out otherwise
     #[arg(long, value_enum, default_value_t = child::Keep::Nothing)]
     keep: child::Keep,
     /// The child's overrides of the scene, as `glumbra render` takes them
@@ -81,7 +81,7 @@ pub enum Scene {
     S2,
 }
 
-/// Who draws.
+/// Program that draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Who {
     Floor,

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::floor::Floor;
 use super::{Arguments, Redraw, Result, Scene, Who};
 
-/// What a child prints.
+/// Output of a child.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Sample {
     /// Medians in milliseconds: a frame with its read-back, and each pass waited for.
@@ -31,7 +31,7 @@ pub struct Sample {
     pub peak_kib: u64,
 }
 
-/// What is drawn that glumbra leaves out.
+/// Parts that are drawn although glumbra leaves them out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Keep {
     #[default]
@@ -42,7 +42,7 @@ pub enum Keep {
     Color,
     /// Normals in them.
     Normals,
-    /// What their scissors take away.
+    /// The parts that their scissors remove.
     Scissor,
     /// All that a plan can leave out.
     All,

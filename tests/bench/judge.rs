@@ -1,5 +1,5 @@
-//! What is wrong in a picture, by ray-traced truth: where a way draws another picture than its floor, and beside a time
-//! that is bought with a coarser caster.
+//! Wrong pixels of a picture, by ray-traced truth: where a way draws another picture than its floor, and beside times that
+//! a coarser caster makes shorter.
 
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -14,7 +14,7 @@ use glumbra::truth::{self, Truth};
 use super::rounds::Bench;
 use super::{Result, Scene};
 
-/// Of wrong pixels, in percent, more than the plain map's: what rounding and a picture's size leave open.
+/// Wrong pixels, in percent, above those of the plain map, that rounding and a picture's size may cause.
 const MORE_WRONG: f64 = 0.01;
 
 /// Knows the truth of one scene.
@@ -45,8 +45,8 @@ impl Judge {
         Ok(compare(&self.truth, &draw_shade(&scene, 0, &mut renderer)?, &self.band)?)
     }
 
-    /// Whether overrides of the scene that move neither light nor objects draw shadows that are no more wrong than the
-    /// plain map's; and the two shares in words.
+    /// Tests whether overrides of the scene that move neither light nor objects draw shadows that are no more wrong than
+    /// the plain map's; and the two shares in words.
     pub fn is_as_right(&self, sets: &[&str]) -> Result<(bool, String)> {
         let wrong = self.metrics(sets)?.all.wrong_percent;
         let words = format!("by ray-traced truth {wrong:.3} % wrong, the plain map {:.3} %", self.plain);

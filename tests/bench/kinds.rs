@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3};
 
 use super::numbers::Numbers;
 
-/// What the floor draws.
+/// Kinds of picture that the floor draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Kind {
     /// One map, one comparison.
@@ -58,7 +58,7 @@ pub fn shade(kind: Kind) -> (&'static str, String) {
     }
 }
 
-/// Where the light stands.
+/// Position of the light.
 pub fn light(kind: Kind, numbers: &Numbers) -> Vec3 {
     if kind == Kind::Face { Vec3::new(0.0, 5.0, 0.0) } else { numbers.light }
 }

@@ -24,7 +24,7 @@ const fn keeping(keep: Keep, sets: &'static [&'static str]) -> Way {
     Way { sets, keep }
 }
 
-/// What is compared of two ways.
+/// Quantity by which two ways are compared.
 #[derive(Clone, Copy)]
 enum Of {
     Frame,
@@ -67,7 +67,7 @@ const MULTIPLES: &[Pair] = &[
     on_s1("cube with one needed face : spot map, frame", Of::Frame, by(&[SPOT_ABOVE]), by(&[POINT_ABOVE]), 1.1),
 ];
 
-/// What is left out against what is not.
+/// Frames with parts left out, against frames with nothing left out.
 const LEFT_OUT: &[Pair] = &[
     of_cube("faces of the cube that hold nothing, and colour buffers", POINT_ABOVE_KEPT, by(&[POINT_ABOVE])),
     of_cube("the same, light aside", POINT_ASIDE_KEPT, by(&[POINT_ASIDE])),

@@ -1,4 +1,4 @@
-//! Whether two pictures are the same one: there is no time for a wrong picture.
+//! Comparison of two pictures: a time counts only if its picture is right.
 
 use std::fmt;
 use std::path::Path;
@@ -15,7 +15,7 @@ const MOST_OTHERS: f64 = 0.002;
 /// The most that the mean of all channels' differences may be, in 1/255.
 const MOST_MEAN: f64 = 0.5;
 
-/// How far two pictures differ.
+/// Difference of two pictures.
 pub struct Difference {
     others: usize,
     pixels: usize,

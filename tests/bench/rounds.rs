@@ -8,7 +8,7 @@ use super::child::{Sample, model_file, scene_file};
 use super::table::{Row, print};
 use super::{Arguments, Redraw, Result, Scene, Who, pictures};
 
-/// What one round measured.
+/// Measurements of one round.
 #[derive(Clone, Debug, Default)]
 struct Round {
     floor: Sample,

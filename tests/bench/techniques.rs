@@ -51,7 +51,7 @@ macro_rules! light {
 /// Beside the model, and above it, where it meets one face of its cube.
 pub const POINT_ASIDE: &str = light!("kind = \"point\", position = [2.0, 4.0, 3.0], near = 0.5, far = 20.0");
 pub const POINT_ABOVE: &str = light!("kind = \"point\", position = [0.0, 5.0, 0.0], near = 0.5, far = 20.0");
-/// What sees the same as that face.
+/// A spotlight that sees the same as that face.
 pub const SPOT_ABOVE: &str = light!(
     "kind = \"spot\", position = [0.0, 5.0, 0.0], target = [0.0, 0.0, 0.0], up = [0.0, 0.0, -1.0], cone = 90.0, near = 0.5, far = 20.0"
 );

@@ -9,7 +9,7 @@ use super::draw::{self, Drawn, Wanted};
 use super::file::Case;
 use super::picture::Picture;
 
-/// What makes a picture: the scene's file, its overrides, the number of frames, and what is read.
+/// Inputs of a picture: the scene's file, its overrides, the number of frames, and what is read.
 type Key = (PathBuf, Vec<String>, u32, Wanted);
 
 pub struct Bench<'a> {

@@ -13,7 +13,7 @@ use super::golden;
 use super::picture::Picture;
 use super::refused;
 
-/// How many texels and pixels a pick keeps from an edge that it is beside: GL_LINEAR's reach and rounding.
+/// Texels and pixels between a pick and an edge that it is beside: GL_LINEAR's reach and rounding.
 const TEXELS: f64 = 2.2;
 const PIXELS: f64 = 1.5;
 

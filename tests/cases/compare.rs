@@ -2,7 +2,7 @@
 
 use super::picture::Picture;
 
-/// What may differ. Every limit counts; [`Tolerance::EXACT`] lets no bit differ.
+/// Limits of a difference. Every limit counts; [`Tolerance::EXACT`] lets no bit differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// The largest difference of any channel.
@@ -21,7 +21,7 @@ impl Tolerance {
     pub const EXACT: Self = Self { max: 0.0, mean: 0.0, share: 0.0, slight: 0.0, spot: None };
 }
 
-/// How two pictures of one shape differ.
+/// Difference of two pictures of one shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
     pub max: f64,

@@ -13,7 +13,7 @@ use glumbra::views::View;
 
 use super::picture::Picture;
 
-/// What is wanted of a frame.
+/// Content of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wanted {
     /// RGB in 8 bits, as a PNG has it.

@@ -94,7 +94,7 @@ fn own_scene() -> PathBuf {
     PathBuf::from("scene.toml")
 }
 
-/// What the shade view shows of a pixel.
+/// Value of the shade view at a pixel.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Class {
@@ -133,16 +133,16 @@ fn one() -> f64 {
     1.0
 }
 
-/// What the formula cannot know of itself.
+/// Facts that the formula cannot derive.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Formula {
     pub normal: [f64; 3],
-    /// Of the object's material, by its place in the scene.
+    /// Index of the object whose material it is.
     pub object: usize,
-    /// Of each light: 1 lit, 0 shadowed.
+    /// Shade of each light: 1 lit, 0 shadowed.
     pub shade: Vec<f64>,
-    /// Of each light, where it has an image.
+    /// Value of each light's image, where it has one.
     #[serde(default)]
     pub beam: Vec<[f64; 3]>,
     #[serde(default = "white")]
@@ -179,7 +179,7 @@ pub struct Sphere {
     pub radius: f64,
 }
 
-/// Where the light's reach ends on a horizontal floor, along a ray in it from below the light's target.
+/// End of the light's reach on a horizontal floor, along a ray in it from below the light's target.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
@@ -225,7 +225,7 @@ pub enum Of {
 #[serde(deny_unknown_fields)]
 pub struct Same {
     pub of: Vec<Of>,
-    /// What the others are held against: the case's scene with these overrides, and `frames` frames of it.
+    /// Reference of the others: the case's scene with these overrides, and `frames` frames of it.
     #[serde(default)]
     pub with: Vec<String>,
     pub sets: Sets,
@@ -256,7 +256,7 @@ fn one_frame() -> u32 {
 #[serde(deny_unknown_fields)]
 pub struct After {
     pub of: Vec<Of>,
-    /// What is drawn before.
+    /// Frames that are drawn before.
     pub firsts: Sets,
     pub why: String,
 }

@@ -1,5 +1,5 @@
-//! What must be seen, in f64 and by other means than the product's: similar triangles and angles instead of light
-//! matrices, a ray through a pixel's centre instead of a raster. Reads the resolved scene only.
+//! Expected pixels, in f64 and by other means than the renderer's: similar triangles and angles instead of light matrices,
+//! a ray through a pixel's centre instead of a raster. Reads the resolved scene only.
 
 use glam::{DVec2, DVec3};
 use glumbra::scene::{Camera, Frustum, Light, LightKind, LightShape, Scene};
@@ -23,7 +23,7 @@ fn camera_axes(camera: &Camera) -> Axes {
     axes(camera.eye, camera.target, camera.up)
 }
 
-/// Where `point` falls in the picture, in pixels from the top left corner. `None` behind the eye.
+/// Position of `point` in the picture, in pixels from the top left corner. `None` behind the eye.
 pub fn pixel_position(scene: &Scene, point: DVec3) -> Option<DVec2> {
     let [width, height] = scene.image.size.map(f64::from);
     let (axes, from_eye) = (camera_axes(&scene.camera), point - scene.camera.eye);
@@ -46,7 +46,7 @@ pub fn pixel(scene: &Scene, point: DVec3) -> Result<[u32; 2], String> {
     }
 }
 
-/// Where the ray through the centre of `pixel` meets the plane through `point` with `normal`.
+/// Point where the ray through the centre of `pixel` meets the plane through `point` with `normal`.
 pub fn point_under(scene: &Scene, pixel: [u32; 2], point: DVec3, normal: DVec3) -> DVec3 {
     let [width, height] = scene.image.size.map(f64::from);
     let axes = camera_axes(&scene.camera);
@@ -100,7 +100,7 @@ pub fn shadow_on_floor(light: &Light, caster: DVec3, floor: f64) -> DVec3 {
     caster + ray * ((floor - caster.y) / ray.y)
 }
 
-/// Where the tangent from the light touches the sphere, in the plane of the axis through its centre and `outward`.
+/// Point where the tangent from the light touches the sphere, in the plane of the axis through its centre and `outward`.
 pub fn tangent_point(light: &Light, sphere: &Sphere, outward: DVec3) -> DVec3 {
     let center = DVec3::from_array(sphere.center);
     let to_light = to_light(light, center);
@@ -110,7 +110,7 @@ pub fn tangent_point(light: &Light, sphere: &Sphere, outward: DVec3) -> DVec3 {
     center + sphere.radius * (sine * axis + (1.0 - sine * sine).sqrt() * across)
 }
 
-/// How far `point` is within the light's reach: below 1 inside, above 1 outside.
+/// Distance of `point` from the light's axis, as a part of the light's reach: below 1 inside, above 1 outside.
 pub fn reach(light: &Light, point: DVec3) -> f64 {
     let Some(spot) = light.spot() else { return 0.0 };
     let Frustum { position, target, up, cone_radians, .. } = spot.frustum;
@@ -127,7 +127,7 @@ pub fn reach(light: &Light, point: DVec3) -> f64 {
     }
 }
 
-/// Where the reach ends from `start` along `direction`, by bisection.
+/// End of the reach from `start` along `direction`, by bisection.
 pub fn reach_end(light: &Light, start: DVec3, direction: DVec3) -> Result<f64, String> {
     let (mut inside, mut outside) = (0.0, 1e3);
     let at = |along: f64| reach(light, start + along * direction);

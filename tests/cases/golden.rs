@@ -12,23 +12,23 @@ use super::picture::Picture;
 /// The driver that drew the golden beside it, one line.
 const DRIVER_FILE: &str = "golden.driver";
 
-/// What another driver may do to a picture: rims move by a pixel, and colours by a few codes. By softpipe, which shares no
-/// code with llvmpipe's rasterizer, 0.37 % of a golden's pixels differ by more than 16/255, in lines one pixel wide, and the
-/// mean difference is 0.40/255. A picture without a shadow of 3x3 pixels differs from its golden in a square, however small
-/// a share of the picture that is.
+/// Differences that another driver may make in a picture: rims move by a pixel, and colours by a few codes. By softpipe,
+/// which shares no code with llvmpipe's rasterizer, 0.37 % of a golden's pixels differ by more than 16/255, in lines one
+/// pixel wide, and the mean difference is 0.40/255. A picture without a shadow of 3x3 pixels differs from its golden in a
+/// square, however small a share of the picture that is.
 const OTHER: Tolerance = Tolerance { max: 1.0, mean: 0.75 / 255.0, share: 0.006, slight: 16.0 / 255.0, spot: Some(3) };
 
-/// Whether `ci/bless` asks for goldens.
+/// Tests whether `ci/bless` runs, which writes goldens.
 pub fn blessing() -> bool {
     std::env::var_os("GLUMBRA_BLESS").is_some_and(|value| value == "1")
 }
 
-/// Holds `actual` against `golden.png` in `folder`; how it was compared, and what was found.
+/// Compares `actual` with `golden.png` in `folder`. Returns the comparison and its result.
 ///
 /// # Errors
 ///
-/// A golden that is missing, unreadable, of another size or too different, and with `bless` every golden: it is drawn
-/// anew.
+/// A golden that is missing, unreadable, of another size or too different, and with `bless` every golden, after it is
+/// written.
 pub fn check(
     actual: &Picture,
     folder: &Path,

@@ -58,7 +58,7 @@ impl Picture {
         image.save(path).map_err(|error| format!("{}: {error}", path.display()))
     }
 
-    /// How far each pixel is from `other`'s, from black to white at 16/255 and beyond. `None`: the shapes differ.
+    /// Difference of each pixel from `other`'s, from black to white at 16/255 and beyond. `None`: the shapes differ.
     pub fn difference(&self, other: &Self) -> Option<Self> {
         if self.size != other.size || self.channels != other.channels {
             return None;

@@ -1,5 +1,4 @@
-//! What a case file must not say: checks that could not fail, and checks that would not be made. Looked for before
-//! anything is drawn.
+//! Errors of a case file: checks that could not fail, and checks that would not be made. Found before anything is drawn.
 
 use super::file::{Case, Checks, Count, Golden, Pick, Same, Sets, Sum};
 
@@ -12,7 +11,7 @@ const EVERYWHERE: f64 = 4.0;
 const ANYTHING: f64 = 0.05;
 
 impl Checks {
-    /// Whether nothing is asked that could be answered wrongly.
+    /// Tests whether there is no check that could fail.
     pub fn is_empty(&self) -> bool {
         let lists = self.pick.len() + self.edge.len() + self.cone.len() + self.same.len();
         let words = [&self.fails_with, &self.warns, &self.leaves_out];

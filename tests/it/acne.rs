@@ -75,11 +75,11 @@ impl Judge {
     }
 }
 
-/// What is held to leave no acne at a `scale`, a map's `size` and a `format`, each under its default offset: polygon
+/// Biases that must leave no acne at a `scale`, a map's `size` and a `format`, each under its default offset: polygon
 /// offset everywhere; the biases of the receiver at one size where the scale alone differs; kernels and GL_NEAREST in one
-/// format, of which they know nothing, and with the biases of the receiver at one size.
+/// format, on which they do not depend, and with the biases of the receiver at one size.
 ///
-/// Not held at 512: a normal offset under "5x5", which looks up so far beside its point (4.2 texels, and 3 more of the
+/// Left out at 512: a normal offset under "5x5", which looks up so far beside its point (4.2 texels, and 3 more of the
 /// kernel) that it meets the shadows of other features of the model, and darkens eight pixels by them.
 fn biases(scale: f64, size: u32, format: &str) -> Vec<String> {
     let mut all = vec![String::new()];

@@ -24,8 +24,8 @@ fn verdicts(claims: &[Claimed], technique: &str) -> Vec<Verdict> {
     claims.iter().filter(|claim| claim.technique == technique).map(|claim| claim.verdict).collect()
 }
 
-/// What does hold on both scenes, and by how much; what does not is told as such: a midpoint loses more light at shadow
-/// edges, and second depth is a little more wrong where light falls, by shadows of far sides that reach less far.
+/// Claims that hold on both scenes, and by how much; those that do not are reported so: a midpoint loses more light at
+/// shadow edges, and second depth is a little more wrong where light falls, by shadows of far sides that reach less far.
 fn check(claims: &[Claimed]) {
     assert!(claims.iter().all(|claim| claim.verdict != Verdict::Unknown && claim.first.why.is_none()));
     let of = |technique: &str, at: usize| claims.iter().filter(|claim| claim.technique == technique).nth(at).unwrap();

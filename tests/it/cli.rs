@@ -36,7 +36,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What is wrong with a refusal, if anything: `expected` in one error on standard error, nothing on standard output.
+/// Checks a refusal: `expected` in one error on standard error, nothing on standard output. An error says what is wrong.
 fn refusal(output: &Output, code: i32, expected: &str) -> Result<(), String> {
     let error = text(&output.stderr);
     let errors = error.lines().filter(|line| line.starts_with("error: ")).count();

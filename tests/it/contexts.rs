@@ -135,7 +135,7 @@ fn a_device_that_is_not_there_is_told() {
 
 /// With empty files in place of the libraries, every backend fails with a message of its own.
 #[test]
-fn a_machine_without_drivers_is_told_about_every_road() {
+fn a_machine_without_drivers_is_told_about_every_backend() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["libEGL.so.1", "libEGL.so", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"] {
         std::fs::write(folder.path().join(name), "").unwrap();

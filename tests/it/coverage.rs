@@ -1,4 +1,4 @@
-//! What the camera sees in extreme scenes, moved, scaled and with stiff planes: each pixel shows the object that the ray
+//! Extreme scenes as the camera sees them, moved, scaled and with given planes: each pixel shows the object that the ray
 //! tracer sees, or a warning says why not.
 
 use std::fmt::Write as _;

@@ -109,7 +109,7 @@ fn every_tag_is_in_the_bibliography() {
     }
 }
 
-/// What no comment, message or page may say: numbers of planning files, and names of documents that nobody has.
+/// Words that no comment, message or page may have: numbers of planning files, and names of documents that nobody has.
 fn unresolvable(text: &str) -> Option<String> {
     const WORDS: [&str; 7] =
         ["[techniques", "; techniques ", "techniques E", "shared/", "issue \"", "[lecture", "the documents' "];

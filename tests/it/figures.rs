@@ -1,4 +1,4 @@
-//! What the captions of `glumbra figures` say, held against pixels of the panels; and the command itself.
+//! Captions of `glumbra figures`, checked against pixels of the panels; and the command itself.
 
 use std::process::Command;
 
@@ -17,7 +17,7 @@ fn figure(name: &str) -> &'static Figure {
     FIGURES.iter().find(|figure| figure.name == name).unwrap()
 }
 
-/// What a view shows of a point, and whether the point is what is seen there is the caller's to know.
+/// Value of a view at a point. The caller knows that the point is visible there.
 fn at(scene: &Scene, view: View, point: DVec3, renderer: &mut Renderer) -> [f32; 2] {
     let views = vec![ViewRequest { view, light: 0 }];
     let plan = renderer.plan(scene, &Request { views, ..Request::default() }).unwrap();
@@ -40,7 +40,7 @@ fn scene(name: &str, panel: usize) -> Scene {
     figure(name).scene_of(&figure(name).panels[panel]).unwrap()
 }
 
-/// Where the ray from `light` through `point` meets the floor.
+/// Point of the floor that the ray from `light` through `point` meets.
 fn on_floor(light: DVec3, point: DVec3) -> DVec3 {
     light + (point - light) * light.y / (light.y - point.y)
 }
@@ -52,8 +52,8 @@ fn shadow_of_ball() -> DVec3 {
     on_floor(LIGHT, DVec3::new(1.8, 0.45, 1.0))
 }
 
-/// Of each figure, a point of each of some panels, and the shade that its caption means there: 1 lit, 0 shadowed. In
-/// failures it is the wrong one.
+/// Points of some panels of each figure, and the shade that its caption means there: 1 lit, 0 shadowed. In pictures of
+/// failures it is the wrong shade.
 #[test]
 fn captions_are_true_of_points() {
     let context = context::open(&ContextRequest::default()).unwrap();
@@ -238,7 +238,7 @@ fn figures_name_what_is_in_documents_and_fit_their_sheets() {
     }
 }
 
-/// Where eight bits that saturate call a point lit and eight that wrap call it shadowed, it is shadowed.
+/// A point that eight saturating bits call lit, and eight wrapping bits shadowed, is in shadow.
 #[test]
 fn saturating_counts_lose_shadows() {
     let context = context::open(&ContextRequest::default()).unwrap();

@@ -27,7 +27,7 @@ fn field(eye: [f64; 3], target: [f64; 3], light: [f64; 3], cone: f64) -> Scene {
     scene::load(&path, &[]).unwrap().scene
 }
 
-/// How many times the texels a pixel, as the plan says.
+/// Factor by which a pixel gets more texels, as the plan says.
 fn gain(plan: &Plan) -> f64 {
     let said = plan.left_out.iter().find_map(|left| left.why.strip_suffix(" times the texels a pixel"));
     said.and_then(|text| text.rsplit(' ').next()).map_or(1.0, |number| number.parse().unwrap())
@@ -82,7 +82,7 @@ fn fitted_maps_are_right_and_finer() {
     assert!(gains.iter().filter(|gain| **gain > 2.0).count() > 6, "{gains:?}");
 }
 
-/// What no texel shows is not drawn: with a fraction of the triangles the shadow is the same but for its rim.
+/// Triangles that no texel shows are not drawn: with a fraction of the triangles the shadow is the same but for its rim.
 #[test]
 fn casters_at_the_map_s_resolution_cast_the_same_shadow() {
     let context = context::open(&ContextRequest::default()).unwrap();

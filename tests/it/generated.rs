@@ -14,7 +14,7 @@ use glumbra::scene::{self, Scene};
 use glumbra::stress;
 use glumbra::truth::{self, Answer};
 
-/// Of a filter of two texels, and one for what lies askew.
+/// Reach of a filter of two texels, and one more for surfaces askew to the map.
 const BAND_TEXELS: f64 = 3.0;
 
 /// xorshift64.
@@ -91,7 +91,7 @@ fn load(text: &str) -> Scene {
 /// Draws a scene under each of the keys in turn.
 struct Judge {
     renderer: Renderer,
-    /// True if picture and ray tracer must see the same surfaces: floors without end round otherwise.
+    /// True if picture and ray tracer must see the same surfaces. They round endless floors differently.
     same_surfaces: bool,
 }
 
@@ -125,8 +125,8 @@ impl Judge {
     }
 }
 
-/// Of the pixels that face the light, beyond the band: two, or 0.3 %. A caster a thousandth of a unit beside the light has
-/// a shadow edge so magnified that some texels are left.
+/// Two of the pixels that face the light, beyond the band, or 0.3 % of them, may be wrong. A caster a thousandth of a unit
+/// beside the light has a shadow edge so magnified that some texels are left.
 fn assert_right(keys: &str, found: &Metrics, text: &str) {
     let wrong = found.facing.false_shadow.outside + found.facing.leak.outside;
     let most = (0.003 * found.facing.compared as f64).max(2.0);
@@ -217,7 +217,7 @@ fn midpoint_maps_need_no_offset_whatever_casts_nothing_or_lies_beyond_far() {
     }
 }
 
-/// Of the sample program with Woo's map.
+/// The scene of the sample program with Woo's map.
 #[test]
 fn the_sample_program_has_no_acne_without_offset() {
     let mut judge = Judge::new();

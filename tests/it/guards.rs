@@ -194,7 +194,7 @@ fn a_cut_floor_misses_no_pixel() {
     }
 }
 
-/// What the plan chooses of itself, and what it leaves out for it, word by word; and that this changes no pixel.
+/// The plan's own choice of a guard, and its reasons, word by word. The choice changes no pixel.
 #[test]
 fn the_plan_chooses_what_the_scene_needs() {
     let context = context::open(&ContextRequest::default()).unwrap();

@@ -29,7 +29,7 @@ fn load() -> Scene {
     scene::load(Path::new(SCENE), &[]).unwrap().scene
 }
 
-/// Where the ray from the light through the middle of the teapot meets the floor.
+/// Point of the floor that the ray from the light through the middle of the teapot meets.
 fn shadowed_floor(scene: &Scene) -> DVec3 {
     let light = scene.lights[0].position().unwrap();
     let along = dvec3(0.0, 0.7, 1.8) - light;
@@ -102,8 +102,8 @@ fn the_teapot_shadows_the_floor_and_the_dark_stays_dark() {
     assert!([[127; 3], [128; 3]].contains(&plain.color(500, 10)), "{:?}", plain.color(500, 10));
 }
 
-/// What is known of the sample: the decal repeats 8 times over a quad of 8, the teapot has GL's default material, the map is
-/// copied.
+/// Published facts of the sample: the decal repeats 8 times over a quad of 8, the teapot has GL's default material, the map
+/// is copied.
 #[test]
 fn the_scene_is_the_sample_s() {
     let scene = load();

@@ -96,7 +96,7 @@ struct World {
     floor_casts: bool,
 }
 
-/// What a point shows: the surface (0 the floor), and whether the light reaches it.
+/// Visible surface and light of a point: the surface (0 the floor), and whether the light reaches it.
 #[derive(Clone, Copy, PartialEq)]
 struct Shown {
     surface: usize,
@@ -181,7 +181,7 @@ impl World {
         }
     }
 
-    /// Whether a point lies well inside a spotlight's cone; others have no sides.
+    /// Tests whether a point lies well inside a spotlight's cone; others have no sides.
     fn is_inside(&self, point: DVec3) -> bool {
         let Light::Spot { position, target, cone } = &self.light else { return true };
         let angle = (*target - *position).angle_between(point - *position).to_degrees();
@@ -212,7 +212,7 @@ impl World {
         Some(Shown { surface, normal, lit: !is_blocked })
     }
 
-    /// What pixel (x, y) shows, if all that lies within a hundredth of a pixel shows the same.
+    /// Content of pixel (x, y), if everything within a hundredth of a pixel is the same.
     fn certain(&self, x: u32, y: u32) -> Option<Shown> {
         let [x, y] = [x, y].map(|at| f64::from(at) + 0.5);
         let middle = self.shown(x, y)?;

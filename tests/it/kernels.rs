@@ -49,7 +49,7 @@ fn floor_points(fov_y: f64) -> impl Iterator<Item = (f64, f64)> {
     (0..WIDTH).map(move |x| ((f64::from(x) + 0.5 - 0.5 * f64::from(WIDTH)) * pixel, -0.5 * pixel))
 }
 
-/// Whether a texel of a level is lit: its centre lies past the edge.
+/// Tests whether a texel of a level is lit: its centre lies past the edge.
 fn lit(texel: f64, edge: f64) -> f64 {
     if texel + 0.5 >= edge { 1.0 } else { 0.0 }
 }
@@ -189,8 +189,8 @@ fn eight_taps_are_two_levels_half_and_half() {
     }
 }
 
-/// Where a pixel is as wide as `2^level` texels, that level is met. GL leaves the level's last bits open (8.14.1), so that
-/// the value is held between both neighbours'.
+/// A pixel that is as wide as `2^level` texels reads that level. GL leaves the level's last bits open [GL 4.6, 8.14.1], so
+/// the value must lie between those of both neighbours.
 #[test]
 fn minified_maps_meet_the_level_of_their_pixels() {
     let context = context::open(&ContextRequest::default()).unwrap();

@@ -1,5 +1,5 @@
-//! What the plan leaves out changes no pixel: each scene is drawn with its casters culled by what the camera sees and,
-//! because a view of the map asks for all of it, with none culled.
+//! Passes and casters that the plan leaves out change no pixel. Each scene is drawn twice: with casters culled by what the
+//! camera sees, and, because a view of the map needs all of it, with none culled.
 
 use std::fmt::Write as _;
 
@@ -40,7 +40,7 @@ fn casters_whose_shadow_is_unseen_change_no_pixel() {
     assert!(left_out > 100, "only {left_out} casters were left out: the test shows nothing");
 }
 
-/// Of those a midpoint map keeps what may be the second layer of a caster whose shadow is seen.
+/// A midpoint map keeps those that may be the second layer of a caster whose shadow is seen.
 #[test]
 fn casters_of_no_second_layer_change_no_pixel() {
     let settings = [

@@ -19,7 +19,7 @@ fn load(name: &str, set: &[String]) -> Scene {
     scene::load(&path, set).unwrap().scene
 }
 
-/// Where the shade differs from the truth, within two texels of the map around edges and beyond.
+/// Differences of the shade from the truth, within two texels of the map around edges and beyond.
 fn errors(scene: &Scene, texels: u32, renderer: &mut Renderer) -> Metrics {
     let truth = truth::trace(scene, 0, &truth::Options::default()).unwrap();
     let mut shade = draw_shade(scene, 0, renderer).unwrap();
@@ -177,7 +177,7 @@ fn a_cube_has_the_faces_that_are_needed() {
     assert_eq!(left.why, "the camera sees nothing in it");
 }
 
-/// What is left out of a cube changes no pixel, in whichever way the camera looks.
+/// Faces and casters that a cube leaves out change no pixel, wherever the camera looks.
 #[test]
 fn faces_that_are_left_out_change_no_pixel() {
     let context = context::open(&ContextRequest::default()).unwrap();

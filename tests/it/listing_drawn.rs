@@ -21,7 +21,7 @@ use crate::support::gl_headers;
 const PROGRAMS: usize = 16;
 const IMAGES: usize = 32;
 
-/// What the caller of a listing brings, in C.
+/// Code that the caller of a listing brings, in C.
 const SHIM: &str = "
 #define GL_POINTERS
 #include <GL/gl.h>

@@ -35,7 +35,7 @@ fn scenes() -> Vec<String> {
     texts
 }
 
-/// Where numbers stand, outside comments, texts and names.
+/// Ranges of numbers, outside comments, texts and names.
 fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
     let mut found = Vec::new();
     let (mut in_text, mut in_comment, mut start) = (false, false, None);

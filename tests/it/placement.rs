@@ -1,5 +1,5 @@
-//! Where MTL's options lay a texture (-s, -o, -clamp) or take its values from (-imfchan): against the same texture laid by
-//! the mesh's own coordinates, against ray-traced truth, and by fixed function.
+//! Placement of a texture by MTL's options (-s, -o, -clamp), and the channel that it is read from (-imfchan): against the
+//! same texture laid by the mesh's own coordinates, against ray-traced truth, and by fixed function.
 
 use std::fs;
 use std::path::Path;

@@ -103,7 +103,7 @@ fn a_scene_far_from_the_origin_has_the_same_picture() {
     }
 }
 
-/// Where a ray first meets a triangle, in its own parameter.
+/// Parameter of a ray where it first meets a triangle.
 fn first_hit(objects: &[Object], from: DVec3, way: DVec3) -> Option<f64> {
     let mut nearest = f64::INFINITY;
     for object in objects {
@@ -140,8 +140,8 @@ fn axes(ahead: DVec3, up: DVec3, [tan_x, tan_y]: [f64; 2]) -> [DVec3; 3] {
     [ahead, right * tan_x, right.cross(ahead) * tan_y]
 }
 
-/// What lies in view begins at or behind the near plane, which is not much nearer than it must be. A grid of rays may
-/// miss what is nearest, by a part of a step: the lower bound is loose.
+/// Checks that objects in view begin at or behind the near plane, and that it is not much nearer than it must be. A grid of
+/// rays may miss the nearest point, by a part of a step: the lower bound is loose.
 #[track_caller]
 fn check(what: &str, [near, far]: [f64; 2], seen: Option<[f64; 2]>) {
     let Some([least, most]) = seen else { return };

@@ -1,4 +1,5 @@
-//! What the device may leave out of a frame because its target holds it already, and what it may not.
+//! Passes that the device may leave out of a frame because their target holds the result already, and passes that it may
+//! not.
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;

@@ -504,7 +504,7 @@ fn tune_refuses_to_conclude_from_nothing() {
     }
 }
 
-/// What tune prints has the scene's other keys, and takes their table's place.
+/// The table that tune prints has the scene's other keys, too, and replaces the scene's own.
 #[test]
 fn what_tune_chose_is_what_its_toml_draws() {
     let work = Work::new();

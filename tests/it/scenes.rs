@@ -347,7 +347,7 @@ fn a_supplied_floor_lies_below_a_models_own() {
     assert!(error.contains("unknown key `floor`"), "{error}");
 }
 
-/// What the alpha test discards whole is neither drawn nor forgotten.
+/// Objects that the alpha test discards whole are not drawn, and a warning names them.
 #[test]
 fn clear_materials_are_warned_of_and_named_as_left_out() {
     let folder = folder();

@@ -80,7 +80,7 @@ fn a_tag_is_the_shades_upper_half() {
     }
 }
 
-/// Of one tagged light depth, map and tags are kept from frame to frame; a second one needs the same stencil buffer.
+/// Depth, map and tags of one tagged light are kept from frame to frame; a second one needs the same stencil buffer.
 #[test]
 fn tags_are_kept_with_the_depth_that_they_are_on() {
     let once = |path: &str| {

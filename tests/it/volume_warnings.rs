@@ -28,7 +28,7 @@ fn assert_none_fails(results: &[CaseResult]) {
     }
 }
 
-/// Of a row with these keys in each case.
+/// Verdict of each case on the row with these keys.
 fn verdicts(results: &[CaseResult], keys: &str) -> Vec<Verdict> {
     let rows = results.iter().flat_map(|result| &result.rows);
     rows.filter(|row| row.settings.keys == keys && !row.settings.pictured).map(|row| row.verdict).collect()

@@ -155,7 +155,6 @@ fn second_depth_refuses_what_folds_over() {
     assert!(error.contains("open: ball"), "{error}");
 }
 
-/// What rests out of sight of camera and light, and what a wave brings there, is drawn; what none brings, is not.
 /// The greatest difference of two pictures, in codes of one channel.
 fn apart(a: &Pixels, b: &Pixels) -> u8 {
     let (Pixels::Rgba8 { data: a, .. }, Pixels::Rgba8 { data: b, .. }) = (a, b) else { return u8::MAX };

@@ -9,7 +9,7 @@ use glumbra::device::queries::Timer;
 use libtest_mimic::Completion;
 
 use crate::contexts::{COMPATIBILITY, CORE, check_backend, cleared_pixel, command, run};
-use crate::roads::{Roads, compare, load};
+use crate::pipelines::{Pipelines, compare, load};
 use crate::xvfb::Xvfb;
 use crate::{Done, Test, tests};
 
@@ -23,7 +23,7 @@ pub fn tests() -> Vec<Test> {
     }
     tests![
         osmesa_draws,
-        osmesa_has_the_fixed_function_road_too,
+        osmesa_has_the_fixed_function_pipeline_too,
         timers_answer_in_order_and_once,
         egl_without_a_driver_names_its_error,
         window_and_pbuffer_draw_under_xvfb,
@@ -42,13 +42,13 @@ fn osmesa_draws() -> Done {
     Ok(Completion::Completed)
 }
 
-fn osmesa_has_the_fixed_function_road_too() -> Done {
+fn osmesa_has_the_fixed_function_pipeline_too() -> Done {
     let request = ContextRequest { choice: Choice::OsMesa, profile: Profile::Compatibility, ..Default::default() };
     if context::open(&request).is_err() {
         return Ok(Completion::ignored_with("this machine has no libOSMesa"));
     }
     let scene = load(Path::new("data/scenes/hw_shadowmaps_simple.toml"), &["image.size=[256, 256]"]);
-    assert_eq!(compare(&mut Roads::on(Choice::OsMesa), &scene, "OSMesa"), Ok(true));
+    assert_eq!(compare(&mut Pipelines::on(Choice::OsMesa), &scene, "OSMesa"), Ok(true));
     Ok(Completion::Completed)
 }
 

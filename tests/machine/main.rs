@@ -15,9 +15,9 @@ mod drivers;
 mod contexts;
 #[path = "../it/support/lit_box.rs"]
 mod lit_box;
-#[path = "../it/fixed_function/roads.rs"]
+#[path = "../it/fixed_function/pipelines.rs"]
 #[allow(dead_code, reason = "tests of the fixed-function pipeline use the rest")]
-mod roads;
+mod pipelines;
 #[cfg(unix)]
 #[path = "../it/support/shell.rs"]
 #[allow(dead_code, reason = "tests of the machine's faults use the rest")]
@@ -25,7 +25,7 @@ mod shell;
 #[path = "../it/support/xvfb.rs"]
 mod xvfb;
 
-/// How a test ends that neither fails nor must be made here.
+/// Result of a test that does not fail, or cannot run on this machine.
 type Done = Result<Completion, Failed>;
 
 /// A name and a test.

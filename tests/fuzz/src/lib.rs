@@ -1,4 +1,4 @@
-//! What the targets share: a folder for the files that glumbra reads by name.
+//! Shared by the targets: a folder for the files that glumbra reads by name.
 
 use std::cell::LazyCell;
 use std::path::{Path, PathBuf};

@@ -11,7 +11,7 @@ use syn::visit::{self, Visit};
 /// A module's path from the root, without `crate`.
 pub type Module = Vec<String>;
 
-/// What one file holds.
+/// Contents of one file.
 #[derive(Default)]
 pub struct File {
     /// Below `src`.

@@ -58,7 +58,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Whether `from` may use `to`, directly or through others.
+/// Tests whether `from` may use `to`, directly or through others.
 fn may_use(from: &str, to: &str) -> bool {
     let direct = ARROWS.iter().find(|(name, _)| *name == from).map_or(&[][..], |(_, direct)| direct);
     from == to || EVERYWHERE.contains(&to) || direct.iter().any(|next| may_use(next, to))

@@ -1,4 +1,4 @@
-//! Every scene, and every case's scene with what the case sets, on both roads.
+//! Every scene, and every case's scene with what the case sets, by both pipelines.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -8,9 +8,9 @@ use glumbra::frame::Renderer;
 use glumbra::plan::Request;
 use glumbra::scene;
 
-use super::roads::{Roads, compare};
+use super::pipelines::{Pipelines, compare};
 
-/// Why a case's scene may be refused: what no layer of fixed function computes, and no more.
+/// Reasons for which a case's scene may be refused: features that no layer of fixed function computes, and no more.
 const KNOWN_LIMITS: &[&str] = &[
     "beyond the light's far plane",
     "saturate",
@@ -24,7 +24,7 @@ const KNOWN_LIMITS: &[&str] = &[
 
 #[test]
 fn scenes_and_cases_agree_per_vertex_or_say_why_not() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     let (mut drawn, mut shadowed, mut refused) = (0, 0, 0);
     for (path, set) in cases() {
         let Ok(loaded) = scene::load(&path, &set) else { continue };
@@ -32,12 +32,12 @@ fn scenes_and_cases_agree_per_vertex_or_say_why_not() {
             let technique = light.shadow.get("technique").map(|entry| format!("{:?}", entry.value));
             technique.is_none_or(|name| name.contains("\"shadow-map\"") || name.contains("\"none\""))
         };
-        let plans = Renderer::plan(&mut roads.renderer, &loaded.scene, &Request::default()).is_ok();
+        let plans = Renderer::plan(&mut pipelines.renderer, &loaded.scene, &Request::default()).is_ok();
         if !plans || !loaded.scene.lights.iter().all(of_maps) {
             continue;
         }
         let name = format!("{} {}", path.display(), set.join(" "));
-        match compare(&mut roads, &loaded.scene, &name) {
+        match compare(&mut pipelines, &loaded.scene, &name) {
             Ok(shadow) => {
                 drawn += 1;
                 shadowed += usize::from(shadow);
@@ -49,7 +49,7 @@ fn scenes_and_cases_agree_per_vertex_or_say_why_not() {
             }
         }
     }
-    println!("{drawn} scenes drawn on both roads, {shadowed} of them with a shadow; {refused} refused");
+    println!("{drawn} scenes drawn on both pipelines, {shadowed} of them with a shadow; {refused} refused");
     assert!(drawn >= 60 && shadowed >= 40, "{drawn} scenes were drawn, {shadowed} with a shadow");
 }
 
@@ -95,7 +95,7 @@ fn strings(value: &toml::Value) -> Vec<String> {
     value.as_array().into_iter().flatten().filter_map(|each| each.as_str().map(str::to_owned)).collect()
 }
 
-/// What lies in a folder, pictures left out.
+/// Files of a folder, without pictures.
 fn files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     entries.filter(|path| path.is_dir() || path.extension().is_some_and(|extension| extension == "toml")).collect()

@@ -1,10 +1,9 @@
-//! Both roads of a pass list: shaders and the driver's own fixed-function pipeline. With planes and matrices of the
-//! driver's arithmetic the shade is the same to the bit; with ours, but for a handful of pixels; colours are within
-//! 1/255.
+//! Both pipelines of a pass list: shaders and the driver's own fixed-function pipeline. With planes and matrices of the
+//! driver's arithmetic the shade is the same to the bit; with ours, but for a handful of pixels; colours are within 1/255.
 
 mod cases;
+mod pipelines;
 mod programs;
-mod roads;
 
 use std::path::Path;
 
@@ -15,38 +14,38 @@ use glumbra::plan::{Request, ViewRequest};
 use glumbra::viewer::Mode;
 use glumbra::views::View;
 
-use roads::{HANDFUL, ONE_CODE, Roads, compare, differing, differing_bits, load, picture_and_shades};
+use pipelines::{HANDFUL, ONE_CODE, Pipelines, compare, differing, differing_bits, load, picture_and_shades};
 
 const SAMPLE: &str = "data/scenes/hw_shadowmaps_simple.toml";
 
 #[test]
 fn the_sample_is_the_same_in_every_mode_to_one_code() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     for (name, mode) in Mode::ALL {
         let scene = load(Path::new(SAMPLE), &[]);
         let (scene, request) = mode.frame(&scene, scene.image.size);
-        let plan = roads.plan(&scene, &request);
-        let drawn = roads.draw_in_driver_arithmetic(&plan).unwrap();
+        let plan = pipelines.plan(&scene, &request);
+        let drawn = pipelines.draw_in_driver_arithmetic(&plan).unwrap();
         // Rounded to 8 bits: one code more, where a value lies at the border of two.
         assert_eq!(differing(&drawn.shaders[0], &drawn.fixed[0], ONE_CODE), 0, "{name}");
         let apart = differing_bits(&drawn.shaders[0], &drawn.fixed[0]);
         assert!(apart < 262_144 / 1000, "{name}: {apart} pixels of 8 bits differ by a code");
-        let off = roads.draw(&plan).map(|drawn| differing(&drawn.shaders[0], &drawn.fixed[0], ONE_CODE)).unwrap();
+        let off = pipelines.draw(&plan).map(|drawn| differing(&drawn.shaders[0], &drawn.fixed[0], ONE_CODE)).unwrap();
         assert!(off <= HANDFUL, "{name}: {off} pixels with our own planes");
     }
 }
 
 #[test]
 fn a_cone_ends_where_the_shader_ends_it_with_eight_bits_of_alpha_too() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     let scene = load(Path::new("data/cases/scenes/box.toml"), &["shading.lighting=per-vertex"]);
-    let plan = roads.plan(&scene, &Request::default());
-    let drawn = roads.draw(&plan).unwrap();
+    let plan = pipelines.plan(&scene, &Request::default());
+    let drawn = pipelines.draw(&plan).unwrap();
     // Ambient and the light are rounded one by one and added: one code.
     assert_eq!(differing(&drawn.shaders[0], &drawn.fixed[0], ONE_CODE), 0);
 }
 
-/// What of the sample's shadow is varied, beside set-ups and splits.
+/// Keys of the sample's shadow that are varied, beside set-ups and splits.
 const VARIANTS: &[&[&str]] = &[
     &["light.shadow.format=depth16"],
     &["light.shadow.format=depth32f", "light.far=20"],
@@ -66,27 +65,27 @@ const VARIANTS: &[&[&str]] = &[
 
 #[test]
 fn the_samples_shadow_is_the_same_to_the_bit() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     for variant in VARIANTS {
         let name = variant.join(" ");
-        let shadowed = compare(&mut roads, &load(Path::new(SAMPLE), variant), &name);
+        let shadowed = compare(&mut pipelines, &load(Path::new(SAMPLE), variant), &name);
         assert!(shadowed.unwrap_or_else(|all| panic!("{name}: {all:?}")), "{name}: no shadow");
     }
 }
 
 #[test]
 fn planes_set_under_every_modelview_give_the_shadow_to_the_bit() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     for set_up in ["eye", "world", "light", "identity"] {
         for split in ["identity", "scale-bias", "projection"] {
             let set = [format!("light.shadow.texgen={set_up}"), format!("light.shadow.texture_matrix={split}")];
             let scene = load(Path::new(SAMPLE), &[&set[0], &set[1], "image.size=[256, 256]"]);
-            assert_eq!(compare(&mut roads, &scene, &set.join(" ")), Ok(true));
+            assert_eq!(compare(&mut pipelines, &scene, &set.join(" ")), Ok(true));
         }
     }
 }
 
-/// What is wrong with the planes that GL is given.
+/// A mistake in the planes that GL is given.
 type Mistake = fn(&mut Projection);
 
 const MISTAKES: &[(&str, Mistake)] = &[
@@ -102,11 +101,11 @@ const MISTAKES: &[(&str, Mistake)] = &[
 
 #[test]
 fn mistakes_in_the_planes_are_seen() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     let set = ["light.shadow.texgen=light", "light.shadow.texture_matrix=scale-bias", "image.size=[256, 256]"];
     let scene = load(Path::new(SAMPLE), &set);
-    let plan = roads.plan(&scene, &picture_and_shades(&scene));
-    let right = roads.draw(&plan).unwrap();
+    let plan = pipelines.plan(&scene, &picture_and_shades(&scene));
+    let right = pipelines.draw(&plan).unwrap();
     assert!(differing(&right.shaders[1], &right.fixed[1], ONE_CODE) <= HANDFUL);
     for (name, mistake) in MISTAKES {
         let mut list = plan.list.clone();
@@ -118,13 +117,13 @@ fn mistakes_in_the_planes_are_seen() {
                 }
             }
         }
-        let wrong = roads.draw_fixed(&plan, &list).unwrap();
+        let wrong = pipelines.draw_fixed(&plan, &list).unwrap();
         let off = differing(&right.shaders[1], &wrong[1], ONE_CODE);
         assert!(off > 1000, "{name}: {off} pixels differ");
     }
 }
 
-/// What fixed function cannot do: settings, the pass, the draw, and words of the reason.
+/// Settings that fixed function cannot draw, the pass, the draw, and words of the reason.
 const REFUSED: &[(&[&str], &str, &str, &str)] = &[
     (&["shading.lighting=per-fragment"], "lit", "teapot", "for each fragment"),
     (&["light.shadow.format=depth32f"], "lit", "floor", "beyond the light's far plane"),
@@ -146,11 +145,11 @@ const REFUSED: &[(&[&str], &str, &str, &str)] = &[
 
 #[test]
 fn what_fixed_function_cannot_draw_is_named() {
-    let mut roads = Roads::open();
+    let mut pipelines = Pipelines::open();
     for (set, pass, what, why) in REFUSED {
         let scene = load(Path::new(SAMPLE), set);
-        let plan = roads.plan(&scene, &Request::default());
-        let error = roads.draw(&plan).err().unwrap_or_else(|| panic!("{set:?} is drawn"));
+        let plan = pipelines.plan(&scene, &Request::default());
+        let error = pipelines.draw(&plan).err().unwrap_or_else(|| panic!("{set:?} is drawn"));
         let Error::Inexpressible(all) = &error else { panic!("{error}") };
         let named = |each: &Inexpressible| each.pass == *pass && each.what.contains(what) && each.why.contains(why);
         assert!(all.iter().any(named), "{error}");
@@ -158,8 +157,8 @@ fn what_fixed_function_cannot_draw_is_named() {
     }
     let scene = load(Path::new(SAMPLE), &[]);
     let views = vec![ViewRequest { view: View::LightDistance, light: 0 }];
-    let plan = roads.plan(&scene, &Request { views, ..Request::default() });
-    let named = roads.fixed.inexpressible(&plan.list);
+    let plan = pipelines.plan(&scene, &Request { views, ..Request::default() });
+    let named = pipelines.fixed.inexpressible(&plan.list);
     let [only] = named.as_slice() else { panic!("{named:#?}") };
     assert_eq!((only.pass.as_str(), only.why.as_str()), ("view: light-distance of light 0", "r/q as a colour"));
 }

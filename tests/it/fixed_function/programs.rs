@@ -5,7 +5,7 @@ use std::process::Command;
 use assert_cmd::cargo::CommandCargoExt;
 
 use super::SAMPLE;
-use super::roads::HANDFUL;
+use super::pipelines::HANDFUL;
 
 /// The codes of a picture that a command has drawn.
 fn picture_of(program: &str, arguments: &[&str]) -> Vec<u8> {

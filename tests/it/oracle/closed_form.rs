@@ -7,14 +7,14 @@ use glumbra::truth::Answer;
 
 use super::scenes::*;
 
-/// Where the line from the light through a point meets the floor.
+/// Point of the floor that the line from the light through a point meets.
 fn cast(light: &Light, point: DVec3) -> DVec2 {
     let way = way_of_light(light, point);
     let on_floor = point - way * (point.y / way.y);
     DVec2::new(on_floor.x, on_floor.z)
 }
 
-/// Whether a floor point lies in the convex polygon that the points cast.
+/// Tests whether a floor point lies in the convex polygon that the points cast.
 fn is_in_polygon(at: DVec3, light: &Light, polygon: &[DVec3]) -> bool {
     let at = DVec2::new(at.x, at.z);
     let corners: Vec<DVec2> = polygon.iter().map(|&point| cast(light, point)).collect();
@@ -91,7 +91,7 @@ fn a_tilted_disc_of_nine_corners_casts_its_projection_mirrored_or_not() {
     }
 }
 
-/// Whether the way from `from` to the light meets the box.
+/// Tests whether the way from `from` to the light meets the box.
 fn meets_box(from: DVec3, light: &Light, min: DVec3, max: DVec3) -> bool {
     let way = -way_of_light(light, from);
     let end = if light.position().is_some() { 1.0 } else { f64::INFINITY };

@@ -73,8 +73,8 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
     assert!(matches!(refused, Err(truth::Error::TooAmbiguous { .. })), "{refused:?}");
 }
 
-/// Where f32 may move every surface by more than a mesh is large, a few pixels tell that there is no truth; and no pixel
-/// looks at all of the mesh.
+/// Where f32 may move every surface by more than a mesh is large, a few pixels are enough to find that there is no truth,
+/// and no pixel searches all of the mesh.
 #[test]
 fn a_light_so_far_away_that_nothing_is_sure_is_found_out_early() {
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/dense.obj");

@@ -1,4 +1,5 @@
-//! What must not change the answer, and what must: leaks, holes, sides, size, place, and the ambiguous band itself.
+//! Changes that must not change the answer, and changes that must: leaks, holes, sides, size, place, and the ambiguous band
+//! itself.
 
 use std::sync::Arc;
 

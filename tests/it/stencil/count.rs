@@ -16,14 +16,14 @@ pub fn truth(scene: &Scene) -> VolumeCounts {
     volume_count(scene, 0, &Options { most_ambiguous: 1.0, ..Options::default() }).unwrap()
 }
 
-/// What a picture and the truth say of each other.
+/// Comparison of a picture with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Held {
     /// Pixels at which the ray tracer is certain.
     pub told: usize,
-    /// Of these, pixels in some volume.
+    /// Pixels among these that are in some volume.
     pub inside: usize,
-    /// Of these, pixels at which the stencil says otherwise, modulo 256.
+    /// Pixels among these with another stencil value, modulo 256.
     pub different: usize,
 }
 

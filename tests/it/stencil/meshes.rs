@@ -96,7 +96,7 @@ fn reeded_column(sides: u32) -> Shape {
     (points, triangles.collect())
 }
 
-/// What is seen of a lit sliver, and of its neighbours, is bounded by caps that are slivers too.
+/// The visible parts of a lit sliver and of its neighbours are bounded by caps that are slivers, too.
 #[test]
 fn slivers_are_counted_exactly() {
     let mut bench = Bench::new();

@@ -15,13 +15,13 @@ pub struct Rims<'a> {
 }
 
 impl<'a> Rims<'a> {
-    /// Of the first light of `scene`, which stands in a place.
+    /// Prepares the first light of `scene`, which has a position.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, known: HashMap::new() }
     }
 
-    /// Whether within two texels around what a pixel shows, on a map of `size`, the surface that the light sees falls by
-    /// more than two texels' widths within an eighth of a texel: a silhouette, or a slope of more than 86 degrees.
+    /// Tests whether within two texels around what a pixel shows, on a map of `size`, the surface that the light sees falls
+    /// by more than two texels' widths within an eighth of a texel: a silhouette, or a slope of more than 86 degrees.
     pub fn is_rim(&mut self, pixel: usize, hit: &Hit, size: u32) -> bool {
         *self.known.entry((pixel, size)).or_insert_with(|| is_rim(self.scene, hit, size))
     }
@@ -82,7 +82,7 @@ pub fn wrong_beyond(truth: &Truth, shade: &ShadeImage, band: &Band) -> Vec<usize
     found
 }
 
-/// What is left of [`wrong_beyond`] once no silhouette is to blame, in words.
+/// Wrong pixels of [`wrong_beyond`] that no silhouette explains, in words.
 pub fn without_rims(scene: &Scene, truth: &Truth, shade: &ShadeImage, band: &Band) -> Vec<String> {
     let mut rims = Rims::new(scene);
     let place = |index: usize| (index as u32 % truth.width, index as u32 / truth.width);

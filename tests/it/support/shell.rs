@@ -49,7 +49,7 @@ pub fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What is wrong with a failure, if anything: one error that says `expected`, and `code`.
+/// Checks a failure: one error that says `expected`, and the exit code. Returns what is wrong.
 pub fn refusal(output: &Output, expected_code: i32, expected: &str) -> Option<String> {
     let error = text(&output.stderr);
     let errors = error.lines().filter(|line| line.starts_with("error: ")).count();

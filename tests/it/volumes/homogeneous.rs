@@ -33,7 +33,7 @@ pub fn entries(triangles: &[Triangle], origin: DVec3, way: DVec3) -> i32 {
     crossings.filter(|(t, _)| *t < 1.0).map(|(_, sign)| -sign).sum()
 }
 
-/// Where the ray crosses it, and 1 for a way out, -1 for a way in.
+/// Parameter where the ray crosses it, and 1 for a way out, -1 for a way in.
 fn crossing(([a, b, c], count): &Triangle, origin: DVec3, way: DVec3) -> Option<(f64, i32)> {
     let det = |p: &DVec4, q: &DVec4, r: &DVec4, s: &DVec4| DMat4::from_cols(*p, *q, *r, *s).determinant();
     let (o, r) = (origin.extend(1.0), way.extend(0.0));
@@ -53,7 +53,7 @@ fn crossing(([a, b, c], count): &Triangle, origin: DVec3, way: DVec3) -> Option<
     (t > 0.0).then_some((t, if along < 0.0 { *count } else { -count }))
 }
 
-/// How many triangles of `mesh` the way from the light to `point` crosses: those that face the light, or all. `None`
+/// Number of triangles of `mesh` that the way from the light to `point` crosses: those that face the light, or all. `None`
 /// where that is too near to call.
 pub fn blockers(mesh: &Mesh, source: LightSource, point: DVec3, facing_only: bool) -> Option<i32> {
     const MARGIN: f64 = 1e-4;

@@ -16,7 +16,7 @@ fn placed(mesh: glumbra::geometry::Mesh, world_from_model: DMat4) -> Object {
     object
 }
 
-/// What is nearer than a light's near plane does not cast; volumes made without one know no near plane.
+/// Moves the near plane to 0: surfaces nearer than it do not cast, and volumes made without a light have no near plane.
 fn near_nothing(mut light: glumbra::scene::Light) -> glumbra::scene::Light {
     frustum_of(&mut light).near = 1e-12;
     light

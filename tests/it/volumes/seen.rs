@@ -1,5 +1,4 @@
-//! What bounds say of a volume is never less than what is there: random boxes, lights and eyes against volumes built
-//! and sampled.
+//! Bounds of a volume are never too small: random boxes, lights and eyes against volumes built and sampled.
 
 use glam::{DMat4, DVec3};
 use glumbra::geometry::volume::{CameraHulls, LightSource, VolumeHulls, scissor};
@@ -9,7 +8,7 @@ use glumbra::math::spaces::{perspective, view_from_world};
 
 use super::homogeneous::Random;
 
-/// Whether the way from the light to `point` meets the box.
+/// Tests whether the way from the light to `point` meets the box.
 fn is_behind(bounds: &Aabb, source: LightSource, point: DVec3) -> bool {
     let way = match source {
         LightSource::Point(light) => light - point,

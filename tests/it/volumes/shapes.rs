@@ -12,7 +12,7 @@ use crate::oracle::scenes::{Shape, cuboid, mesh, sphere, torus};
 pub struct Case {
     pub name: &'static str,
     pub mesh: Mesh,
-    /// Whether light-facing triangles alone count, for a light outside.
+    /// True if only light-facing triangles count, for a light outside.
     pub facing_only: bool,
 }
 

@@ -1,4 +1,4 @@
-//! A pass list drawn by both roads on one context, and how their pictures are held against each other.
+//! A pass list drawn by both pipelines on one context, and the comparison of their pictures.
 
 use std::path::Path;
 
@@ -19,11 +19,11 @@ pub const ONE_CODE: f32 = 1.02 / 255.0;
 /// driver's f32 products: a texel's border or a silhouette runs through them. Measured: at most 8, 2 with NEAREST.
 pub const HANDFUL: usize = 12;
 
-/// Both roads on one context.
-pub struct Roads {
+/// Both pipelines on one context.
+pub struct Pipelines {
     pub renderer: Renderer,
     pub fixed: FixedFunction,
-    /// Whether shades must agree to the bit: Mesa's fixed function rounds as a shader does until 26.
+    /// True if shades must agree to the bit: Mesa's fixed function rounds as a shader does until 26.
     to_the_bit: bool,
 }
 
@@ -33,7 +33,7 @@ pub struct Drawn {
     pub fixed: Vec<Vec<f32>>,
 }
 
-impl Roads {
+impl Pipelines {
     pub fn open() -> Self {
         Self::on(Choice::Auto)
     }
@@ -118,20 +118,20 @@ pub fn picture_and_shades(scene: &Scene) -> Request {
     Request { views, float_picture: true, ..Request::default() }
 }
 
-/// Holds both roads against each other; `Ok` with whether some light's shade has a shadow.
-pub fn compare(roads: &mut Roads, scene: &Scene, name: &str) -> Result<bool, Vec<Inexpressible>> {
-    let plan = roads.plan(scene, &picture_and_shades(scene));
-    let same = match roads.draw_in_driver_arithmetic(&plan) {
+/// Compares both pipelines. `Ok(true)` if some light's shade has a shadow.
+pub fn compare(pipelines: &mut Pipelines, scene: &Scene, name: &str) -> Result<bool, Vec<Inexpressible>> {
+    let plan = pipelines.plan(scene, &picture_and_shades(scene));
+    let same = match pipelines.draw_in_driver_arithmetic(&plan) {
         Err(Error::Inexpressible(all)) => return Err(all),
         other => other.unwrap_or_else(|error| panic!("{name}: {error}")),
     };
-    let own = roads.draw(&plan).unwrap();
+    let own = pipelines.draw(&plan).unwrap();
     let handful = HANDFUL * same.fixed[0].len().div_ceil(4 * 262_144);
     let shades = || same.shaders.iter().zip(&same.fixed).skip(1).zip(own.shaders.iter().zip(&own.fixed).skip(1));
     for (light, ((shader, fixed), (own_shader, own_fixed))) in shades().enumerate() {
         let bits = differing_bits(shader, fixed);
         let off = differing(shader, fixed, ONE_CODE);
-        let right = if roads.to_the_bit { bits == 0 } else { off <= handful };
+        let right = if pipelines.to_the_bit { bits == 0 } else { off <= handful };
         let what = format!("{name}: shade of light {light}, in the driver's arithmetic");
         assert!(right, "{what}: {bits} pixels differ in their bits, {off} by more than a code");
         let off = differing(own_shader, own_fixed, ONE_CODE);
