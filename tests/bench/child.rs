@@ -118,7 +118,7 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
     let sets: Vec<String> = [String::from(redraw)].into_iter().chain(arguments.set.iter().cloned()).collect();
     let loaded = scene::load(&file, &sets)?;
     let context = context::open(&ContextRequest::default())?;
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let keep_all = arguments.keep == Keep::All;
     let views = match arguments.keep {
         Keep::Casters => vec![ViewRequest { view: View::LightDepth, light: 0 }],

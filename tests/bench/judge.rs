@@ -2,6 +2,7 @@
 //! a coarser caster makes shorter.
 
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
@@ -21,7 +22,7 @@ pub struct Judge {
     file: PathBuf,
     band: Band,
     truth: Truth,
-    context: Box<dyn Context>,
+    context: Rc<dyn Context>,
     plain: f64,
 }
 
@@ -40,7 +41,7 @@ impl Judge {
     fn metrics(&self, sets: &[&str]) -> Result<Metrics> {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
         let scene = scene::load(&self.file, &sets)?.scene;
-        let mut renderer = Renderer::new(self.context.as_ref());
+        let mut renderer = Renderer::new(&self.context);
         Ok(compare(&self.truth, &draw_shade(&scene, 0, &mut renderer)?, &self.band)?)
     }
 

@@ -33,8 +33,7 @@ pub struct Drawn {
     pub warnings: Vec<String>,
 }
 
-/// One thread's renderer, kept until the process ends: a context must outlive its objects, and drivers differ in what
-/// they bear when a thread ends.
+/// One thread's renderer and its context, kept until the process ends: drivers differ in what they bear when a thread ends.
 struct Gpu {
     renderer: &'static mut Renderer,
     driver: String,
@@ -50,8 +49,7 @@ fn open() -> Result<Gpu, String> {
     let context = context::open(&request).map_err(|error| error.to_string())?;
     let info = context.describe();
     let driver = format!("{}, OpenGL {}", info.renderer, info.version);
-    let renderer = Box::leak(Box::new(Renderer::new(context.as_ref())));
-    Box::leak(context);
+    let renderer = Box::leak(Box::new(Renderer::new(&context)));
     Ok(Gpu { renderer, driver })
 }
 

@@ -108,7 +108,7 @@ fn biases(scale: f64, size: u32, format: &str) -> Vec<String> {
 /// the slope of its neighbours; no offset at all, on most of the surface.
 fn the_default_offset_leaves_no_acne(scale: f64, formats: &[&str]) {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let judge = Judge::new(scale);
     let mut rims = Rims::new(&judge.scene);
     for size in [512, 1024, 2048] {

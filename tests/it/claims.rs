@@ -10,7 +10,7 @@ use glumbra::{scene, truth};
 
 fn measure(name: &str) -> Vec<Claimed> {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
     let scene = scene::load(&path, &[]).unwrap().scene;
     let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();

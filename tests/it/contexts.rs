@@ -205,3 +205,56 @@ fn a_core_context_has_no_fixed_function_pipeline_and_says_so() {
     let error = Binding::load(&*context).err().unwrap();
     assert_eq!(error, BindingError::Core { backend: context.backend().to_owned() });
 }
+
+/// A scene with a shadow map, small.
+fn small_scene() -> glumbra::scene::Scene {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes/box.toml");
+    glumbra::scene::load(&path, &["image.size=[32, 32]".to_owned()]).unwrap().scene
+}
+
+#[test]
+fn contexts_and_renderers_may_be_dropped_in_any_order() {
+    use glumbra::frame::Renderer;
+    let scene = small_scene();
+    let open = || context::open(&ContextRequest::default()).unwrap();
+    let draw = |renderer: &mut Renderer| {
+        let plan = renderer.plan(&scene, &Default::default()).unwrap();
+        renderer.draw(&plan).unwrap();
+        format!("{:?}", renderer.read(&plan).unwrap().picture)
+    };
+    let picture = {
+        let context = open();
+        draw(&mut Renderer::new(&context))
+    };
+    // Each order of dropping two contexts (0, 1) and their renderers (2, 3): whichever is left still draws.
+    for order in permutations(&[0, 1, 2, 3]) {
+        let mut contexts = [(); 2].map(|()| None);
+        let mut renderers = [(); 2].map(|()| None);
+        for index in 0..2 {
+            let context = open();
+            renderers[index] = Some(Renderer::new(&context));
+            contexts[index] = Some(context);
+        }
+        for dropped in &order {
+            for renderer in renderers.iter_mut().flatten() {
+                assert_eq!(draw(renderer), picture, "{order:?} at {dropped}");
+            }
+            match dropped {
+                0 | 1 => contexts[*dropped] = None,
+                _ => renderers[*dropped - 2] = None,
+            }
+        }
+    }
+}
+
+fn permutations(of: &[usize]) -> Vec<Vec<usize>> {
+    if of.is_empty() {
+        return vec![Vec::new()];
+    }
+    let mut all = Vec::new();
+    for (at, first) in of.iter().enumerate() {
+        let rest: Vec<usize> = of.iter().enumerate().filter(|(index, _)| *index != at).map(|(_, one)| *one).collect();
+        all.extend(permutations(&rest).into_iter().map(|rest| [vec![*first], rest].concat()));
+    }
+    all
+}

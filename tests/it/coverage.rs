@@ -100,7 +100,7 @@ fn count_wrong(truth: &Truth, drawn: &[i64]) -> usize {
 #[test]
 fn every_pixel_shows_what_a_ray_meets_or_a_warning_says_why_not() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut random = Random::new(11);
     let [mut warned, mut right_with_automatic_planes] = [0; 2];
     for round in 0..70 {

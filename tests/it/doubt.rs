@@ -37,7 +37,7 @@ fn wrong_and_warned(cone: f64, near: f64, far: f64, keys: &str, renderer: &mut R
 #[test]
 fn too_few_codes_and_too_few_texels_are_told() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (cone, near, far, keys, is_told) in [
         (60.0, 0.5, 20.0, "", None),
         (60.0, 0.5, 20.0, "format = \"depth16\"", None),
@@ -68,7 +68,7 @@ fn too_few_codes_and_too_few_texels_are_told() {
 #[test]
 fn the_share_that_is_foretold_is_the_share_that_is_wrong() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let folder = tempfile::tempdir().unwrap();
     let (mut told, mut untold) = (0, 0);
     for index in 0..40 {

@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
@@ -78,7 +79,7 @@ impl Case {
     }
 }
 
-fn open() -> Box<dyn Context> {
+fn open() -> Rc<dyn Context> {
     context::open(&ContextRequest::default()).unwrap()
 }
 
@@ -105,7 +106,7 @@ fn measure(name: &str, case: &Case, renderer: &mut Renderer) -> Metrics {
 #[test]
 fn size_and_place() {
     let context = open();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let ordinary = measure("ordinary", &ORDINARY, &mut renderer);
     assert!(ordinary.facing.compared > 15_000 && ordinary.all.wrong_percent < 0.6, "{ordinary:?}");
     for (name, scale, shift) in [
@@ -129,7 +130,7 @@ fn size_and_place() {
 #[test]
 fn stiff_frusta() {
     let context = open();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (name, near, far, shadow, most_false, most_leak) in [
         ("far/near 40, 16 bits", 0.5, 20.0, "format = \"depth16\"", 0.5, 1.0),
         ("far/near 1e4, 24 bits", 0.01, 100.0, "format = \"depth24\"", 0.5, 1.0),
@@ -150,7 +151,7 @@ fn stiff_frusta() {
 #[test]
 fn grazing_light_and_odd_cones() {
     let context = open();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (name, case, most_false) in [
         ("grazing, 4 degrees", Case { light: [6.0, 0.45, 1.0], far: 40.0, target: [0.0, 0.3, 0.0], ..ORDINARY }, 1.0),
         ("needle, 2 degrees", Case { light: [20.0, 40.0, 30.0], cone: 2.0, near: 40.0, far: 70.0, ..ORDINARY }, 0.1),
@@ -166,7 +167,7 @@ fn grazing_light_and_odd_cones() {
 #[test]
 fn set_ups_agree_however_stiff() {
     let context = open();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (near, far) in [(0.5, 20.0), (1e-3, 1e3), (1e-6, 1e6)] {
         let mut shades = ["eye", "world", "light", "identity"].map(|set_up| {
             let case = Case { near, far, ..ORDINARY };

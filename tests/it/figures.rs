@@ -57,7 +57,7 @@ fn shadow_of_ball() -> DVec3 {
 #[test]
 fn captions_are_true_of_points() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     // Behind both boxes as the light sees them.
     let overlap = DVec3::new(1.6, 0.0, -0.85);
     // Well within the left box's shadow from the lower light, which reaches to its top's at (2.97, -1.57).
@@ -91,7 +91,7 @@ fn captions_are_true_of_points() {
 #[test]
 fn nearest_is_zero_or_one_and_linear_between() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut between = |panel: usize| {
         let views = vec![ViewRequest { view: View::Shade, light: 0 }];
         let plan = renderer.plan(&scene("hsm-5-filtering", panel), &Request { views, ..Request::default() }).unwrap();
@@ -110,7 +110,7 @@ fn nearest_is_zero_or_one_and_linear_between() {
 #[test]
 fn texels_per_pixel_follow_the_projections() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut found = Vec::new();
     for panel in [1, 4] {
         let scene = scene("hsm-6-dueling-frusta", panel);
@@ -149,7 +149,7 @@ fn texels_per_pixel_follow_the_projections() {
 #[test]
 fn pixels_per_texel_follow_the_projections() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut needy = Vec::new();
     for (eye, from_light) in [(0, 2), (3, 5)] {
         let (eye, swapped) = (scene("hsm-6-dueling-frusta", eye), scene("hsm-6-dueling-frusta", from_light));
@@ -188,7 +188,7 @@ fn pixels_per_texel_follow_the_projections() {
 #[test]
 fn with_the_eye_inside_light_and_shadow_change_places() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut counts = |panel: usize| {
         let views = vec![ViewRequest { view: View::StencilColors, light: 0 }];
         let plan = renderer.plan(&scene("gdc-eye-inside", panel), &Request { views, ..Request::default() }).unwrap();
@@ -242,7 +242,7 @@ fn figures_name_what_is_in_documents_and_fit_their_sheets() {
 #[test]
 fn saturating_counts_lose_shadows() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let shades = [0, 1].map(|panel| draw_shade(&scene("stencil-width", panel), 0, &mut renderer).unwrap());
     let truth = truth::trace(&scene("stencil-width", 0), 0, &truth::Options::default()).unwrap();
     let (mut lost, mut wrapped) = (0, 0);

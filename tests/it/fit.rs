@@ -38,7 +38,7 @@ fn gain(plan: &Plan) -> f64 {
 #[test]
 fn fitted_maps_are_right_and_finer() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let (mut wrong, mut gains) = ([0.0; 3], Vec::new());
     for (eye, target) in [
         ([6.0, 5.0, 8.0], [0.0, 0.0, 0.0]),
@@ -86,7 +86,7 @@ fn fitted_maps_are_right_and_finer() {
 #[test]
 fn casters_at_the_map_s_resolution_cast_the_same_shadow() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
     let keys = [format!("object.1.mesh=\"{root}meshes/dense.obj\""), String::from("image.size=[384, 384]")];
     let point = "light.0={ kind = \"point\", position = [2.0, 4.0, 3.0], near = 0.5, far = 20.0 }";

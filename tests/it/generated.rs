@@ -93,14 +93,12 @@ struct Judge {
     renderer: Renderer,
     /// True if picture and ray tracer must see the same surfaces. They round endless floors differently.
     same_surfaces: bool,
-    /// Current as long as it lives.
-    _context: Box<dyn context::Context>,
 }
 
 impl Judge {
     fn new() -> Self {
         let context = context::open(&ContextRequest::default()).unwrap();
-        Self { renderer: Renderer::new(context.as_ref()), same_surfaces: false, _context: context }
+        Self { renderer: Renderer::new(&context), same_surfaces: false }
     }
 
     fn judge(&mut self, text: &str, techniques: &[&str], mut check: impl FnMut(&str, &Plan, &Metrics)) {

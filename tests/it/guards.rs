@@ -103,7 +103,7 @@ fn tolerance(guard: &str, scene: &Scene) -> (u8, usize) {
 #[test]
 fn every_guard_shows_the_same() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut wrong = Vec::new();
     for (name, set) in VARIANTS {
         let tested = plan(&mut renderer, &guarded(set, "fragment"), true);
@@ -135,7 +135,7 @@ fn every_guard_shows_the_same() {
 #[test]
 fn without_a_guard_the_picture_is_wrong() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for set in [&[][..], &["light.shape=frustum"], &[IMAGE], &["light.cone=170"]] {
         let right = plan(&mut renderer, &guarded(set, "fragment"), false);
         let mut unguarded = right.clone();
@@ -164,7 +164,7 @@ fn without_a_guard_the_picture_is_wrong() {
 #[test]
 fn a_cut_floor_misses_no_pixel() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (target, eye) in
         [([3.0, 1.4, 0.0], 3.4), ([0.3, 1.9, 1.7], 3.4), ([-0.9, 2.0, -0.31], 0.2), ([2.0, 1.7, 5.0], 9.0)]
     {
@@ -198,7 +198,7 @@ fn a_cut_floor_misses_no_pixel() {
 #[test]
 fn the_plan_chooses_what_the_scene_needs() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let only = |names: &[&str]| {
         let all = ["floor", "right wall", "left wall", "before", "behind", "across"];
         let away = all.iter().enumerate().filter(|(_, name)| !names.contains(name));

@@ -45,7 +45,7 @@ struct Drawn {
 
 fn draw(mode: Mode) -> Drawn {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let scene = load();
     let (scene, request) = mode.frame(&scene, scene.image.size);
     let views = vec![ViewRequest { view: View::Depth, light: 0 }];

@@ -246,7 +246,7 @@ fn a_second_ray_caster_finds_the_same_shadows() {
     let count = from_environment("GLUMBRA_INDEPENDENT").unwrap_or(12);
     let seed = from_environment("GLUMBRA_INDEPENDENT_SEED").unwrap_or(7);
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut failures = Vec::new();
     for (kind, name) in ["spot", "point", "sun"].into_iter().enumerate() {
         for technique in ["shadow-map", "midpoint", "second-depth", "shadow-volume"] {

@@ -114,7 +114,7 @@ fn texel(x: f64, y: f64, size: u32) -> f64 {
 #[test]
 fn kernels_weigh_as_gl_does() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for edge in [13.37, 18.6, 16.0] {
         for (filter, linear) in [("nearest", false), ("linear", true)] {
             for (name, side) in [
@@ -141,7 +141,7 @@ fn kernels_weigh_as_gl_does() {
 #[test]
 fn a_cube_s_kernels_weigh_as_gl_does() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (filter, linear) in [("nearest", false), ("linear", true)] {
         for side in [1, 2, 3, 5, 7] {
             for edge in [14.37, 16.0] {
@@ -161,7 +161,7 @@ fn a_cube_s_kernels_weigh_as_gl_does() {
 #[test]
 fn a_normal_offset_moves_nothing_on_what_is_square_to_the_map() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (name, side) in [("1", 1), ("\"3x3\"", 3)] {
         let keys = format!("kernel = {name}\nbias = \"normal-offset\"");
         let expected = |[x, _]: [f64; 2]| kernel(texel(x, 0.0, SIZE), 13.37, side, true);
@@ -173,7 +173,7 @@ fn a_normal_offset_moves_nothing_on_what_is_square_to_the_map() {
 #[test]
 fn eight_taps_are_two_levels_half_and_half() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for edge in [13.37, 15.2, 18.6] {
         for fov_y in [5.0, 6.0] {
             let expected = |[x, _]: [f64; 2]| {
@@ -194,7 +194,7 @@ fn eight_taps_are_two_levels_half_and_half() {
 #[test]
 fn minified_maps_meet_the_level_of_their_pixels() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let (fov_y, edge) = (5.0, 13.37);
     for size in [1024_u32, 4096] {
         let pixel = 2.0 * (0.5 * f64::to_radians(fov_y)).tan() * CAMERA / 16.0;

@@ -30,7 +30,7 @@ fn window_depth(distance: f64, near: f64, far: f64) -> f64 {
 #[test]
 fn the_middle_of_two_layers_is_stored() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let (near, far) = (1.0, 9.0);
     let mut text = String::from(
         "[[light]]\nposition = [0.0, 7.0, 0.0]\ntarget = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, -1.0]\ncone = 40.0\n\
@@ -76,7 +76,7 @@ fn the_middle_of_two_layers_is_stored() {
 #[test]
 fn texels_that_no_two_layers_share_are_left_out() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let flat = "[[light]]\nposition = [0.5, 7.0, 1.0]\ntarget = [0.0, 0.0, 0.0]\ncone = 40.0\nnear = 1.0\nfar = 9.0\n\
                 [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n\
                 [[object]]\nmesh = \"quad\"\ntranslate = [0.6, 2.0, 0.1]\nscale = [0.5, 1.0, 0.9]\n";
@@ -161,7 +161,7 @@ impl Judge {
 #[test]
 fn a_midpoint_map_needs_no_offset_and_leaks_at_most_half() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let judge = Judge::new(thick([3.0, 2.5, 4.0]));
     let tuned = judge.measure("technique = \"shadow-map\", offset = { factor = 2.0, units = 4.0 }", &mut renderer);
     let bare = judge.measure("technique = \"shadow-map\", offset = { factor = 0.0 }", &mut renderer);
@@ -190,7 +190,7 @@ fn a_midpoint_map_needs_no_offset_and_leaks_at_most_half() {
 #[test]
 fn second_depth_moves_the_error_to_faces_turned_away() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let judge = Judge::new(thick([-3.5, 2.0, -2.5]));
     let tuned = judge.measure("technique = \"shadow-map\", offset = { factor = 2.0, units = 4.0 }", &mut renderer);
     let second = judge.measure("technique = \"second-depth\", closed = \"assume\"", &mut renderer);

@@ -56,7 +56,7 @@ fn casters_of_no_second_layer_change_no_pixel() {
 /// Draws the field under each of the settings in turn; how many casters were left out in all.
 fn unseen_change_no_pixel(shadows: &[String; 4]) -> usize {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let eyes = [[6.0, 5.0, 8.0], [0.5, 3.0, 6.0], [-14.0, 2.0, 0.3], [2.0, 12.0, -3.0]];
     let lights = [[6.0, 14.0, 4.0], [-16.0, 3.0, 2.0], [0.1, 20.0, 0.0]];
     let (mut all_unseen, mut number) = (0, 0);
@@ -87,7 +87,7 @@ fn unseen_change_no_pixel(shadows: &[String; 4]) -> usize {
 #[test]
 fn an_unseen_second_layer_is_drawn() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let quad =
         |y: f64, scale: f64| format!("[[object]]\nmesh = \"quad\"\nscale = {scale:?}\ntranslate = [0.0, {y:?}, 0.0]\n");
     let text = "[image]\nsize = [192, 128]\n[camera]\neye = [0.0, 2.4, 6.0]\ntarget = [0.0, 2.1, 0.0]\nfov_y = 18.0\nnear = 0.2\nfar = 60.0\n\
@@ -123,7 +123,7 @@ fn an_unseen_second_layer_is_drawn() {
 #[test]
 fn what_is_left_out_of_our_scenes_changes_no_pixel() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
     let out_of_sight = ["light.0.position=[9.0, 3.0, 60.0]", "light.0.target=[9.0, 0.0, 90.0]", "light.0.far=80.0"];
     let aside = ["camera.target=[9.0, 0.0, 4.0]"];
@@ -177,7 +177,7 @@ fn differences(a: &Pixels, b: &Pixels) -> [usize; 2] {
 #[test]
 fn back_faces_of_closed_objects_are_left_out() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let meshes = [
         ("sphere", true),
         ("torus", true),

@@ -46,7 +46,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
 #[test]
 fn a_cube_is_right_on_every_face_edge_and_corner() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let (mut compared, mut shadowed, mut wrong) = (0, 0, 0);
     for filter in ["linear", "nearest"] {
         for way in directions() {
@@ -79,7 +79,7 @@ fn a_cube_is_right_on_every_face_edge_and_corner() {
 #[test]
 fn no_seam_shades_a_wall() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut lit = 0;
     // A kernel's slope is met over its own reach: of a tap 1.1 texels of it, and as many more as it is wide of centre.
     for (filter, size, kernel) in [
@@ -120,7 +120,7 @@ const COARSER: f64 = 1.25;
 #[test]
 fn parallel_light_is_right_from_every_way() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let ways = [[0.4, -1.0, -0.3], [0.1, -1.0, 0.05], [-1.0, -0.5, 0.8], [0.3, -0.12, -1.0], [-0.7, -1.0, 1.4]];
     for direction in ways {
         for keys in [
@@ -181,7 +181,7 @@ fn a_cube_has_the_faces_that_are_needed() {
 #[test]
 fn faces_that_are_left_out_change_no_pixel() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut draw = |scene: &Scene, keep_all: bool| {
         let plan = renderer.plan(scene, &Request { keep_all, ..Request::default() }).unwrap();
         renderer.draw(&plan).unwrap();
@@ -216,8 +216,8 @@ fn faces_are_drawn_again_before_they_are_copied_again() {
     for (first, second) in
         [(&copied, &unsized_map), (&unsized_map, &copied), (&copied, &elsewhere), (&elsewhere, &copied)]
     {
-        let expected = draw_shade(second, 0, &mut Renderer::new(context.as_ref())).unwrap().shade;
-        let mut renderer = Renderer::new(context.as_ref());
+        let expected = draw_shade(second, 0, &mut Renderer::new(&context)).unwrap().shade;
+        let mut renderer = Renderer::new(&context);
         draw_shade(first, 0, &mut renderer).unwrap();
         assert!(draw_shade(second, 0, &mut renderer).unwrap().shade == expected);
     }

@@ -183,7 +183,7 @@ fn load(folder: &Path, text: &str, context: &dyn Context) -> Library {
     library
 }
 
-fn open() -> Box<dyn Context> {
+fn open() -> Rc<dyn Context> {
     context::open(&ContextRequest { profile: Profile::Compatibility, ..ContextRequest::default() }).unwrap()
 }
 
@@ -267,13 +267,13 @@ fn the_listing_draws_the_picture() {
         let scene = scene::load(&root.join(path), &set).unwrap().scene;
         let plan = plan::make(&scene, &Request::default()).unwrap();
         let context = open();
-        let mut fixed = FixedFunction::new(&*context).unwrap();
+        let mut fixed = FixedFunction::new(&context).unwrap();
         assert_eq!(fixed.inexpressible(&plan.list).is_empty(), *is_fixed, "{name}");
         let expected = if *is_fixed {
             fixed.run(&plan.list).unwrap();
             rgba(fixed.read(&plan.list, plan.picture).unwrap())
         } else {
-            let mut device = Device::new(&*context);
+            let mut device = Device::new(&context);
             device.run(&plan.list, Measure::No).unwrap();
             rgba(device.read(&plan.list, plan.picture).unwrap())
         };

@@ -56,7 +56,7 @@ fn change_planes(plan: &mut Plan, change: impl Fn(&mut Vec<glam::Vec4>)) {
 #[test]
 fn mistakes_are_seen() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let truth = truth::trace(&scene(&[]), 0, &truth::Options::default()).unwrap();
     let right_plan = plan(&mut renderer, &[]);
     let right = measure(&mut renderer, &right_plan, &truth);

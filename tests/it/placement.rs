@@ -71,7 +71,7 @@ const ROWS: [(&str, [f64; 2], [f64; 2]); 4] = [
 #[test]
 fn a_placed_texture_is_one_whose_coordinates_are_placed() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (options, scale, offset) in ROWS {
         let placed = picture(&mut renderer, &scene(&format!("{options} a.png\n"), [1.0; 2], [0.0; 2]));
         let rest = options.split(" -s").next().unwrap().split(" -o").next().unwrap();
@@ -86,7 +86,7 @@ fn a_placed_texture_is_one_whose_coordinates_are_placed() {
 #[test]
 fn holes_are_where_truth_has_them() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (options, ..) in &ROWS[2..] {
         let scene = scene(&format!("{options} a.png\n"), [1.0; 2], [0.0; 2]);
         let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
@@ -110,12 +110,12 @@ fn holes_are_where_truth_has_them() {
 fn fixed_function_places_them_by_the_texture_matrix() {
     let request = ContextRequest { profile: Profile::Compatibility, ..ContextRequest::default() };
     let context = context::open(&request).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (options, ..) in ROWS {
         let scene = scene(&format!("{options} a.png\n"), [1.0; 2], [0.0; 2]);
         let shaders = picture(&mut renderer, &scene);
         let plan = renderer.plan(&scene, &Request::default()).unwrap();
-        let mut fixed = FixedFunction::new(context.as_ref()).unwrap();
+        let mut fixed = FixedFunction::new(&context).unwrap();
         fixed.run(&plan.list).unwrap();
         let fixed = codes(fixed.read(&plan.list, plan.picture).unwrap());
         assert!(differences(&shaders, &fixed) < 12, "{options}: {}", differences(&shaders, &fixed));

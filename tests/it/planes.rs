@@ -52,7 +52,7 @@ fn plane(random: &mut Random, unit: f64) -> Scene {
 #[test]
 fn no_bias_leaves_a_plane_dark_wherever_it_stands_and_however_large_it_is() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut lookups = Vec::new();
     for bias in ["offset", "receiver-plane", "normal-offset", "adaptive"] {
         for lookup in ["kernel = 1", "kernel = \"5x5\"", "filter = \"nearest\""] {

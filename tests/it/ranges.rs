@@ -81,7 +81,7 @@ fn moved(scene: &Scene, by: DVec3) -> Scene {
 #[test]
 fn a_scene_far_from_the_origin_has_the_same_picture() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut random = Random::new(7);
     for (round, by) in [1e4, 1e6, 1e9].into_iter().cycle().take(18).enumerate() {
         let kind = ["spot", "point", "sun"][round % 3];

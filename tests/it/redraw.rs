@@ -19,7 +19,7 @@ fn scene(shadow: &str) -> Scene {
 #[test]
 fn scenes_in_turn_do_not_take_over_each_others_maps() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let settings = [
         "technique = \"shadow-map\", size = 256",
         "technique = \"shadow-map\", size = 64, transfer = \"copy\"",
@@ -39,7 +39,7 @@ fn scenes_in_turn_do_not_take_over_each_others_maps() {
 #[test]
 fn a_map_is_drawn_again_when_its_pass_changes() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut moved = scene("technique = \"shadow-map\", size = 256");
     let still = moved.clone();
     moved.objects[1].world_from_model =
@@ -52,7 +52,7 @@ fn a_map_is_drawn_again_when_its_pass_changes() {
     let [before, after, back] = [&still, &moved, &still].map(&mut picture);
     assert!(before != after && before == back);
     let fresh_context = context::open(&ContextRequest::default()).unwrap();
-    let mut fresh = Renderer::new(fresh_context.as_ref());
+    let mut fresh = Renderer::new(&fresh_context);
     let plan = fresh.plan(&moved, &Request::default()).unwrap();
     fresh.draw(&plan).unwrap();
     assert!(fresh.read(&plan).unwrap().picture == after);

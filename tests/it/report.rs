@@ -296,7 +296,7 @@ fn a_row_is_what_render_draws_from_its_toml() {
     let sweep = run::prepare(&work.path("scene.toml"), &[], &Grid::Own(settings.clone()), &options()).unwrap();
     let rows: Vec<Row> = (0..=settings.len()).map(|index| sweep.row_of(index).clone()).collect();
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for row in rows {
         let mut draw = |text: &str, overrides: &[String]| {
             std::fs::write(work.path("pasted.toml"), text).unwrap();
@@ -327,7 +327,7 @@ fn nothing_outside_the_cone_counts_as_missing() {
         run::prepare(&work.path("scene.toml"), &[String::from("light.cone=25")], &Grid::Own(Vec::new()), &options())
             .unwrap();
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let shade = draw_shade(&sweep.scene, 0, &mut renderer).unwrap();
     let outside = sweep.truth.count(|answer| answer == Answer::OutsideCone);
     assert!(outside > 500, "{outside}");
@@ -520,7 +520,7 @@ fn what_tune_chose_is_what_its_toml_draws() {
     std::fs::write(work.path("pasted.toml"), text.replace(shadow_table(&text), toml)).unwrap();
     let sweep = run::prepare(&work.path("pasted.toml"), &[], &Grid::Own(Vec::new()), &options()).unwrap();
     let context = context::open(&ContextRequest::default()).unwrap();
-    let shade = draw_shade(&sweep.scene, 0, &mut Renderer::new(context.as_ref())).unwrap();
+    let shade = draw_shade(&sweep.scene, 0, &mut Renderer::new(&context)).unwrap();
     let metrics = compare(&sweep.truth, &shade, &Band { texels: 2.0, map_size: [128; 2] }).unwrap();
     assert_eq!(tuned["chosen"]["wrong_percent"].as_f64(), Some(metrics.all.wrong_percent));
     assert_eq!(tuned["compared"].as_u64(), Some(metrics.all.compared as u64));

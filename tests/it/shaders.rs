@@ -96,12 +96,12 @@ unsafe extern "system" fn keep_source(shader: u32, count: i32, strings: *const *
 
 /// A context whose glShaderSource is [`keep_source`].
 struct Kept {
-    inner: Box<dyn Context>,
+    inner: Rc<dyn Context>,
     gl: Rc<glow::Context>,
 }
 
 impl Kept {
-    fn new(inner: Box<dyn Context>) -> Self {
+    fn new(inner: Rc<dyn Context>) -> Self {
         let load = |name: &CStr| match name {
             name if name == c"glShaderSource" => {
                 DRIVERS.set(inner.address_of(name));
@@ -124,6 +124,10 @@ impl Context for Kept {
         self.inner.make_current()
     }
 
+    fn is_current(&self) -> bool {
+        self.inner.is_current()
+    }
+
     fn gl(&self) -> &Rc<glow::Context> {
         &self.gl
     }
@@ -131,7 +135,7 @@ impl Context for Kept {
 
 #[test]
 fn the_device_compiles_what_is_printed() {
-    let context = Kept::new(context::open(&ContextRequest::default()).unwrap());
+    let context: Rc<dyn Context> = Rc::new(Kept::new(context::open(&ContextRequest::default()).unwrap()));
     let mut device = Device::new(&context);
     let mut compiled = BTreeSet::new();
     for plan in plans() {
@@ -166,7 +170,7 @@ fn replace(plan: &mut Plan, name: &str, change: impl Fn(&str) -> String) {
 #[test]
 fn a_compile_error_shows_file_line_and_text() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut device = Device::new(context.as_ref());
+    let mut device = Device::new(&context);
     // The third of the four files of a shade, and the last of the whole program.
     for (name, line) in [("shadow_map/slope.glsl (light 0)", 9), ("surface/surface.frag", 40)] {
         let mut plan = planned(BOX, &["light.shadow.bias=\"receiver-plane\""], &[]);
@@ -211,14 +215,14 @@ fn box_batches(plan: &mut Plan) -> Vec<&mut Batch> {
 #[test]
 fn a_uniform_that_a_second_batch_forgets_is_an_error() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut device = Device::new(context.as_ref());
+    let mut device = Device::new(&context);
     let mut plan = boxes_plan("[0.1, 0.2, 0.9]");
     device.run(&plan.list, Measure::No).unwrap();
     let batches = box_batches(&mut plan);
     assert!(batches.len() == 2 && batches[0].program == batches[1].program, "two batches of one variant");
     batches.into_iter().last().unwrap().uniforms.retain(|uniform| uniform.name != "material_diffuse");
     // The program is known by now, and a new device meets the right batch first.
-    for device in [&mut device, &mut Device::new(context.as_ref())] {
+    for device in [&mut device, &mut Device::new(&context)] {
         match device.run(&plan.list, Measure::No) {
             Err(Error::MissingUniform { name, draw, .. }) => {
                 assert_eq!((name.as_str(), draw.as_str()), ("material_diffuse", "second"));
@@ -231,7 +235,7 @@ fn a_uniform_that_a_second_batch_forgets_is_an_error() {
 #[test]
 fn a_uniform_of_a_second_draw_is_checked() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut device = Device::new(context.as_ref());
+    let mut device = Device::new(&context);
     let plan = boxes_plan("[0.8, 0.5, 0.3]");
     let run = |device: &mut Device, change: &dyn Fn(&mut Batch)| {
         let mut plan = plan.clone();

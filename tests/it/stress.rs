@@ -75,7 +75,7 @@ fn random_scenes_are_right_or_warned_of() {
 #[test]
 fn a_scene_is_judged_alike_whatever_was_drawn_before() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let case = random::case(SEED, 3);
     let once = stress::draw_case(&case, &options(), &mut renderer).rows;
     for index in 0..5 {
@@ -87,7 +87,7 @@ fn a_scene_is_judged_alike_whatever_was_drawn_before() {
 /// Draws `broken`'s picture and holds it against the truth of the named case.
 fn judged(name: &str, inside: [&str; 2], broken: impl Fn(&mut Scene)) -> Verdict {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let case = named::cases().unwrap().into_iter().find(|case| case.name == name).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let scene = case.load(folder.path()).unwrap().scene;
@@ -134,7 +134,7 @@ fn what_is_broken_on_purpose_is_seen() {
 /// Draws the first light of a random scene, each time with other keys, and says that nothing is beyond the bound.
 fn assert_right(seed: u64, index: u64, technique: &str, keys: &[&str]) {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let folder = tempfile::tempdir().unwrap();
     let scene = random::case(seed, index).load(folder.path()).unwrap().scene;
     let mut judge = Judge::new(&scene, 0).unwrap();
@@ -170,7 +170,7 @@ fn the_rounding_of_steep_interpolation_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let scene = random::case(1, 304).load(folder.path()).unwrap().scene;
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let row = Judge::new(&scene, 1).unwrap().row(&settings, &mut renderer).row;
     // Another driver may interpolate otherwise, and have no wrong pixel.
     assert!(matches!(row.verdict, Verdict::Warned | Verdict::FalseAlarm), "{row:?}");
@@ -198,7 +198,7 @@ fn turn(scene: &mut Scene, way: impl Fn(DVec3) -> DVec3) {
 #[test]
 fn what_fails_is_reduced_to_a_scene_that_still_fails() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     // A scene with several objects, and a lamp that has no map of its own to hide the fault.
     let several = |case: &Case| case.toml.matches("[[object]]").count() > 3 && case.toml.contains("\"directional\"");
     let case = (0..50).map(|index| random::case(SEED, index)).find(several).unwrap();

@@ -104,7 +104,7 @@ const LOOKUPS: &[&str] = &[
 #[test]
 fn a_floor_beyond_the_box_of_a_sun_is_lit() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for height in [0.4, 0.49, 0.499, 0.5, 0.51, 0.55, 0.6] {
         for direction in [[0.4, -1.0, 0.3], [-1.0, -0.3, 0.2], [0.0, -1.0, 0.0]] {
             let scene = load(&format!(
@@ -126,7 +126,7 @@ fn a_floor_beyond_the_box_of_a_sun_is_lit() {
 #[test]
 fn random_scenes_under_a_sun() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut compared = 0;
     for seed in 0..16 {
         let random = &mut Random::new(seed);
@@ -147,7 +147,7 @@ fn random_scenes_under_a_sun() {
 #[test]
 fn floors_as_large_as_may_be() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut wrong = Vec::new();
     let spot =
         "kind = \"spot\"\nposition = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\nnear = 0.5\nfar = 20.0\n";

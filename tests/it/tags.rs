@@ -25,7 +25,7 @@ const POINT: &str = "light.0={ kind = \"point\", position = [-2, 5, 1.5], near =
 #[test]
 fn a_tag_is_the_shades_upper_half() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut view = |scene: &Scene, view: View| {
         let views = vec![ViewRequest { view, light: 0 }];
         let plan = renderer.plan(scene, &Request { views, float_picture: true, ..Request::default() }).unwrap();
@@ -108,7 +108,7 @@ fn a_tag_is_no_volume_to_look_at() {
 #[test]
 fn what_is_added_is_what_a_shader_gives() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut draw = |set: &[&str], more: &[&str]| {
         let scene = load("cases/scenes/two_lights.toml", &[&["light.shadow.filter=nearest"], set, more].concat());
         let plan = renderer.plan(&scene, &Request { float_picture: true, ..Request::default() }).unwrap();

@@ -120,7 +120,7 @@ fn drawn(renderer: &mut Renderer, state: &State) -> (Vec<String>, Pixels) {
 #[test]
 fn only_what_changed_is_drawn_again() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut state = state();
     let all = ["light 0: depth", "light 0: depth, copied", "lit", "guides"];
     let without_map = ["lit", "guides"];

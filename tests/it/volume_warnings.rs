@@ -9,7 +9,7 @@ fn draw(cases: impl IntoIterator<Item = Case>) -> Vec<CaseResult> {
     let technique = Some(String::from("shadow-volume"));
     let options = Options { jobs: 1, technique, pictures: false, context: Default::default() };
     let context = context::open(&options.context).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     cases.into_iter().map(|case| draw_case(&case, &options, &mut renderer)).collect()
 }
 

@@ -48,7 +48,7 @@ const TABLE: &[(&[&str], u32)] = &[
 #[test]
 fn what_waves_casts_its_moved_shadow() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (set, texels) in TABLE {
         let scene = load(set);
         let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
@@ -75,7 +75,7 @@ fn what_waves_casts_its_moved_shadow() {
 #[test]
 fn the_vertex_stage_moves_as_f64_does() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let mut draw = |scene: &Scene| {
         let plan = renderer.plan(scene, &Request::default()).unwrap();
         renderer.draw(&plan).unwrap();
@@ -164,7 +164,7 @@ fn apart(a: &Pixels, b: &Pixels) -> u8 {
 #[test]
 fn nothing_is_left_out_that_a_wave_brings() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for (technique, amplitude, stays) in [
         ("shadow-map", 20.3, true),
         ("shadow-volume", 20.3, true),
@@ -195,7 +195,7 @@ fn nothing_is_left_out_that_a_wave_brings() {
 #[test]
 fn extreme_waves_are_drawn() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     for wave in [
         "amplitude = 1e17, axis = [1, 0, 0], wavelength = 1e-18",
         "amplitude = 1e-17, axis = [1, 0, 0], wavelength = 1e18",

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glumbra::context::{self, Choice, Context, ContextRequest, Profile};
+use glumbra::context::{self, Choice, ContextRequest, Profile};
 use glumbra::device::{Measure, Pixels};
 use glumbra::fixed_function::{Error, FixedFunction, Inexpressible};
 use glumbra::frame::Renderer;
@@ -25,7 +25,6 @@ pub struct Pipelines {
     pub fixed: FixedFunction,
     /// True if shades must agree to the bit: Mesa's fixed function rounds as a shader does until 26.
     to_the_bit: bool,
-    _context: Box<dyn Context>,
 }
 
 /// A plan drawn by both: its picture, then its views; RGBA in floats.
@@ -42,11 +41,11 @@ impl Pipelines {
     pub fn on(choice: Choice) -> Self {
         let profile = Profile::Compatibility;
         let context = context::open(&ContextRequest { choice, profile, debug: true, ..Default::default() }).unwrap();
-        let fixed = FixedFunction::new(&*context).unwrap();
+        let fixed = FixedFunction::new(&context).unwrap();
         let version = context.describe().version;
         let mesa = version.split_once("Mesa ").and_then(|(_, number)| number.split('.').next()?.parse::<u32>().ok());
         let to_the_bit = mesa.is_some_and(|major| major < 26);
-        Self { renderer: Renderer::new(&*context), fixed, to_the_bit, _context: context }
+        Self { renderer: Renderer::new(&context), fixed, to_the_bit }
     }
 
     pub fn plan(&mut self, scene: &Scene, request: &Request) -> Plan {

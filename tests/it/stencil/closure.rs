@@ -73,7 +73,7 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
 #[test]
 fn a_thousand_random_volumes_close() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut device = Device::new(context.as_ref());
+    let mut device = Device::new(&context);
     let mut runner = TestRunner::new(Config { rng_seed: RngSeed::Fixed(1977), ..Config::default() });
     let mut random = Random::new(42);
     let (mut outline, mut volume) = (Outline::default(), Volume::default());

@@ -1,6 +1,6 @@
 //! Draws a scene's stencil count and compares it with the ray tracer's.
 
-use glumbra::context::{self, Context, ContextRequest};
+use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Request, ViewRequest};
@@ -27,17 +27,15 @@ pub struct Held {
     pub different: usize,
 }
 
-/// A context and its renderer.
+/// A renderer on a context of its own.
 pub struct Bench {
-    // Dropped in this order.
     renderer: Renderer,
-    _context: Box<dyn Context>,
 }
 
 impl Bench {
     pub fn new() -> Self {
         let context = context::open(&ContextRequest::default()).unwrap();
-        Self { renderer: Renderer::new(context.as_ref()), _context: context }
+        Self { renderer: Renderer::new(&context) }
     }
 
     /// The stencil count by `settings`, the inside of `[light.shadow]` but for its technique.

@@ -37,7 +37,7 @@ fn picture(renderer: &mut Renderer, scene: &Scene) -> (Plan, Vec<f32>) {
 #[test]
 fn a_light_whose_volumes_are_all_left_out_does_not_see_the_count_of_another() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(context.as_ref());
+    let mut renderer = Renderer::new(&context);
     let above = [DVec3::new(1.0, 2.0, 0.5), DVec3::new(-1.5, 2.0, 1.0)].map(sun);
     // In the square's plane: none of its triangles counts. And beneath it, on the floor where the others' shadows are.
     let level = light(DVec3::new(0.0, HEIGHT, 2.0), DVec3::ZERO);
