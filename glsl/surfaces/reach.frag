@@ -27,7 +27,7 @@ bool in_reach_@()
     bool inside = abs(off.x) <= abs(half_q) && abs(off.y) <= abs(half_q);
 #endif
 #ifdef UNGUARDED_@
-    // The quotients alone: something else keeps what lies behind the light dark.
+    // No test of q > 0: another guard already removes surfaces behind the light.
     return inside;
 #else
     return coord.z > 0.0 && inside;
