@@ -4,6 +4,7 @@
 use super::Error;
 use super::passes::{Onto, Passes};
 use crate::lights::guard::Guard;
+use crate::lights::light::Addition;
 use crate::lights::{Ending, LightTerm};
 use crate::pass::{Blend, Clear, Compare, DrawState, Stencil, StencilOp, StencilOps};
 use crate::scene::Scene;
@@ -63,24 +64,21 @@ pub fn check(scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
 }
 
 impl Passes<'_> {
-    /// Draws the surfaces of `scene` in the light of `terms`, in as many passes as they need. `once`: the target has a
+    /// Draws the surfaces in the light of `terms`, in as many passes as they need. `once`: the target has a
     /// stencil buffer that nothing needs afterwards.
     ///
     /// # Errors
     ///
     /// A light whose transform has no inverse.
-    pub fn lit(&mut self, scene: &Scene, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
-        let sizes = sizes(scene, terms);
+    pub fn lit(&mut self, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
+        let sizes = sizes(self.scene, terms);
         let (first, mut rest) = terms.split_at(sizes[0]);
-        self.surfaces(scene, onto, first, &Ending::Lit)?;
+        self.surfaces(onto, first, &Ending::Lit)?;
         if rest.is_empty() {
             return Ok(());
         }
         let why = "one pass holds 8 lights and 14 textures of theirs; further lights are added with depth EQUAL";
         self.notes.chosen(onto.label, format!("{} passes for {} lights", sizes.len(), terms.len()), why);
-        // Ambient light of the scene is there already.
-        let mut scene = scene.clone();
-        scene.shading.ambient = [0.0; 3];
         let stencil = if once { Some(ONCE) } else { onto.state.stencil };
         let state = onto.lens.of_surfaces(DrawState { stencil, blend: Some(Blend::Add), ..DrawState::REPEAT });
         for size in &sizes[1..] {
@@ -88,9 +86,10 @@ impl Passes<'_> {
             rest = after;
             let numbers: Vec<String> = group.iter().map(|term| term.index.to_string()).collect();
             let label = format!("{}: lights {}", onto.label, numbers.join(", "));
-            let group: Vec<LightTerm> = group.iter().map(|term| LightTerm { added: true, ..term.clone() }).collect();
+            let group: Vec<LightTerm> =
+                group.iter().map(|term| LightTerm { addition: Addition::Light, ..term.clone() }).collect();
             let clear = Clear { stencil: once.then_some(0), ..Clear::default() };
-            self.surfaces(&scene, &Onto { label: &label, clear, state, ..*onto }, &group, &Ending::Lit)?;
+            self.surfaces(&Onto { label: &label, clear, state, ..*onto }, &group, &Ending::Lit)?;
         }
         Ok(())
     }

@@ -90,19 +90,13 @@ impl Passes<'_> {
         }
     }
 
-    /// Draws the surfaces of `scene` in the light of `terms`.
+    /// Draws the surfaces in the light of `terms`.
     ///
     /// # Errors
     ///
     /// A light whose transform has no inverse.
-    pub fn surfaces(
-        &mut self,
-        scene: &Scene,
-        onto: &Onto<'_>,
-        terms: &[LightTerm],
-        ending: &Ending,
-    ) -> Result<(), Error> {
-        self.surfaces_if(Redraw::Always, scene, onto, terms, ending)
+    pub fn surfaces(&mut self, onto: &Onto<'_>, terms: &[LightTerm], ending: &Ending) -> Result<(), Error> {
+        self.surfaces_if(Redraw::Always, onto, terms, ending)
     }
 
     /// The same, redrawn as `redraw` says.
@@ -113,13 +107,12 @@ impl Passes<'_> {
     pub fn surfaces_if(
         &mut self,
         redraw: Redraw,
-        scene: &Scene,
         onto: &Onto<'_>,
         terms: &[LightTerm],
         ending: &Ending,
     ) -> Result<(), Error> {
         let items = self.cut_items(onto.lens);
-        let batches = (self.surface)(scene, &items, &onto.lens.camera, terms, ending, self.list);
+        let batches = (self.surface)(self.scene, &items, &onto.lens.camera, terms, ending, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;

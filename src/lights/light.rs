@@ -80,8 +80,10 @@ pub struct LightTerm {
     pub dimming: f32,
     /// Scale and offset from the map's (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
-    /// Drawn additively over a picture that already has the ambient light; surfaces outside the light are skipped.
-    pub added: bool,
+    /// Part of each of the light's colours that is drawn.
+    pub gain: Gain,
+    /// Whether a picture with other light is there already.
+    pub addition: Addition,
     /// Guard against back projection.
     pub guard: Guard,
     /// The depth texture, for views of it.
@@ -91,6 +93,30 @@ pub struct LightTerm {
     /// Passes after which the stencil buffer is 0 where the light reaches. If they tag surfaces by `shade`, the lit pass
     /// does not evaluate it again.
     pub counting: Option<StencilCount>,
+}
+
+/// Factors of a light's colours, each in [0, 1]: a light may be drawn in parts, by several passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gain {
+    pub ambient: f32,
+    pub diffuse: f32,
+    pub specular: f32,
+}
+
+impl Gain {
+    /// The whole light.
+    pub const ALL: Self = Self { ambient: 1.0, diffuse: 1.0, specular: 1.0 };
+}
+
+/// What a light is added to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addition {
+    /// Nothing: its pass has the scene's ambient light, too.
+    None,
+    /// A picture that has the scene's ambient light. Surfaces that the light does not reach are skipped.
+    Light,
+    /// The same, for lighting per vertex that is clamped beside all ambient light: what that light adds beside it.
+    Clamped,
 }
 
 /// A light's shadow as a count in the stencil buffer [GDC, "Review: Stenciled Shadow Volumes"]: plain data, for any target
@@ -276,7 +302,8 @@ impl LightTerm {
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
-            added: false,
+            gain: Gain::ALL,
+            addition: Addition::None,
             guard: Guard::Auto,
             map: None,
             map_info: None,

@@ -78,7 +78,7 @@ impl Pictures<'_> {
         let term = LightTerm::unshadowed(scene, index);
         let first = self.passes.first(label, buffers.target(), &lens, self.passes.background());
         let onto = Onto { viewport: [side; 2], ..first };
-        Ok(self.passes.surfaces(scene, &onto, &[term], &Ending::Lit)?)
+        Ok(self.passes.surfaces(&onto, &[term], &Ending::Lit)?)
     }
 
     /// The image that a requested view ends in.
@@ -123,7 +123,7 @@ impl Pictures<'_> {
         let lens = CameraProjection::of_scene(scene);
         let buffers = self.passes.color_and_depth(&label, scene.image.size, Format::Rgba32F, false);
         let onto = self.passes.first(&label, buffers.target(), &lens, [0.0; 4]);
-        self.passes.surfaces(scene, &onto, &[term], &ending)?;
+        self.passes.surfaces(&onto, &[term], &ending)?;
         Ok(buffers.color)
     }
 

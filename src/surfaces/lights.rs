@@ -8,6 +8,7 @@ use super::Ending;
 use super::guarded::{self, Reach};
 use crate::lights::drawable::{side_map, upload};
 use crate::lights::guard::Guard;
+use crate::lights::light::{Addition, Gain};
 use crate::lights::{Drawable, LightTerm, Viewer};
 use crate::math::texgen;
 use crate::pass::{
@@ -71,6 +72,12 @@ impl<'a> Variants<'a> {
         let made = &mut self.made[reach as usize];
         if made.is_none() {
             let mut source = scene.lights[self.term.index].clone();
+            let Gain { ambient, diffuse, specular } = self.term.gain;
+            for (color, gain) in
+                [(&mut source.ambient, ambient), (&mut source.diffuse, diffuse), (&mut source.specular, specular)]
+            {
+                *color = color.map(|channel| channel * gain);
+            }
             *made = Some(match reach {
                 Reach::Nowhere if source.ambient == [0.0; 3] => None,
                 Reach::Nowhere => {
@@ -151,6 +158,9 @@ fn light_parts(
     if let Some(frustum_from_map) = term.frustum_from_map {
         parts.defines.push(Define::flag("MAP_ADDRESSING").of_light(index));
         parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
+    }
+    if term.addition == Addition::Clamped {
+        parts.defines.push(Define::flag("ADDED"));
     }
     if let Ending::Lit = ending {
         add_lighting(&mut parts, source, spot, viewer, term, list);

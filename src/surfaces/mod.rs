@@ -10,6 +10,7 @@ mod variant;
 use glam::Mat3;
 
 use self::lights::{LightParts, Variants};
+use crate::lights::light::Addition;
 use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
 use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
 use crate::scene::Scene;
@@ -29,7 +30,8 @@ pub fn batches(
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
     let pieces = guarded::pieces(scene, items, viewer, terms, ending);
-    let adds = terms.iter().any(|term| term.added);
+    let adds = terms.iter().any(|term| term.addition != Addition::None);
+    let ambient = !terms.iter().any(|term| term.addition == Addition::Light);
     let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
     for piece in &pieces {
         for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
@@ -46,7 +48,7 @@ pub fn batches(
         }
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
-        let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);
+        let surface = variant::of(scene, item, [one_sided, ambient], &lights, viewer, ending, list);
         let clip_planes = piece.clip_planes.len() as u8;
         let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
         let cull = culls.then_some(Face::Back);

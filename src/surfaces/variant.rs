@@ -26,6 +26,8 @@ struct Needs {
     ambient: bool,
     /// True if no normal is seen from behind, so that none must be reversed.
     one_sided: bool,
+    /// Ambient light of the scene.
+    scene_ambient: [f32; 3],
 }
 
 /// The shader variant of an item, with its uniforms and inputs.
@@ -51,11 +53,11 @@ impl Variant {
     }
 }
 
-/// The variant of `item`.
+/// The variant of `item`. `one_sided`: no normal is seen from behind. `has_ambient`: with the scene's ambient light.
 pub fn of(
     scene: &Scene,
     item: &Drawable,
-    one_sided: bool,
+    [one_sided, has_ambient]: [bool; 2],
     lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
@@ -75,6 +77,7 @@ pub fn of(
         position: lit && !per_vertex && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
         one_sided,
+        scene_ambient: if has_ambient { scene.shading.ambient } else { [0.0; 3] },
     };
     let mut inputs = cut.inputs.clone();
     let mut uniforms = cut.uniforms.clone();
@@ -83,7 +86,7 @@ pub fn of(
         uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
     }
     if lit {
-        uniforms.extend(material_uniforms(scene, &item.material, needs, !lights.is_empty()));
+        uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()));
     }
     let mut attributes = vec![Attribute::Position];
     if needs.normals {
@@ -119,7 +122,7 @@ fn meaning(
             clip_from_eye,
             per_vertex: scene.shading.per_vertex,
             lit: item.lit,
-            scene_ambient: scene_ambient(scene, material).to_array(),
+            scene_ambient: scene_ambient(needs, material).to_array(),
             ambient: if needs.ambient { material.ambient } else { [0.0; 3] },
             diffuse: if lights.is_empty() { [0.0; 3] } else { material.diffuse },
             specular: if needs.specular { material.specular } else { [0.0; 3] },
@@ -135,17 +138,17 @@ fn meaning(
     }
 }
 
-fn scene_ambient(scene: &Scene, material: &Material) -> Vec3 {
-    Vec3::from(scene.shading.ambient) * Vec3::from(material.ambient)
+fn scene_ambient(needs: Needs, material: &Material) -> Vec3 {
+    Vec3::from(needs.scene_ambient) * Vec3::from(material.ambient)
 }
 
 fn is_specular(uniform: &Uniform) -> bool {
     uniform.name.starts_with("light_specular_")
 }
 
-fn material_uniforms(scene: &Scene, material: &Material, needs: Needs, any_light: bool) -> Vec<Uniform> {
+fn material_uniforms(material: &Material, needs: Needs, any_light: bool) -> Vec<Uniform> {
     let ambient = Vec3::from(material.ambient);
-    let mut uniforms = vec![Uniform::new("scene_ambient", scene_ambient(scene, material))];
+    let mut uniforms = vec![Uniform::new("scene_ambient", scene_ambient(needs, material))];
     if needs.ambient {
         uniforms.push(Uniform::new("material_ambient", ambient));
     }

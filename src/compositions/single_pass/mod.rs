@@ -41,6 +41,6 @@ impl Composition for SinglePass {
         }
         let terms: Vec<LightTerm> = terms.iter().copied().cloned().collect();
         let onto = passes.first("lit", target, lens, passes.background());
-        passes.lit(passes.scene, &onto, &terms, has_stencil)
+        passes.lit(&onto, &terms, has_stencil)
     }
 }

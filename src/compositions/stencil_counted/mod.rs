@@ -9,7 +9,7 @@ use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::drawable::depth_batches;
 use crate::lights::guard::Guard;
-use crate::lights::light::{Counted, Lighting, StencilCount, VolumeDepths, VolumeDraw};
+use crate::lights::light::{Addition, Counted, Gain, Lighting, StencilCount, VolumeDepths, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
@@ -110,9 +110,8 @@ impl Passes<'_> {
             uncounted.clear.depth = None;
             uncounted.state = lens.of_surfaces(DrawState::REPEAT);
         }
-        let scene = self.without_count(&counted);
-        let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
-        self.lit(&scene, &uncounted, &first, !keeps)?;
+        let first: Vec<LightTerm> = terms.iter().filter_map(|term| self.uncounted_part(term)).collect();
+        self.lit(&uncounted, &first, !keeps)?;
         for term in &counted {
             if !keeps {
                 self.count_term(target, lens, term, Redraw::Always)?;
@@ -139,12 +138,9 @@ impl Passes<'_> {
         let others = |term: &&&LightTerm| term.counting.is_some() && term.index != index;
         let others: Vec<&LightTerm> = terms.iter().filter(others).copied().collect();
         for (stencil, is_lit) in [(LIT, true), (UNLIT, false)] {
-            let counted =
-                if is_lit { others.clone() } else { terms.iter().filter(|t| t.counting.is_some()).copied().collect() };
-            let scene = self.without_count(&counted);
             let part = |term: &&LightTerm| match is_lit && term.index == index {
-                true => Some(once_counted(&scene, term)),
-                false => uncounted_part(&scene, term),
+                true => Some(once_counted(self.scene, term)),
+                false => self.uncounted_part(term),
             };
             let parts: Vec<LightTerm> = terms.iter().filter_map(part).collect();
             let label = format!("{} light {index}", if is_lit { "with" } else { "without" });
@@ -152,7 +148,7 @@ impl Passes<'_> {
             let mut onto = Onto { state, ..self.first(&label, target, lens, self.background()) };
             onto.clear.depth = None;
             onto.clear.color = onto.clear.color.filter(|_| is_lit);
-            self.lit(&scene, &onto, &parts, false)?;
+            self.lit(&onto, &parts, false)?;
         }
         for term in others {
             if lighting(term) == Lighting::LitAndUnlit {
@@ -229,7 +225,7 @@ impl Passes<'_> {
                     let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
                     let ending = Ending::View { chunk: glsl!("stencil_counted/tag.frag"), shade: true };
                     let asked = LightTerm { meaning: Shade::Shader("a shade that only tags"), ..term.clone() };
-                    self.surfaces_if(redraw, self.scene, &Onto { state, ..onto }, &[asked], &ending)?;
+                    self.surfaces_if(redraw, &Onto { state, ..onto }, &[asked], &ending)?;
                 }
             }
         }
@@ -251,12 +247,7 @@ impl Passes<'_> {
         term: &LightTerm,
         stencil: Stencil,
     ) -> Result<(), Error> {
-        let mut scene = self.scene.clone();
-        scene.shading.ambient = [0.0; 3];
-        let source = &mut scene.lights[term.index];
-        source.ambient = [0.0; 3];
         let dimming = if of_all(term) { term.dimming } else { 0.0 };
-        source.diffuse = source.diffuse.map(|channel| channel * (1.0 - term.dimming + dimming));
         let label = format!("light {}", term.index);
         let onto = Onto {
             clear: Clear::default(),
@@ -268,33 +259,40 @@ impl Passes<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let mut lit = LightTerm { dimming, added: true, ..once_counted(&scene, term) };
-        if scene.shading.per_vertex {
+        let mut lit = LightTerm { dimming, ..once_counted(self.scene, term) };
+        if self.scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
-            (scene.shading.ambient, scene.lights[term.index]) =
-                (self.scene.shading.ambient, self.scene.lights[term.index].clone());
-            lit.defines.push(Define::flag("ADDED"));
+            lit.addition = Addition::Clamped;
             let left = term.dimming - lit.dimming;
             weigh(&mut lit, 1.0 - left);
+        } else {
+            lit.addition = Addition::Light;
+            lit.gain = Gain { ambient: 0.0, diffuse: 1.0 - term.dimming + dimming, specular: 1.0 };
         }
-        self.surfaces(&scene, &onto, &[lit], &Ending::Lit)
+        self.surfaces(&onto, &[lit], &Ending::Lit)
     }
 
-    /// A copy of the scene in which counted lights have only the part that a shadow leaves.
-    fn without_count(&self, counted: &[&LightTerm]) -> Scene {
-        let mut scene = self.scene.clone();
-        for term in counted {
-            let source = &mut scene.lights[term.index];
-            source.specular = [0.0; 3];
-            let left = if of_all(term) { 0.0 } else { term.dimming };
-            source.diffuse = source.diffuse.map(|channel| channel * left);
+    /// The part of a light that needs no count: a light that is not counted, or the part of a counted light that its
+    /// shadow leaves.
+    fn uncounted_part(&self, term: &LightTerm) -> Option<LightTerm> {
+        if term.counting.is_none() {
+            return Some(term.clone());
         }
+        let per_vertex = self.scene.shading.per_vertex;
+        let left = if of_all(term) { 0.0 } else { term.dimming };
         // Lighting per vertex is clamped before it is weighed.
-        for term in counted.iter().filter(|_| scene.shading.per_vertex) {
-            let (own, source) = (&self.scene.lights[term.index], &mut scene.lights[term.index]);
-            source.diffuse = if source.diffuse == [0.0; 3] { source.diffuse } else { own.diffuse };
+        let diffuse = if per_vertex && left > 0.0 { 1.0 } else { left };
+        let source = &self.scene.lights[term.index];
+        let gives = |color: [f32; 3]| color != [0.0; 3];
+        if !(gives(source.ambient) || (diffuse > 0.0 && gives(source.diffuse))) {
+            return None;
         }
-        scene
+        let gain = Gain { ambient: 1.0, diffuse, specular: 0.0 };
+        let mut part = LightTerm { dimming: 0.0, gain, ..unshadowed(self.scene, term) };
+        if per_vertex {
+            weigh(&mut part, term.dimming);
+        }
+        Some(part)
     }
 
     /// A view of a counted light.
@@ -317,7 +315,7 @@ impl Passes<'_> {
             }
             View::StencilCount | View::StencilColors => {
                 let onto = self.first(label, target, &lens, [0.0; 4]);
-                self.surfaces(self.scene, &onto, &[], &Ending::Lit)?;
+                self.surfaces(&onto, &[], &Ending::Lit)?;
                 self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
                 return Ok(buffers.depth);
             }
@@ -329,12 +327,12 @@ impl Passes<'_> {
         };
         let shadowed = term.under(self.scene, glsl!("common/shadowed.frag"), Shade::Dark);
         let onto = self.first(label, target, &lens, [0.0; 4]);
-        self.surfaces(self.scene, &onto, &[shadowed], &ending)?;
+        self.surfaces(&onto, &[shadowed], &ending)?;
         self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
         let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
         let label = format!("{label}: where the count is 0");
         let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
-        self.surfaces(self.scene, &onto, &[lit], &ending)?;
+        self.surfaces(&onto, &[lit], &ending)?;
         Ok(buffers.color)
     }
 
@@ -351,7 +349,7 @@ impl Passes<'_> {
         let target = buffers.target();
         let unshadowed = unshadowed(self.scene, term);
         let onto = self.first(label, target, lens, self.background());
-        self.surfaces(self.scene, &onto, &[unshadowed], &Ending::Lit)?;
+        self.surfaces(&onto, &[unshadowed], &Ending::Lit)?;
         let (draws, name): (&[VolumeDraw], _) = match view {
             View::Silhouette => (&counting.silhouettes, "silhouettes"),
             _ => (&counting.volumes, "volumes"),
@@ -380,24 +378,6 @@ impl Passes<'_> {
         };
         self.push(&format!("{label}: {name}"), Redraw::Always, pass);
         Ok(buffers.color)
-    }
-}
-
-/// The part of a light that needs no count: a light that is not counted, or the part of a counted light that its shadow
-/// leaves.
-fn uncounted_part(scene: &Scene, term: &LightTerm) -> Option<LightTerm> {
-    let source = &scene.lights[term.index];
-    let gives = |color: [f32; 3]| color != [0.0; 3];
-    match term.counting {
-        None => Some(term.clone()),
-        Some(_) if gives(source.ambient) || gives(source.diffuse) => {
-            let mut left = LightTerm { dimming: 0.0, ..unshadowed(scene, term) };
-            if scene.shading.per_vertex {
-                weigh(&mut left, term.dimming);
-            }
-            Some(left)
-        }
-        Some(_) => None,
     }
 }
 
