@@ -74,8 +74,8 @@ pub trait Technique: Sync {
 
 /// A light's keys as its technique has read them.
 pub trait ShadowSettings {
-    /// Adds the passes that prepare the light to `list`, and returns the light's term for the lit pass. Notes what it leaves out in
-    /// `notes`.
+    /// Adds the passes that prepare the light to `list`, and returns the light's term for the lit pass. Notes in `notes` what
+    /// it leaves out.
     ///
     /// # Errors
     ///

@@ -110,13 +110,16 @@ impl Code {
     pub fn circles(&self) -> Vec<Vec<Arrow>> {
         let arrows: Vec<Arrow> =
             self.arrows().into_iter().filter(|arrow| !arrow.from.starts_with(arrow.to.as_slice())).collect();
+        let mut next: BTreeMap<&Module, BTreeSet<&Module>> = BTreeMap::new();
+        for arrow in &arrows {
+            next.entry(&arrow.from).or_default().insert(&arrow.to);
+        }
         let mut reached: BTreeMap<&Module, BTreeSet<&Module>> = BTreeMap::new();
         for start in self.files.keys() {
             let mut open = vec![start];
             let seen = reached.entry(start).or_default();
             while let Some(at) = open.pop() {
-                let next = arrows.iter().filter(|arrow| arrow.from == *at).map(|arrow| &arrow.to);
-                open.extend(next.filter(|to| seen.insert(to)));
+                open.extend(next.get(at).into_iter().flatten().filter(|to| seen.insert(to)));
             }
         }
         let mut circles: Vec<Vec<Arrow>> = Vec::new();

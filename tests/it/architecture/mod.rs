@@ -6,6 +6,7 @@ mod code;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use code::{Arrow, Code, Module};
 
@@ -58,6 +59,12 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The library's code, read once for all tests.
+fn library() -> &'static Code {
+    static CODE: LazyLock<Code> = LazyLock::new(|| Code::read(&root().join("src")));
+    &CODE
+}
+
 /// Tests whether `from` may use `to`, directly or through others.
 fn may_use(from: &str, to: &str) -> bool {
     let direct = ARROWS.iter().find(|(name, _)| *name == from).map_or(&[][..], |(_, direct)| direct);
@@ -92,14 +99,14 @@ fn circles(code: &Code) -> Vec<String> {
 
 #[test]
 fn no_module_uses_one_above_it() {
-    let code = Code::read(&root().join("src"));
-    let wrong = wrong_arrows(&code);
+    let code = library();
+    let wrong = wrong_arrows(code);
     assert!(wrong.is_empty(), "arrows that `ARROWS` does not have:\n{}", wrong.join("\n"));
 }
 
 #[test]
 fn every_module_has_its_arrows() {
-    let code = Code::read(&root().join("src"));
+    let code = library();
     let there: BTreeSet<&str> = code.files.keys().filter(|path| path.len() == 1).map(|path| path[0].as_str()).collect();
     let listed: BTreeSet<&str> = ARROWS.iter().map(|(name, _)| *name).collect();
     assert_eq!(there, listed, "modules of src/lib.rs, and rows of `ARROWS`");
@@ -107,14 +114,14 @@ fn every_module_has_its_arrows() {
 
 #[test]
 fn no_files_use_each_other_in_a_circle() {
-    let code = Code::read(&root().join("src"));
-    let circles = circles(&code);
+    let code = library();
+    let circles = circles(code);
     assert!(circles.is_empty(), "{} circles:\n{}", circles.len(), circles.join("\n\n"));
 }
 
 #[test]
 fn unsafe_code_and_gl_stand_where_they_may() {
-    let code = Code::read(&root().join("src"));
+    let code = library();
     for (module, file) in code.files.iter().filter(|(module, _)| !module.is_empty()) {
         let top = module[0].as_str();
         assert!(!file.names_gl || GL.contains(&top), "src/{} names glow: only {GL:?} may", file.path);
