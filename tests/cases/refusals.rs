@@ -67,11 +67,12 @@ fn a_check_beside_fails_with_is_refused() {
 
 fn tolerances_that_let_any_picture_pass_are_refused() {
     let same = |max: f64, share: f64| {
-        let set = "sets = [[\"light.shadow={ technique = \\\"none\\\" }\"]]";
-        format!("[[same]]\nof = [\"picture\"]\n{set}\nmax = {max:?}\nshare = {share:?}\nwhy = \"no shadow\"\n")
+        let sets = "sets = [[\"light.color=[0, 0, 0]\"]]";
+        format!("[[same]]\nof = [\"picture\"]\n{sets}\nmax = {max:?}\nshare = {share:?}\nwhy = \"no light\"\n")
     };
-    refused("any-same", &same(1.0, 1.0), "either max is at most 4/255, or share at most 0.05 (no shadow)");
+    refused("any-same", &same(1.0, 1.0), "either max is at most 4/255, or share at most 0.05 (no light)");
     refused("most-same", &same(0.5, 0.06), "either max is at most");
+    // The widest that are allowed find that there is no light.
     refused("some-same", &same(0.015, 1.0), "pixels");
     refused("few-same", &same(1.0, 0.05), "pixels");
     refused("any-sum", "[[sum]]\nplus = [[]]\nmax = 1.0\nwhy = \"\"\n", "a sum may be 1 off");

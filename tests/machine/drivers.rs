@@ -100,7 +100,8 @@ fn window_and_pbuffer_draw_under_xvfb() -> Done {
     }
     // The backends that `--context` does not name run in a copy of this program, which has the display in its environment.
     let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(["--nocapture"]).env("DISPLAY", server.display()).env(BACKENDS_OF_A_DISPLAY, "1");
+    command.args(["--exact", "backends_of_a_display", "--nocapture"]);
+    command.env("DISPLAY", server.display()).env(BACKENDS_OF_A_DISPLAY, "1");
     let output = run(command);
     assert_eq!(output.code, 0, "{}{}", output.stdout, output.stderr);
     assert!(output.stdout.contains("1 passed"), "{}", output.stdout);
