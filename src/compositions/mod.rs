@@ -8,6 +8,7 @@
 //!
 //! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
+mod groups;
 pub mod passes;
 pub mod projection;
 mod single_pass;
@@ -17,6 +18,7 @@ use self::passes::Passes;
 use self::projection::CameraProjection;
 use crate::lights::LightTerm;
 use crate::pass::{ImageId, Target};
+use crate::scene::Scene;
 use crate::views::View;
 
 /// A way to make a picture of lights and surfaces.
@@ -27,19 +29,15 @@ pub trait Composition: Sync {
     /// Tests whether it draws pictures in which these lights meet.
     fn serves(&self, terms: &[&LightTerm]) -> bool;
 
-    /// Tests whether its picture has a stencil buffer.
-    fn needs_stencil(&self) -> bool {
-        false
-    }
+    /// Tests whether its picture of these lights has a stencil buffer.
+    fn needs_stencil(&self, scene: &Scene, terms: &[&LightTerm]) -> bool;
 
     /// Checks that it can draw these lights together.
     ///
     /// # Errors
     ///
-    /// Two lights that exclude each other.
-    fn check(&self, _terms: &[&LightTerm]) -> Result<(), Error> {
-        Ok(())
-    }
+    /// Lights that exclude each other.
+    fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error>;
 
     /// Adds the passes of the picture: all surfaces in the light of `terms`.
     ///
@@ -87,6 +85,10 @@ pub enum Error {
         "guard = \"clip-plane\" (light {light}) cannot be combined with a stencil-counted light (light {counted}): clipping changes depth values, and that light is drawn with depth EQUAL. Choose another guard."
     )]
     CutDepths { light: usize, counted: usize },
+    #[error(
+        "guard = \"clip-plane\" (light {light}) cannot be combined with {lights} lights: clipping changes depth values, and lights that do not fit into one pass are added with depth EQUAL. Choose another guard."
+    )]
+    CutGroups { light: usize, lights: usize },
     #[error(
         "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
     )]

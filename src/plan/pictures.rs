@@ -34,10 +34,10 @@ impl Pictures<'_> {
         let lens = CameraProjection::for_counts(self.passes.scene, counts);
         let composition = compositions::chosen(&terms)?;
         check_cuts(&terms)?;
-        composition.check(&terms)?;
+        composition.check(self.passes.scene, &terms)?;
         let items = self.passes.cut_items(&lens);
         surfaces::explain_guards(self.passes.scene, &items, &lens.camera, &terms, self.passes.notes);
-        let buffers = self.buffers(composition.needs_stencil());
+        let buffers = self.buffers(composition.needs_stencil(self.passes.scene, &terms));
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;
         if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {

@@ -9,7 +9,6 @@ mod variant;
 
 use glam::Mat3;
 
-use self::guarded::Reach;
 use self::lights::{LightParts, Variants};
 use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
 use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
@@ -29,10 +28,8 @@ pub fn batches(
     list: &mut PassList,
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
-    let mut pieces = guarded::pieces(scene, items, viewer, terms, ending);
-    if terms.iter().any(|term| term.added) {
-        pieces.retain(|piece| piece.reaches.iter().any(|reach| *reach != Reach::Nowhere));
-    }
+    let pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    let adds = terms.iter().any(|term| term.added);
     let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
     for piece in &pieces {
         for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
@@ -44,6 +41,9 @@ pub fn batches(
         let item = &piece.item;
         let lights = lights.iter().zip(&piece.reaches).filter_map(|(variants, reach)| variants.of(*reach));
         let lights: Vec<&LightParts> = lights.collect();
+        if adds && lights.is_empty() {
+            continue;
+        }
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let surface = variant::of(scene, item, one_sided, &lights, viewer, ending, list);

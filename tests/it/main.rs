@@ -30,6 +30,7 @@ mod left_out;
 mod licences;
 mod light_maps;
 mod listing_drawn;
+mod many_lights;
 mod mistakes;
 mod mutated;
 mod oracle;

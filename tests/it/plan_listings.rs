@@ -40,7 +40,7 @@ fn shaders_are_printed_for_the_passes_that_are_named() {
     let lit = printed(BOX, &["--shaders", "lit"]);
     assert_eq!((count(&lit, "#version 330 core\n"), count(&lit, "\"light 0: depth\"")), (4, 0));
     for mark in
-        ["\n#line 1 3\n", "\n// file 1: surface/material.glsl\n#line 1 1\n", "#define CONE_0\n", "float shade_0()"]
+        ["\n#line 1 3\n", "\n// file 1: surfaces/material.glsl\n#line 1 1\n", "#define CONE_0\n", "float shade_0()"]
     {
         assert!(lit.contains(mark), "{mark} is missing in {lit}");
     }

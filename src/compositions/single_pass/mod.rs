@@ -1,10 +1,13 @@
-//! The single pass: every surface once, in the light of all lights [LEC, "Advice for Shadowed Illumination Model"].
+//! The single pass: every surface once, in the light of all lights [LEC, "Advice for Shadowed Illumination Model"]; once for
+//! each group, if there are more than one pass holds.
 
+use super::groups;
 use super::passes::Passes;
 use super::projection::CameraProjection;
 use super::{Composition, Error};
-use crate::lights::{Ending, LightTerm};
+use crate::lights::LightTerm;
 use crate::pass::Target;
+use crate::scene::Scene;
 
 pub struct SinglePass;
 
@@ -17,6 +20,14 @@ impl Composition for SinglePass {
         terms.iter().all(|term| term.counting.is_none())
     }
 
+    fn needs_stencil(&self, scene: &Scene, terms: &[&LightTerm]) -> bool {
+        groups::sizes(scene, terms.iter().copied()).len() > 1
+    }
+
+    fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+        groups::check(scene, terms)
+    }
+
     fn picture(
         &self,
         passes: &mut Passes<'_>,
@@ -24,9 +35,12 @@ impl Composition for SinglePass {
         lens: &CameraProjection,
         terms: &[&LightTerm],
     ) -> Result<(), Error> {
-        passes.notes.left_out("stencil buffer", "no technique of this scene counts in it");
+        let has_stencil = self.needs_stencil(passes.scene, terms);
+        if !has_stencil {
+            passes.notes.left_out("stencil buffer", "no technique of this scene counts in it");
+        }
         let terms: Vec<LightTerm> = terms.iter().copied().cloned().collect();
         let onto = passes.first("lit", target, lens, passes.background());
-        passes.surfaces(passes.scene, &onto, &terms, &Ending::Lit)
+        passes.lit(passes.scene, &onto, &terms, has_stencil)
     }
 }

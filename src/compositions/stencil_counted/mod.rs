@@ -14,7 +14,7 @@ use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
     Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade,
-    Stencil, StencilOps, Target, Texturing, Uniform, glsl,
+    Stencil, StencilOp, StencilOps, Target, Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
 use crate::views::{self, View};
@@ -28,6 +28,11 @@ const LIT: Stencil = Stencil {
     front: StencilOps::KEEP,
     back: StencilOps::KEEP,
 };
+
+/// The same for a count that is not needed afterwards: surfaces that coincide are lit once.
+const LIT_ONCE: Stencil = Stencil { write_mask: 0xFF, front: COUNTED_ON, back: COUNTED_ON, ..LIT };
+
+const COUNTED_ON: StencilOps = StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP };
 
 /// Stencil state that passes where the count is not 0, and keeps it.
 const UNLIT: Stencil = Stencil { test: Compare::NotEqual, ..LIT };
@@ -44,11 +49,11 @@ impl Composition for StencilCounted {
         terms.iter().any(|term| term.counting.is_some())
     }
 
-    fn needs_stencil(&self) -> bool {
+    fn needs_stencil(&self, _scene: &Scene, _terms: &[&LightTerm]) -> bool {
         true
     }
 
-    fn check(&self, terms: &[&LightTerm]) -> Result<(), Error> {
+    fn check(&self, _scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
         let cutting = terms.iter().find(|term| term.guard == Guard::ClipPlane);
         let counted = terms.iter().find(|term| term.counting.is_some());
         if let (Some(cutting), Some(counted)) = (cutting, counted) {
@@ -107,12 +112,12 @@ impl Passes<'_> {
         }
         let scene = self.without_count(&counted);
         let first: Vec<LightTerm> = terms.iter().filter_map(|term| uncounted_part(&scene, term)).collect();
-        self.surfaces(&scene, &uncounted, &first, &Ending::Lit)?;
+        self.lit(&scene, &uncounted, &first, !keeps)?;
         for term in &counted {
             if !keeps {
                 self.count_term(target, lens, term, Redraw::Always)?;
             }
-            self.add_light(target, lens, term)?;
+            self.add_light(target, lens, term, if keeps { LIT } else { LIT_ONCE })?;
         }
         Ok(())
     }
@@ -147,7 +152,7 @@ impl Passes<'_> {
             let mut onto = Onto { state, ..self.first(&label, target, lens, self.background()) };
             onto.clear.depth = None;
             onto.clear.color = onto.clear.color.filter(|_| is_lit);
-            self.surfaces(&scene, &onto, &parts, &Ending::Lit)?;
+            self.lit(&scene, &onto, &parts, false)?;
         }
         for term in others {
             if lighting(term) == Lighting::LitAndUnlit {
@@ -156,7 +161,7 @@ impl Passes<'_> {
                 self.notes.chosen(format!("light {}", term.index), "added where its count is 0", why);
             }
             self.count_term(target, lens, term, Redraw::Always)?;
-            self.add_light(target, lens, term)?;
+            self.add_light(target, lens, term, LIT_ONCE)?;
         }
         Ok(())
     }
@@ -238,8 +243,14 @@ impl Passes<'_> {
         self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
     }
 
-    /// Adds one light where its count is 0.
-    fn add_light(&mut self, target: Target, lens: &CameraProjection, term: &LightTerm) -> Result<(), Error> {
+    /// Adds one light where `stencil` passes.
+    fn add_light(
+        &mut self,
+        target: Target,
+        lens: &CameraProjection,
+        term: &LightTerm,
+        stencil: Stencil,
+    ) -> Result<(), Error> {
         let mut scene = self.scene.clone();
         scene.shading.ambient = [0.0; 3];
         let source = &mut scene.lights[term.index];
@@ -250,7 +261,7 @@ impl Passes<'_> {
         let onto = Onto {
             clear: Clear::default(),
             state: lens.of_surfaces(DrawState {
-                stencil: Some(LIT),
+                stencil: Some(stencil),
                 blend: Some(Blend::Add),
                 scissor: term.counting.as_ref().and_then(|counting| counting.scissor),
                 ..DrawState::REPEAT

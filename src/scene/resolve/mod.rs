@@ -9,9 +9,6 @@ use super::assets::Assets;
 use super::settings::{Plain, Reader, Settings, SettingsError};
 use super::{Error, Image, Scene, Shading};
 
-/// The most lights of a scene.
-pub const MAX_LIGHTS: usize = 8;
-
 /// The longest side of a picture, in pixels.
 pub const MAX_IMAGE_SIDE: i64 = 16384;
 
@@ -29,7 +26,7 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets) -> Result<Scene, Error
     let camera = camera::read(reader.table("camera")?)?;
     let lights = reader.tables("light")?;
     let objects = reader.tables("object")?;
-    check_counts(&reader, lights.len(), objects.len())?;
+    check_counts(&reader, objects.len())?;
     reader.finish()?;
 
     let lights =
@@ -89,12 +86,9 @@ fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
     Ok(shading)
 }
 
-fn check_counts(reader: &Reader<'_>, lights: usize, objects: usize) -> Result<(), SettingsError> {
+fn check_counts(reader: &Reader<'_>, objects: usize) -> Result<(), SettingsError> {
     if objects == 0 {
         return Err(reader.missing("object", "a scene needs at least one [[object]]"));
-    }
-    if lights > MAX_LIGHTS {
-        return Err(reader.error("light", format_args!("may stand {MAX_LIGHTS} times at most, not {lights}")));
     }
     Ok(())
 }

@@ -1,0 +1,97 @@
+//! Lights in groups that one pass can hold. The first group is drawn as a picture of its own; each further one is added to
+//! it, with depth EQUAL [LEC, "Advice for Shadowed Illumination Model"].
+
+use super::Error;
+use super::passes::{Onto, Passes};
+use crate::lights::guard::Guard;
+use crate::lights::{Ending, LightTerm};
+use crate::pass::{Blend, Clear, Compare, DrawState, Stencil, StencilOp, StencilOps};
+use crate::scene::Scene;
+
+/// Greatest number of lights in one pass: each has four components of texture coordinates, of the 60 that every driver
+/// passes from stage to stage [GL 3.3, table 6.40].
+const MOST_LIGHTS: usize = 8;
+
+/// Greatest number of textures of the lights in one pass: a fragment shader has at least 16 [GL 3.3, table 6.43], of which
+/// the surface takes up to two.
+const MOST_TEXTURES: usize = 14;
+
+/// Stencil state that draws each pixel once: surfaces that coincide are lit once.
+const ONCE: Stencil = Stencil {
+    test: Compare::Equal,
+    reference: 0,
+    read_mask: 0xFF,
+    write_mask: 0xFF,
+    front: StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP },
+    back: StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP },
+};
+
+/// Number of textures that a light takes in the lit pass.
+fn textures(scene: &Scene, term: &LightTerm) -> usize {
+    let spot = scene.lights.get(term.index).and_then(|light| light.spot());
+    let image = spot.is_some_and(|spot| spot.image.is_some());
+    term.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
+}
+
+/// Number of lights in each group, in order. One group, which may be empty, at least.
+pub fn sizes<'t>(scene: &Scene, terms: impl IntoIterator<Item = &'t LightTerm>) -> Vec<usize> {
+    let mut sizes = vec![0];
+    let (mut size, mut taken) = (0, 0);
+    for term in terms {
+        let wanted = textures(scene, term);
+        if size == MOST_LIGHTS || (size > 0 && taken + wanted > MOST_TEXTURES) {
+            sizes.push(0);
+            (size, taken) = (0, 0);
+        }
+        (size, taken) = (size + 1, taken + wanted);
+        if let Some(last) = sizes.last_mut() {
+            *last = size;
+        }
+    }
+    sizes
+}
+
+/// Checks that lights whose passes add up leave depths alone.
+///
+/// # Errors
+///
+/// A light that is guarded by a clip plane, beside more lights than one pass holds.
+pub fn check(scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+    let groups = sizes(scene, terms.iter().copied()).len();
+    let cutting = terms.iter().find(|term| groups > 1 && term.guard == Guard::ClipPlane);
+    cutting.map_or(Ok(()), |term| Err(Error::CutGroups { light: term.index, lights: terms.len() }))
+}
+
+impl Passes<'_> {
+    /// Draws the surfaces of `scene` in the light of `terms`, in as many passes as they need. `once`: the target has a
+    /// stencil buffer that nothing needs afterwards.
+    ///
+    /// # Errors
+    ///
+    /// A light whose transform has no inverse.
+    pub fn lit(&mut self, scene: &Scene, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
+        let sizes = sizes(scene, terms);
+        let (first, mut rest) = terms.split_at(sizes[0]);
+        self.surfaces(scene, onto, first, &Ending::Lit)?;
+        if rest.is_empty() {
+            return Ok(());
+        }
+        let why = "one pass holds 8 lights and 14 textures of theirs; further lights are added with depth EQUAL";
+        self.notes.chosen(onto.label, format!("{} passes for {} lights", sizes.len(), terms.len()), why);
+        // Ambient light of the scene is there already.
+        let mut scene = scene.clone();
+        scene.shading.ambient = [0.0; 3];
+        let stencil = if once { Some(ONCE) } else { onto.state.stencil };
+        let state = onto.lens.of_surfaces(DrawState { stencil, blend: Some(Blend::Add), ..DrawState::REPEAT });
+        for size in &sizes[1..] {
+            let (group, after) = rest.split_at(*size);
+            rest = after;
+            let numbers: Vec<String> = group.iter().map(|term| term.index.to_string()).collect();
+            let label = format!("{}: lights {}", onto.label, numbers.join(", "));
+            let group: Vec<LightTerm> = group.iter().map(|term| LightTerm { added: true, ..term.clone() }).collect();
+            let clear = Clear { stencil: once.then_some(0), ..Clear::default() };
+            self.surfaces(&scene, &Onto { label: &label, clear, state, ..*onto }, &group, &Ending::Lit)?;
+        }
+        Ok(())
+    }
+}
