@@ -9,15 +9,15 @@ use crate::context::{Choice, ContextRequest, Profile};
 #[command(next_help_heading = "Context")]
 pub struct ContextArgs {
     /// Maker of the OpenGL context
-    #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Auto)]
-    context: Kind,
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = ContextKind::Auto)]
+    context: ContextKind,
     /// The EGL device to draw on, by its number in `glumbra info`
     #[arg(long, value_name = "N")]
     device: Option<usize>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Kind {
+enum ContextKind {
     /// EGL, then OSMesa, then a hidden window where there is a display
     Auto,
     /// EGL: surfaceless, then a device, then a pbuffer
@@ -33,10 +33,10 @@ impl ContextArgs {
     /// The request for these arguments. Debug builds ask for a debug context.
     pub fn request(&self, profile: Profile) -> ContextRequest {
         let choice = match self.context {
-            Kind::Auto => Choice::Auto,
-            Kind::Egl => Choice::Egl,
-            Kind::OsMesa => Choice::OsMesa,
-            Kind::Window => Choice::Window,
+            ContextKind::Auto => Choice::Auto,
+            ContextKind::Egl => Choice::Egl,
+            ContextKind::OsMesa => Choice::OsMesa,
+            ContextKind::Window => Choice::Window,
         };
         ContextRequest { choice, device: self.device, profile, debug: cfg!(debug_assertions) }
     }

@@ -7,7 +7,7 @@ use crate::pass::{Batch, Draw, Projection, UniformValue};
 
 /// Cases that may occur in a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Reach {
+pub struct CoordinateRange {
     /// q <= 0: behind the light.
     pub behind: bool,
     /// r > q, before the light.
@@ -21,10 +21,10 @@ pub struct Reach {
 /// # Errors
 ///
 /// A draw without its modelview.
-pub fn of(batch: &Batch, projection: &Projection) -> Result<Reach, String> {
+pub fn of(batch: &Batch, projection: &Projection) -> Result<CoordinateRange, String> {
     let texgen = &projection.texgen;
     let coordinates_from_eye = texgen.texture_matrix * texgen.eye_planes;
-    let mut reach = Reach::default();
+    let mut reach = CoordinateRange::default();
     for draw in &batch.draws {
         let coordinates_from_model = coordinates_from_eye * eye_from_model(draw)?.as_dmat4();
         extend(&mut reach, &coordinates_from_model, draw);
@@ -32,7 +32,7 @@ pub fn of(batch: &Batch, projection: &Projection) -> Result<Reach, String> {
     Ok(reach)
 }
 
-fn extend(reach: &mut Reach, coordinates_from_model: &DMat4, draw: &Draw) {
+fn extend(reach: &mut CoordinateRange, coordinates_from_model: &DMat4, draw: &Draw) {
     /// The driver's coordinates are of 32 bits.
     const SLACK: f64 = 1e-5;
     for corner in draw.bounds.corners() {

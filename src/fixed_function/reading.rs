@@ -6,7 +6,7 @@
 
 use glam::Vec3;
 
-use super::bounds::{self, Reach};
+use super::bounds::{self, CoordinateRange};
 use super::layer::{Blend, Layer, Lighting, PointLight, Primary};
 use super::stack::{Stack, Weight};
 use crate::pass::{Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing};
@@ -85,13 +85,13 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
 }
 
 /// Cases that may occur in a batch; none if a light has no coordinates.
-fn reach(batch: &Batch, projection: Option<&Projection>) -> Result<Reach, String> {
-    projection.map_or(Ok(Reach::default()), |projection| bounds::of(batch, projection))
+fn reach(batch: &Batch, projection: Option<&Projection>) -> Result<CoordinateRange, String> {
+    projection.map_or(Ok(CoordinateRange::default()), |projection| bounds::of(batch, projection))
 }
 
 /// Fixed-point formats clamp r/q to [0, 1]; for others the shader does, and no combiner can. It matters only where a
 /// draw reaches beyond the depths of the map.
-fn check_reference(batch: &Batch, shade: &Shade, reach: Reach) -> Result<(), String> {
+fn check_reference(batch: &Batch, shade: &Shade, reach: CoordinateRange) -> Result<(), String> {
     let Shade::Texture { input, clamped: true } = shade else { return Ok(()) };
     let input = batch.inputs.iter().find(|each| each.name == *input);
     let (beyond, where_) = match input.and_then(|input| input.sampler.compare) {
@@ -222,7 +222,7 @@ fn light_layer(
     lit: &Lit,
     light: &FixedFunctionLight,
     parts: Parts,
-    reach: Reach,
+    reach: CoordinateRange,
 ) -> Result<Layer, String> {
     let projection = light.projection.as_ref();
     let cone = projection.filter(|projection| projection.cone);

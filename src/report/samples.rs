@@ -1,7 +1,7 @@
 //! A made-up report for tests: times grow with the map, errors shrink with it.
 
 use super::measure::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};
-use super::store::claimed::{Claimed, Measurement, Verdict};
+use super::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use super::store::results::{
     Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION,
 };
@@ -26,7 +26,7 @@ pub fn report() -> Report {
     }
 }
 
-fn claimed(value: f64, verdict: Verdict) -> Claimed {
+fn claimed(value: f64, verdict: ClaimVerdict) -> Claimed {
     let side = |value| Measurement { settings: String::from("technique = \"a <b>\""), value: Some(value), why: None };
     Claimed {
         technique: String::from("pcf"),
@@ -71,7 +71,7 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
             trace_ms: 1_834.2,
         },
         saved: None,
-        claims: vec![claimed(0.2, Verdict::Holds), claimed(0.9, Verdict::Fails)],
+        claims: vec![claimed(0.2, ClaimVerdict::Holds), claimed(0.9, ClaimVerdict::Fails)],
         grid_rows: rows.len(),
         rows,
     }

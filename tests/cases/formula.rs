@@ -141,9 +141,8 @@ pub fn reach_end(light: &Light, start: DVec3, direction: DVec3) -> Result<f64, S
     Ok(inside)
 }
 
-/// The illumination formula [LEC, "Advice for Shadowed Illumination Model"] at `point`: (ambient
-/// + Σ (dimming + (1 - dimming) shade) beam diffuse) decal + Σ shade beam specular, by Lambert and Blinn with a viewer at
-/// the eye.
+/// The illumination formula [LEC, "Advice for Shadowed Illumination Model"] at `point`, by Lambert and Blinn with a viewer at
+/// the eye: `(ambient + Σ (dimming + (1 - dimming) shade) beam diffuse) decal + Σ shade beam specular`.
 pub fn illumination(scene: &Scene, point: DVec3, known: &Formula) -> Result<DVec3, String> {
     let color = |rgb: [f32; 3]| DVec3::from_array(rgb.map(f64::from));
     let object = scene.objects.get(known.object).ok_or("the formula's object is not in the scene")?;

@@ -8,7 +8,7 @@ use super::run::{draw_shade, size_of, with_shadow};
 use super::tune::{self, Point, Search};
 use crate::frame::Renderer;
 use crate::report::numbers::plain;
-use crate::report::store::claimed::{Claimed, Measurement, Verdict};
+use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use crate::scene::{Scene, Value};
 use crate::techniques::TABLE;
 use crate::techniques::claims::{Contender, Quantity, Relation};
@@ -69,13 +69,13 @@ fn name(quantity: Quantity) -> &'static str {
     }
 }
 
-fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> Verdict {
-    let (Some(a), Some(b)) = (first.value, second.value) else { return Verdict::Unknown };
+fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> ClaimVerdict {
+    let (Some(a), Some(b)) = (first.value, second.value) else { return ClaimVerdict::Unknown };
     let holds = match relation {
         Relation::AtMost(times) => a <= times * b,
         Relation::Greater => a > b,
     };
-    if holds { Verdict::Holds } else { Verdict::Fails }
+    if holds { ClaimVerdict::Holds } else { ClaimVerdict::Fails }
 }
 
 /// The contenders of one scene, each drawn once.

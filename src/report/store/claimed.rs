@@ -19,7 +19,7 @@ pub struct Claimed {
     /// Relation between both, in words: "at most 0.5 ×", "more than".
     pub relation: String,
     pub second: Measurement,
-    pub verdict: Verdict,
+    pub verdict: ClaimVerdict,
 }
 
 /// A number of a claim.
@@ -34,14 +34,14 @@ pub struct Measurement {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum ClaimVerdict {
     Holds,
     Fails,
     /// One of the numbers is missing.
     Unknown,
 }
 
-impl Verdict {
+impl ClaimVerdict {
     pub fn name(self) -> &'static str {
         match self {
             Self::Holds => "holds",

@@ -2,7 +2,7 @@
 
 use super::tags::escape;
 use crate::report::numbers::plain;
-use crate::report::store::claimed::{Claimed, Measurement, Verdict};
+use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use crate::report::store::results::SceneReport;
 
 /// The section; empty if no claim was measured.
@@ -20,8 +20,8 @@ pub(super) fn section(scene: &SceneReport) -> String {
 
 fn row(claim: &Claimed) -> String {
     let class = match claim.verdict {
-        Verdict::Holds => "",
-        Verdict::Fails | Verdict::Unknown => " class=\"failure\"",
+        ClaimVerdict::Holds => "",
+        ClaimVerdict::Fails | ClaimVerdict::Unknown => " class=\"failure\"",
     };
     format!(
         "<tr><td><b>{}</b>: {}<div><small>{}</small></div></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
