@@ -82,7 +82,7 @@ pub struct LightTerm {
     pub frustum_from_map: Option<Vec4>,
     /// Part of each of the light's colours that is drawn.
     pub gain: Gain,
-    /// Whether a picture with other light is there already.
+    /// Light that the picture has already, before this light is added.
     pub addition: Addition,
     /// Guard against back projection.
     pub guard: Guard,
@@ -108,7 +108,7 @@ impl Gain {
     pub const ALL: Self = Self { ambient: 1.0, diffuse: 1.0, specular: 1.0 };
 }
 
-/// What a light is added to.
+/// Picture that a light is added to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Addition {
     /// Nothing: its pass has the scene's ambient light, too.
