@@ -188,6 +188,34 @@ fn a_normal_offset_has_its_normal_next_to_the_horizon_too() {
     assert_right(32, 78, "shadow-map", &["bias = \"normal-offset\"", "bias = \"normal-offset\", kernel = \"5x5\""]);
 }
 
+/// Rows that were silently wrong, each by another term that a warning or the bound lacked.
+#[test]
+fn rows_that_were_silently_wrong_are_not() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    let rows = [
+        // One unit of polygon offset is two codes of 16 bits; a share of few points is uncertain.
+        ((31337, 177), 0, "shadow-map", "format = \"depth16\"", false),
+        // Interpolation is rounded several times on the way from the window's origin.
+        ((31337, 179), 1, "shadow-map", "", false),
+        // A gap is measured along the ray, and the bias along the axis of a cube's face.
+        ((888, 261), 0, "shadow-map", "kernel = \"3x3\"", false),
+        // A filtered shade next to one half, of a far side that is lit.
+        ((20001, 776), 0, "second-depth", "closed = \"assume\"", false),
+        // Texels that are longer than wide.
+        ((20001, 1029), 0, "shadow-map", "fit = \"view\"", false),
+        // Light of less than half a code.
+        ((20001, 957), 1, "shadow-volume", "", true),
+    ];
+    for ((seed, index), light, technique, keys, pictured) in rows {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = random::case(seed, index).load(folder.path()).unwrap().scene;
+        let settings = RowSettings { technique: technique.into(), keys: keys.into(), pictured };
+        let row = Judge::new(&scene, light).unwrap().row(&settings, &mut renderer).row;
+        assert_ne!(row.verdict, Verdict::SilentlyWrong, "random-{seed}-{index}: {row:?}");
+    }
+}
+
 fn turn(scene: &mut Scene, way: impl Fn(DVec3) -> DVec3) {
     if let LightKind::Directional { direction } = &mut scene.lights[0].kind {
         *direction = way(*direction);
