@@ -173,12 +173,6 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
     ("no attenuation", "{LIGHT}attenuation = [0, 0, 0]\n{QUAD}", 7, "must not be all zero"),
     ("light image", "{LIGHT}image = \"no.png\"\n{QUAD}", 7, "no.png"),
     ("shadow is no table", "{LIGHT}shadow = true\n{QUAD}", 7, "`light.shadow` must be a table, not true or false"),
-    (
-        "nine lights",
-        "{LIGHT}{LIGHT}{LIGHT}{LIGHT}{LIGHT}{LIGHT}{LIGHT}{LIGHT}{LIGHT}{QUAD}",
-        1,
-        "8 times at most, not 9",
-    ),
     ("no mesh", "[[object]]\nlit = true\n", 1, "`object.mesh` is missing"),
     (
         "no such mesh",

@@ -88,6 +88,8 @@ struct Wrong {
     is_lit: bool,
     /// True if wrong by the rounding of depths and the offset's units.
     is_rounded: bool,
+    /// True if wrong only within the error of a filtered shade: such a point may be wrong, and a share of them is not.
+    is_close: bool,
     /// True if wrong although nothing changes as far as a lookup reaches.
     is_even: bool,
     /// True if lit by mistake before the near plane, where a map has no depths.
@@ -193,15 +195,21 @@ impl<'a> Forecast<'a> {
         let texels = &mut self.texels[index];
         let mut shade = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper);
         let doubt = if is_blocked { -shade_error } else { shade_error };
-        let outcome = shade(0.0) >= 0.5 + doubt;
-        let lit = if is_blocked { outcome || shade(-rounding) >= 0.5 } else { outcome && shade(rounding) >= 0.5 };
+        let [outcome, moved] = [0.0, if is_blocked { -rounding } else { rounding }].map(&mut shade);
+        let is_lit = |doubt: f64| {
+            let outcome = outcome >= 0.5 + doubt;
+            if is_blocked { outcome || moved >= 0.5 } else { outcome && moved >= 0.5 }
+        };
+        let lit = is_lit(doubt);
         if lit != is_blocked {
             return None;
         }
+        let is_close = is_lit(0.0) != lit;
+        let is_rounded = !is_close && (outcome >= 0.5) != lit;
         let pixel_width = beside.map(|beside| beside.distance(point.point)).into_iter().fold(f64::INFINITY, f64::min);
         let wrong = self.wrong(&way, &receiver, &self.texels[index], lit);
         let texel_pixels = wrong.texel_pixels / pixel_width;
-        Some(Wrong { is_rounded: wrong.is_rounded || lit != outcome, texel_pixels, ..wrong })
+        Some(Wrong { is_rounded: wrong.is_rounded || is_rounded, is_close, texel_pixels, ..wrong })
     }
 
     /// Error of a point's window depth by interpolation in f32. A rasterizer starts from the value at the window's origin,
@@ -259,6 +267,7 @@ impl<'a> Forecast<'a> {
             is_lit: lit,
             is_rounded: lit && nearest.is_some_and(|met| way.gap(met) < taken),
             is_even,
+            is_close: false,
             is_before_near: lit && texels.place(receiver.point).1 <= 0.0,
             item: nearest.map_or(way.point.item, |met| met.item),
             texel_pixels: texel,

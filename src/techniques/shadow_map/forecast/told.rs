@@ -30,14 +30,15 @@ impl Forecast<'_> {
     /// Warns of too many wrong points.
     fn warn_of_share(&self, notes: &mut Notes) {
         let pixels = self.reached.saturating_mul(self.step.pow(2));
-        let count = self.wrong.len() as f64;
+        let wrong: Vec<&Wrong> = self.wrong.iter().filter(|wrong| !wrong.is_close).collect();
+        let count = wrong.len() as f64;
         if pixels < FEWEST_PIXELS || count + DEVIATIONS * count.sqrt() <= MOST_WRONG * f64::from(self.reached) {
             return;
         }
-        let (index, percent) = (self.view.index, self.percent(self.wrong.len()));
-        let rounded: Vec<&Wrong> = self.wrong.iter().filter(|wrong| wrong.is_rounded).collect();
+        let (index, percent) = (self.view.index, self.percent(wrong.len()));
+        let rounded: Vec<&Wrong> = wrong.iter().copied().filter(|wrong| wrong.is_rounded).collect();
         let widest = rounded.iter().max_by(|a, b| a.code.total_cmp(&b.code));
-        if let Some(widest) = widest.filter(|_| 2 * rounded.len() > self.wrong.len()) {
+        if let Some(widest) = widest.filter(|_| 2 * rounded.len() > wrong.len()) {
             notes.warnings.push(format!(
                 "light {index}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about \
                  {percent:.1} % of what it reaches is wrong, as near behind its caster as that: move `near` away, or take a \
@@ -48,7 +49,7 @@ impl Forecast<'_> {
             ));
             return;
         }
-        let coarsest = self.wrong.iter().map(|wrong| wrong.texel_pixels).fold(0.0, f64::max);
+        let coarsest = wrong.iter().map(|wrong| wrong.texel_pixels).fold(0.0, f64::max);
         let why = if coarsest > 1.0 {
             format!(
                 "a texel of its map covers up to {coarsest:.0} pixels of the picture, and its shadows are that coarse: raise \
@@ -66,7 +67,7 @@ impl Forecast<'_> {
 
     /// Warns of points before the near plane.
     fn warn_of_near(&self, notes: &mut Notes) {
-        let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near);
+        let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near && !wrong.is_close);
         let (Rays::From { near, .. }, Some(first)) = (self.rays(), before().next()) else { return };
         notes.warnings.push(format!(
             "light {}'s near plane at {near}: {:.2} % of what it reaches lies before it in a shadow, such as that of {}, and is \
