@@ -47,11 +47,13 @@ fn what_a_killed_process_leaves_is_removed() {
             "export TMPDIR=.; mkfifo x.shade.png; exec \"$0\" render scene.toml -o x.png --aov depth --aov shade";
         let mut command = Command::new("sh");
         command.args(["-c", script, GLUMBRA]).current_dir(folder.path()).stderr(Stdio::null());
-        // Who runs the tests by nohup has SIGHUP ignored, and what they start inherits that.
+        // Tests that are run by nohup or in the background of a shell have signals ignored, and what they start inherits that.
         // SAFETY: signal may be called between fork and exec.
         unsafe {
             command.pre_exec(|| {
-                libc::signal(libc::SIGHUP, libc::SIG_DFL);
+                for signal in [libc::SIGHUP, libc::SIGINT, libc::SIGTERM] {
+                    libc::signal(signal, libc::SIG_DFL);
+                }
                 Ok(())
             });
         }
