@@ -15,17 +15,27 @@ const VARIABLES: [&str; 4] = [
 #[test]
 fn a_driver_that_refuses_or_crashes_is_told_with_all_that_was_tried() {
     let folder = work();
-    let mut wrong = Vec::new();
+    let (mut wrong, mut stuck) = (Vec::new(), Vec::new());
     for (variable, command) in VARIABLES.iter().flat_map(|variable| {
         ["info", "check --core", "render scene.toml", "info --context osmesa", "tune scene.toml"]
             .map(|command| (variable, command))
     }) {
+        if stuck.contains(&variable) && !command.contains("osmesa") {
+            continue;
+        }
         // A machine with Vulkan has zink: nothing to refuse.
         let output = run(
             folder.path(),
             &format!("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent {variable} glumbra {command}"),
         );
         if code(&output) == 0 && variable.ends_with("zink") {
+            continue;
+        }
+        // Mesa 25.0 locks itself up when zink finds no Vulkan: each such run takes half a minute, and one tells it.
+        let is_stuck = text(&output.stderr).contains("has done nothing for half a minute");
+        if is_stuck && variable.ends_with("zink") {
+            assert!(code(&output) != 0 && text(&output.stderr).contains(variable), "{}", text(&output.stderr));
+            stuck.push(variable);
             continue;
         }
         let expected = if command.starts_with("check") { 2 } else { 1 };
