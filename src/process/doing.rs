@@ -6,6 +6,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 /// Current steps, each with a unique number.
 static STEPS: Mutex<Vec<(u64, String)>> = Mutex::new(Vec::new());
 
+/// The step that ended last. An exception of the driver's C++ code ends all steps on its way to where Rust aborts.
+static LAST: Mutex<String> = Mutex::new(String::new());
+
 /// Called when the first step begins (`true`) and when the last one ends (`false`).
 static WATCH: OnceLock<fn(bool)> = OnceLock::new();
 
@@ -40,7 +43,9 @@ pub(crate) fn doing(what: impl Into<String>) -> Doing {
 impl Drop for Doing {
     fn drop(&mut self) {
         let mut steps = STEPS.lock().unwrap_or_else(PoisonError::into_inner);
-        steps.retain(|(number, _)| *number != self.0);
+        if let Some(at) = steps.iter().position(|(number, _)| *number == self.0) {
+            *LAST.lock().unwrap_or_else(PoisonError::into_inner) = steps.remove(at).1;
+        }
         if steps.is_empty() {
             tell_watch(false);
         }
@@ -52,6 +57,15 @@ impl Drop for Doing {
 pub(super) fn steps(mut tell: impl FnMut(&str)) {
     if let Ok(steps) = STEPS.try_lock() {
         steps.iter().for_each(|(_, what)| tell(what));
+    }
+}
+
+/// Gives the step that ended last to `report`; none where there was none, or another thread is just ending one.
+pub(super) fn last(mut report: impl FnMut(&str)) {
+    if let Ok(last) = LAST.try_lock()
+        && !last.is_empty()
+    {
+        report(&last);
     }
 }
 

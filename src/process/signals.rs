@@ -92,10 +92,18 @@ fn handle(signal: c_int, handler: Handler) {
 /// Prints the current work, removes unfinished files, and passes the signal on to its former handler.
 extern "C" fn on_end(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
     if let Some((_, name)) = CRASHES.iter().find(|(known, _)| *known == signal) {
+        let crashed = b"error: the OpenGL driver crashed (";
+        let mut told = false;
         doing::steps(|what| {
-            let crashed = b"error: the OpenGL driver crashed (";
+            told = true;
             say(&[crashed, name.as_bytes(), b") while ", what.as_bytes(), b"\n"]);
         });
+        if signal == libc::SIGABRT && !told {
+            doing::last(|what| {
+                say(&[crashed, name.as_bytes(), b") at the end of ", what.as_bytes(), b"\n"]);
+                say(&[b"Its C++ code may have run out of memory (ulimit -v).\n"]);
+            });
+        }
     }
     unfinished::remove_all();
     // SAFETY: BEFORE was filled for every signal that comes here. A fault comes again when its instruction is repeated; a

@@ -30,9 +30,10 @@ fn checked(what: &str, script: &str, wrong: &mut Vec<String>) {
 #[test]
 fn too_little_memory_is_told_and_leaves_nothing() {
     let mut wrong = Vec::new();
-    for kilobytes in
-        [40_000, 120_000, 200_000, 400_000, 500_000, 600_000, 700_000, 800_000, 860_000, 900_000, 1_500_000]
-    {
+    for kilobytes in [
+        40_000, 120_000, 200_000, 350_000, 360_000, 400_000, 500_000, 600_000, 700_000, 800_000, 860_000, 900_000,
+        1_500_000,
+    ] {
         let script = format!("ulimit -v {kilobytes}; glumbra render scene.toml -o x.png --size 4000x4000");
         checked(&format!("ulimit -v {kilobytes}"), &script, &mut wrong);
     }
