@@ -188,18 +188,27 @@ impl Drop for GpuSampler {
     }
 }
 
-/// Makes a sampler object with every parameter that a [`Sampler`] names.
-pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSampler, Error> {
-    let (min, mag) = match sampler.filter {
-        Filter::Nearest => (glow::NEAREST, glow::NEAREST),
-        Filter::Linear => (glow::LINEAR, glow::LINEAR),
-        Filter::Trilinear => (glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR),
-    };
-    let wrap = match sampler.wrap {
+/// GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER.
+pub fn filter_codes(filter: Filter) -> [u32; 2] {
+    match filter {
+        Filter::Nearest => [glow::NEAREST, glow::NEAREST],
+        Filter::Linear => [glow::LINEAR, glow::LINEAR],
+        Filter::Trilinear => [glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR],
+    }
+}
+
+/// GL_TEXTURE_WRAP_S and GL_TEXTURE_WRAP_T.
+pub fn wrap_code(wrap: Wrap) -> u32 {
+    match wrap {
         Wrap::Repeat => glow::REPEAT,
         Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
         Wrap::ClampToBorder(_) => glow::CLAMP_TO_BORDER,
-    };
+    }
+}
+
+/// Makes a sampler object with every parameter that a [`Sampler`] names.
+pub fn create_sampler(gl: &Rc<glow::Context>, sampler: Sampler) -> Result<GpuSampler, Error> {
+    let ([min, mag], wrap) = (filter_codes(sampler.filter), wrap_code(sampler.wrap));
     unsafe {
         let name = gl.create_sampler().map_err(Error::Create)?;
         gl.sampler_parameter_i32(name, glow::TEXTURE_MIN_FILTER, min as i32);

@@ -30,6 +30,7 @@ use crate::geometry::Mesh;
 use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
+pub(crate) use image::{filter_codes, wrap_code};
 pub use readback::Pixels;
 pub use run::{Measure, PassTime};
 pub(crate) use state::compare_code;

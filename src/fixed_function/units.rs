@@ -6,9 +6,9 @@ use glow::HasContext;
 
 use super::layer::{Combine, Coordinates, Operand, Unit};
 use crate::context::compatibility::{Binding, raw};
-use crate::device::compare_code;
+use crate::device::{compare_code, filter_codes, wrap_code};
 use crate::geometry::Placement;
-use crate::pass::{Filter, Sampler, Wrap};
+use crate::pass::{Sampler, Wrap};
 
 /// The four coordinates: their names, and what switches their generation on.
 const COORDINATES: [(u32, u32); 4] = [
@@ -59,16 +59,7 @@ pub fn disable(gl: &glow::Context, fixed: &Binding, index: u32) {
 
 /// Sets the texture's own parameters as the device sets sampler objects; a comparison's result goes to luminance.
 fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
-    let (min, mag) = match sampler.filter {
-        Filter::Nearest => (glow::NEAREST, glow::NEAREST),
-        Filter::Linear => (glow::LINEAR, glow::LINEAR),
-        Filter::Trilinear => (glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR),
-    };
-    let wrap = match sampler.wrap {
-        Wrap::Repeat => glow::REPEAT,
-        Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
-        Wrap::ClampToBorder(_) => glow::CLAMP_TO_BORDER,
-    };
+    let ([min, mag], wrap) = (filter_codes(sampler.filter), wrap_code(sampler.wrap));
     let (mode, function) = match sampler.compare {
         Some(compare) => (glow::COMPARE_REF_TO_TEXTURE, compare_code(compare)),
         None => (glow::NONE, glow::LEQUAL),

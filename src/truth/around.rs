@@ -11,7 +11,8 @@ use glam::DVec3;
 
 use super::beam::{Apex, Beam, crossing};
 use super::primary::Seen;
-use super::world::{Segment, Triangle};
+use super::slab::Segment;
+use super::world::Triangle;
 use super::{Error, Options, Tracer, Truth};
 use crate::scene::Scene;
 

@@ -30,6 +30,7 @@ mod middle;
 mod primary;
 mod shadow;
 mod shells;
+mod slab;
 mod slivers;
 mod solid;
 mod tube;
@@ -50,8 +51,9 @@ use camera::Eye;
 use cutout::Alpha;
 use light::Lamp;
 use primary::Seen;
+use slab::Segment;
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
-use world::{Placed, Segment, Triangle, World};
+use world::{Placed, Triangle, World};
 
 /// Amount of doubt that is granted.
 #[derive(Clone, Debug, PartialEq)]

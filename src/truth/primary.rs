@@ -6,7 +6,8 @@ use glam::DVec3;
 
 use super::answers::Reason;
 use super::beam::{Apex, Beam, Side};
-use super::world::{Segment, Triangle};
+use super::slab::Segment;
+use super::world::Triangle;
 use super::{ENOUGH, Tracer, doubt};
 
 /// The surface point behind a pixel.

@@ -7,8 +7,9 @@ use glam::DVec3;
 use super::answers::Reason;
 use super::beam::{Beam, Meeting, Side};
 use super::primary::Seen;
+use super::slab::Segment;
 use super::tube::Tube;
-use super::world::{Segment, Triangle};
+use super::world::Triangle;
 use super::{ENOUGH, Tracer, doubt};
 
 /// Effect of one triangle on a shadow ray.

@@ -23,8 +23,9 @@ use super::answers::{Answer, Hit, Reason};
 use super::beam::{Beam, Side, crossing_once};
 use super::primary::Seen;
 use super::shells::{Rule, rules};
+use super::slab::Segment;
 use super::slivers::Slivers;
-use super::world::{Segment, Triangle};
+use super::world::Triangle;
 use super::{Error, Options, Tracer, doubt};
 use crate::scene::Scene;
 

@@ -4,7 +4,9 @@
 //! light, the two passes of [GDC, "Shadow Volume Algorithm"]: depth, its count, then the scene with that light where the
 //! count is 0 and without it where it is not.
 
-use super::passes::{Buffers, Onto, Passes};
+mod views;
+
+use super::passes::{Onto, Passes};
 use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::drawable::depth_batches;
@@ -13,11 +15,11 @@ use crate::lights::light::{Addition, Counted, Gain, Lighting, StencilCount, Volu
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
-    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade,
-    Stencil, StencilOp, StencilOps, Target, Texturing, Uniform, glsl,
+    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, ImageId, Redraw, Shade, Stencil,
+    StencilOp, StencilOps, Target, Texturing, Uniform, glsl,
 };
 use crate::scene::Scene;
-use crate::views::{self, View};
+use crate::views::View;
 
 /// Stencil state that passes where the count is 0, and keeps it.
 const LIT: Stencil = Stencil {
@@ -293,91 +295,6 @@ impl Passes<'_> {
             weigh(&mut part, term.dimming);
         }
         Some(part)
-    }
-
-    /// A view of a counted light.
-    fn counted_view(
-        &mut self,
-        view: View,
-        label: &str,
-        term: &LightTerm,
-        counting: &StencilCount,
-    ) -> Result<ImageId, Error> {
-        let lens = CameraProjection::for_counts(self.scene, std::iter::once(counting));
-        let buffers = self.color_and_depth(label, self.scene.image.size, Format::Rgba32F, true);
-        let target = buffers.target();
-        match view {
-            View::Volume | View::Silhouette if counting.volumes.is_empty() => {
-                return Err(Error::NoCount { view: view.name(), light: term.index });
-            }
-            View::Volume | View::Silhouette => {
-                return self.volume_view(view, label, buffers, &lens, term, counting);
-            }
-            View::StencilCount | View::StencilColors => {
-                let onto = self.first(label, target, &lens, [0.0; 4]);
-                self.surfaces(&onto, &[], &Ending::Lit)?;
-                self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
-                return Ok(buffers.depth);
-            }
-            _ => {}
-        }
-        let lit = once_counted(self.scene, term);
-        let Some((ending, lit)) = views::camera_pass(view, &lit) else {
-            return Err(Error::NoCount { view: view.name(), light: term.index });
-        };
-        let shadowed = term.under(self.scene, glsl!("common/shadowed.frag"), Shade::Dark);
-        let onto = self.first(label, target, &lens, [0.0; 4]);
-        self.surfaces(&onto, &[shadowed], &ending)?;
-        self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
-        let state = lens.of_surfaces(DrawState { stencil: Some(LIT), ..DrawState::REPEAT });
-        let label = format!("{label}: where the count is 0");
-        let onto = Onto { clear: Clear::default(), state, ..self.first(&label, target, &lens, [0.0; 4]) };
-        self.surfaces(&onto, &[lit], &ending)?;
-        Ok(buffers.color)
-    }
-
-    /// Volumes, translucent, or their silhouettes over the unshadowed scene [GDC, "Visualizing Shadow Volumes"].
-    fn volume_view(
-        &mut self,
-        view: View,
-        label: &str,
-        buffers: Buffers,
-        lens: &CameraProjection,
-        term: &LightTerm,
-        counting: &StencilCount,
-    ) -> Result<ImageId, Error> {
-        let target = buffers.target();
-        let unshadowed = unshadowed(self.scene, term);
-        let onto = self.first(label, target, lens, self.background());
-        self.surfaces(&onto, &[unshadowed], &Ending::Lit)?;
-        let (draws, name): (&[VolumeDraw], _) = match view {
-            View::Silhouette => (&counting.silhouettes, "silhouettes"),
-            _ => (&counting.volumes, "volumes"),
-        };
-        // The outside of a volume is warm, its inside cold.
-        let layers: &[(Option<Face>, [f32; 4])] = match view {
-            View::Silhouette => &[(None, [1.0, 0.85, 0.0, 1.0])],
-            _ => &[(Some(Face::Front), [0.1, 0.3, 0.9, 0.25]), (Some(Face::Back), [0.95, 0.55, 0.1, 0.25])],
-        };
-        let batches = layers.iter().flat_map(|(cull, color)| {
-            let uniforms = vec![Uniform::new("color", glam::Vec4::from(*color))];
-            let fragment = glsl!("stencil_counted/colored.frag");
-            StencilCount::batches(draws, &lens.camera, *cull, fragment, FixedFunctionDesc::Constant(*color), uniforms)
-        });
-        let pass = DrawPass {
-            target,
-            viewport: self.scene.image.size,
-            clear: Clear::default(),
-            state: lens.of_surfaces(DrawState {
-                depth_test: Some(Compare::LessEqual),
-                depth_write: false,
-                blend: Some(Blend::Over),
-                ..DrawState::OPAQUE
-            }),
-            batches: batches.collect(),
-        };
-        self.push(&format!("{label}: {name}"), Redraw::Always, pass);
-        Ok(buffers.color)
     }
 }
 

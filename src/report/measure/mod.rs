@@ -2,6 +2,7 @@
 
 mod band;
 pub mod claims;
+mod costs;
 pub mod difference;
 mod edges;
 pub mod grid;

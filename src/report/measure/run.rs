@@ -1,23 +1,22 @@
 //! Runs a grid over a scene: each row is drawn, compared with the truth and timed, in this order.
 
 use std::collections::HashSet;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics, ShadeImage};
 pub use super::options::Options;
 use crate::context;
-use crate::device::{Measure, PassTime, Pixels};
+use crate::device::Pixels;
 use crate::frame::{self, Renderer};
-use crate::pass::{DrawState, ImageId, Pass, Work};
-use crate::plan::{self, Plan, Request, ViewRequest};
+use crate::plan::{self, Request, ViewRequest};
 use crate::report::store::fingerprint;
 use crate::report::store::results::{
-    Cost, Machine, Measured, Outcome, PassCost, Row, Saved, SceneReport, Spread, TruthSummary, bytes_of,
+    Cost, Machine, Measured, Outcome, Row, Saved, SceneReport, Spread, TruthSummary, bytes_of,
 };
 use crate::scene::{self, Loaded, Scene, Settings, Value};
 use crate::techniques::{self, TABLE, Technique};
@@ -310,36 +309,6 @@ fn measure(
     })
 }
 
-/// A hash of the work of a frame's passes, without their polygon offsets and the values of uniforms: frames with the same
-/// one should take the same time.
-fn work_of(plan: &Plan) -> String {
-    let image = |id: ImageId| {
-        let desc = plan.list.desc(id);
-        (desc.size, desc.format)
-    };
-    let mut text = String::new();
-    for pass in &plan.list.passes {
-        // Writing to a string cannot fail.
-        let _ = match &pass.work {
-            Work::CopyDepth { from, to, .. } => writeln!(text, "copy {:?} {:?}", image(*from), image(*to)),
-            Work::Draw(draw) => {
-                let state = DrawState { polygon_offset: None, ..draw.state };
-                let targets = draw.target.color.iter().chain(&draw.target.depth).map(|id| image(*id));
-                let targets: Vec<_> = targets.collect();
-                writeln!(text, "{:?} {:?} {:?} {targets:?} {state:?}", draw.viewport, draw.target.level, draw.clear)
-            }
-        };
-        let Work::Draw(draw) = &pass.work else { continue };
-        for batch in &draw.batches {
-            let inputs: Vec<_> = batch.inputs.iter().map(|input| (image(input.image), &input.sampler)).collect();
-            let draws: Vec<_> = batch.draws.iter().map(|draw| (&draw.indices, draw.order)).collect();
-            let (cull, scissor) = (batch.cull, batch.scissor);
-            let _ = writeln!(text, "{:?} {inputs:?} {cull:?} {scissor:?} {draws:?}", batch.program);
-        }
-    }
-    fingerprint::of_text(&text)
-}
-
 /// Draws the shade and compares it with the truth. A frame is not timed before that.
 fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
     let shade = draw_shade(scene, light, renderer).map_err(|error| error.to_string())?;
@@ -366,48 +335,6 @@ pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Resul
         shade: texels.chunks_exact(4).map(|texel| texel[0].clamp(0.0, 1.0)).collect(),
         covered: texels.chunks_exact(4).map(|texel| texel[3] > 0.0).collect(),
     })
-}
-
-struct Costs {
-    redrawn: Spread,
-    kept: Spread,
-    passes: Vec<PassCost>,
-}
-
-/// One frame to warm up, then each kind of frame `runs` times.
-fn costs(plan: &Plan, runs: usize, renderer: &mut Renderer) -> Result<Costs, frame::Error> {
-    renderer.draw_timed(plan, 1, false, || ())?;
-    let mut redrawn = Vec::new();
-    let mut kept = Vec::new();
-    let mut passes: Vec<Vec<PassTime>> = Vec::new();
-    for _ in 0..runs.max(1) {
-        renderer.device().forget();
-        redrawn.extend(renderer.draw_timed(plan, 1, false, || ())?.frames_ms);
-        kept.extend(renderer.draw_timed(plan, 1, false, || ())?.frames_ms);
-        renderer.device().forget();
-        passes.push(renderer.device().run(&plan.list, Measure::Passes)?);
-    }
-    renderer.device().forget();
-    let counted = renderer.device().run(&plan.list, Measure::Fragments)?;
-    let passes = plan.list.passes.iter().enumerate().map(|(index, pass)| {
-        let walls: Vec<f64> = passes.iter().filter_map(|run| run.get(index)).map(|time| time.wall_ms).collect();
-        let gpus: Vec<f64> = passes.iter().filter_map(|run| run.get(index)).filter_map(|time| time.gpu_ms).collect();
-        PassCost {
-            label: pass.label.clone(),
-            wall: Spread::of(&walls),
-            gpu: (!gpus.is_empty()).then(|| Spread::of(&gpus)),
-            triangles: triangles(pass),
-            fragments: counted.get(index).and_then(|count| count.fragments),
-        }
-    });
-    Ok(Costs { redrawn: Spread::of(&redrawn), kept: Spread::of(&kept), passes: passes.collect() })
-}
-
-fn triangles(pass: &Pass) -> u64 {
-    match &pass.work {
-        Work::Draw(draw) => draw.batches.iter().flat_map(|batch| &batch.draws).map(|draw| draw.primitive_count()).sum(),
-        Work::CopyDepth { .. } => 0,
-    }
 }
 
 /// Describes the machine that is measured on.

@@ -6,12 +6,13 @@
 //! - a point is wrong although nothing changes as far as a lookup reaches (*evenly* wrong): a surface that shades itself,
 //!   or a caster that the map does not hold.
 
+mod even;
 mod lookup;
 mod points;
 mod texels;
 mod told;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use self::lookup::Receiver;
 use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
@@ -328,40 +329,6 @@ impl<'a> Forecast<'a> {
             _ => true,
         }
     }
-
-    /// Tests whether the rays to the light all around a point meet the same sides of the same items, as far as a lookup
-    /// reaches; or, for a map of far sides, nothing at all before the plane of the seen surface.
-    fn is_even(&self, way: &Way<'_>, texel: f64) -> bool {
-        let Way { point: seen, slack, .. } = *way;
-        let reach = texel * (bias::reach_texels(self.map.settings) + 1.0);
-        let rays = self.rays();
-        let Some(projector) = self.map.projectors.first() else { return false };
-        let rows = projector.light_from_world.transpose();
-        let axes = match self.map.projectors.len() {
-            1 => [rows.x_axis, rows.y_axis].map(|axis| axis.truncate()),
-            _ => {
-                let way = to_light(seen.point, &rays).normalize_or_zero();
-                [way.any_orthonormal_vector(), way.cross(way.any_orthonormal_vector())]
-            }
-        };
-        let signature = signature(&way.met, slack);
-        let mut is_lit = self.has_far_sides();
-        let around = (-2..=2).flat_map(|u| (-2..=2).map(move |v| 0.5 * DVec2::new(f64::from(u), f64::from(v))));
-        let mut is_alike = true;
-        for step in around {
-            let across = seen.point + reach * (step.x * axes[0] + step.y * axes[1]);
-            let way = to_light(across, &rays);
-            // In the seen triangle's plane, so that surfaces at its depth stay there.
-            let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
-            let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays);
-            is_alike = is_alike && self::signature(&met, slack) == signature;
-            is_lit = is_lit && !met.iter().any(|met| !met.is_own && met.t > slack);
-            if !(is_alike || is_lit) {
-                return false;
-            }
-        }
-        true
-    }
 }
 
 /// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.
@@ -375,13 +342,6 @@ fn receiver(texels: &Texels<'_>, point: &Seen, beside: [DVec3; 2]) -> Receiver {
         normal: light_from_world.transform_vector3(point.normal),
         pixel_texels: across[0].max(across[1]),
     }
-}
-
-/// Sides of items that a ray meets, whatever their order.
-fn signature(met: &[Met], slack: f64) -> Vec<(usize, bool, bool)> {
-    let mut all: Vec<_> = met.iter().map(|met| (met.item, met.is_far_side, met.t.abs() <= slack)).collect();
-    all.sort_unstable();
-    all
 }
 
 /// Tests whether the map shows the point, or what lies at its place beyond the far plane or before the near one.
