@@ -8,7 +8,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{ContextArgs, Error};
-use crate::conformance::{self, Checked, Subject, waivers};
+use crate::conformance::{self, Checked, DriverUnderTest, waivers};
 use crate::context::{self, Context, Profile};
 use crate::output;
 
@@ -84,7 +84,7 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
     let rules = conformance::choose(&arguments.filter)?;
     let waivers = waivers::load(arguments.waivers.as_deref())?;
     let context = open(arguments)?;
-    let subject = Subject::new(context.as_ref(), None)?;
+    let subject = DriverUnderTest::new(context.as_ref(), None)?;
     let bar = ProgressBar::new(rules.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
         bar.set_style(style);

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{ContextArgs, Error};
-use crate::conformance::probe::{self, DepthFacts, Measured, OffsetUnit};
+use crate::conformance::probe::{self, DepthFacts, MeasuredDepth, OffsetUnit};
 use crate::context::{self, ContextInfo, Profile, egl};
 use crate::process;
 
@@ -27,7 +27,7 @@ pub(super) struct InfoArgs {
 struct Info {
     context: ContextInfo,
     depth_formats: Vec<DepthFacts>,
-    egl_devices: Vec<egl::Device>,
+    egl_devices: Vec<egl::EglDevice>,
     /// Reason why there are no devices to list.
     egl_devices_error: Option<String>,
 }
@@ -109,7 +109,7 @@ fn device_rows(info: &Info) -> Vec<(String, String)> {
     if let Some(error) = &info.egl_devices_error {
         return rows(&[("none", error)]);
     }
-    let describe = |device: &egl::Device| {
+    let describe = |device: &egl::EglDevice| {
         let file = device.file.as_ref().map(|file| format!(", {file}")).unwrap_or_default();
         (format!("--device {}", device.index), format!("{}{file}", device.name))
     };
@@ -157,7 +157,7 @@ fn r_title(index: usize, formats: &[DepthFacts]) -> String {
     measured.map(|measured| format!("r at {}", measured.units[index].at_depth)).unwrap_or_default()
 }
 
-fn depth_row(measured: &Measured) -> String {
+fn depth_row(measured: &MeasuredDepth) -> String {
     let kind = if measured.float { "float" } else { "fixed" };
     let [far, near] = measured.units.map(|unit| unit_text(&unit));
     let shows = if measured.one_unit_shows { "yes" } else { "no" };

@@ -14,9 +14,9 @@ use crate::context::{self, Profile};
 use crate::frame::Renderer;
 use crate::report::measure::grid::{self, Grid};
 use crate::report::measure::picks::Goals;
-use crate::report::measure::run::{self, Options, Sweep};
+use crate::report::measure::run::{self, MeasureOptions, Sweep};
 use crate::report::measure::{claims, picks};
-use crate::report::show::html::Pictures;
+use crate::report::show::html::ReportPictures;
 use crate::report::store::journal::{self, Journal, Known};
 use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
 use crate::report::store::{fingerprint, merge, picture_files, pictures, write};
@@ -213,8 +213,8 @@ fn check_failures(report: &Report, folder: PathBuf) -> Result<(), Error> {
     }
 }
 
-fn options(arguments: &ReportArgs) -> Options {
-    Options {
+fn options(arguments: &ReportArgs) -> MeasureOptions {
+    MeasureOptions {
         light: arguments.light,
         runs: arguments.runs.map_or(if arguments.quick { 3 } else { 5 }, usize::from),
         jobs: usize::from(arguments.jobs),
@@ -224,7 +224,7 @@ fn options(arguments: &ReportArgs) -> Options {
     }
 }
 
-fn prepare(arguments: &ReportArgs, grid: &Grid, options: &Options) -> Result<Vec<Sweep>, Error> {
+fn prepare(arguments: &ReportArgs, grid: &Grid, options: &MeasureOptions) -> Result<Vec<Sweep>, Error> {
     let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
     let overrides: Vec<String> = size.into_iter().chain(arguments.set.iter().cloned()).collect();
     let bar = super::spinner("tracing the truth of {msg}");
@@ -274,7 +274,7 @@ fn take_up(folder: &Path, stamp: &str, sweeps: &[Sweep], report: &mut Report) ->
 /// Runs every scene's rows that are not there yet, and puts all of them into the journal and the report.
 fn measure(
     sweeps: &[Sweep],
-    options: &Options,
+    options: &MeasureOptions,
     stop: &Arc<AtomicBool>,
     journal: &mut Journal,
     report: &mut Report,
@@ -306,7 +306,7 @@ fn measure(
 }
 
 /// Measures published claims on each scene.
-fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &Options) -> Result<(), Error> {
+fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &MeasureOptions) -> Result<(), Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
     let bar = super::spinner("published claims, on {msg}");
@@ -329,10 +329,15 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
 }
 
 /// Draws the pictures, and the scene with everything that its plan leaves out.
-fn draw_pictures(sweeps: &[Sweep], report: &mut Report, options: &Options, goals: &Goals) -> Result<Pictures, Error> {
+fn draw_pictures(
+    sweeps: &[Sweep],
+    report: &mut Report,
+    options: &MeasureOptions,
+    goals: &Goals,
+) -> Result<ReportPictures, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
-    let mut pictures = Pictures::default();
+    let mut pictures = ReportPictures::default();
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         scene.saved = Some(sweep.saved(options, &mut renderer)?);
         pictures.scenes.push(pictures::of(sweep, scene, goals, &mut renderer)?);

@@ -14,7 +14,7 @@ use super::{ContextArgs, Error, spinner};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
 use crate::output::atomic_write;
-use crate::stress::{self, Case, CaseResult, Options, Verdict, named, random};
+use crate::stress::{self, Case, CaseResult, StressOptions, Verdict, named, random};
 use crate::techniques::TABLE;
 
 /// Draws extreme and random scenes by every technique and holds each picture against ray-traced truth.
@@ -108,7 +108,7 @@ fn stress(arguments: &StressArgs) -> Result<bool, Error> {
         return Ok(false);
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let options = Options {
+    let options = StressOptions {
         jobs: arguments.jobs.map_or(cores, usize::from),
         technique: arguments.technique.clone(),
         pictures: arguments.output.is_some(),
@@ -143,7 +143,7 @@ fn cases(arguments: &StressArgs) -> Result<Vec<Case>, Error> {
     }
 }
 
-fn draw(cases: &[Case], options: &Options, stop: &Arc<AtomicBool>) -> Result<Vec<CaseResult>, Error> {
+fn draw(cases: &[Case], options: &StressOptions, stop: &Arc<AtomicBool>) -> Result<Vec<CaseResult>, Error> {
     let bar = ProgressBar::new(cases.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left  {msg}") {
         bar.set_style(style);
@@ -163,7 +163,7 @@ fn draw(cases: &[Case], options: &Options, stop: &Arc<AtomicBool>) -> Result<Vec
 }
 
 /// The first failing cases, each made small under its first setting that is silently wrong.
-fn reduce(cases: &[Case], results: &[CaseResult], options: &Options) -> Result<Vec<Case>, Error> {
+fn reduce(cases: &[Case], results: &[CaseResult], options: &StressOptions) -> Result<Vec<Case>, Error> {
     let failing = results.iter().filter_map(|result| {
         let row = result.rows.iter().find(|row| row.verdict == Verdict::SilentlyWrong)?;
         Some((cases.iter().find(|case| case.name == result.name)?, row.settings.to_inline()))
@@ -174,7 +174,7 @@ fn reduce(cases: &[Case], results: &[CaseResult], options: &Options) -> Result<V
     }
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
-    let options = Options { pictures: false, ..options.clone() };
+    let options = StressOptions { pictures: false, ..options.clone() };
     let bar = spinner("making {msg} small");
     let mut reduced = Vec::new();
     for (case, inside) in failing {

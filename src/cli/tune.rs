@@ -6,7 +6,7 @@ use super::scene_args::SceneArgs;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::report::measure::tune::{self, Point, TuneOptions, Tuned};
+use crate::report::measure::tune::{self, TuneOptions, Tuned, TunedPoint};
 
 /// Finds the polygon offset and the smallest map that a scene needs, with ray-traced truth as the judge.
 #[derive(Debug, Args)]
@@ -79,7 +79,7 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
 /// Fewest pixels in shadow; with fewer there is little that could leak.
 const FEWEST_SHADOWED: usize = 100;
 
-fn line(point: &Point) -> String {
+fn line(point: &TunedPoint) -> String {
     format!(
         "{:>5}  factor {:>4}  units {:>8}  false shadow {:>9.4} %  leak {:>8.4} %  wrong {:>8.4} %",
         point.size, point.factor, point.units, point.false_shadow_percent, point.leak_percent, point.wrong_percent

@@ -1,8 +1,8 @@
 //! GL-C1 to GL-C5: comparison with depth textures [GL 4.6, 8.14, 8.23].
 
-use super::bench::{Compare, Error, Format, Image, Sampling, Wrap};
-use super::verify::{self, NEAR_TIE, Tally};
-use super::{Findings, Subject};
+use super::bench::{Error, GlCompare, GlFormat, GlImage, GlWrap, Sampling};
+use super::verify::{self, GradeTally, NEAR_TIE};
+use super::{DriverUnderTest, Findings};
 
 /// Reads `at.xy` against the reference `at.z`.
 const COMPARE: &str = "result = vec4(compare(texelFetch(inputs, ivec2(gl_FragCoord.xy), 0).xyz));";
@@ -13,14 +13,14 @@ const COMPARE_LEVEL: &str =
 const FETCH: &str = "result = vec4(texture(map, texelFetch(inputs, ivec2(gl_FragCoord.xy), 0).xy).r);";
 
 /// GL-C1: eight functions, references below, at and above stored depths.
-pub fn function(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+pub fn function(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| function_of(subject, findings, format));
     }
     Ok(())
 }
 
-fn function_of(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn function_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     const STORED: [f32; 3] = [0.0, 0.5, 1.0];
     const REFERENCES: [f32; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
     let image = subject.bench.depth_image(format, [4, 1], &[&[STORED[0], STORED[1], STORED[2], 0.0]])?;
@@ -28,11 +28,11 @@ fn function_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
     let pairs: Vec<(usize, f32)> = (0..3).flat_map(|texel| REFERENCES.map(|reference| (texel, reference))).collect();
     let inputs: Vec<_> = pairs.iter().map(|&(texel, r)| [(texel as f32 + 0.5) / 4.0, 0.5, r, 0.0]).collect();
     let mut results = vec![[0.0_f32; 8]; pairs.len()];
-    for (index, compare) in Compare::ALL.into_iter().enumerate() {
+    for (index, compare) in GlCompare::ALL.into_iter().enumerate() {
         let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, Sampling::compare(compare))])?;
         values.iter().zip(&mut results).for_each(|(value, results)| results[index] = value[0]);
     }
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     for (&(texel, reference), results) in pairs.iter().zip(results) {
         let exact = image.encoding.float || texel != 1;
         let error = if exact { 0.0 } else { NEAR_TIE };
@@ -45,8 +45,8 @@ fn function_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
 }
 
 /// GL-C2: references beyond [0, 1], and uploads.
-pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for (format, clamps) in [(Format::Depth16, true), (Format::Depth24, true), (Format::Depth32F, false)] {
+pub fn clamp(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for (format, clamps) in [(GlFormat::Depth16, true), (GlFormat::Depth24, true), (GlFormat::Depth32F, false)] {
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 1], &[&[0.0, 1.0]])?;
             let ask = |texel: f32, reference: f32, compare| {
@@ -54,8 +54,8 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
                 let sampling = Sampling::compare(compare);
                 Ok(subject.bench.map(COMPARE, &[input], &[("shadow", &image, sampling)])?[0][0])
             };
-            let above = ask(1.0, 1.5, Compare::Equal)?;
-            let below = ask(0.0, -0.5, Compare::GreaterEqual)?;
+            let above = ask(1.0, 1.5, GlCompare::Equal)?;
+            let below = ask(0.0, -0.5, GlCompare::GreaterEqual)?;
             let expected = f32::from(u8::from(clamps));
             let measured = format!("1.5 EQUAL 1 gives {above}, -0.5 GEQUAL 0 gives {below}; {expected} is due");
             let kind = if clamps { "is clamped" } else { "is not clamped" };
@@ -65,7 +65,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
                 measured,
             );
             let mut passing = Vec::new();
-            for compare in Compare::ALL {
+            for compare in GlCompare::ALL {
                 if ask(1.0, f32::NAN, compare)? > 0.5 {
                     passing.push(format!("{compare:?}"));
                 }
@@ -77,7 +77,7 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
             Ok(())
         });
     }
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 1], &[&[-0.5, 1.5]])?;
             let stored = subject.bench.image_depths(&image)?;
@@ -93,8 +93,8 @@ pub fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 const WEIGHTS: [f32; 9] = [0.0, 0.1, 0.2, 0.3, 0.5, 0.625, 0.7, 0.9, 1.0];
 
 /// GL-C3: filtered comparison, as a verifier of texture filters sees it.
-pub fn filtered(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+pub fn filtered(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| filtered_of(subject, findings, format));
     }
     findings.part(|findings| weight_bits(subject, findings));
@@ -103,8 +103,8 @@ pub fn filtered(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
 
 /// All sixteen outcomes of four comparisons, at every pair of weights. The depths are apart so far from each other that
 /// filtering them first gives other results.
-fn filtered_of(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
-    let mut tally = Tally::default();
+fn filtered_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+    let mut tally = GradeTally::default();
     let weights: Vec<[f32; 2]> = WEIGHTS.iter().flat_map(|&beta| WEIGHTS.map(|alpha| [alpha, beta])).collect();
     // Centres of texels (0, 0) and (1, 1) lie at 0.25 and 0.75.
     let inputs: Vec<_> = weights.iter().map(|[a, b]| [0.25 + a / 2.0, 0.25 + b / 2.0, 0.5, 0.0]).collect();
@@ -112,7 +112,7 @@ fn filtered_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
         let passes = [0, 1, 2, 3].map(|texel| outcome >> texel & 1 == 1);
         let depths = passes.map(|pass| if pass { 0.8 } else { 0.4 });
         let image = subject.bench.depth_image(format, [2, 2], &[&depths])?;
-        let sampling = Sampling::compare_linear(Compare::LessEqual);
+        let sampling = Sampling::compare_linear(GlCompare::LessEqual);
         let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, sampling)])?;
         for ([alpha, beta], value) in weights.iter().zip(values) {
             let weights = [f64::from(*alpha), f64::from(*beta)];
@@ -126,12 +126,12 @@ fn filtered_of(subject: &Subject, findings: &mut Findings, format: Format) -> Re
 }
 
 /// Number of results between a texel that passes and one that fails.
-fn weight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+fn weight_bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const STEPS: usize = 4096;
-    let image = subject.bench.depth_image(Format::Depth24, [2, 1], &[&[1.0, 0.0]])?;
+    let image = subject.bench.depth_image(GlFormat::Depth24, [2, 1], &[&[1.0, 0.0]])?;
     let alpha = |step: usize| step as f32 / STEPS as f32;
     let inputs: Vec<_> = (0..STEPS).map(|step| [0.25 + alpha(step) / 2.0, 0.5, 0.5, 0.0]).collect();
-    let sampling = Sampling::compare_linear(Compare::LessEqual);
+    let sampling = Sampling::compare_linear(GlCompare::LessEqual);
     let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, sampling)])?;
     let mut codes: Vec<u32> = values.iter().map(|value| value[0].to_bits()).collect();
     codes.sort_unstable();
@@ -143,15 +143,15 @@ fn weight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> 
 }
 
 /// GL-C4: each level is compared, then levels are blended.
-pub fn levels(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth24, Format::Depth32F] {
+pub fn levels(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 2], &[&[1.0; 4], &[0.0]])?;
             let lods: Vec<f32> = (0..=16).map(|step| step as f32 / 16.0).collect();
             let inputs: Vec<_> = lods.iter().map(|&lod| [0.5, 0.5, 0.5, lod]).collect();
-            let sampling = Sampling { mipmap: true, ..Sampling::compare_linear(Compare::LessEqual) };
+            let sampling = Sampling { mipmap: true, ..Sampling::compare_linear(GlCompare::LessEqual) };
             let values = subject.bench.map(COMPARE_LEVEL, &inputs, &[("shadow", &image, sampling)])?;
-            let mut tally = Tally::default();
+            let mut tally = GradeTally::default();
             for (lod, value) in lods.iter().zip(values) {
                 let off = f64::from(value[0]) - f64::from(1.0 - lod);
                 tally.add(verify::within(off, 1.0 / 64.0 + 1.0 / 256.0, 1.0 / 16.0 + 1.0 / 256.0), off);
@@ -164,8 +164,8 @@ pub fn levels(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// GL-C5: wrap modes and the border's depth.
-pub fn border(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth24, Format::Depth32F] {
+pub fn border(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let row = subject.bench.depth_image(format, [2, 1], &[&[0.25, 0.75]])?;
             let flat = subject.bench.depth_image(format, [2, 2], &[&[0.5; 4]])?;
@@ -177,15 +177,15 @@ pub fn border(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// The second texel alone passes against 0.5.
-fn wraps(subject: &Subject, findings: &mut Findings, row: &Image) -> Result<(), Error> {
+fn wraps(subject: &DriverUnderTest, findings: &mut Findings, row: &GlImage) -> Result<(), Error> {
     let cases = [
-        (Wrap::Repeat, [(1.25, 0.0), (1.75, 1.0), (-0.25, 1.0), (-0.75, 0.0)]),
-        (Wrap::MirroredRepeat, [(1.25, 1.0), (1.75, 0.0), (-0.25, 0.0), (-0.75, 1.0)]),
-        (Wrap::ClampToEdge, [(1.25, 1.0), (9.0, 1.0), (-0.25, 0.0), (-9.0, 0.0)]),
+        (GlWrap::Repeat, [(1.25, 0.0), (1.75, 1.0), (-0.25, 1.0), (-0.75, 0.0)]),
+        (GlWrap::MirroredRepeat, [(1.25, 1.0), (1.75, 0.0), (-0.25, 0.0), (-0.75, 1.0)]),
+        (GlWrap::ClampToEdge, [(1.25, 1.0), (9.0, 1.0), (-0.25, 0.0), (-9.0, 0.0)]),
     ];
     let (mut wrong, mut count) = (0, 0);
     for (wrap, expected) in cases {
-        let sampling = Sampling { wrap, ..Sampling::compare(Compare::LessEqual) };
+        let sampling = Sampling { wrap, ..Sampling::compare(GlCompare::LessEqual) };
         let inputs = expected.map(|(s, _)| [s, 0.5, 0.5, 0.0]);
         let values = subject.bench.map(COMPARE, &inputs, &[("shadow", row, sampling)])?;
         wrong += values.iter().zip(expected).filter(|(value, (_, expected))| value[0] != *expected).count();
@@ -196,20 +196,20 @@ fn wraps(subject: &Subject, findings: &mut Findings, row: &Image) -> Result<(), 
 }
 
 /// Inside 0.75 fails against 0.5; the border's depth is the first component, 1, and passes.
-fn borders(subject: &Subject, findings: &mut Findings, flat: &Image) -> Result<(), Error> {
+fn borders(subject: &DriverUnderTest, findings: &mut Findings, flat: &GlImage) -> Result<(), Error> {
     let mut cases = vec![
-        ("CLAMP_TO_BORDER", false, Wrap::ClampToBorder, -0.25, 1.0),
-        ("CLAMP_TO_BORDER inside", false, Wrap::ClampToBorder, 0.25, 0.0),
-        ("CLAMP_TO_BORDER, LINEAR at the edge", true, Wrap::ClampToBorder, 0.0, 0.5),
+        ("CLAMP_TO_BORDER", false, GlWrap::ClampToBorder, -0.25, 1.0),
+        ("CLAMP_TO_BORDER inside", false, GlWrap::ClampToBorder, 0.25, 0.0),
+        ("CLAMP_TO_BORDER, LINEAR at the edge", true, GlWrap::ClampToBorder, 0.0, 0.5),
     ];
     if subject.bench.is_compatible() {
-        cases.push(("CLAMP, LINEAR", true, Wrap::Clamp, -0.25, 0.5));
-        cases.push(("CLAMP, NEAREST", false, Wrap::Clamp, -0.25, 0.0));
+        cases.push(("CLAMP, LINEAR", true, GlWrap::Clamp, -0.25, 0.5));
+        cases.push(("CLAMP, NEAREST", false, GlWrap::Clamp, -0.25, 0.0));
     } else {
         findings.untestable("CLAMP", "a core context has no GL_CLAMP");
     }
     for (name, linear, wrap, s, expected) in cases {
-        let compare = Sampling::compare(Compare::LessEqual);
+        let compare = Sampling::compare(GlCompare::LessEqual);
         let sampling = Sampling { wrap, linear, border: [1.0, 0.0, 0.0, 0.0], ..compare };
         let value = subject.bench.map(COMPARE, &[[s, 0.5, 0.75, 0.0]], &[("shadow", flat, sampling)])?[0][0];
         let grade = verify::within(f64::from(value) - expected, 1.0 / 64.0, 1.0 / 8.0);
@@ -221,7 +221,7 @@ fn borders(subject: &Subject, findings: &mut Findings, flat: &Image) -> Result<(
 }
 
 /// Compares depths that a shader reads with the stored ones: used by GL-D1.
-pub(super) fn fetched(subject: &Subject, image: &Image) -> Result<Tally, Error> {
+pub(super) fn fetched(subject: &DriverUnderTest, image: &GlImage) -> Result<GradeTally, Error> {
     let stored = subject.bench.image_depths(image)?;
     let width = image.size[0] as usize;
     let centre = |texel: usize| {
@@ -230,7 +230,7 @@ pub(super) fn fetched(subject: &Subject, image: &Image) -> Result<Tally, Error> 
     };
     let inputs: Vec<_> = (0..stored.len()).map(centre).collect();
     let values = subject.bench.map(FETCH, &inputs, &[("map", image, Sampling::NEAREST)])?;
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     for (value, stored) in values.iter().zip(stored) {
         // Two steps of a float: one of rounding, one of multiplying by a rounded reciprocal.
         let off = (f64::from(value[0]) - stored).abs() * 2f64.powi(24);

@@ -1,9 +1,11 @@
 //! GL-T2 to GL-T4: the division by q, interpolation, and a surface's shadow on itself [GL 4.6, 14.6.1, 15.2.2].
 
-use super::bench::{Compare, Draw, Error, Format, Image, Offset, Sampling, Shader, State, Vertex, full, triangle};
+use super::bench::{
+    Error, GlCompare, GlDraw, GlFormat, GlImage, GlOffset, GlState, Sampling, Shader, Vertex, full, triangle,
+};
 use super::random::Random;
-use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject, Verdict, planes};
+use super::verify::{self, Grade, GradeTally};
+use super::{DriverUnderTest, Findings, RuleVerdict, planes};
 
 const PROJECTED: &str = "result = vec4(compare_proj(texelFetch(inputs, ivec2(gl_FragCoord.xy), 0)));";
 const DIVIDED: &str = "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = vec4(compare(at.xyz / at.w));";
@@ -12,7 +14,7 @@ const DIVIDED: &str = "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); 
 const SIDE: usize = 16;
 
 /// GL-T2: projective look-ups against a division of one's own, and both against the verifier.
-pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn division(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let mut random = Random::new(2);
     let depths: Vec<f32> = (0..SIDE * SIDE).map(|_| random.unit()).collect();
     let inputs: Vec<[f32; 4]> = (0..4096)
@@ -21,15 +23,16 @@ pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
             [random.unit() * q, random.unit() * q, random.unit() * q, q]
         })
         .collect();
-    let image = subject.bench.depth_image(Format::Depth24, [SIDE as u32; 2], &[&depths])?;
+    let image = subject.bench.depth_image(GlFormat::Depth24, [SIDE as u32; 2], &[&depths])?;
     let stored = subject.bench.image_depths(&image)?;
-    for (name, sampling) in
-        [("NEAREST", Sampling::compare(Compare::LessEqual)), ("LINEAR", Sampling::compare_linear(Compare::LessEqual))]
-    {
+    for (name, sampling) in [
+        ("NEAREST", Sampling::compare(GlCompare::LessEqual)),
+        ("LINEAR", Sampling::compare_linear(GlCompare::LessEqual)),
+    ] {
         let images = [("shadow", &image, sampling)];
         let projected = subject.bench.map(PROJECTED, &inputs, &images)?;
         let divided = subject.bench.map(DIVIDED, &inputs, &images)?;
-        let mut tally = Tally::default();
+        let mut tally = GradeTally::default();
         for (input, (projected, divided)) in inputs.iter().zip(projected.iter().zip(&divided)) {
             let grade = texel_grade(f64::from(projected[0]), *input, &stored, sampling.linear);
             tally.add(grade, f64::from(projected[0] - divided[0]));
@@ -40,7 +43,7 @@ pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
     Ok(())
 }
 
-fn fixed(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+fn fixed(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     crate::conformance::fixed::division(subject, findings)
 }
 
@@ -72,7 +75,7 @@ fn texel_grade(value: f64, [s, t, r, q]: [f32; 4], stored: &[f64], linear: bool)
 }
 
 /// GL-T3: varyings with perspective, depth without, and what gl_FragCoord.z says.
-pub fn interpolation(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn interpolation(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     findings.part(|findings| varyings(subject, findings));
     findings.part(|findings| fragment_depth(subject, findings));
     planes::near_origin(subject, findings);
@@ -83,17 +86,17 @@ pub fn interpolation(subject: &Subject, findings: &mut Findings) -> Result<(), E
 /// Clip coordinates with w of 1, 2 and 4.
 const IN_DEPTH: [[f32; 4]; 3] = [[-1.0, -1.0, 0.0, 1.0], [2.0, -2.0, 1.0, 2.0], [-2.0, 4.0, 3.0, 4.0]];
 
-fn varyings(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+fn varyings(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const SIZE: u32 = 32;
-    let surface = subject.bench.surface([SIZE; 2], Some(Format::Rgba32F), None)?;
+    let surface = subject.bench.surface([SIZE; 2], Some(GlFormat::Rgba32F), None)?;
     surface.clear_color([-1.0; 4]);
     let mut vertices = triangle(IN_DEPTH);
     for (index, vertex) in vertices.iter_mut().enumerate() {
         vertex.value[index] = 1.0;
     }
-    subject.bench.draw(&Draw::plain(&surface, State { depth: None, ..State::WRITE }, &vertices))?;
+    subject.bench.draw(&GlDraw::plain(&surface, GlState { depth: None, ..GlState::WRITE }, &vertices))?;
     let corners = planes::window(IN_DEPTH, [0.0, 0.0], f64::from(SIZE));
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     for (index, value) in surface.floats().iter().enumerate().filter(|(_, value)| value[0] >= 0.0) {
         let [x, y] = [index as u32 % SIZE, index as u32 / SIZE].map(|place| f64::from(place) + 0.5);
         let ideal = planes::perspective_weights(corners, IN_DEPTH, [x, y]);
@@ -106,13 +109,13 @@ fn varyings(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
     Ok(())
 }
 
-fn fragment_depth(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let surface = subject.bench.surface([64; 2], Some(Format::Rgba32F), Some(Format::Depth32F))?;
+fn fragment_depth(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([64; 2], Some(GlFormat::Rgba32F), Some(GlFormat::Depth32F))?;
     surface.clear_depth(0.0);
     surface.clear_color([0.0; 4]);
     let shader = Shader { fragment: "result = vec4(gl_FragCoord.z);", ..Shader::PLAIN };
     let vertices = triangle(IN_DEPTH);
-    subject.bench.draw(&Draw { shader, ..Draw::plain(&surface, State::WRITE, &vertices) })?;
+    subject.bench.draw(&GlDraw { shader, ..GlDraw::plain(&surface, GlState::WRITE, &vertices) })?;
     let (colors, depths) = (surface.floats(), surface.depths());
     let wrong = colors.iter().zip(&depths).filter(|(color, depth)| f64::from(color[0]) != **depth).count();
     let drawn = depths.iter().filter(|depth| **depth > 0.0).count();
@@ -127,8 +130,8 @@ const FLOOR: [[f32; 4]; 4] =
     [[-1.6, -1.4, 0.069, 1.0345], [1.6, -1.4, 0.069, 1.0345], [14.0, 9.0, 12.0, 12.9], [-14.0, 9.0, 12.0, 12.9]];
 
 /// GL-T4: the floor's shadow map, looked up from the light's own view.
-pub fn self_shadow(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+pub fn self_shadow(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let mut lit = [0.0; 4];
             for (lit, units) in lit.iter_mut().zip([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 4.0]]) {
@@ -140,9 +143,11 @@ pub fn self_shadow(subject: &Subject, findings: &mut Findings) -> Result<(), Err
                 format!("{} without offset, {} with (0, 1), {} with (1, 1)", percent[0], percent[1], percent[2]),
             );
             let (verdict, measured) = match () {
-                () if lit[2] == 1.0 => (Verdict::Pass, "polygon offset (1, 1) leaves no false shadow".to_owned()),
-                () if lit[3] == 1.0 => (Verdict::Warning, format!("{} lit with (1, 1), all with (2, 4)", percent[2])),
-                () => (Verdict::Fail, format!("only {} lit with (2, 4)", percent[3])),
+                () if lit[2] == 1.0 => (RuleVerdict::Pass, "polygon offset (1, 1) leaves no false shadow".to_owned()),
+                () if lit[3] == 1.0 => {
+                    (RuleVerdict::Warning, format!("{} lit with (1, 1), all with (2, 4)", percent[2]))
+                }
+                () => (RuleVerdict::Fail, format!("only {} lit with (2, 4)", percent[3])),
             };
             findings.add(format.name(), verdict, measured);
             Ok(())
@@ -151,27 +156,27 @@ pub fn self_shadow(subject: &Subject, findings: &mut Findings) -> Result<(), Err
     Ok(())
 }
 
-fn lit_share(subject: &Subject, format: Format, [factor, units]: [f32; 2]) -> Result<f64, Error> {
+fn lit_share(subject: &DriverUnderTest, format: GlFormat, [factor, units]: [f32; 2]) -> Result<f64, Error> {
     let vertices = [0, 1, 2, 0, 2, 3].map(|corner| Vertex { position: FLOOR[corner], value: FLOOR[corner] });
     let map = subject.bench.surface([MAP; 2], None, Some(format))?;
     map.clear_depth(1.0);
-    let offset = Offset { factor, units, clamp: 0.0 };
-    let state = State { depth: Some(Compare::Less), offset: Some(offset), color_write: false, ..State::WRITE };
-    subject.bench.draw(&Draw::plain(&map, state, &vertices))?;
+    let offset = GlOffset { factor, units, clamp: 0.0 };
+    let state = GlState { depth: Some(GlCompare::Less), offset: Some(offset), color_write: false, ..GlState::WRITE };
+    subject.bench.draw(&GlDraw::plain(&map, state, &vertices))?;
     let Some(image) = map.depth_image() else { return Ok(0.0) };
     lit_from(subject, image, &vertices)
 }
 
-fn lit_from(subject: &Subject, image: &Image, vertices: &[Vertex]) -> Result<f64, Error> {
-    let view = subject.bench.surface([MAP; 2], Some(Format::Rgba8), None)?;
+fn lit_from(subject: &DriverUnderTest, image: &GlImage, vertices: &[Vertex]) -> Result<f64, Error> {
+    let view = subject.bench.surface([MAP; 2], Some(GlFormat::Rgba8), None)?;
     view.clear_color([0.5; 4]);
     let shader = Shader {
         fragment: "result = vec4(compare_proj(vec4(0.5 * (passed.xyz + passed.w), passed.w)));",
         ..Shader::PLAIN
     };
-    let images = [("shadow", image, Sampling::compare(Compare::LessEqual))];
-    let state = State { depth: None, ..State::WRITE };
-    subject.bench.draw(&Draw { shader, images: &images, ..Draw::plain(&view, state, vertices) })?;
+    let images = [("shadow", image, Sampling::compare(GlCompare::LessEqual))];
+    let state = GlState { depth: None, ..GlState::WRITE };
+    subject.bench.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(&view, state, vertices) })?;
     let colors = view.colors();
     let count = |wanted: u8| colors.iter().filter(|color| color[0] == wanted).count() as f64;
     Ok(count(255) / (count(255) + count(0)).max(1.0))

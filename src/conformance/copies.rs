@@ -1,9 +1,11 @@
 //! GL-F1 to GL-F4: copies of depth, completeness, reading what is attached, and 8-bit colour [GL 4.6, 8.6, 9.3, 9.4, 17.3].
 
-use super::bench::{Blend, Draw, Error, Format, Sampling, Shader, State, Surface, Vertex, full, rectangle, triangle};
+use super::bench::{
+    Error, GlBlend, GlDraw, GlFormat, GlState, Sampling, Shader, Surface, Vertex, full, rectangle, triangle,
+};
 use super::random::Random;
-use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject};
+use super::verify::{self, Grade, GradeTally};
+use super::{DriverUnderTest, Findings};
 
 const SIDE: u32 = 32;
 
@@ -21,24 +23,24 @@ fn scene() -> Vec<Vertex> {
         .collect()
 }
 
-fn drawn(subject: &Subject, format: Format) -> Result<Surface, Error> {
+fn drawn(subject: &DriverUnderTest, format: GlFormat) -> Result<Surface, Error> {
     let surface = subject.bench.surface([SIDE; 2], None, Some(format))?;
     surface.clear_depth(1.0);
-    subject.bench.draw(&Draw::plain(&surface, State { color_write: false, ..State::WRITE }, &scene()))?;
+    subject.bench.draw(&GlDraw::plain(&surface, GlState { color_write: false, ..GlState::WRITE }, &scene()))?;
     Ok(surface)
 }
 
 /// GL-F1: glCopyTexSubImage2D of depth.
-pub fn copy(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F, Format::Depth24Stencil8] {
+pub fn copy(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F, GlFormat::Depth24Stencil8] {
         findings.part(|findings| same_format(subject, findings, format));
     }
     for (from, to) in [
-        (Format::Depth24, Format::Depth16),
-        (Format::Depth24, Format::Depth32F),
-        (Format::Depth32F, Format::Depth24),
-        (Format::Depth16, Format::Depth24),
-        (Format::Depth24, Format::Depth32),
+        (GlFormat::Depth24, GlFormat::Depth16),
+        (GlFormat::Depth24, GlFormat::Depth32F),
+        (GlFormat::Depth32F, GlFormat::Depth24),
+        (GlFormat::Depth16, GlFormat::Depth24),
+        (GlFormat::Depth24, GlFormat::Depth32),
     ] {
         findings.part(|findings| other_format(subject, findings, from, to));
     }
@@ -47,7 +49,7 @@ pub fn copy(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// The whole, and a rectangle whose surroundings stay as they were.
-fn same_format(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn same_format(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     let surface = drawn(subject, format)?;
     let image = subject.bench.image(format, [SIDE; 2])?;
     let whole = [0, 0, SIDE as i32, SIDE as i32];
@@ -71,7 +73,7 @@ fn same_format(subject: &Subject, findings: &mut Findings, format: Format) -> Re
     Ok(())
 }
 
-fn other_format(subject: &Subject, findings: &mut Findings, from: Format, to: Format) -> Result<(), Error> {
+fn other_format(subject: &DriverUnderTest, findings: &mut Findings, from: GlFormat, to: GlFormat) -> Result<(), Error> {
     let surface = drawn(subject, from)?;
     let image = subject.bench.image(to, [SIDE; 2])?;
     let name = format!("{} copied to {}", from.name(), to.name());
@@ -79,7 +81,7 @@ fn other_format(subject: &Subject, findings: &mut Findings, from: Format, to: Fo
         findings.must_hold(name, false, error);
         return Ok(());
     }
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     for (stored, copied) in surface.depths().iter().zip(subject.bench.image_depths(&image)?) {
         let step = image.encoding.step(0.75);
         let off = (copied - stored) / step;
@@ -92,11 +94,11 @@ fn other_format(subject: &Subject, findings: &mut Findings, from: Format, to: Fo
 }
 
 /// Errors that GL must make.
-fn refusals(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let without = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), None)?;
-    let with = drawn(subject, Format::Depth24)?;
-    let image = subject.bench.image(Format::Depth24, [SIDE; 2])?;
-    let packed = subject.bench.image(Format::Depth24Stencil8, [SIDE; 2])?;
+fn refusals(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let without = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), None)?;
+    let with = drawn(subject, GlFormat::Depth24)?;
+    let image = subject.bench.image(GlFormat::Depth24, [SIDE; 2])?;
+    let packed = subject.bench.image(GlFormat::Depth24Stencil8, [SIDE; 2])?;
     let area = [0, 0, 8, 8];
     let cases = [
         ("from a framebuffer without depth", &without, &image, [0, 0], "GL_INVALID_OPERATION"),
@@ -111,10 +113,10 @@ fn refusals(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// GL-F2: framebuffers of depth alone.
-pub fn completeness(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in Format::DEPTHS {
+pub fn completeness(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in GlFormat::DEPTHS {
         // Table 8.13 has DEPTH_COMPONENT32, but 8.5.1 does not require it.
-        let refused = if format == Format::Depth32 { Grade::Allowed } else { Grade::Wrong };
+        let refused = if format == GlFormat::Depth32 { Grade::Allowed } else { Grade::Wrong };
         match subject.bench.surface([4, 4], None, Some(format)) {
             Ok(_) => findings.grade(format.name(), Grade::Good, "complete without colour"),
             Err(error @ Error::Refused { .. }) => findings.grade(format.name(), refused, error.to_string()),
@@ -128,15 +130,15 @@ pub fn completeness(subject: &Subject, findings: &mut Findings) -> Result<(), Er
 }
 
 /// GL-F3: a depth texture is read while it is attached and not written.
-pub fn feedback(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba32F), Some(Format::Depth24))?;
+pub fn feedback(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba32F), Some(GlFormat::Depth24))?;
     surface.clear_depth(1.0);
-    subject.bench.draw(&Draw::plain(&surface, State::WRITE, &scene()))?;
+    subject.bench.draw(&GlDraw::plain(&surface, GlState::WRITE, &scene()))?;
     let Some(image) = surface.depth_image() else { return Ok(()) };
     let shader = Shader { fragment: "result = vec4(texelFetch(map, ivec2(gl_FragCoord.xy), 0).r);", ..Shader::PLAIN };
-    let state = State { depth_write: false, ..State::WRITE };
+    let state = GlState { depth_write: false, ..GlState::WRITE };
     let images = [("map", image, Sampling::NEAREST)];
-    subject.bench.draw(&Draw { shader, images: &images, ..Draw::plain(&surface, state, &full(0.0)) })?;
+    subject.bench.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(&surface, state, &full(0.0)) })?;
     let pairs: Vec<_> = surface.floats().into_iter().zip(surface.depths()).collect();
     let wrong = pairs.iter().filter(|(color, depth)| (f64::from(color[0]) - depth).abs() > 2f64.powi(-22)).count();
     let grade = if wrong == 0 { Grade::Good } else { Grade::Allowed };
@@ -145,18 +147,18 @@ pub fn feedback(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
 }
 
 /// GL-F4: floats to 8 bits, sums and products of 8 bits, sRGB.
-pub fn eight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn eight_bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const WIDTH: u32 = 128;
     let mut random = Random::new(64);
     let values: Vec<f32> = (0..WIDTH * WIDTH).map(|_| random.between(-0.05, 1.05)).collect();
     let inputs: Vec<_> = values.iter().map(|value| [*value; 4]).collect();
-    for format in [Format::Rgba8, Format::Srgb8Alpha8] {
-        let encode = format == Format::Srgb8Alpha8;
+    for format in [GlFormat::Rgba8, GlFormat::Srgb8Alpha8] {
+        let encode = format == GlFormat::Srgb8Alpha8;
         let surface = subject.bench.surface([WIDTH; 2], Some(format), None)?;
-        let state = State { depth: None, encode_srgb: encode, ..State::WRITE };
+        let state = GlState { depth: None, encode_srgb: encode, ..GlState::WRITE };
         let fragment = "result = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0);";
         subject.bench.map_into(&surface, state, fragment, &inputs, &[])?;
-        let mut tally = Tally::default();
+        let mut tally = GradeTally::default();
         for (value, color) in values.iter().zip(surface.colors()) {
             let value = f64::from(*value).clamp(0.0, 1.0);
             let due = if encode { srgb(value) } else { value };
@@ -167,7 +169,7 @@ pub fn eight_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
         }
         findings.tally(format!("{}: a shader's floats", format.name()), tally, "codes");
     }
-    for (blend, name) in [(Blend::Add, "ONE, ONE"), (Blend::Multiply, "DST_COLOR, ZERO")] {
+    for (blend, name) in [(GlBlend::Add, "ONE, ONE"), (GlBlend::Multiply, "DST_COLOR, ZERO")] {
         findings.tally(format!("RGBA8: blended by {name}"), blended(subject, blend)?, "codes");
     }
     Ok(())
@@ -179,24 +181,24 @@ fn srgb(linear: f64) -> f64 {
 }
 
 /// 64 codes over 64 codes: columns first, rows upon them.
-fn blended(subject: &Subject, blend: Blend) -> Result<Tally, Error> {
+fn blended(subject: &DriverUnderTest, blend: GlBlend) -> Result<GradeTally, Error> {
     const CODES: i32 = 64;
-    let surface = subject.bench.surface([CODES as u32; 2], Some(Format::Rgba8), None)?;
+    let surface = subject.bench.surface([CODES as u32; 2], Some(GlFormat::Rgba8), None)?;
     let code = |index: i32| (index * 4 + 1) as f32 / 255.0;
     let ndc = |index: i32| index as f32 * 2.0 / CODES as f32 - 1.0;
     let columns: Vec<_> =
         (0..CODES).flat_map(|x| rectangle([ndc(x), -1.0], [ndc(x + 1), 1.0], 0.0, [code(x); 4])).collect();
     let rows: Vec<_> =
         (0..CODES).flat_map(|y| rectangle([-1.0, ndc(y)], [1.0, ndc(y + 1)], 0.0, [code(y); 4])).collect();
-    let plain = State { depth: None, ..State::WRITE };
-    subject.bench.draw(&Draw::plain(&surface, plain, &columns))?;
-    subject.bench.draw(&Draw::plain(&surface, State { blend: Some(blend), ..plain }, &rows))?;
-    let mut tally = Tally::default();
+    let plain = GlState { depth: None, ..GlState::WRITE };
+    subject.bench.draw(&GlDraw::plain(&surface, plain, &columns))?;
+    subject.bench.draw(&GlDraw::plain(&surface, GlState { blend: Some(blend), ..plain }, &rows))?;
+    let mut tally = GradeTally::default();
     for (index, color) in surface.colors().iter().enumerate() {
         let [x, y] = [index as i32 % CODES, index as i32 / CODES].map(|index| f64::from(index * 4 + 1));
-        let (due, strict) = if blend == Blend::Add { ((x + y).min(255.0), 0.0) } else { (x * y / 255.0, 0.5 + 1e-9) };
+        let (due, strict) = if blend == GlBlend::Add { ((x + y).min(255.0), 0.0) } else { (x * y / 255.0, 0.5 + 1e-9) };
         let off = f64::from(color[0]) - due;
-        tally.add(verify::within(off, strict, if blend == Blend::Add { 0.0 } else { 1.5 }), off);
+        tally.add(verify::within(off, strict, if blend == GlBlend::Add { 0.0 } else { 1.5 }), off);
     }
     Ok(tally)
 }

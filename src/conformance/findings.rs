@@ -5,13 +5,13 @@ use std::fmt;
 use serde::Serialize;
 
 use super::bench::Error;
-use super::verify::{Grade, Tally};
-use super::{Outcome, Rule};
+use super::verify::{Grade, GradeTally};
+use super::{Rule, RuleOutcome};
 
 /// Verdicts, in order of severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum RuleVerdict {
     /// This context cannot be tested.
     Untestable,
     Pass,
@@ -22,7 +22,7 @@ pub enum Verdict {
     Fail,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for RuleVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Untestable => "cannot be tested here",
@@ -38,7 +38,7 @@ impl fmt::Display for Verdict {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     pub what: String,
-    pub verdict: Verdict,
+    pub verdict: RuleVerdict,
     /// The measurement, or the reason why there is none.
     pub measured: String,
 }
@@ -65,13 +65,13 @@ pub struct Findings {
 }
 
 impl Findings {
-    pub fn add(&mut self, what: impl Into<String>, verdict: Verdict, measured: impl Into<String>) {
+    pub fn add(&mut self, what: impl Into<String>, verdict: RuleVerdict, measured: impl Into<String>) {
         self.list.push(Finding { what: what.into(), verdict, measured: measured.into() });
     }
 
     /// Fails unless `holds`; `measured` says what was seen.
     pub fn must_hold(&mut self, what: impl Into<String>, holds: bool, measured: impl Into<String>) {
-        self.add(what, if holds { Verdict::Pass } else { Verdict::Fail }, measured);
+        self.add(what, if holds { RuleVerdict::Pass } else { RuleVerdict::Fail }, measured);
     }
 
     /// Fails if `wrong` of `count` is not 0, or if nothing was counted.
@@ -84,16 +84,16 @@ impl Findings {
     }
 
     /// By the tally's worst grade; `unit` names what its worst distance is counted in.
-    pub fn tally(&mut self, what: impl Into<String>, tally: Tally, unit: &str) {
-        let Tally { good, allowed, wrong, worst } = tally;
+    pub fn tally(&mut self, what: impl Into<String>, tally: GradeTally, unit: &str) {
+        let GradeTally { good, allowed, wrong, worst } = tally;
         let count = tally.count();
         let off =
             if worst > 0.0 && !unit.is_empty() { format!(", at most {worst:.3} {unit} off") } else { String::new() };
         let (verdict, measured) = match () {
-            () if wrong > 0 => (Verdict::Fail, format!("{wrong} of {count} wrong{off}")),
-            () if count == 0 => (Verdict::Fail, "nothing was drawn".to_owned()),
-            () if allowed > 0 => (Verdict::Warning, format!("{allowed} of {count} only just allowed{off}")),
-            () => (Verdict::Pass, format!("all {good} good{off}")),
+            () if wrong > 0 => (RuleVerdict::Fail, format!("{wrong} of {count} wrong{off}")),
+            () if count == 0 => (RuleVerdict::Fail, "nothing was drawn".to_owned()),
+            () if allowed > 0 => (RuleVerdict::Warning, format!("{allowed} of {count} only just allowed{off}")),
+            () => (RuleVerdict::Pass, format!("all {good} good{off}")),
         };
         self.add(what, verdict, measured);
     }
@@ -101,15 +101,15 @@ impl Findings {
     /// By one grade.
     pub fn grade(&mut self, what: impl Into<String>, grade: Grade, measured: impl Into<String>) {
         let verdict = match grade {
-            Grade::Good => Verdict::Pass,
-            Grade::Allowed => Verdict::Warning,
-            Grade::Wrong => Verdict::Fail,
+            Grade::Good => RuleVerdict::Pass,
+            Grade::Allowed => RuleVerdict::Warning,
+            Grade::Wrong => RuleVerdict::Fail,
         };
         self.add(what, verdict, measured);
     }
 
     pub fn untestable(&mut self, what: impl Into<String>, why: impl Into<String>) {
-        self.add(what, Verdict::Untestable, why);
+        self.add(what, RuleVerdict::Untestable, why);
     }
 
     pub fn fact(&mut self, name: impl Into<String>, value: impl Into<String>) {
@@ -120,7 +120,7 @@ impl Findings {
     pub fn error(&mut self, error: &Error) {
         match error {
             Error::Refused { format, reason } => self.untestable(*format, format!("refused: {reason}")),
-            error => self.add("draws", Verdict::Fail, error.to_string()),
+            error => self.add("draws", RuleVerdict::Fail, error.to_string()),
         }
     }
 
@@ -131,9 +131,9 @@ impl Findings {
         }
     }
 
-    pub(super) fn outcome(self, rule: &Rule, seconds: f64) -> Outcome {
-        let verdict = self.list.iter().map(|finding| finding.verdict).max().unwrap_or(Verdict::Untestable);
-        Outcome {
+    pub(super) fn outcome(self, rule: &Rule, seconds: f64) -> RuleOutcome {
+        let verdict = self.list.iter().map(|finding| finding.verdict).max().unwrap_or(RuleVerdict::Untestable);
+        RuleOutcome {
             id: rule.id,
             title: rule.title,
             section: rule.section,

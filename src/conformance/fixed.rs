@@ -3,18 +3,18 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::bench::fixed_function::{DepthMode, FixedBench, FixedDraw, Texgen};
-use super::bench::{Compare, Error, Format, Image, Sampling, State, Surface, Vertex, full};
+use super::bench::fixed_function::{DepthMode, FixedBench, FixedDraw, GlTexgen};
+use super::bench::{Error, GlCompare, GlFormat, GlImage, GlState, Sampling, Surface, Vertex, full};
 use super::random::Random;
-use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject};
+use super::verify::{self, Grade, GradeTally};
+use super::{DriverUnderTest, Findings};
 use crate::math::spaces;
 
 const SIDE: u32 = 64;
-const FLAT: State = State { depth: None, ..State::WRITE };
+const FLAT: GlState = GlState { depth: None, ..GlState::WRITE };
 
 /// The pipeline, or a finding that says why there is none.
-fn pipeline<'a>(subject: &'a Subject, findings: &mut Findings, what: &str) -> Option<&'a FixedBench> {
+fn pipeline<'a>(subject: &'a DriverUnderTest, findings: &mut Findings, what: &str) -> Option<&'a FixedBench> {
     match &subject.fixed {
         Ok(fixed) => Some(fixed),
         Err(why) => {
@@ -25,10 +25,10 @@ fn pipeline<'a>(subject: &'a Subject, findings: &mut Findings, what: &str) -> Op
 }
 
 /// GL-C6: what a comparison becomes in each DEPTH_TEXTURE_MODE, by REPLACE.
-pub fn depth_mode(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn depth_mode(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "DEPTH_TEXTURE_MODE") else { return Ok(()) };
-    let image = subject.bench.depth_image(Format::Depth24, [1, 1], &[&[0.5]])?;
-    let surface = subject.bench.surface([4, 4], Some(Format::Rgba8), None)?;
+    let image = subject.bench.depth_image(GlFormat::Depth24, [1, 1], &[&[0.5]])?;
+    let surface = subject.bench.surface([4, 4], Some(GlFormat::Rgba8), None)?;
     let color = [0.5, 0.6, 0.7, 0.8];
     for (mode, of) in [
         (DepthMode::Luminance, (|r| [r, r, r, 0.8]) as fn(f32) -> [f32; 4]),
@@ -39,7 +39,7 @@ pub fn depth_mode(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
         // References 0.25 and 0.75 against 0.5.
         for (reference, result) in [(0.25, 1.0), (0.75, 0.0)] {
             let vertices = full(0.0).map(|vertex| Vertex { value: [0.5, 0.5, reference, 1.0], ..vertex });
-            let image = Some((&image, Sampling::compare(Compare::LessEqual), mode));
+            let image = Some((&image, Sampling::compare(GlCompare::LessEqual), mode));
             fixed.draw(&subject.bench, &FixedDraw { image, color, ..FixedDraw::plain(&surface, FLAT, &vertices) })?;
             let seen = surface.colors()[5];
             let due = of(result).map(|value| (value * 255.0).round() as u8);
@@ -78,7 +78,7 @@ fn setup() -> Setup {
 /// Texels along a side of the map.
 const MAP: u32 = 32;
 
-fn map(subject: &Subject, format: Format) -> Result<Image, Error> {
+fn map(subject: &DriverUnderTest, format: GlFormat) -> Result<GlImage, Error> {
     let mut random = Random::new(71);
     let depths: Vec<f32> = (0..MAP * MAP).map(|_| random.between(0.5, 1.0)).collect();
     subject.bench.depth_image(format, [MAP; 2], &[&depths])
@@ -99,12 +99,12 @@ void main() { gl_TexCoord[0] = gl_MultiTexCoord0; gl_Position = ftransform(); }"
 
 /// GL-T1: eye planes are multiplied by the inverse of the modelview at the time they are given, object planes are not, and
 /// the texture matrix comes after.
-pub fn texgen(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn texgen(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "glTexGen") else { return Ok(()) };
     let setup = setup();
     queried(fixed, findings, &setup);
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), None)?;
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), None)?;
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let map = map(subject, format)?;
             for linear in [false, true] {
@@ -119,7 +119,7 @@ pub fn texgen(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 fn queried(fixed: &FixedBench, findings: &mut Findings, setup: &Setup) {
     let planes = setup.map_from_world;
     let due = planes * setup.eye_from_world.inverse();
-    fixed.set_texgen(&Texgen { eye: true, planes, modelview: setup.eye_from_world });
+    fixed.set_texgen(&GlTexgen { eye: true, planes, modelview: setup.eye_from_world });
     let first = fixed.eye_planes();
     let off =
         (0..4).map(|row| ((first.row(row) - due.row(row)).abs().max_element()) / due.row(row).abs().max_element());
@@ -131,7 +131,7 @@ fn queried(fixed: &FixedBench, findings: &mut Findings, setup: &Setup) {
         grade,
         format!("{:.1} x 2^-23 off", off / f64::from(f32::EPSILON)),
     );
-    fixed.set_texgen(&Texgen { eye: false, planes, modelview: setup.world_from_model });
+    fixed.set_texgen(&GlTexgen { eye: false, planes, modelview: setup.world_from_model });
     let kept = fixed.eye_planes() == first;
     let measured = if kept { "as they were" } else { "changed with the modelview" };
     findings.must_hold("eye planes asked back under another modelview", kept, measured);
@@ -139,18 +139,18 @@ fn queried(fixed: &FixedBench, findings: &mut Findings, setup: &Setup) {
 
 /// The image by glTexGen, by a shader from GL's own planes, and by the verifier in f64.
 fn looked_up(
-    subject: &Subject,
+    subject: &DriverUnderTest,
     fixed: &FixedBench,
     findings: &mut Findings,
     setup: &Setup,
     surface: &Surface,
-    map: &Image,
+    map: &GlImage,
     linear: bool,
 ) -> Result<(), Error> {
     let modelview = setup.eye_from_world * setup.world_from_model;
-    let compare = Sampling { linear, ..Sampling::compare(Compare::LessEqual) };
+    let compare = Sampling { linear, ..Sampling::compare(GlCompare::LessEqual) };
     let moved = DMat4::from_translation(DVec3::new(0.0, 0.0, -0.01));
-    let eye = Texgen { eye: true, planes: setup.map_from_world, modelview: setup.eye_from_world };
+    let eye = GlTexgen { eye: true, planes: setup.map_from_world, modelview: setup.eye_from_world };
     let draw = FixedDraw {
         projection: setup.projection,
         modelview,
@@ -166,7 +166,7 @@ fn looked_up(
     };
     let by_texgen = picture(&draw)?;
     let by_shader = picture(&FixedDraw { shaders: Some([TRANSFORM, LOOK_UP]), ..draw })?;
-    let object = Texgen { eye: false, planes: setup.map_from_world * setup.world_from_model, modelview };
+    let object = GlTexgen { eye: false, planes: setup.map_from_world * setup.world_from_model, modelview };
     let by_object = picture(&FixedDraw { texgen: Some(object), ..draw })?;
     let filter = if linear { "LINEAR" } else { "NEAREST" };
     let name = |what: &str| format!("{}, {filter}: {what}", map.format.name());
@@ -189,8 +189,14 @@ fn looked_up(
 }
 
 /// Each pixel of the floor against the map, found in f64.
-fn judged(picture: &[[u8; 4]], stored: &[f64], clip_from_model: DMat4, map_from_model: DMat4, linear: bool) -> Tally {
-    let mut tally = Tally::default();
+fn judged(
+    picture: &[[u8; 4]],
+    stored: &[f64],
+    clip_from_model: DMat4,
+    map_from_model: DMat4,
+    linear: bool,
+) -> GradeTally {
+    let mut tally = GradeTally::default();
     for (index, color) in picture.iter().enumerate().filter(|(_, color)| color[3] == 255) {
         let [x, y] =
             [index as u32 % SIDE, index as u32 / SIDE].map(|at| (f64::from(at) + 0.5) * 2.0 / f64::from(SIDE) - 1.0);
@@ -241,17 +247,17 @@ fn texel_grade(value: f64, at: DVec4, stored: &[f64], linear: bool) -> Option<Gr
 }
 
 /// GL-T2's part: (s, t, r, q) given at the vertices.
-pub fn division(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn division(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "fixed function: division by q") else { return Ok(()) };
-    let map = map(subject, Format::Depth24)?;
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), None)?;
+    let map = map(subject, GlFormat::Depth24)?;
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), None)?;
     let corners = [[0.0, 0.0, 0.7, 1.0], [3.0, 0.0, 2.1, 3.0], [2.0, 2.0, 1.5, 2.0], [0.0, 4.0, 3.2, 4.0]];
     let mut vertices = full(0.0);
     for (vertex, corner) in vertices.iter_mut().zip([0, 1, 2, 0, 2, 3]) {
         vertex.value = corners[corner];
     }
     for linear in [false, true] {
-        let compare = Sampling { linear, ..Sampling::compare(Compare::LessEqual) };
+        let compare = Sampling { linear, ..Sampling::compare(GlCompare::LessEqual) };
         let image = Some((&map, compare, DepthMode::Luminance));
         let draw = FixedDraw { image, ..FixedDraw::plain(&surface, FLAT, &vertices) };
         fixed.draw(&subject.bench, &draw)?;
@@ -277,23 +283,23 @@ const WHITE: &str = "#version 120
 void main() { gl_FragColor = vec4(1.0); }";
 
 /// GL-I1's part: a shader meets the depths of the fixed-function pipeline by ftransform().
-pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn invariance(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let Some(fixed) = pipeline(subject, findings, "fixed function: ftransform()") else { return Ok(()) };
     let setup = setup();
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), Some(Format::Depth24))?;
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), Some(GlFormat::Depth24))?;
     let cases =
         [("ftransform()", ONLY_TRANSFORM, true), ("gl_ModelViewProjectionMatrix * gl_Vertex", ONLY_PRODUCT, false)];
     for (name, vertex, required) in cases {
         surface.clear_depth(1.0);
         surface.clear_color([0.0; 4]);
-        let first = State { depth: Some(Compare::Less), color_write: false, ..State::WRITE };
+        let first = GlState { depth: Some(GlCompare::Less), color_write: false, ..GlState::WRITE };
         let draw = FixedDraw {
             projection: setup.projection,
             modelview: setup.eye_from_world * setup.world_from_model,
             ..FixedDraw::plain(&surface, first, &setup.floor)
         };
         fixed.draw(&subject.bench, &draw)?;
-        let state = State { depth: Some(Compare::Equal), ..State::WRITE };
+        let state = GlState { depth: Some(GlCompare::Equal), ..GlState::WRITE };
         fixed.draw(&subject.bench, &FixedDraw { state, shaders: Some([vertex, WHITE]), ..draw })?;
         let pairs: Vec<_> =
             surface.colors().into_iter().zip(surface.depths()).filter(|(_, depth)| *depth < 1.0).collect();

@@ -3,11 +3,12 @@
 use glam::{Mat4, Vec3};
 
 use super::bench::{
-    Blend, Compare, Draw, Error, Face, Format, Offset, Shader, State, Stencil, StencilOp, Surface, Uniform, Vertex,
+    Error, GlBlend, GlCompare, GlDraw, GlFace, GlFormat, GlOffset, GlState, GlStencil, GlStencilOp, GlUniform, Shader,
+    Surface, Vertex,
 };
 use super::random::Random;
 use super::verify::Grade;
-use super::{Findings, Subject};
+use super::{DriverUnderTest, Findings};
 use crate::math::spaces;
 
 const SIDE: u32 = 96;
@@ -29,30 +30,30 @@ struct Again {
     required: bool,
     shader: Shader,
     /// All of these draw, in turn.
-    states: Vec<State>,
+    states: Vec<GlState>,
 }
 
 fn passes() -> Vec<Again> {
-    let equal = State { depth: Some(Compare::Equal), ..State::WRITE };
-    let again = |name, required, shader, state: State| Again { name, required, shader, states: vec![state] };
+    let equal = GlState { depth: Some(GlCompare::Equal), ..GlState::WRITE };
+    let again = |name, required, shader, state: GlState| Again { name, required, shader, states: vec![state] };
     let changed = "passed = value * 2.0 + position; gl_Position = clip_from_model * position;";
-    let zero = Some(Offset { factor: 0.0, units: 0.0, clamp: 0.0 });
-    let stencil = Some([Stencil::on_pass(StencilOp::Keep); 2]);
+    let zero = Some(GlOffset { factor: 0.0, units: 0.0, clamp: 0.0 });
+    let stencil = Some([GlStencil::on_pass(GlStencilOp::Keep); 2]);
     vec![
         again("the same pass", true, PLAIN, equal),
-        again("depth writes off", true, PLAIN, State { depth_write: false, ..equal }),
+        again("depth writes off", true, PLAIN, GlState { depth_write: false, ..equal }),
         again("another fragment shader", true, shader(PLAIN.vertex, "result = vec4(1.0) + abs(sin(passed));"), equal),
         again("other varyings", true, shader(changed, "result = vec4(1.0) + abs(passed);"), equal),
         again("a discard", true, shader(PLAIN.vertex, "if (passed.x > 2.0) discard; result = vec4(1.0);"), equal),
-        again("blending on", false, PLAIN, State { blend: Some(Blend::Replace), ..equal }),
-        again("the scissor on", false, PLAIN, State { scissor: Some([0, 0, SIDE as i32, SIDE as i32]), ..equal }),
-        again("an offset of nothing", false, PLAIN, State { offset: zero, ..equal }),
-        again("the stencil test on", false, PLAIN, State { stencil, ..equal }),
+        again("blending on", false, PLAIN, GlState { blend: Some(GlBlend::Replace), ..equal }),
+        again("the scissor on", false, PLAIN, GlState { scissor: Some([0, 0, SIDE as i32, SIDE as i32]), ..equal }),
+        again("an offset of nothing", false, PLAIN, GlState { offset: zero, ..equal }),
+        again("the stencil test on", false, PLAIN, GlState { stencil, ..equal }),
         Again {
             name: "front and back faces in turn",
             required: false,
             shader: PLAIN,
-            states: [Face::Back, Face::Front].map(|face| State { cull: Some(face), ..equal }).to_vec(),
+            states: [GlFace::Back, GlFace::Front].map(|face| GlState { cull: Some(face), ..equal }).to_vec(),
         },
     ]
 }
@@ -76,25 +77,36 @@ fn matrices() -> [Mat4; 2] {
     [spaces::perspective(0.9, 1.0, 0.7, 40.0).as_mat4(), eye_from_model]
 }
 
-fn draw(subject: &Subject, surface: &Surface, shader: Shader, state: State, vertices: &[Vertex]) -> Result<(), Error> {
+fn draw(
+    subject: &DriverUnderTest,
+    surface: &Surface,
+    shader: Shader,
+    state: GlState,
+    vertices: &[Vertex],
+) -> Result<(), Error> {
     let [clip_from_eye, eye_from_model] = matrices();
     let uniforms = [
-        ("clip_from_model", Uniform::Mat4((clip_from_eye * eye_from_model).to_cols_array())),
-        ("clip_from_eye", Uniform::Mat4(clip_from_eye.to_cols_array())),
-        ("eye_from_model", Uniform::Mat4(eye_from_model.to_cols_array())),
+        ("clip_from_model", GlUniform::Mat4((clip_from_eye * eye_from_model).to_cols_array())),
+        ("clip_from_eye", GlUniform::Mat4(clip_from_eye.to_cols_array())),
+        ("eye_from_model", GlUniform::Mat4(eye_from_model.to_cols_array())),
     ];
-    subject.bench.draw(&Draw { shader, uniforms: &uniforms, ..Draw::plain(surface, state, vertices) })
+    subject.bench.draw(&GlDraw { shader, uniforms: &uniforms, ..GlDraw::plain(surface, state, vertices) })
 }
 
 /// Pixels of the first pass that the others miss, and how many it has.
-fn missed(subject: &Subject, format: Format, again: &Again, mesh: &[Vertex]) -> Result<(usize, usize), Error> {
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), Some(format))?;
+fn missed(
+    subject: &DriverUnderTest,
+    format: GlFormat,
+    again: &Again,
+    mesh: &[Vertex],
+) -> Result<(usize, usize), Error> {
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), Some(format))?;
     surface.clear_depth(1.0);
     surface.clear_color([0.0; 4]);
     if format.has_stencil() {
         surface.clear_stencil(0);
     }
-    let first = State { depth: Some(Compare::Less), color_write: false, ..State::WRITE };
+    let first = GlState { depth: Some(GlCompare::Less), color_write: false, ..GlState::WRITE };
     draw(subject, &surface, PLAIN, first, mesh)?;
     for state in &again.states {
         draw(subject, &surface, again.shader, *state, mesh)?;
@@ -105,9 +117,9 @@ fn missed(subject: &Subject, format: Format, again: &Again, mesh: &[Vertex]) -> 
 }
 
 /// GL-I1: repeated passes meet the same depths.
-pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn invariance(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let mesh_before = mesh(false);
-    for format in [Format::Depth16, Format::Depth24Stencil8, Format::Depth32F] {
+    for format in [GlFormat::Depth16, GlFormat::Depth24Stencil8, GlFormat::Depth32F] {
         findings.part(|findings| {
             for again in passes() {
                 if again.states.iter().any(|state| state.stencil.is_some()) && !format.has_stencil() {
@@ -131,18 +143,18 @@ pub fn invariance(subject: &Subject, findings: &mut Findings) -> Result<(), Erro
 }
 
 /// Tests of equality that renderers rely on although GL does not promise it.
-fn not_promised(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let equal = State { depth: Some(Compare::Equal), ..State::WRITE };
+fn not_promised(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let equal = GlState { depth: Some(GlCompare::Equal), ..GlState::WRITE };
     let other =
         shader("gl_Position = clip_from_eye * (eye_from_model * position); passed = value;", "result = vec4(1.0);");
     let two = Again { name: "", required: false, shader: other, states: vec![equal] };
     let clamped =
-        Again { name: "", required: false, shader: PLAIN, states: vec![State { depth_clamp: true, ..equal }] };
+        Again { name: "", required: false, shader: PLAIN, states: vec![GlState { depth_clamp: true, ..equal }] };
     for (name, again, mesh) in [
         ("P (M v) after (P M) v, EQUAL with 24 bits", two, mesh(false)),
         ("depth clamp turned on, across the near plane, EQUAL with 24 bits", clamped, mesh(true)),
     ] {
-        let (missed, count) = missed(subject, Format::Depth24, &again, &mesh)?;
+        let (missed, count) = missed(subject, GlFormat::Depth24, &again, &mesh)?;
         findings.fact(name, format!("misses {:.0} % of the pixels", 100.0 * missed as f64 / count.max(1) as f64));
     }
     Ok(())

@@ -29,7 +29,7 @@ mod write;
 use serde::Serialize;
 
 pub use filter::{UnknownFilter, choose};
-pub use findings::{Fact, Finding, Findings, Verdict};
+pub use findings::{Fact, Finding, Findings, RuleVerdict};
 pub use print::print;
 pub use table::TABLE;
 pub use write::{json, junit};
@@ -50,18 +50,18 @@ pub struct Rule {
     pub says: &'static str,
     /// Tolerance, and its reason.
     pub tolerance: &'static str,
-    pub check: fn(&Subject, &mut Findings) -> Result<(), bench::Error>,
+    pub check: fn(&DriverUnderTest, &mut Findings) -> Result<(), bench::Error>,
 }
 
 /// A driver, checked by way of one context.
-pub struct Subject {
+pub struct DriverUnderTest {
     pub bench: Bench,
     /// The fixed-function pipeline, or why there is none.
     pub fixed: Result<FixedBench, String>,
     pub info: ContextInfo,
 }
 
-impl Subject {
+impl DriverUnderTest {
     /// The driver of `context`, which is current and outlives the subject.
     ///
     /// # Errors
@@ -76,14 +76,14 @@ impl Subject {
 
 /// Result of one rule.
 #[derive(Clone, Debug, Serialize)]
-pub struct Outcome {
+pub struct RuleOutcome {
     pub id: &'static str,
     pub title: &'static str,
     pub section: &'static str,
     pub says: &'static str,
     pub tolerance: &'static str,
     /// The worst verdict of the findings.
-    pub verdict: Verdict,
+    pub verdict: RuleVerdict,
     pub findings: Vec<Finding>,
     pub facts: Vec<Fact>,
     pub seconds: f64,
@@ -93,30 +93,30 @@ pub struct Outcome {
 #[derive(Clone, Debug, Serialize)]
 pub struct Checked {
     pub context: ContextInfo,
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<RuleOutcome>,
     /// Waivers for this driver that nothing needed: each is a failure.
     pub stale_waivers: Vec<String>,
 }
 
 impl Checked {
     /// Number of rules with this verdict.
-    pub fn count(&self, verdict: Verdict) -> usize {
+    pub fn count(&self, verdict: RuleVerdict) -> usize {
         self.outcomes.iter().filter(|outcome| outcome.verdict == verdict).count()
     }
 
     /// Tests whether a rule failed that is not waived, or a waiver is out of date.
     pub fn fails(&self) -> bool {
-        self.count(Verdict::Fail) > 0 || !self.stale_waivers.is_empty()
+        self.count(RuleVerdict::Fail) > 0 || !self.stale_waivers.is_empty()
     }
 
     /// Tests whether nothing could be tested.
     pub fn is_empty(&self) -> bool {
-        self.count(Verdict::Untestable) == self.outcomes.len()
+        self.count(RuleVerdict::Untestable) == self.outcomes.len()
     }
 }
 
 /// Runs `rules` and gives `seen` each outcome.
-pub fn run(subject: &Subject, rules: &[&'static Rule], mut seen: impl FnMut(&Outcome)) -> Vec<Outcome> {
+pub fn run(subject: &DriverUnderTest, rules: &[&'static Rule], mut seen: impl FnMut(&RuleOutcome)) -> Vec<RuleOutcome> {
     let one = |rule: &&'static Rule| {
         let start = std::time::Instant::now();
         let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));

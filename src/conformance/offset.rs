@@ -1,16 +1,18 @@
 //! GL-O1 and GL-O2: polygon offset [GL 4.6, 14.6.5].
 
-use super::bench::{Compare, Draw, Encoding, Error, Format, Mode, Offset, State, Surface, Vertex, rectangle};
-use super::probe::{self, Measured};
-use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject};
+use super::bench::{
+    Encoding, Error, GlCompare, GlDraw, GlFormat, GlOffset, GlPolygonMode, GlState, Surface, Vertex, rectangle,
+};
+use super::probe::{self, MeasuredDepth};
+use super::verify::{self, Grade, GradeTally};
+use super::{DriverUnderTest, Findings};
 
 /// GL-O1: r, m, their sum and its clamp.
-pub fn offset(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    for format in Format::DEPTHS {
+pub fn offset(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    for format in GlFormat::DEPTHS {
         findings.part(|findings| unit(subject, findings, format));
     }
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             linear(subject, findings, format)?;
             slope(subject, findings, format)?;
@@ -22,13 +24,13 @@ pub fn offset(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// One unit of each format.
-fn unit(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn unit(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     let facts = probe::facts(&subject.bench, format)?;
     let Some(measured) = facts.measured else {
         findings.untestable(format.name(), format!("refused: {}", facts.refusal.unwrap_or_default()));
         return Ok(());
     };
-    let Measured { units: [far, near], one_unit_shows, float, .. } = measured;
+    let MeasuredDepth { units: [far, near], one_unit_shows, float, .. } = measured;
     let power = |depth: f64| format!("2^{:.2}", depth.log2());
     let text = format!(
         "{} ({:.2} steps) at {}, {} ({:.2} steps) at {}",
@@ -49,14 +51,14 @@ fn unit(subject: &Subject, findings: &mut Findings, format: Format) -> Result<()
 }
 
 /// A flat surface's offset is so many units, to a code.
-fn linear(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn linear(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     let surface = subject.bench.surface([4, 4], None, Some(format))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
     const AT: f64 = 0.625;
     let stored = |units: f32| probe::stored(&subject.bench, &surface, AT, units);
     let zero = stored(0.0)?;
     let r = (stored(4096.0)? - zero) / 4096.0;
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     for units in [1.0_f32, 2.0, 3.0, 16.0, 100.0, -1.0, -16.0] {
         let off = (stored(units)? - zero - f64::from(units) * r) / encoding.step(AT);
         tally.add(verify::within(off, 0.5, 1.0 + 1e-6), off);
@@ -79,23 +81,28 @@ fn slanted(slope: [f64; 2]) -> [Vertex; 6] {
 }
 
 /// The depth that is stored of a slanted quad at the middle.
-fn slanted_depth(subject: &Subject, surface: &Surface, slope: [f64; 2], offset: Option<Offset>) -> Result<f64, Error> {
-    let state = State { offset, ..State::WRITE };
-    subject.bench.draw(&Draw::plain(surface, state, &slanted(slope)))?;
+fn slanted_depth(
+    subject: &DriverUnderTest,
+    surface: &Surface,
+    slope: [f64; 2],
+    offset: Option<GlOffset>,
+) -> Result<f64, Error> {
+    let state = GlState { offset, ..GlState::WRITE };
+    subject.bench.draw(&GlDraw::plain(surface, state, &slanted(slope)))?;
     let middle = SIDE as i32 / 2;
     Ok(surface.depths_in([middle, middle, 1, 1])[0])
 }
 
 /// m of slopes along x, y and both; which norm it is.
-fn slope(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn slope(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], None, Some(format))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
-    let mut tally = Tally::default();
+    let mut tally = GradeTally::default();
     let mut diagonal = 0.0;
     const S: f64 = 0.01;
     for slope in [[S, 0.0], [0.0, S], [S, S], [-S, 0.0], [S, -S], [S, S / 2.0]] {
         for sign in [1.0, -1.0] {
-            let offset = Offset { factor: sign * FACTOR, units: 0.0, clamp: 0.0 };
+            let offset = GlOffset { factor: sign * FACTOR, units: 0.0, clamp: 0.0 };
             let moved = slanted_depth(subject, &surface, slope, Some(offset))?;
             let m = (moved - slanted_depth(subject, &surface, slope, None)?) / f64::from(offset.factor);
             let ideal = slope[0].abs().max(slope[1].abs());
@@ -120,14 +127,14 @@ fn slope(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(
 }
 
 /// A factor alone leaves what faces the viewer where it is.
-fn flat_factor(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
-    let surface = subject.bench.surface([SIDE; 2], Some(Format::Rgba8), Some(format))?;
+fn flat_factor(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), Some(format))?;
     surface.clear_color([0.0; 4]);
     let quad = rectangle([-1.0; 2], [1.0; 2], 0.3, [1.0; 4]);
-    subject.bench.draw(&Draw::plain(&surface, State { color_write: false, ..State::WRITE }, &quad))?;
-    let offset = Offset { factor: FACTOR, units: 0.0, clamp: 0.0 };
-    let state = State { depth: Some(Compare::Equal), offset: Some(offset), ..State::WRITE };
-    subject.bench.draw(&Draw::plain(&surface, state, &quad))?;
+    subject.bench.draw(&GlDraw::plain(&surface, GlState { color_write: false, ..GlState::WRITE }, &quad))?;
+    let offset = GlOffset { factor: FACTOR, units: 0.0, clamp: 0.0 };
+    let state = GlState { depth: Some(GlCompare::Equal), offset: Some(offset), ..GlState::WRITE };
+    subject.bench.draw(&GlDraw::plain(&surface, state, &quad))?;
     let colors = surface.colors();
     let missed = colors.iter().filter(|color| color[0] != 255).count();
     findings.none_wrong(format!("{}: a factor on a flat surface, EQUAL", format.name()), missed, colors.len());
@@ -135,12 +142,12 @@ fn flat_factor(subject: &Subject, findings: &mut Findings, format: Format) -> Re
 }
 
 /// glPolygonOffsetClamp, of both signs; and what the range does to the sum.
-fn clamp(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24))?;
+fn clamp(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([SIDE; 2], None, Some(GlFormat::Depth24))?;
     let slope = [0.02, 0.0];
     let plain = slanted_depth(subject, &surface, slope, None)?;
     let moved = |factor: f32, clamp: f32| {
-        Ok::<f64, Error>(slanted_depth(subject, &surface, slope, Some(Offset { factor, units: 0.0, clamp }))? - plain)
+        Ok::<f64, Error>(slanted_depth(subject, &surface, slope, Some(GlOffset { factor, units: 0.0, clamp }))? - plain)
     };
     if subject.bench.has_offset_clamp() {
         for (factor, clamp, due) in [(5.0, 0.05, 0.05), (-5.0, -0.05, -0.05), (5.0, 0.5, 0.1), (5.0, 0.0, 0.1)] {
@@ -164,9 +171,9 @@ const MANY_UNITS: f32 = 1024.0;
 
 /// GL-O2: the offset of filled and of outlined polygons, by side: a side is moved where the offset is on for its mode. Each
 /// pair of modes has the unit that is measured there; whether all have the same is one question of its own.
-pub fn modes(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    use Mode::{Fill, Line};
-    let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24))?;
+pub fn modes(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    use GlPolygonMode::{Fill, Line};
+    let surface = subject.bench.surface([SIDE; 2], None, Some(GlFormat::Depth24))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
     let mut units = Vec::new();
     for mode in [[Fill, Fill], [Line, Line], [Fill, Line], [Line, Fill]] {
@@ -177,8 +184,8 @@ pub fn modes(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
         }
         for side in [0, 1] {
             let moved = |units, offset_modes| {
-                let state = State { mode, offset_modes, ..State::WRITE };
-                moved(subject, &surface, Offset { factor: 0.0, units, clamp: 0.0 }, state, side == 1, encoding)
+                let state = GlState { mode, offset_modes, ..GlState::WRITE };
+                moved(subject, &surface, GlOffset { factor: 0.0, units, clamp: 0.0 }, state, side == 1, encoding)
             };
             let unit = moved(MANY_UNITS, [true; 2])? / f64::from(MANY_UNITS);
             units.push((name.clone(), unit / encoding.step(0.75)));
@@ -216,10 +223,10 @@ fn one_unit(findings: &mut Findings, units: &[(String, f64)]) {
 
 /// By how much an offset moves a side's depths; where they disagree, the least.
 fn moved(
-    subject: &Subject,
+    subject: &DriverUnderTest,
     surface: &Surface,
-    offset: Offset,
-    state: State,
+    offset: GlOffset,
+    state: GlState,
     turned: bool,
     encoding: Encoding,
 ) -> Result<f64, Error> {
@@ -230,7 +237,7 @@ fn moved(
     }
     let flat = probe::stored(&subject.bench, surface, f64::from(Z + 1.0) / 2.0, 0.0)?;
     surface.clear_depth(0.0);
-    subject.bench.draw(&Draw::plain(surface, State { offset: Some(offset), ..state }, &quad))?;
+    subject.bench.draw(&GlDraw::plain(surface, GlState { offset: Some(offset), ..state }, &quad))?;
     let drawn = surface.depths().into_iter().filter(|depth| *depth > encoding.step(0.75));
     Ok(drawn.fold(f64::INFINITY, f64::min) - flat)
 }

@@ -1,9 +1,9 @@
 //! Planes of GL-T3: stored depths against the plane through a triangle's corners in f64, near the framebuffer's origin and
 //! far from it; and the weights of interpolation with perspective.
 
-use super::bench::{Draw, Error, Format, State, Surface, triangle};
-use super::verify::{self, Tally};
-use super::{Findings, Subject};
+use super::bench::{Error, GlDraw, GlFormat, GlState, Surface, triangle};
+use super::verify::{self, GradeTally};
+use super::{DriverUnderTest, Findings};
 
 /// Corners in window space: x and y in pixels, z in [0, 1], of a square viewport at `origin`.
 pub fn window(clip: [[f32; 4]; 3], origin: [f64; 2], side: f64) -> [[f64; 3]; 3] {
@@ -37,8 +37,8 @@ fn plane(corners: [[f64; 3]; 3], at: [f64; 2]) -> (f64, [f64; 2]) {
 }
 
 /// Stored depths inside of the triangle against its plane.
-fn compare(subject: &Subject, surface: &Surface, corners: [[f64; 3]; 3], area: [i32; 4]) -> (Tally, f64) {
-    let (mut tally, mut worst) = (Tally::default(), 0.0_f64);
+fn compare(subject: &DriverUnderTest, surface: &Surface, corners: [[f64; 3]; 3], area: [i32; 4]) -> (GradeTally, f64) {
+    let (mut tally, mut worst) = (GradeTally::default(), 0.0_f64);
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return (tally, worst) };
     let stored = surface.depths_in(area);
     for (index, stored) in stored.iter().enumerate() {
@@ -57,19 +57,19 @@ fn compare(subject: &Subject, surface: &Surface, corners: [[f64; 3]; 3], area: [
 }
 
 /// Triangles of several slopes on a small surface.
-pub fn near_origin(subject: &Subject, findings: &mut Findings) {
+pub fn near_origin(subject: &DriverUnderTest, findings: &mut Findings) {
     const SIZE: i32 = 64;
     const SHAPES: [[[f32; 4]; 3]; 3] = [
         [[-1.0, -1.0, -0.9, 1.0], [1.0, -0.75, 0.3, 1.0], [-0.5, 1.0, 0.7, 1.0]],
         [[-0.5, -0.25, -1.0, 1.0], [0.0, -0.25, 1.0, 1.0], [-0.25, 0.75, 0.1, 1.0]],
         [[-1.0, -1.0, 0.0, 1.0], [2.0, -2.0, 1.0, 2.0], [-2.0, 4.0, 3.0, 4.0]],
     ];
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let surface = subject.bench.surface([SIZE as u32; 2], None, Some(format))?;
-            let mut whole = Tally::default();
+            let mut whole = GradeTally::default();
             for clip in SHAPES {
-                subject.bench.draw(&Draw::plain(&surface, State::WRITE, &triangle(clip)))?;
+                subject.bench.draw(&GlDraw::plain(&surface, GlState::WRITE, &triangle(clip)))?;
                 let corners = window(clip, [0.0; 2], f64::from(SIZE));
                 let (tally, _) = compare(subject, &surface, corners, [0, 0, SIZE, SIZE]);
                 whole.good += tally.good;
@@ -85,11 +85,11 @@ pub fn near_origin(subject: &Subject, findings: &mut Findings) {
 
 /// A steep triangle of 12 pixels at growing distances. Its corners are whole pixels, exact in clip space and in window
 /// space, so that all error is of the plane.
-pub fn far_from_origin(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn far_from_origin(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let side = subject.bench.largest_side().min(2048) as i32;
-    let surface = subject.bench.surface([side as u32; 2], None, Some(Format::Depth24))?;
+    let surface = subject.bench.surface([side as u32; 2], None, Some(GlFormat::Depth24))?;
     let mut row = Vec::new();
-    let mut whole = Tally::default();
+    let mut whole = GradeTally::default();
     for distance in [0, 16, 64, 256, 1024, 2032] {
         if distance + 16 > side {
             continue;
@@ -103,8 +103,8 @@ pub fn far_from_origin(subject: &Subject, findings: &mut Findings) -> Result<(),
             corner[2] = z;
         }
         let area = [distance, distance, 12, 12];
-        let state = State { scissor: Some(area), ..State::WRITE };
-        subject.bench.draw(&Draw::plain(&surface, state, &triangle(clip)))?;
+        let state = GlState { scissor: Some(area), ..GlState::WRITE };
+        subject.bench.draw(&GlDraw::plain(&surface, state, &triangle(clip)))?;
         let (tally, worst) = compare(subject, &surface, window(clip, [0.0; 2], f64::from(side)), area);
         row.push(format!("{worst:.0} at {distance}"));
         whole.good += tally.good;

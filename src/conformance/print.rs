@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, Width, presets};
 
-use super::{Checked, Finding, Outcome, Verdict};
+use super::{Checked, Finding, RuleOutcome, RuleVerdict};
 
 /// The whole text. `width` in columns; `all` lists checks that pass, too.
 pub fn print(checked: &Checked, width: u16, all: bool) -> String {
@@ -40,10 +40,10 @@ pub fn print(checked: &Checked, width: u16, all: bool) -> String {
 }
 
 /// Text of the measurements: passes are counted, the rest is listed.
-fn measured(outcome: &Outcome, all: bool) -> String {
-    let told = |finding: &&Finding| all || finding.verdict != Verdict::Pass;
+fn measured(outcome: &RuleOutcome, all: bool) -> String {
+    let told = |finding: &&Finding| all || finding.verdict != RuleVerdict::Pass;
     let mut lines: Vec<String> = outcome.findings.iter().filter(told).map(line).collect();
-    let passed = outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Pass).count();
+    let passed = outcome.findings.iter().filter(|finding| finding.verdict == RuleVerdict::Pass).count();
     if !all && passed > 0 {
         let asked = outcome.findings.len();
         lines.insert(
@@ -60,11 +60,11 @@ fn measured(outcome: &Outcome, all: bool) -> String {
 
 fn line(finding: &Finding) -> String {
     let mark = match finding.verdict {
-        Verdict::Pass => "",
-        Verdict::Warning => "warning: ",
-        Verdict::Waived => "waived: ",
-        Verdict::Fail => "FAIL: ",
-        Verdict::Untestable => "not here: ",
+        RuleVerdict::Pass => "",
+        RuleVerdict::Warning => "warning: ",
+        RuleVerdict::Waived => "waived: ",
+        RuleVerdict::Fail => "FAIL: ",
+        RuleVerdict::Untestable => "not here: ",
     };
     format!("{mark}{}", finding.message())
 }
@@ -83,11 +83,11 @@ fn numbers(text: &mut String, checked: &Checked) -> std::fmt::Result {
 
 fn summary(checked: &Checked) -> String {
     let verdicts = [
-        (Verdict::Pass, "pass"),
-        (Verdict::Warning, "with a quality warning"),
-        (Verdict::Waived, "waived"),
-        (Verdict::Fail, "FAIL"),
-        (Verdict::Untestable, "cannot be tested here"),
+        (RuleVerdict::Pass, "pass"),
+        (RuleVerdict::Warning, "with a quality warning"),
+        (RuleVerdict::Waived, "waived"),
+        (RuleVerdict::Fail, "FAIL"),
+        (RuleVerdict::Untestable, "cannot be tested here"),
     ];
     let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
     let parts: Vec<String> =

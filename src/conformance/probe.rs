@@ -8,12 +8,12 @@ use std::rc::Rc;
 use serde::Serialize;
 
 pub use super::bench::Error;
-use super::bench::{Bench, Draw, Encoding, Format, Offset, State, Surface, full};
+use super::bench::{Bench, Encoding, GlDraw, GlFormat, GlOffset, GlState, Surface, full};
 
 /// The formats that are measured.
-pub const FORMATS: [Format; 7] = {
-    let [a, b, c, d, e, f] = Format::DEPTHS;
-    [Format::Depth, a, b, c, d, e, f]
+pub const FORMATS: [GlFormat; 7] = {
+    let [a, b, c, d, e, f] = GlFormat::DEPTHS;
+    [GlFormat::Depth, a, b, c, d, e, f]
 };
 
 /// Measurements of a format on this driver.
@@ -22,12 +22,12 @@ pub struct DepthFacts {
     /// The requested format, e.g. `DEPTH_COMPONENT24`.
     pub format: &'static str,
     /// `None` where it cannot be drawn to, with `refusal` saying why.
-    pub measured: Option<Measured>,
+    pub measured: Option<MeasuredDepth>,
     pub refusal: Option<String>,
 }
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Measured {
+pub struct MeasuredDepth {
     /// True bits of depth, which may differ from those requested.
     pub depth_bits: u32,
     pub stencil_bits: u32,
@@ -94,7 +94,7 @@ pub fn depth_formats(gl: &Rc<glow::Context>) -> Result<Vec<DepthFacts>, Error> {
 /// # Errors
 ///
 /// A driver that cannot even measure.
-pub fn depth_format(gl: &Rc<glow::Context>, format: Format) -> Result<DepthFacts, Error> {
+pub fn depth_format(gl: &Rc<glow::Context>, format: GlFormat) -> Result<DepthFacts, Error> {
     facts(&Bench::new(gl)?, format)
 }
 
@@ -103,7 +103,7 @@ pub fn depth_format(gl: &Rc<glow::Context>, format: Format) -> Result<DepthFacts
 /// # Errors
 ///
 /// A driver that cannot even measure.
-pub fn facts(bench: &Bench, format: Format) -> Result<DepthFacts, Error> {
+pub fn facts(bench: &Bench, format: GlFormat) -> Result<DepthFacts, Error> {
     let (measured, refusal) = match bench.surface([4, 4], None, Some(format)) {
         Ok(surface) => (measure(bench, &surface)?, None),
         Err(Error::Refused { reason, .. }) => (None, Some(reason)),
@@ -112,7 +112,7 @@ pub fn facts(bench: &Bench, format: Format) -> Result<DepthFacts, Error> {
     Ok(DepthFacts { format: format.name(), measured, refusal })
 }
 
-fn measure(bench: &Bench, surface: &Surface) -> Result<Option<Measured>, Error> {
+fn measure(bench: &Bench, surface: &Surface) -> Result<Option<MeasuredDepth>, Error> {
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(None) };
     let Encoding { bits, stencil_bits, float } = encoding;
     let unit = |at_depth: f64| {
@@ -122,7 +122,7 @@ fn measure(bench: &Bench, surface: &Surface) -> Result<Option<Measured>, Error> 
     };
     let shows = |depth: f64| Ok(stored(bench, surface, depth, 1.0)? != stored(bench, surface, depth, 0.0)?);
     let [far, near] = DEPTHS;
-    Ok(Some(Measured {
+    Ok(Some(MeasuredDepth {
         depth_bits: bits,
         stencil_bits,
         float,
@@ -138,9 +138,9 @@ fn measure(bench: &Bench, surface: &Surface) -> Result<Option<Measured>, Error> 
 /// GL's.
 pub fn stored(bench: &Bench, surface: &Surface, depth: f64, units: f32) -> Result<f64, Error> {
     // Without units no offset is set at all, so that a driver which adds one of its own is found out.
-    let offset = (units != 0.0).then_some(Offset { factor: 0.0, units, clamp: 0.0 });
-    let state = State { offset, color_write: false, ..State::WRITE };
-    bench.draw(&Draw::plain(surface, state, &full((2.0 * depth - 1.0) as f32)))?;
+    let offset = (units != 0.0).then_some(GlOffset { factor: 0.0, units, clamp: 0.0 });
+    let state = GlState { offset, color_write: false, ..GlState::WRITE };
+    bench.draw(&GlDraw::plain(surface, state, &full((2.0 * depth - 1.0) as f32)))?;
     let [x, y] = surface.size.map(|side| side as i32 / 2);
     Ok(surface.depths_in([x, y, 1, 1]).first().copied().unwrap_or(f64::NAN))
 }

@@ -1,18 +1,18 @@
 //! GL-R1 and GL-R2: which pixels a triangle covers, and clipping in homogeneous coordinates [GL 4.6, 13.7, 14.6.1].
 
-use super::bench::{Draw, Error, Format, Shader, State, StencilOp, Surface, Uniform, Vertex, full, triangle};
+use super::bench::{Error, GlDraw, GlFormat, GlState, GlStencilOp, GlUniform, Shader, Surface, Vertex, full, triangle};
 use super::random::Random;
-use super::verify::{self, Tally};
-use super::{Findings, Subject};
+use super::verify::{self, GradeTally};
+use super::{DriverUnderTest, Findings};
 
 /// Pixels along a side.
 const SIDE: u32 = 64;
-const COUNT: State = State::counting(StencilOp::IncrementWrap, StencilOp::IncrementWrap);
+const COUNT: GlState = GlState::counting(GlStencilOp::IncrementWrap, GlStencilOp::IncrementWrap);
 
 /// Number of fragments of each pixel.
-fn counts(subject: &Subject, surface: &Surface, vertices: &[Vertex]) -> Result<Vec<u8>, Error> {
+fn counts(subject: &DriverUnderTest, surface: &Surface, vertices: &[Vertex]) -> Result<Vec<u8>, Error> {
     surface.clear_stencil(0);
-    subject.bench.draw(&Draw::plain(surface, COUNT, vertices))?;
+    subject.bench.draw(&GlDraw::plain(surface, COUNT, vertices))?;
     Ok(surface.stencils())
 }
 
@@ -20,12 +20,12 @@ fn not_one(counts: &[u8]) -> usize {
     counts.iter().filter(|count| **count != 1).count()
 }
 
-fn surface(subject: &Subject) -> Result<Surface, Error> {
-    subject.bench.surface([SIDE; 2], None, Some(Format::Depth24Stencil8))
+fn surface(subject: &DriverUnderTest) -> Result<Surface, Error> {
+    subject.bench.surface([SIDE; 2], None, Some(GlFormat::Depth24Stencil8))
 }
 
 /// GL-R1: every pixel of a seamless mesh is drawn once, and by the triangle that covers its centre.
-pub fn coverage(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn coverage(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const ROUNDS: usize = 12;
     let surface = surface(subject)?;
     let mut random = Random::new(41);
@@ -82,8 +82,13 @@ fn fan(random: &mut Random, rim: impl Fn(f32) -> [f32; 4]) -> Vec<Vertex> {
 }
 
 /// Random triangles against the signs of their edges in f64, but for 3/256 pixel along the edges.
-fn centers(subject: &Subject, findings: &mut Findings, surface: &Surface, random: &mut Random) -> Result<(), Error> {
-    let mut tally = Tally::default();
+fn centers(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    surface: &Surface,
+    random: &mut Random,
+) -> Result<(), Error> {
+    let mut tally = GradeTally::default();
     for _ in 0..24 {
         let corners = [0; 3].map(|_| [random.between(-1.2, 1.2), random.between(-1.2, 1.2), 0.0, 1.0]);
         let counts = counts(subject, surface, &triangle(corners))?;
@@ -101,10 +106,10 @@ fn centers(subject: &Subject, findings: &mut Findings, surface: &Surface, random
 
 /// An edge that rises by 1 in 1024 pixels, raised by 1/1024 pixel 64 times: the number of different crossings shows the
 /// grid to which vertices are snapped.
-fn subpixel_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+fn subpixel_bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const WIDTH: u32 = 1024;
     const STEPS: u32 = 64;
-    let surface = subject.bench.surface([WIDTH, 2 * STEPS], None, Some(Format::Depth24Stencil8))?;
+    let surface = subject.bench.surface([WIDTH, 2 * STEPS], None, Some(GlFormat::Depth24Stencil8))?;
     let ndc = |x: f32, y: f32| [x * 2.0 / WIDTH as f32 - 1.0, y / STEPS as f32 - 1.0, 0.0, 1.0];
     let vertices: Vec<_> = (0..STEPS)
         .flat_map(|step| {
@@ -130,7 +135,7 @@ fn subpixel_bits(subject: &Subject, findings: &mut Findings) -> Result<(), Error
 }
 
 /// GL-R2: w = 0 and w < 0, planes of one's own.
-pub fn clipping(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn clipping(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let surface = surface(subject)?;
     directions(subject, findings, &surface)?;
     let mut random = Random::new(42);
@@ -154,7 +159,7 @@ pub fn clipping(subject: &Subject, findings: &mut Findings) -> Result<(), Error>
 }
 
 /// Triangles with corners that are directions cover strips and quadrants, to the pixel.
-fn directions(subject: &Subject, findings: &mut Findings, surface: &Surface) -> Result<(), Error> {
+fn directions(subject: &DriverUnderTest, findings: &mut Findings, surface: &Surface) -> Result<(), Error> {
     type Inside = fn(u32, u32) -> bool;
     let strip = [[0.0, -0.5, 0.0, 1.0], [0.0, 0.5, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0]];
     let quadrant = [[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
@@ -174,8 +179,13 @@ fn directions(subject: &Subject, findings: &mut Findings, surface: &Surface) -> 
 }
 
 /// Triangles with corners before, at and behind the eye, against a solution in homogeneous coordinates in f64.
-fn behind(subject: &Subject, findings: &mut Findings, surface: &Surface, random: &mut Random) -> Result<(), Error> {
-    let mut tally = Tally::default();
+fn behind(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    surface: &Surface,
+    random: &mut Random,
+) -> Result<(), Error> {
+    let mut tally = GradeTally::default();
     for _ in 0..32 {
         let corners = [0; 3].map(|_| {
             let w = random.between(-1.5, 2.5);
@@ -213,7 +223,7 @@ fn homogeneous(corners: [[f32; 4]; 3], [x, y]: [f64; 2]) -> bool {
 
 /// Tests that a plane and its opposite clip complementary parts, each pixel once.
 fn complements(
-    subject: &Subject,
+    subject: &DriverUnderTest,
     findings: &mut Findings,
     surface: &Surface,
     random: &mut Random,
@@ -234,9 +244,9 @@ fn complements(
         let drawn = |draws: &[(f32, u32)]| {
             surface.clear_stencil(0);
             for &(side, clip_distances) in draws {
-                let uniforms = [("side", Uniform::Float(side))];
-                let plain = Draw::plain(surface, State { clip_distances, ..COUNT }, &vertices);
-                subject.bench.draw(&Draw { shader: SHADER, uniforms: &uniforms, ..plain })?;
+                let uniforms = [("side", GlUniform::Float(side))];
+                let plain = GlDraw::plain(surface, GlState { clip_distances, ..COUNT }, &vertices);
+                subject.bench.draw(&GlDraw { shader: SHADER, uniforms: &uniforms, ..plain })?;
             }
             Ok::<_, Error>(surface.stencils())
         };

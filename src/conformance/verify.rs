@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use super::bench::{Compare, Encoding, StencilOp};
+use super::bench::{Encoding, GlCompare, GlStencilOp};
 
 /// Grade of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,14 +26,14 @@ pub fn within(distance: f64, strict: f64, allowed: f64) -> Grade {
 
 /// Many values' grades, and the worst distance among them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
+pub struct GradeTally {
     pub good: usize,
     pub allowed: usize,
     pub wrong: usize,
     pub worst: f64,
 }
 
-impl Tally {
+impl GradeTally {
     pub fn add(&mut self, grade: Grade, distance: f64) {
         match grade {
             Grade::Good => self.good += 1,
@@ -54,11 +54,11 @@ impl Tally {
 /// Distance within which reference and texel may count as equal (2^-16: a reference of 16 bits).
 pub const NEAR_TIE: f64 = 1.0 / 65536.0;
 
-/// Tests whether the eight functions' results, in [`Compare::ALL`]'s order, are those of one order of `reference` against
-/// `stored`, and of one that is possible: the true one, or any within `error`.
+/// Tests whether the eight functions' results, in [`GlCompare::ALL`]'s order, are those of one order of `reference`
+/// against `stored`, and of one that is possible: the true one, or any within `error`.
 pub fn comparisons(results: [f32; 8], reference: f64, stored: f64, error: f64) -> Grade {
     let explains = |order: Ordering| {
-        Compare::ALL
+        GlCompare::ALL
             .into_iter()
             .zip(results)
             .all(|(compare, result)| result == f32::from(u8::from(compare.holds(order))))
@@ -179,23 +179,23 @@ pub fn unorm8(code: u8, value: f64) -> Grade {
 
 /// Value of an 8-bit stencil buffer after `op` [GL 4.6, 17.3.3]: saturation comes before the write mask, and the reference
 /// is clamped.
-pub fn stencil(op: StencilOp, old: u8, reference: i32, write_mask: u32) -> u8 {
+pub fn stencil(op: GlStencilOp, old: u8, reference: i32, write_mask: u32) -> u8 {
     let new = match op {
-        StencilOp::Keep => old,
-        StencilOp::Zero => 0,
-        StencilOp::Replace => reference.clamp(0, 255) as u8,
-        StencilOp::Increment => old.saturating_add(1),
-        StencilOp::IncrementWrap => old.wrapping_add(1),
-        StencilOp::Decrement => old.saturating_sub(1),
-        StencilOp::DecrementWrap => old.wrapping_sub(1),
-        StencilOp::Invert => !old,
+        GlStencilOp::Keep => old,
+        GlStencilOp::Zero => 0,
+        GlStencilOp::Replace => reference.clamp(0, 255) as u8,
+        GlStencilOp::Increment => old.saturating_add(1),
+        GlStencilOp::IncrementWrap => old.wrapping_add(1),
+        GlStencilOp::Decrement => old.saturating_sub(1),
+        GlStencilOp::DecrementWrap => old.wrapping_sub(1),
+        GlStencilOp::Invert => !old,
     };
     let mask = (write_mask & 0xFF) as u8;
     (old & !mask) | (new & mask)
 }
 
 /// Tests whether a fragment passes the stencil test: the clamped reference on the left.
-pub fn stencil_passes(compare: Compare, reference: i32, stored: u8, read_mask: u32) -> bool {
+pub fn stencil_passes(compare: GlCompare, reference: i32, stored: u8, read_mask: u32) -> bool {
     let mask = (read_mask & 0xFF) as u8;
     compare.holds((reference.clamp(0, 255) as u8 & mask).cmp(&(stored & mask)))
 }

@@ -8,7 +8,7 @@ const FLOAT: Encoding = Encoding { bits: 32, stencil_bits: 0, float: true };
 
 /// The eight results of `left OP right`.
 fn results(order: Ordering) -> [f32; 8] {
-    Compare::ALL.map(|compare| f32::from(u8::from(compare.holds(order))))
+    GlCompare::ALL.map(|compare| f32::from(u8::from(compare.holds(order))))
 }
 
 #[test]
@@ -140,25 +140,25 @@ fn eight_bit_codes() {
 #[test]
 fn stencil_values() {
     let cases = [
-        (StencilOp::Increment, 255, 0, 0xFF, 255),
-        (StencilOp::IncrementWrap, 255, 0, 0xFF, 0),
-        (StencilOp::Increment, 0x0F, 0, 0x0F, 0),
-        (StencilOp::Replace, 0, 0xAB, 0x0F, 0x0B),
-        (StencilOp::Replace, 0, 300, 0xFF, 255),
-        (StencilOp::Replace, 7, -1, 0xFF, 0),
-        (StencilOp::Decrement, 0, 0, 0xFF, 0),
-        (StencilOp::DecrementWrap, 0, 0, 0xFF, 255),
-        (StencilOp::Invert, 0x0F, 0, 0xF0, 0xFF),
-        (StencilOp::Keep, 9, 1, 0xFF, 9),
-        (StencilOp::Zero, 0xFF, 1, 0x0F, 0xF0),
+        (GlStencilOp::Increment, 255, 0, 0xFF, 255),
+        (GlStencilOp::IncrementWrap, 255, 0, 0xFF, 0),
+        (GlStencilOp::Increment, 0x0F, 0, 0x0F, 0),
+        (GlStencilOp::Replace, 0, 0xAB, 0x0F, 0x0B),
+        (GlStencilOp::Replace, 0, 300, 0xFF, 255),
+        (GlStencilOp::Replace, 7, -1, 0xFF, 0),
+        (GlStencilOp::Decrement, 0, 0, 0xFF, 0),
+        (GlStencilOp::DecrementWrap, 0, 0, 0xFF, 255),
+        (GlStencilOp::Invert, 0x0F, 0, 0xF0, 0xFF),
+        (GlStencilOp::Keep, 9, 1, 0xFF, 9),
+        (GlStencilOp::Zero, 0xFF, 1, 0x0F, 0xF0),
     ];
     for (op, old, reference, mask, new) in cases {
         assert_eq!(stencil(op, old, reference, mask), new, "{op:?} of {old}");
     }
-    assert!(stencil_passes(Compare::Less, 3, 4, 0xFF));
-    assert!(!stencil_passes(Compare::Less, 4, 3, 0xFF));
-    assert!(stencil_passes(Compare::Equal, 300, 255, 0xFF));
-    assert!(stencil_passes(Compare::Equal, 0x13, 0x23, 0x0F));
+    assert!(stencil_passes(GlCompare::Less, 3, 4, 0xFF));
+    assert!(!stencil_passes(GlCompare::Less, 4, 3, 0xFF));
+    assert!(stencil_passes(GlCompare::Equal, 300, 255, 0xFF));
+    assert!(stencil_passes(GlCompare::Equal, 0x13, 0x23, 0x0F));
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! GL-S3: closed shadow volumes to infinity [GL 4.6, 13.7, 14.6.1]: ways in and out cancel, and the far cap lies at 1.
 
-use super::bench::{Compare, Draw, Error, Format, State, StencilOp, triangle};
+use super::bench::{Error, GlCompare, GlDraw, GlFormat, GlState, GlStencilOp, triangle};
 use super::random::Random;
-use super::verify::{self, Grade, Tally};
-use super::{Findings, Subject};
+use super::verify::{self, Grade, GradeTally};
+use super::{DriverUnderTest, Findings};
 
 /// Pixels along a side.
 const SIDE: u32 = 64;
@@ -46,9 +46,9 @@ fn random_volume(random: &mut Random) -> Vec<[[f32; 4]; 3]> {
 }
 
 /// GL-S3: net counts, and the far cap's depth.
-pub fn closure(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
+pub fn closure(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     const VOLUMES: usize = 48;
-    let surface = subject.bench.surface([SIDE; 2], None, Some(Format::Depth24Stencil8))?;
+    let surface = subject.bench.surface([SIDE; 2], None, Some(GlFormat::Depth24Stencil8))?;
     let mut random = Random::new(33);
     let (mut broken, mut entered) = (0, 0);
     for _ in 0..VOLUMES {
@@ -56,40 +56,40 @@ pub fn closure(subject: &Subject, findings: &mut Findings) -> Result<(), Error> 
         let vertices: Vec<_> = triangles.iter().flat_map(|corners| triangle(corners.map(clip_from_eye))).collect();
         let count = |front, back| {
             surface.clear_stencil(128);
-            subject.bench.draw(&Draw::plain(&surface, State::counting(front, back), &vertices))?;
+            subject.bench.draw(&GlDraw::plain(&surface, GlState::counting(front, back), &vertices))?;
             Ok::<_, Error>(surface.stencils().into_iter().filter(|value| *value != 128).count())
         };
-        broken += count(StencilOp::IncrementWrap, StencilOp::DecrementWrap)?;
-        entered += count(StencilOp::IncrementWrap, StencilOp::Keep)?;
+        broken += count(GlStencilOp::IncrementWrap, GlStencilOp::DecrementWrap)?;
+        entered += count(GlStencilOp::IncrementWrap, GlStencilOp::Keep)?;
     }
     findings.none_wrong(format!("{VOLUMES} volumes to infinity, net count by pixel"), broken, entered);
     wrapped(subject, findings)?;
-    for format in [Format::Depth16, Format::Depth24, Format::Depth32F] {
+    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| far_cap(subject, findings, format));
     }
     Ok(())
 }
 
 /// Three hundred volumes in one another: counts pass 255 and come back.
-fn wrapped(subject: &Subject, findings: &mut Findings) -> Result<(), Error> {
-    let surface = subject.bench.surface([16; 2], None, Some(Format::Depth24Stencil8))?;
+fn wrapped(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([16; 2], None, Some(GlFormat::Depth24Stencil8))?;
     let one = volume([[-1.0, -1.0, -2.0], [1.0, -1.0, -2.0], [0.0, 1.0, -2.0]], [0.0, 0.0, 1.0]);
     let fronts = one.iter().flat_map(|corners| triangle(corners.map(clip_from_eye))).collect::<Vec<_>>();
     let all: Vec<_> = (0..300).flat_map(|_| fronts.clone()).collect();
     surface.clear_stencil(0);
     // All that enters first, then all that leaves.
-    let enter = State::counting(StencilOp::IncrementWrap, StencilOp::Keep);
-    subject.bench.draw(&Draw::plain(&surface, enter, &all))?;
+    let enter = GlState::counting(GlStencilOp::IncrementWrap, GlStencilOp::Keep);
+    subject.bench.draw(&GlDraw::plain(&surface, enter, &all))?;
     let entered = surface.stencils().into_iter().filter(|value| *value == 300_u32 as u8).count();
-    let leave = State::counting(StencilOp::Keep, StencilOp::DecrementWrap);
-    subject.bench.draw(&Draw::plain(&surface, leave, &all))?;
+    let leave = GlState::counting(GlStencilOp::Keep, GlStencilOp::DecrementWrap);
+    subject.bench.draw(&GlDraw::plain(&surface, leave, &all))?;
     let broken = surface.stencils().into_iter().filter(|value| *value != 0).count();
     findings.none_wrong("300 volumes in one another, wrapped counts", broken, entered);
     Ok(())
 }
 
 /// Triangles whose corners are all directions lie at depth 1, and fail LESS against a cleared 1.
-fn far_cap(subject: &Subject, findings: &mut Findings, format: Format) -> Result<(), Error> {
+fn far_cap(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], None, Some(format))?;
     let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };
     let mut random = Random::new(34);
@@ -101,15 +101,19 @@ fn far_cap(subject: &Subject, findings: &mut Findings, format: Format) -> Result
         })
         .collect();
     surface.clear_depth(0.0);
-    subject.bench.draw(&Draw::plain(&surface, State::WRITE, &vertices))?;
-    let mut tally = Tally::default();
+    subject.bench.draw(&GlDraw::plain(&surface, GlState::WRITE, &vertices))?;
+    let mut tally = GradeTally::default();
     for depth in surface.depths().into_iter().filter(|depth| *depth > 0.0) {
         let codes = (1.0 - depth) / encoding.step(0.75);
         tally.add(verify::within(codes, 0.0, 1.0 + 1e-6), codes);
     }
     findings.tally(format!("{}: the cap at infinity", format.name()), tally, "codes before 1");
     surface.clear_depth(1.0);
-    subject.bench.draw(&Draw::plain(&surface, State { depth: Some(Compare::Less), ..State::WRITE }, &vertices))?;
+    subject.bench.draw(&GlDraw::plain(
+        &surface,
+        GlState { depth: Some(GlCompare::Less), ..GlState::WRITE },
+        &vertices,
+    ))?;
     let passed = surface.depths().into_iter().filter(|depth| *depth != 1.0).count();
     let grade = if passed == 0 { Grade::Good } else { Grade::Allowed };
     findings.grade(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{Outcome, Verdict};
+use super::{RuleOutcome, RuleVerdict};
 use crate::context::ContextInfo;
 
 /// The built-in file.
@@ -112,14 +112,14 @@ fn parse(path: &Path, text: &str) -> Result<Vec<Waiver>, Error> {
 }
 
 /// Marks waived failures, and returns what is wrong with waivers for this driver that nothing needed.
-pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]) -> Vec<String> {
+pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [RuleOutcome]) -> Vec<String> {
     let mut stale = Vec::new();
     for waiver in waivers.iter().filter(|waiver| waiver.is_of(context)) {
         let Some(outcome) = outcomes.iter_mut().find(|outcome| outcome.id == waiver.rule) else { continue };
         let mut used = false;
         for finding in &mut outcome.findings {
-            if finding.verdict == Verdict::Fail && finding.what == waiver.finding {
-                finding.verdict = Verdict::Waived;
+            if finding.verdict == RuleVerdict::Fail && finding.what == waiver.finding {
+                finding.verdict = RuleVerdict::Waived;
                 used = true;
             }
         }
@@ -135,9 +135,9 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [Outcome]
 }
 
 /// Tests whether this context could not test what the waiver names.
-fn may_be_untested(outcome: &Outcome, waiver: &Waiver) -> bool {
-    let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == Verdict::Untestable);
-    let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != Verdict::Untestable);
+fn may_be_untested(outcome: &RuleOutcome, waiver: &Waiver) -> bool {
+    let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == RuleVerdict::Untestable);
+    let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != RuleVerdict::Untestable);
     !asked.any(|finding| finding.what == waiver.finding) && untestable().next().is_some()
 }
 

@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::conformance::Finding;
-use crate::context::Limits;
+use crate::context::ContextLimits;
 
 fn context(renderer: &str) -> ContextInfo {
-    let limits = Limits {
+    let limits = ContextLimits {
         texture_size: 0,
         cube_map_size: 0,
         array_layers: 0,
@@ -38,9 +38,9 @@ fn context(renderer: &str) -> ContextInfo {
 }
 
 /// GL-O1 with one finding.
-fn outcome(what: &str, verdict: Verdict, measured: &str) -> Outcome {
+fn outcome(what: &str, verdict: RuleVerdict, measured: &str) -> RuleOutcome {
     let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned() }];
-    Outcome {
+    RuleOutcome {
         id: "GL-O1",
         title: "",
         section: "",
@@ -62,11 +62,11 @@ fn waiver(finding: &str) -> Vec<Waiver> {
 #[test]
 fn a_failure_is_waived_by_what_was_checked_whatever_was_measured() {
     for (finding, measured, verdict, stale) in [
-        ("r", "is 4", Verdict::Waived, 0),
-        ("r", "is 4.1", Verdict::Waived, 0),
-        ("r of lines", "is 4", Verdict::Fail, 1),
+        ("r", "is 4", RuleVerdict::Waived, 0),
+        ("r", "is 4.1", RuleVerdict::Waived, 0),
+        ("r of lines", "is 4", RuleVerdict::Fail, 1),
     ] {
-        let mut outcomes = [outcome("r", Verdict::Fail, measured)];
+        let mut outcomes = [outcome("r", RuleVerdict::Fail, measured)];
         assert_eq!(apply(&waiver(finding), &context("llvmpipe (LLVM)"), &mut outcomes).len(), stale, "{finding}");
         assert_eq!(outcomes[0].verdict, verdict, "{finding}");
     }
@@ -75,15 +75,15 @@ fn a_failure_is_waived_by_what_was_checked_whatever_was_measured() {
 #[test]
 fn a_waiver_holds_for_a_range_of_versions() {
     for (version, verdict) in [
-        ("4.5 Mesa 22.2.9", Verdict::Fail),
-        ("4.5 Mesa 22.3.0", Verdict::Waived),
-        ("4.5 (Compatibility Profile) Mesa 25.0.7-2+deb13u1", Verdict::Waived),
-        ("4.5 Mesa 25.1.0-devel (git-0123abc)", Verdict::Fail),
-        ("4.6 Mesa 100.0", Verdict::Fail),
-        ("4.6 Mesa git", Verdict::Fail),
-        ("4.6.0 NVIDIA 25.0", Verdict::Fail),
+        ("4.5 Mesa 22.2.9", RuleVerdict::Fail),
+        ("4.5 Mesa 22.3.0", RuleVerdict::Waived),
+        ("4.5 (Compatibility Profile) Mesa 25.0.7-2+deb13u1", RuleVerdict::Waived),
+        ("4.5 Mesa 25.1.0-devel (git-0123abc)", RuleVerdict::Fail),
+        ("4.6 Mesa 100.0", RuleVerdict::Fail),
+        ("4.6 Mesa git", RuleVerdict::Fail),
+        ("4.6.0 NVIDIA 25.0", RuleVerdict::Fail),
     ] {
-        let mut outcomes = [outcome("r", Verdict::Fail, "is 4")];
+        let mut outcomes = [outcome("r", RuleVerdict::Fail, "is 4")];
         let here = ContextInfo { version: version.to_owned(), ..context("llvmpipe") };
         assert!(apply(&waiver("r"), &here, &mut outcomes).is_empty(), "{version}");
         assert_eq!(outcomes[0].verdict, verdict, "{version}");
@@ -92,7 +92,7 @@ fn a_waiver_holds_for_a_range_of_versions() {
 
 #[test]
 fn a_waiver_that_nothing_needs_is_stale() {
-    let mut outcomes = [outcome("r", Verdict::Pass, "is 4")];
+    let mut outcomes = [outcome("r", RuleVerdict::Pass, "is 4")];
     let stale = apply(&waiver("r"), &context("llvmpipe"), &mut outcomes);
     assert!(stale[0].contains("a waiver of GL-O1 no longer applies to llvmpipe 4.5 Mesa 22.3.6"), "{stale:?}");
 }
@@ -100,11 +100,11 @@ fn a_waiver_that_nothing_needs_is_stale() {
 #[test]
 fn waivers_of_other_drivers_rules_and_what_cannot_be_asked_are_left_alone() {
     let waivers = waiver("r");
-    let mut outcomes = [outcome("r", Verdict::Fail, "is 4")];
+    let mut outcomes = [outcome("r", RuleVerdict::Fail, "is 4")];
     assert!(apply(&waivers, &context("softpipe"), &mut outcomes).is_empty());
-    assert_eq!(outcomes[0].verdict, Verdict::Fail);
+    assert_eq!(outcomes[0].verdict, RuleVerdict::Fail);
     assert!(apply(&waivers, &context("llvmpipe"), &mut []).is_empty());
-    let mut outcomes = [outcome("r", Verdict::Untestable, "a core context")];
+    let mut outcomes = [outcome("r", RuleVerdict::Untestable, "a core context")];
     assert!(apply(&waivers, &context("llvmpipe"), &mut outcomes).is_empty());
 }
 

@@ -2,7 +2,7 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::{Checked, Outcome, Verdict};
+use super::{Checked, RuleOutcome, RuleVerdict};
 
 /// All of it, pretty.
 ///
@@ -33,23 +33,23 @@ pub fn junit(checked: &Checked) -> Result<String, quick_junit::SerializeError> {
     report.to_string()
 }
 
-fn test_case(outcome: &Outcome) -> TestCase {
-    let told = |verdict: Verdict| {
+fn test_case(outcome: &RuleOutcome) -> TestCase {
+    let told = |verdict: RuleVerdict| {
         let findings = outcome.findings.iter().filter(|finding| finding.verdict == verdict);
         findings.map(|finding| finding.message()).collect::<Vec<_>>().join("\n")
     };
     let mut status = match outcome.verdict {
-        Verdict::Fail => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        Verdict::Untestable => TestCaseStatus::skipped(),
-        Verdict::Pass | Verdict::Warning | Verdict::Waived => TestCaseStatus::success(),
+        RuleVerdict::Fail => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        RuleVerdict::Untestable => TestCaseStatus::skipped(),
+        RuleVerdict::Pass | RuleVerdict::Warning | RuleVerdict::Waived => TestCaseStatus::success(),
     };
-    if matches!(outcome.verdict, Verdict::Fail | Verdict::Untestable) {
+    if matches!(outcome.verdict, RuleVerdict::Fail | RuleVerdict::Untestable) {
         status.set_message(told(outcome.verdict));
         status.set_description(format!("GL 4.6, {}: {}", outcome.section, outcome.says));
     }
     let mut case = TestCase::new(format!("{} {}", outcome.id, outcome.title), status);
     case.set_classname("glumbra.check").set_time(std::time::Duration::from_secs_f64(outcome.seconds));
-    let rest: Vec<String> = [(Verdict::Warning, "quality warning"), (Verdict::Waived, "waived")]
+    let rest: Vec<String> = [(RuleVerdict::Warning, "quality warning"), (RuleVerdict::Waived, "waived")]
         .into_iter()
         .map(|(verdict, name)| (told(verdict), name))
         .filter(|(text, _)| !text.is_empty())

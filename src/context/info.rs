@@ -3,7 +3,7 @@
 use glow::HasContext;
 use serde::Serialize;
 
-use super::load::Loaded;
+use super::load::LoadedContext;
 
 /// The driver of a context, and its limits.
 #[derive(Clone, Debug, Serialize)]
@@ -21,11 +21,11 @@ pub struct ContextInfo {
     pub debug_output: bool,
     /// Bits of the counter of GL_TIME_ELAPSED queries; 0: passes cannot be timed on the device.
     pub timer_bits: u32,
-    pub limits: Limits,
+    pub limits: ContextLimits,
 }
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Limits {
+pub struct ContextLimits {
     pub texture_size: i32,
     pub cube_map_size: i32,
     pub array_layers: i32,
@@ -49,7 +49,7 @@ pub struct Limits {
 }
 
 /// Queries the context, which must be current.
-pub(super) fn describe(loaded: &Loaded) -> ContextInfo {
+pub(super) fn describe(loaded: &LoadedContext) -> ContextInfo {
     let gl = &*loaded.gl;
     // SAFETY: queries of strings that every context has since OpenGL 2.0.
     let text = |name| unsafe { gl.get_parameter_string(name) };
@@ -81,14 +81,14 @@ fn has(gl: &glow::Context, extension: &str) -> bool {
     gl.supported_extensions().contains(extension)
 }
 
-fn limits(gl: &glow::Context) -> Limits {
+fn limits(gl: &glow::Context) -> ContextLimits {
     // SAFETY: each writes one value, or two for the viewport; a name that the context does not know leaves 0 and an
     // error, which is taken away at the end.
     let int = |name| unsafe { gl.get_parameter_i32(name) };
     let mut viewport = [0; 2];
     unsafe { gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
     let anisotropic = has(gl, "GL_EXT_texture_filter_anisotropic") || has(gl, "GL_ARB_texture_filter_anisotropic");
-    let limits = Limits {
+    let limits = ContextLimits {
         texture_size: int(glow::MAX_TEXTURE_SIZE),
         cube_map_size: int(glow::MAX_CUBE_MAP_TEXTURE_SIZE),
         array_layers: int(glow::MAX_ARRAY_TEXTURE_LAYERS),

@@ -9,7 +9,7 @@ use super::debug_log::{self, DebugLog};
 use super::{ContextRequest, Profile};
 
 /// The functions of a context, and its properties.
-pub struct Loaded {
+pub struct LoadedContext {
     pub(super) gl: Rc<glow::Context>,
     pub(super) backend: String,
     pub(super) profile: Profile,
@@ -29,7 +29,7 @@ pub(super) unsafe fn load(
     backend: String,
     request: &ContextRequest,
     address_of: impl Fn(&CStr) -> *const c_void + 'static,
-) -> Result<Loaded, String> {
+) -> Result<LoadedContext, String> {
     // SAFETY: as the caller promises.
     let version = unsafe { version_string(&address_of) }?;
     let (major, minor) = parse_version(&version).ok_or_else(|| format!("GL_VERSION is `{version}`"))?;
@@ -47,7 +47,7 @@ pub(super) unsafe fn load(
     let timer_bits = if has_timer { unsafe { timer_bits(&address_of) } } else { 0 };
     let debug_log = request.debug.then(|| debug_log::attach(&mut gl)).flatten();
     let (gl, profile) = (Rc::new(gl), request.profile);
-    Ok(Loaded { gl, backend, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
+    Ok(LoadedContext { gl, backend, profile, debug_log, timer_bits, address_of: Box::new(address_of) })
 }
 
 /// glGetQueryiv, which glow leaves out.

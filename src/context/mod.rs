@@ -24,8 +24,8 @@ use std::rc::Rc;
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
 pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};
-pub use info::{ContextInfo, Limits};
-pub use load::Loaded;
+pub use info::{ContextInfo, ContextLimits};
+pub use load::LoadedContext;
 
 use crate::process;
 use error::Refusal;
@@ -113,7 +113,7 @@ impl ContextRequest {
 /// [`Device`](crate::device::Device) shares the context's ownership, and so holds to that by itself.
 pub trait Context {
     /// Data that every kind of context has.
-    fn loaded(&self) -> &Loaded;
+    fn loaded(&self) -> &LoadedContext;
 
     /// Makes it current on this thread again, after another was.
     fn make_current(&self) -> Result<(), Error>;

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use libloading::Library;
 
 use super::error::Refusal;
-use super::load::{self, Loaded};
+use super::load::{self, LoadedContext};
 use super::{Backend, Context, ContextRequest, Error, Profile, child};
 
 /// By the version that Mesa has had since 2013, the one before, and the name of the development package.
@@ -46,7 +46,7 @@ type Pixels = Box<[u8; (SIDE * SIDE * 4) as usize]>;
 /// Declared in the order of their end, as in EGL's context; OSMesa draws into `pixels` until then.
 struct OsMesaContext {
     handle: Handle,
-    loaded: Loaded,
+    loaded: LoadedContext,
 }
 
 struct Handle {
@@ -133,7 +133,7 @@ fn find_functions(library: Library) -> Result<Api, libloading::Error> {
 }
 
 impl Context for OsMesaContext {
-    fn loaded(&self) -> &Loaded {
+    fn loaded(&self) -> &LoadedContext {
         &self.loaded
     }
 

@@ -24,7 +24,7 @@ use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes, WindowId};
 
 use super::error::Refusal;
-use super::load::{self, Loaded};
+use super::load::{self, LoadedContext};
 use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A window and its context.
@@ -33,7 +33,7 @@ use super::{Backend, Context, ContextRequest, Error, Profile};
 pub struct WindowContext {
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
-    loaded: Loaded,
+    loaded: LoadedContext,
     window: Window,
 }
 
@@ -88,7 +88,7 @@ impl WindowContext {
 }
 
 impl Context for WindowContext {
-    fn loaded(&self) -> &Loaded {
+    fn loaded(&self) -> &LoadedContext {
         &self.loaded
     }
 

@@ -8,7 +8,7 @@ use super::{Device, Error, mesh, mesh_key};
 use crate::pass::{Attribute, Draw, DrawPass, DrawState, ImageId, Pass, PassList, Work};
 
 /// GL's buffers of a mesh: attributes in the requested order, then the indices.
-pub(crate) struct Buffers {
+pub(crate) struct MeshBuffers {
     pub attributes: Vec<glow::Buffer>,
     pub indices: glow::Buffer,
 }
@@ -50,7 +50,7 @@ impl Device {
     }
 
     /// The buffers that a draw reads.
-    pub(crate) fn buffers(&mut self, pass: &str, draw: &Draw, attributes: &[Attribute]) -> Result<Buffers, Error> {
+    pub(crate) fn buffers(&mut self, pass: &str, draw: &Draw, attributes: &[Attribute]) -> Result<MeshBuffers, Error> {
         let gl = &self.gl;
         let gpu = self.meshes.entry(mesh_key(&draw.mesh.0)).or_insert_with(|| mesh::GpuMesh::new(gl, &draw.mesh.0));
         let mut names = Vec::new();
@@ -64,6 +64,6 @@ impl Device {
         }
         let indices = gpu.index_buffer(draw.order)?;
         unsafe { self.gl.bind_vertex_array(None) };
-        Ok(Buffers { attributes: names, indices })
+        Ok(MeshBuffers { attributes: names, indices })
     }
 }

@@ -2,7 +2,7 @@
 
 use glow::HasContext;
 
-use super::layer::{Blend, Coordinates, Layer, Primary, UnitImage};
+use super::layer::{Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
 use super::units::{self, Bound};
 use super::{Error, FixedFunction, bounds, lighting};
 use crate::context::compatibility::raw;
@@ -146,9 +146,9 @@ impl FixedFunction {
             let color = state.color_write;
             self.gl.color_mask(color, color, color, color && layer.alpha_write);
             let factor = match layer.blend {
-                Blend::Replace => return,
-                Blend::Add => glow::ONE,
-                Blend::Erase => glow::ZERO,
+                LayerBlend::Replace => return,
+                LayerBlend::Add => glow::ONE,
+                LayerBlend::Erase => glow::ZERO,
             };
             self.gl.enable(glow::BLEND);
             self.gl.blend_equation(glow::FUNC_ADD);
@@ -192,7 +192,7 @@ fn attributes(layer: &Layer) -> Vec<Attribute> {
 
 /// The units that read the mesh's own coordinates.
 fn mesh_units(layer: &Layer) -> impl Iterator<Item = (u32, &crate::fixed_function::layer::Unit)> {
-    (0..).zip(&layer.units).filter(|(_, unit)| unit.coordinates == Coordinates::Mesh)
+    (0..).zip(&layer.units).filter(|(_, unit)| unit.coordinates == UnitCoordinates::Mesh)
 }
 
 fn array(attribute: Attribute) -> u32 {

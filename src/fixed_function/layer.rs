@@ -16,7 +16,7 @@ pub struct Layer {
     pub units: Vec<Unit>,
     /// GL_ALPHA_TEST with its reference value.
     pub alpha_test: Option<(Compare, f32)>,
-    pub blend: Blend,
+    pub blend: LayerBlend,
     /// True if it decides visibility by the pass's own depth test; `false`: depth EQUAL to what an earlier layer left.
     pub first: bool,
     pub alpha_write: bool,
@@ -24,7 +24,7 @@ pub struct Layer {
 
 /// Blending of a fragment with the stored colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blend {
+pub enum LayerBlend {
     Replace,
     /// ONE, ONE.
     Add,
@@ -38,12 +38,12 @@ pub enum Primary {
     /// glColor.
     Color([f32; 4]),
     /// GL_LIGHTING, per vertex and clamped to [0, 1].
-    Lighting(Lighting),
+    Lighting(LayerLighting),
 }
 
 /// glMaterial and glLight.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Lighting {
+pub struct LayerLighting {
     pub emission: [f32; 3],
     pub ambient: [f32; 3],
     pub diffuse: [f32; 3],
@@ -69,7 +69,7 @@ pub struct PointLight {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
     pub image: UnitImage,
-    pub coordinates: Coordinates,
+    pub coordinates: UnitCoordinates,
     /// Texture matrix for coordinates of the surface's own textures.
     pub placement: Placement,
     pub rgb: Combine,
@@ -105,7 +105,7 @@ pub enum Mask {
 
 /// Source of a unit's (s, t, r, q).
 #[derive(Clone, Debug, PartialEq)]
-pub enum Coordinates {
+pub enum UnitCoordinates {
     /// Nothing that varies.
     Constant,
     /// glTexCoordPointer.

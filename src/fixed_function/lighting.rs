@@ -2,7 +2,7 @@
 
 use glow::HasContext;
 
-use super::layer::{Lighting, Primary};
+use super::layer::{LayerLighting, Primary};
 use crate::context::compatibility::{Binding, raw};
 
 /// Sets a layer's primary colour. The modelview is the identity: positions are in eye space.
@@ -44,7 +44,7 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-unsafe fn set_material(fixed: &Binding, lighting: &Lighting) {
+unsafe fn set_material(fixed: &Binding, lighting: &LayerLighting) {
     let [r, g, b] = lighting.diffuse;
     let colors = [
         (raw::EMISSION, opaque(lighting.emission)),
@@ -60,7 +60,7 @@ unsafe fn set_material(fixed: &Binding, lighting: &Lighting) {
     unsafe { fixed.Materialf(glow::FRONT_AND_BACK, raw::SHININESS, lighting.shininess) };
 }
 
-unsafe fn set_sources(gl: &glow::Context, fixed: &Binding, lighting: &Lighting) {
+unsafe fn set_sources(gl: &glow::Context, fixed: &Binding, lighting: &LayerLighting) {
     for (index, source) in (raw::LIGHT0..).zip(&lighting.sources) {
         let vectors = [
             (raw::POSITION, source.position),

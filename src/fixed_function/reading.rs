@@ -7,9 +7,11 @@
 use glam::Vec3;
 
 use super::bounds::{self, CoordinateRange};
-use super::layer::{Blend, Layer, Lighting, PointLight, Primary};
+use super::layer::{Layer, LayerBlend, LayerLighting, PointLight, Primary};
 use super::stack::{Stack, Weight};
-use crate::pass::{Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing};
+use crate::pass::{
+    Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
+};
 
 /// The layers of a batch, in the order in which they are drawn.
 ///
@@ -29,7 +31,7 @@ pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
 impl Layer {
     fn first(name: &str, primary: Primary) -> Self {
         let name = name.to_owned();
-        let (units, alpha_test, blend) = (Vec::new(), None, Blend::Replace);
+        let (units, alpha_test, blend) = (Vec::new(), None, LayerBlend::Replace);
         Self { name, primary, units, alpha_test, blend, first: true, alpha_write: true }
     }
 }
@@ -54,7 +56,7 @@ fn opacity(texturing: &Texturing) -> f32 {
 
 /// The shade as a colour. What is cut out, by holes or by a cone, becomes 0 in a layer of its own, because the alpha test
 /// has one comparison and alpha must be 1 in the end.
-fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
+fn view_layers(batch: &Batch, view: &ShadeView) -> Result<Vec<Layer>, String> {
     let projection = view.projection.as_ref();
     let reach = reach(batch, projection)?;
     check_reference(batch, &view.shade, reach)?;
@@ -67,7 +69,7 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
     shown.units = stack.finish();
     let mut layers = Vec::new();
     if view.texturing.alpha_test.is_some() {
-        layers.push(Layer { blend: Blend::Erase, ..cut_out("holes", batch, &view.texturing)? });
+        layers.push(Layer { blend: LayerBlend::Erase, ..cut_out("holes", batch, &view.texturing)? });
         shown.first = false;
     }
     layers.push(shown);
@@ -77,7 +79,7 @@ fn view_layers(batch: &Batch, view: &Sampled) -> Result<Vec<Layer>, String> {
         let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
         outside.units = stack.finish();
         outside.alpha_test = Some((Compare::LessEqual, 0.0));
-        outside.blend = Blend::Erase;
+        outside.blend = LayerBlend::Erase;
         outside.first = false;
         layers.push(outside);
     }
@@ -117,7 +119,7 @@ fn lit_layers(batch: &Batch, lit: &Lit) -> Result<Vec<Layer>, String> {
     match lights.first_mut() {
         // Nothing is there to be added to, and what the light does not reach is black by its units.
         Some(only) if dark && base.alpha_test.is_none() && only.alpha_test.is_none() => {
-            (only.first, only.blend, only.alpha_write) = (true, Blend::Replace, true);
+            (only.first, only.blend, only.alpha_write) = (true, LayerBlend::Replace, true);
         }
         _ => layers.push(base),
     }
@@ -162,7 +164,7 @@ fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     let primary = if lit_by.iter().any(|light| is_attenuated(light)) {
         let sources = lit_by.iter().map(|light| PointLight { ambient: light.ambient, ..unlit_source(light) }).collect();
         let (emission, ambient) = (lit.scene_ambient, lit.ambient);
-        Primary::Lighting(Lighting { emission, ambient, opacity, sources, ..Lighting::default() })
+        Primary::Lighting(LayerLighting { emission, ambient, opacity, sources, ..LayerLighting::default() })
     } else {
         Primary::Color(most.min(Vec3::ONE).extend(opacity).to_array())
     };
@@ -257,7 +259,7 @@ fn light_layer(
         primary,
         units: stack.finish(),
         alpha_test: cone.map(|_| (Compare::Greater, 0.0)),
-        blend: Blend::Add,
+        blend: LayerBlend::Add,
         first: false,
         alpha_write: false,
     })
@@ -292,7 +294,7 @@ fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Prima
         ));
     }
     let mut source = unlit_source(light);
-    let mut lighting = Lighting { opacity: 1.0, shininess: lit.shininess, ..Lighting::default() };
+    let mut lighting = LayerLighting { opacity: 1.0, shininess: lit.shininess, ..LayerLighting::default() };
     if !lit.lit {
         // Ambient light needs no normal.
         (source.ambient, lighting.ambient) = (light.diffuse, lit.diffuse);

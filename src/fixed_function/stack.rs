@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec4};
 
-use super::layer::{Combine, Coordinates, EyeLinear, Mask, Operand, Unit, UnitImage};
+use super::layer::{Combine, EyeLinear, Mask, Operand, Unit, UnitCoordinates, UnitImage};
 use crate::geometry::Placement;
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
@@ -40,7 +40,7 @@ impl<'a> Stack<'a> {
         Self { batch, units: Vec::new(), cone: false }
     }
 
-    fn push(&mut self, image: UnitImage, coordinates: Coordinates, rgb: Combine, alpha: Combine) {
+    fn push(&mut self, image: UnitImage, coordinates: UnitCoordinates, rgb: Combine, alpha: Combine) {
         let alpha_scale = if self.cone { STEEPER } else { 1.0 };
         let placement = Placement::default();
         self.units.push(Unit { image, coordinates, placement, rgb, alpha, alpha_scale, constant: [1.0; 4] });
@@ -61,7 +61,7 @@ impl<'a> Stack<'a> {
 
     /// The surface's own textures: the decal's RGB where `decal` says so, and alpha for the alpha test.
     pub fn surface(&mut self, texturing: &Texturing, decal: bool, tested: bool) -> Result<(), String> {
-        let coordinates = texturing.object_linear.map_or(Coordinates::Mesh, Coordinates::ObjectLinear);
+        let coordinates = texturing.object_linear.map_or(UnitCoordinates::Mesh, UnitCoordinates::ObjectLinear);
         let test = texturing.alpha_test.as_ref().filter(|_| tested);
         if decal {
             self.push(self.input("decal_map")?, coordinates.clone(), BY_TEXTURE, KEPT);
@@ -162,7 +162,7 @@ impl<'a> Stack<'a> {
 
     /// A unit that is there for its combiners.
     fn pass_on(&mut self, rgb: Combine, alpha: Combine) {
-        self.push(UnitImage::Mask(Mask::White), Coordinates::Constant, rgb, alpha);
+        self.push(UnitImage::Mask(Mask::White), UnitCoordinates::Constant, rgb, alpha);
     }
 
     /// The units, with as many more as a cone needs to be steep.
@@ -175,13 +175,17 @@ impl<'a> Stack<'a> {
 }
 
 /// The light's coordinates as the scene has them set up, with `then` behind the texture matrix.
-fn coordinates(projection: &Projection, then: DMat4) -> Coordinates {
+fn coordinates(projection: &Projection, then: DMat4) -> UnitCoordinates {
     let texgen = &projection.texgen;
     let texture_matrix = then * texgen.texture_matrix;
-    Coordinates::EyeLinear(Box::new(EyeLinear { planes: texgen.planes, modelview: texgen.modelview, texture_matrix }))
+    UnitCoordinates::EyeLinear(Box::new(EyeLinear {
+        planes: texgen.planes,
+        modelview: texgen.modelview,
+        texture_matrix,
+    }))
 }
 
-fn map_coordinates(projection: &Projection) -> Coordinates {
+fn map_coordinates(projection: &Projection) -> UnitCoordinates {
     coordinates(projection, DMat4::IDENTITY)
 }
 
@@ -193,20 +197,20 @@ fn frustum_from_map(projection: &Projection) -> DMat4 {
     })
 }
 
-fn frustum_coordinates(projection: &Projection) -> Coordinates {
+fn frustum_coordinates(projection: &Projection) -> UnitCoordinates {
     coordinates(projection, frustum_from_map(projection))
 }
 
-fn ramp_coordinates(projection: &Projection) -> Coordinates {
+fn ramp_coordinates(projection: &Projection) -> UnitCoordinates {
     let ramp = DMat4::from_cols(DVec4::X * 0.5, DVec4::Y * 0.5, DVec4::Z, DVec4::new(0.25, 0.25, 0.0, 1.0));
     coordinates(projection, ramp * frustum_from_map(projection))
 }
 
 /// s = 0.5 + q: an eye plane of its own, set under the identity.
-fn before_the_light(projection: &Projection) -> Coordinates {
+fn before_the_light(projection: &Projection) -> UnitCoordinates {
     let texgen = &projection.texgen;
     let q = (texgen.texture_matrix * texgen.eye_planes).row(3);
     let planes = DMat4::from_cols(q + DVec4::W * 0.5, DVec4::ZERO, DVec4::ZERO, DVec4::W).transpose();
     let (modelview, texture_matrix) = (DMat4::IDENTITY, DMat4::IDENTITY);
-    Coordinates::EyeLinear(Box::new(EyeLinear { planes, modelview, texture_matrix }))
+    UnitCoordinates::EyeLinear(Box::new(EyeLinear { planes, modelview, texture_matrix }))
 }

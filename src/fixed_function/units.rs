@@ -4,7 +4,7 @@
 use glam::DMat4;
 use glow::HasContext;
 
-use super::layer::{Combine, Coordinates, Operand, Unit};
+use super::layer::{Combine, Operand, Unit, UnitCoordinates};
 use crate::context::compatibility::{Binding, raw};
 use crate::device::{compare_code, filter_codes, wrap_code};
 use crate::geometry::Placement;
@@ -84,7 +84,7 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
     }
 }
 
-fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinates, placement: &Placement) {
+fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &UnitCoordinates, placement: &Placement) {
     // SAFETY: as above.
     unsafe {
         COORDINATES.iter().for_each(|(_, switch)| gl.disable(*switch));
@@ -94,8 +94,8 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinate
         fixed.Translatef(offset_s, offset_t, 0.0);
         fixed.Scalef(scale_s, scale_t, 1.0);
         match coordinates {
-            Coordinates::Constant | Coordinates::Mesh => {}
-            Coordinates::ObjectLinear(generated) => {
+            UnitCoordinates::Constant | UnitCoordinates::Mesh => {}
+            UnitCoordinates::ObjectLinear(generated) => {
                 fixed.Scalef(generated.scale, generated.scale, 1.0);
                 for ((name, switch), plane) in COORDINATES.iter().zip([generated.s, generated.t]) {
                     fixed.TexGeni(*name, raw::TEXTURE_GEN_MODE, raw::OBJECT_LINEAR as i32);
@@ -103,7 +103,7 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &Coordinate
                     gl.enable(*switch);
                 }
             }
-            Coordinates::EyeLinear(eye_linear) => {
+            UnitCoordinates::EyeLinear(eye_linear) => {
                 fixed.LoadMatrixf(eye_linear.texture_matrix.as_mat4().to_cols_array().as_ptr());
                 set_eye_planes(fixed, &eye_linear.planes, &eye_linear.modelview);
                 COORDINATES.iter().for_each(|(_, switch)| gl.enable(*switch));

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::map_options::{MapOptions, Values};
 use super::obj::corner::shorten;
-use super::tally::Tally;
+use super::tally::WarningTally;
 use super::{Error, Material, Placement, Texture, Warning, text, texture};
 
 /// The materials of one or more library files.
@@ -21,7 +21,7 @@ pub(super) struct Library {
     /// One for each material.
     opacities: Vec<Option<Opacity>>,
     maps: Vec<Map>,
-    oddities: Tally,
+    oddities: WarningTally,
 }
 
 /// Opacity by d or Tr.

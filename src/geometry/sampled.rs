@@ -11,7 +11,7 @@ use super::Mesh;
 use super::rays::{Ray, Triangles};
 
 /// A range of a mesh's triangles in a box hierarchy.
-pub struct Sampled(Arc<Triangles>);
+pub struct SampledMesh(Arc<Triangles>);
 
 /// Crossing of a ray and a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ struct Cache {
 /// Number of hierarchies that are always kept.
 const LEAST_ROOM: usize = 32;
 
-impl Sampled {
+impl SampledMesh {
     /// The triangles that `indices` holds; an index that the mesh does not have counts as its origin.
     pub fn new(mesh: &Arc<Mesh>, indices: Range<u32>) -> Self {
         let key = (Arc::as_ptr(mesh) as usize, indices);

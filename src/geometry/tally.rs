@@ -6,7 +6,7 @@ use super::Warning;
 
 /// The kinds met so far, in the order of their first lines.
 #[derive(Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct WarningTally {
     kinds: Vec<Kind>,
 }
 
@@ -19,7 +19,7 @@ struct Kind {
     count: usize,
 }
 
-impl Tally {
+impl WarningTally {
     /// Counts something of the kind `name`; `message` is called at its first occurrence.
     pub fn note(&mut self, name: &str, path: &Path, line: usize, message: impl FnOnce() -> String) {
         match self.kinds.iter_mut().find(|kind| kind.name == name) {

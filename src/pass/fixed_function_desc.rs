@@ -22,7 +22,7 @@ pub enum FixedFunctionDesc {
     /// Model"].
     Lit(Box<Lit>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
-    Sampled(Box<Sampled>),
+    Sampled(Box<ShadeView>),
     /// Something that fixed function cannot express, in words.
     Shader(&'static str),
 }
@@ -94,7 +94,7 @@ pub struct FixedFunctionLight {
 
 /// The view that shows a light's shade.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sampled {
+pub struct ShadeView {
     pub clip_from_eye: DMat4,
     pub texturing: Texturing,
     /// As [`FixedFunctionLight::projection`].

@@ -12,13 +12,13 @@ mod state;
 pub use define::Define;
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use fixed_function_desc::{
-    AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Sampled, Shade, Texturing,
+    AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
 };
 pub use image::{
     Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
 };
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
-pub use source::{Place, Source, Stage};
+pub use source::{Source, SourceLine, Stage};
 pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
 pub(crate) use program::glsl;

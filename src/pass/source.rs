@@ -35,7 +35,7 @@ pub struct Source {
 
 /// A line of a [`Source`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place<'a> {
+pub struct SourceLine<'a> {
     pub file: &'a str,
     /// In the file, from 1.
     pub line: usize,
@@ -87,10 +87,10 @@ impl Source {
     }
 
     /// Place of line `line` of the whole text, counted from 1.
-    pub fn place(&self, line: usize) -> Option<Place<'_>> {
+    pub fn place(&self, line: usize) -> Option<SourceLine<'_>> {
         let (file, first) = self.files.iter().rev().find(|(_, first)| *first <= line)?;
         let text = self.text.lines().nth(line - 1)?;
-        Some(Place { file, line: line - first + 1, text })
+        Some(SourceLine { file, line: line - first + 1, text })
     }
 
     /// The text with an empty comment for each `#line`, so that a driver counts the lines of the whole text. Mesa 22.3

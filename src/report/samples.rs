@@ -1,6 +1,6 @@
 //! A made-up report for tests: times grow with the map, errors shrink with it.
 
-use super::measure::metrics::{Band, EdgeDistance, Errors, LeftOut, Metrics, Split};
+use super::measure::metrics::{Band, EdgeDistance, ErrorSplit, Errors, Metrics, NotCompared};
 use super::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use super::store::results::{
     Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION,
@@ -137,7 +137,7 @@ fn pass(label: &str, ms: f64, has_gpu: bool) -> PassCost {
 }
 
 fn metrics(wrong: f64, size: u32) -> Metrics {
-    let split = |percent: f64| Split {
+    let split = |percent: f64| ErrorSplit {
         inside: (1980.0 * 0.9 * percent) as usize,
         outside: (1980.0 * 0.1 * percent) as usize,
         inside_percent: 0.9 * percent,
@@ -162,6 +162,6 @@ fn metrics(wrong: f64, size: u32) -> Metrics {
         band: Band { texels: 1.5, map_size: [size.max(1); 2] },
         all,
         facing: Errors { compared: 150_000, wrong_percent: 0.8 * wrong, ..all },
-        left_out: LeftOut { background: 62_000, ambiguous: 2_000, outside_cone: 130, not_drawn: 7, only_drawn: 7 },
+        left_out: NotCompared { background: 62_000, ambiguous: 2_000, outside_cone: 130, not_drawn: 7, only_drawn: 7 },
     }
 }

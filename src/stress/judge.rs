@@ -22,7 +22,7 @@
 
 use std::collections::HashMap;
 
-use super::results::{Row, Verdict};
+use super::results::{CaseRow, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
@@ -58,7 +58,7 @@ pub struct Judge<'a> {
 
 /// A row, and what a picture of it needs.
 pub struct Judged {
-    pub row: Row,
+    pub row: CaseRow,
     pub shade: Option<ShadeImage>,
     /// Pixels beyond the bound, by index.
     pub beyond: Vec<usize>,
@@ -92,16 +92,20 @@ impl<'a> Judge<'a> {
     /// The same as [`row`](Self::row) with the picture of another scene of the same size, to test that a broken scene is
     /// noticed.
     pub fn row_of(&mut self, drawn: &Scene, settings: &RowSettings, renderer: &mut Renderer) -> Judged {
-        let row = Row::new(self.light, settings);
+        let row = CaseRow::new(self.light, settings);
         let drawn = if settings.pictured { &in_one_light(drawn, self.light) } else { drawn };
         let (plan, shade) = match self.draw(drawn, settings, renderer) {
             Ok(drawn) => drawn,
             Err(Failure::Refused(why)) => {
-                return Judged { row: Row { verdict: Verdict::Refused, why, ..row }, shade: None, beyond: Vec::new() };
+                return Judged {
+                    row: CaseRow { verdict: Verdict::Refused, why, ..row },
+                    shade: None,
+                    beyond: Vec::new(),
+                };
             }
             Err(Failure::Broken(why)) => {
                 return Judged {
-                    row: Row { verdict: Verdict::SilentlyWrong, why, ..row },
+                    row: CaseRow { verdict: Verdict::SilentlyWrong, why, ..row },
                     shade: None,
                     beyond: Vec::new(),
                 };
@@ -115,7 +119,7 @@ impl<'a> Judge<'a> {
             (false, false) => Verdict::Warned,
             (false, true) => Verdict::SilentlyWrong,
         };
-        let row = Row {
+        let row = CaseRow {
             verdict,
             compared: counts.compared,
             wrong: counts.wrong,

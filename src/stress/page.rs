@@ -2,7 +2,7 @@
 
 use super::judge::MOST_WRONG;
 use super::plot::SweepPlot;
-use super::results::{CaseResult, Row, RowPictures, Verdict, tally};
+use super::results::{CaseResult, CaseRow, RowPictures, Verdict, tally};
 use super::table::{shares, techniques_of};
 use crate::report::measure::difference::LEGEND;
 use crate::report::show::html::STYLE;
@@ -60,7 +60,7 @@ fn legend() -> String {
 
 fn verdicts(results: &[CaseResult]) -> String {
     let head: String = Verdict::ALL.iter().map(|verdict| format!("<th>{}</th>", verdict.name())).collect();
-    let line = |name: &str, rows: Vec<&Row>| {
+    let line = |name: &str, rows: Vec<&CaseRow>| {
         let counts: String = tally(rows.iter().copied()).iter().map(|count| format!("<td>{count}</td>")).collect();
         format!("<tr><td>{}</td><td>{}</td>{counts}</tr>\n", escape(name), rows.len())
     };

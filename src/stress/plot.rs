@@ -3,7 +3,7 @@
 use super::results::CaseResult;
 use super::table::techniques_of;
 use crate::report::show::plots::Error;
-use crate::report::show::plots::axis::Axis;
+use crate::report::show::plots::axis::PlotAxis;
 use crate::report::show::plots::canvas::{self, Marker, Words};
 
 /// A named sweep and its plot as SVG.
@@ -50,8 +50,8 @@ fn plot(name: &str, results: &[&CaseResult]) -> Result<Option<String>, Error> {
     let techniques = techniques_of(&owned);
     let curves: Vec<(&str, Curve)> = techniques.iter().map(|name| (*name, curve(results, name))).collect();
     let all = || curves.iter().flat_map(|(_, curve)| curve);
-    let x = Axis::over(all().map(|(value, _)| *value));
-    let y = Axis::over(all().map(|(_, wrong)| *wrong));
+    let x = PlotAxis::over(all().map(|(value, _)| *value));
+    let y = PlotAxis::over(all().map(|(_, wrong)| *wrong));
     let Some((x, y)) = x.zip(y) else { return Ok(None) };
     let parameter = results[0].sweep.as_ref().map_or("", |(parameter, _)| parameter.as_str());
     let words = Words {
@@ -60,7 +60,7 @@ fn plot(name: &str, results: &[&CaseResult]) -> Result<Option<String>, Error> {
         x: parameter,
         y: "wrong pixels, in % of those compared",
     };
-    let draw = |canvas: &mut canvas::Canvas<'_>| {
+    let draw = |canvas: &mut canvas::PlotCanvas<'_>| {
         if let Some(floor) = y.floor {
             canvas.floor(&x, floor)?;
         }

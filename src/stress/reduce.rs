@@ -2,7 +2,7 @@
 
 use super::case::{Case, files_named_in};
 use super::results::Verdict;
-use super::run::{Options, draw_case};
+use super::run::{StressOptions, draw_case};
 use crate::frame::Renderer;
 use crate::scene::{self, Entry, Settings, Value};
 
@@ -17,7 +17,7 @@ const SPARE_KEYS: [&str; 8] = ["rotate", "wave", "material", "casts_shadow", "na
 
 /// The smallest scene found on which `inside`, the inside of `[light.shadow]`, is silently wrong, with that setting in it.
 /// `None` where the case as it is does not fail.
-pub fn reduce(case: &Case, inside: &str, options: &Options, renderer: &mut Renderer) -> Option<Case> {
+pub fn reduce(case: &Case, inside: &str, options: &StressOptions, renderer: &mut Renderer) -> Option<Case> {
     let folder = tempfile::tempdir().ok()?;
     let mut best = case.settings(folder.path()).ok()?;
     let mut search = Search { case, inside, options, renderer, tries: 0 };
@@ -41,7 +41,7 @@ pub fn reduce(case: &Case, inside: &str, options: &Options, renderer: &mut Rende
 struct Search<'a> {
     case: &'a Case,
     inside: &'a str,
-    options: &'a Options,
+    options: &'a StressOptions,
     renderer: &'a mut Renderer,
     tries: usize,
 }

@@ -34,7 +34,7 @@ impl Verdict {
 
 /// One light of a case under one setting.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Row {
+pub struct CaseRow {
     /// Index into the scene's lights.
     pub light: usize,
     #[serde(flatten)]
@@ -50,7 +50,7 @@ pub struct Row {
     pub why: String,
 }
 
-impl Row {
+impl CaseRow {
     /// A row that is not judged yet.
     pub fn new(light: usize, settings: &RowSettings) -> Self {
         let settings = settings.clone();
@@ -69,7 +69,7 @@ impl Row {
         matches!(self.verdict, Verdict::FalseAlarm | Verdict::Warned | Verdict::Refused)
     }
 
-    /// Wrong pixels in percent of [`Row::compared`].
+    /// Wrong pixels in percent of [`CaseRow::compared`].
     pub fn wrong_percent(&self) -> f64 {
         100.0 * self.wrong as f64 / self.compared.max(1) as f64
     }
@@ -106,7 +106,7 @@ pub struct CaseResult {
     pub refused: Option<String>,
     /// True if a refusal is what the case expects.
     pub refusal_expected: bool,
-    pub rows: Vec<Row>,
+    pub rows: Vec<CaseRow>,
     /// Pictures of the worst row of each technique whose rows are not all right, if pictures are requested.
     #[serde(skip)]
     pub pictures: Vec<RowPictures>,
@@ -130,13 +130,13 @@ impl CaseResult {
 }
 
 /// Rows of random scenes under default settings.
-pub fn random_defaults(results: &[CaseResult]) -> impl Iterator<Item = &Row> {
+pub fn random_defaults(results: &[CaseResult]) -> impl Iterator<Item = &CaseRow> {
     let random = results.iter().filter(|result| result.is_random);
     random.flat_map(|result| &result.rows).filter(|row| row.settings.is_default())
 }
 
 /// Number of rows with each verdict, in the order of [`Verdict::ALL`].
-pub fn tally<'a>(rows: impl IntoIterator<Item = &'a Row>) -> [usize; 5] {
+pub fn tally<'a>(rows: impl IntoIterator<Item = &'a CaseRow>) -> [usize; 5] {
     let mut tally = [0; 5];
     for row in rows {
         tally[Verdict::ALL.iter().position(|verdict| *verdict == row.verdict).unwrap_or(0)] += 1;
@@ -144,7 +144,7 @@ pub fn tally<'a>(rows: impl IntoIterator<Item = &'a Row>) -> [usize; 5] {
     tally
 }
 
-impl Row {
+impl CaseRow {
     /// Counts warnings of the scene's loader as said.
     pub fn add_warnings(&mut self, warnings: &[String]) {
         if warnings.is_empty() {

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use super::case::Case;
 use super::judge::{Judge, Judged};
-use super::results::{CaseResult, Row, RowPictures, Verdict};
+use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
 use super::rows::{row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
@@ -16,7 +16,7 @@ use crate::truth::Truth;
 
 /// Options of a run.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct StressOptions {
     /// Cases drawn at once, each on a context of its own.
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
@@ -33,7 +33,7 @@ pub struct Options {
 /// A context that cannot be had; a folder for scene files that cannot be made.
 pub fn run(
     cases: &[Case],
-    options: &Options,
+    options: &StressOptions,
     stop: &Arc<AtomicBool>,
     finished: impl FnMut(usize, CaseResult),
 ) -> Result<(), context::Error> {
@@ -42,7 +42,7 @@ pub fn run(
 }
 
 /// Draws one case by every row and judges each.
-pub fn draw_case(case: &Case, options: &Options, renderer: &mut Renderer) -> CaseResult {
+pub fn draw_case(case: &Case, options: &StressOptions, renderer: &mut Renderer) -> CaseResult {
     let start = Instant::now();
     let mut result = CaseResult {
         name: case.name.clone(),
@@ -67,7 +67,7 @@ pub fn draw_case(case: &Case, options: &Options, renderer: &mut Renderer) -> Cas
 fn draw_rows(
     case: &Case,
     folder: &Path,
-    options: &Options,
+    options: &StressOptions,
     renderer: &mut Renderer,
     result: &mut CaseResult,
 ) -> Result<(), String> {
@@ -103,7 +103,7 @@ fn keep_pictures(judge: &Judge<'_>, judged: &Judged, result: &mut CaseResult) {
         let other = &result.rows[pictures.row];
         other.settings.technique == row.settings.technique && other.light == row.light
     });
-    let is_worse = |other: &Row| (row.verdict as u8, row.wrong) > (other.verdict as u8, other.wrong);
+    let is_worse = |other: &CaseRow| (row.verdict as u8, row.wrong) > (other.verdict as u8, other.wrong);
     if known.is_some_and(|known| !is_worse(&result.rows[result.pictures[known].row])) {
         return;
     }

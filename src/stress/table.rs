@@ -2,7 +2,7 @@
 
 use comfy_table::{Cell, ContentArrangement, Table, presets};
 
-use super::results::{CaseResult, Row, Verdict, random_defaults, tally};
+use super::results::{CaseResult, CaseRow, Verdict, random_defaults, tally};
 use crate::techniques::TABLE;
 
 /// Cases listed at most.
@@ -71,7 +71,7 @@ fn worst(result: &CaseResult, technique: &str) -> String {
 }
 
 /// Rank by verdict, then by wrong pixels.
-fn rank(row: &Row) -> f64 {
+fn rank(row: &CaseRow) -> f64 {
     let verdict = Verdict::ALL.iter().position(|verdict| *verdict == row.verdict).unwrap_or(0);
     1e6 * verdict as f64 + row.wrong_percent()
 }
@@ -79,7 +79,7 @@ fn rank(row: &Row) -> f64 {
 fn verdicts(results: &[CaseResult], techniques: &[&str], width: u16) -> String {
     let mut table = table(width);
     table.set_header(["technique", "rows"].into_iter().chain(Verdict::ALL.map(Verdict::name)));
-    let mut add = |name: &str, rows: Vec<&Row>| {
+    let mut add = |name: &str, rows: Vec<&CaseRow>| {
         let counts = tally(rows.iter().copied());
         let cells = [name.to_owned(), rows.len().to_string()].into_iter();
         table.add_row(cells.chain(counts.iter().map(usize::to_string)));
@@ -94,10 +94,10 @@ fn verdicts(results: &[CaseResult], techniques: &[&str], width: u16) -> String {
 
 /// False alarms, what default settings cannot draw, how much the ray tracer decides, and the time.
 pub fn shares(results: &[CaseResult]) -> String {
-    let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
+    let rows: Vec<&CaseRow> = results.iter().flat_map(|result| &result.rows).collect();
     let percent = |part: usize, all: usize| 100.0 * part as f64 / all.max(1) as f64;
     let alarms = rows.iter().filter(|row| row.verdict == Verdict::FalseAlarm).count();
-    let defaults: Vec<&Row> = random_defaults(results).collect();
+    let defaults: Vec<&CaseRow> = random_defaults(results).collect();
     let unusable = defaults.iter().filter(|row| row.is_unusable()).count();
     let decided = results.iter().map(|result| result.decided).sum::<f64>() / results.len().max(1) as f64;
     let seconds: f64 = results.iter().map(|result| result.seconds).sum();

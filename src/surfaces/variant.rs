@@ -7,7 +7,7 @@ use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::{Drawable, Ending, Viewer};
 use crate::pass::{
-    Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, Sampled, Uniform,
+    Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, ShadeView, Uniform,
     glsl,
 };
 use crate::scene::Scene;
@@ -132,7 +132,7 @@ fn meaning(
         })),
         (Ending::View { .. }, Some(light)) => {
             let FixedFunctionLight { projection, shade, .. } = light.meaning.clone();
-            FixedFunctionDesc::Sampled(Box::new(Sampled { clip_from_eye, texturing, projection, shade }))
+            FixedFunctionDesc::Sampled(Box::new(ShadeView { clip_from_eye, texturing, projection, shade }))
         }
         (Ending::View { .. }, None) => FixedFunctionDesc::Shader("a view of no light"),
     }

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::beam::{Apex, Beam, crossing};
-use super::primary::Seen;
+use super::primary::SeenPoint;
 use super::slab::Segment;
 use super::world::Triangle;
 use super::{Error, Options, Tracer, Truth};
@@ -136,11 +136,11 @@ impl<'a> Surroundings<'a> {
     }
 
     /// The slope of a surface near the visible point, as [`Around::slope`].
-    fn slope(&self, seen: &Seen<'_>, normal: DVec3) -> f64 {
+    fn slope(&self, seen: &SeenPoint<'_>, normal: DVec3) -> f64 {
         self.tracer.lamp.slope(seen.position, normal).min(STEEPEST)
     }
 
-    pub(super) fn beam(&self, seen: &Seen<'_>, reach: f64) -> Beam {
+    pub(super) fn beam(&self, seen: &SeenPoint<'_>, reach: f64) -> Beam {
         let spread = self.tracer.lamp.footprint(seen.position, reach);
         let apex = self.tracer.lamp.apex(seen.position);
         let way = match apex {
@@ -172,7 +172,7 @@ impl<'a> Surroundings<'a> {
         &self,
         triangle: &Triangle<'_>,
         beam: &Beam,
-        seen: &Seen<'_>,
+        seen: &SeenPoint<'_>,
         around: &mut Around,
         blockers: &mut Vec<(Place, f64)>,
         met: &mut Vec<Place>,
@@ -217,7 +217,7 @@ impl<'a> Surroundings<'a> {
 }
 
 /// Distance before the visible surface's plane at which the ray to `base` crosses the triangle; `None` if it does not.
-fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, corners: &[DVec3; 3]) -> Option<f64> {
+fn gap(beam: &Beam, base: DVec3, seen: &SeenPoint<'_>, corners: &[DVec3; 3]) -> Option<f64> {
     let way = match beam.apex {
         Apex::At(apex) => base - apex,
         Apex::Infinity { travel, length } => length * travel,
@@ -228,7 +228,7 @@ fn gap(beam: &Beam, base: DVec3, seen: &Seen<'_>, corners: &[DVec3; 3]) -> Optio
 
 /// Distance of a point before the visible surface's plane, along its own ray; negative behind it, 0 if the ray does not
 /// meet it.
-fn before_plane(beam: &Beam, point: DVec3, seen: &Seen<'_>) -> f64 {
+fn before_plane(beam: &Beam, point: DVec3, seen: &SeenPoint<'_>) -> f64 {
     let way = beam.way_to(point);
     let ahead = seen.normal.dot(seen.position - point) / seen.normal.dot(way);
     // A ray that leaves the light away from the plane meets it behind the light.

@@ -95,7 +95,7 @@ pub(super) struct Beam {
 
 /// Three answers: yes, no, or within the error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum BeamSide {
     Before,
     Near,
     Beyond,
@@ -109,9 +109,9 @@ pub(super) struct Meeting {
     /// True if all of the beam's lines pass within all three edges.
     pub surely_inside: bool,
     /// The crossing against the base.
-    pub at_base: Side,
+    pub at_base: BeamSide,
     /// The crossing against the start.
-    pub at_start: Side,
+    pub at_start: BeamSide,
 }
 
 impl Beam {
@@ -195,9 +195,9 @@ impl Beam {
         let mut surely_inside = true;
         for k in 0..3 {
             match self.beside(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3], [error, error_at_base]) {
-                Side::Before => return None,
-                Side::Near => surely_inside = false,
-                Side::Beyond => {}
+                BeamSide::Before => return None,
+                BeamSide::Near => surely_inside = false,
+                BeamSide::Beyond => {}
             }
         }
         let center = crossing(self.origin(), self.axis(), corners);
@@ -210,7 +210,7 @@ impl Beam {
     /// Where the third corner lies in that plane within its error, the triangle is seen edge-on: what lies beside the plane,
     /// on either side, misses it. Beside is farther than the plane turns about the apex when the triangle moves by its error:
     /// next to the apex that is all around it.
-    fn beside(&self, from: DVec3, to: DVec3, third: DVec3, [error, error_at_base]: [f64; 2]) -> Side {
+    fn beside(&self, from: DVec3, to: DVec3, third: DVec3, [error, error_at_base]: [f64; 2]) -> BeamSide {
         let (normal, on_plane) = self.plane_through(from, to);
         let normal = normal.normalize_or_zero();
         let inward = normal.dot(third - on_plane);
@@ -221,11 +221,11 @@ impl Beam {
         let slack = self.moved_along(normal) + self.error + corners_error;
         let value = normal.dot(self.base - on_plane) * inward.signum();
         if !slack.is_finite() || normal == DVec3::ZERO || value.abs() <= slack {
-            Side::Near
+            BeamSide::Near
         } else if value > 0.0 && !is_edge_on {
-            Side::Beyond
+            BeamSide::Beyond
         } else {
-            Side::Before
+            BeamSide::Before
         }
     }
 
@@ -261,7 +261,7 @@ impl Beam {
 
     /// The triangle's plane against both ends. Where the crossing lies inside the triangle, its plane is off by no more
     /// than its corners are, so that no lever enters.
-    fn depth(&self, corners: &[DVec3; 3], error: f64) -> (Side, Side) {
+    fn depth(&self, corners: &[DVec3; 3], error: f64) -> (BeamSide, BeamSide) {
         let [a, b, c] = *corners;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         // On which side of the plane the apex is; 0: in it.
@@ -272,17 +272,17 @@ impl Beam {
         let side = |value: f64, slack: f64| {
             let signed = value * apex_side.signum();
             if apex_side == 0.0 || value.abs() <= slack {
-                Side::Near
+                BeamSide::Near
             } else if signed > 0.0 {
                 // The end lies on the apex's side: the plane is farther away than this end.
-                Side::Beyond
+                BeamSide::Beyond
             } else {
-                Side::Before
+                BeamSide::Before
             }
         };
         let moved = self.moved_along(normal).max(self.reach_along(normal, &self.surface_spread));
         let at_base = side(normal.dot(self.base - a), moved + self.depth_error + 2.0 * error);
-        let Apex::At(apex) = self.apex else { return (at_base, Side::Beyond) };
+        let Apex::At(apex) = self.apex else { return (at_base, BeamSide::Beyond) };
         let start = apex + self.start * (self.base - apex);
         let at_start = side(normal.dot(start - a), self.start * (moved + self.error) + 2.0 * error);
         (at_base, at_start)

@@ -42,31 +42,31 @@ impl Alpha {
 }
 
 /// A material's alpha test.
-pub(super) struct Cutout {
+pub(super) struct AlphaCutout {
     opacity: f64,
-    textures: Vec<Layer>,
+    textures: Vec<CutoutTexture>,
     /// Generated coordinates, in place of the mesh's own.
     texgen: Option<ObjectLinear>,
 }
 
 /// A texture, the channel of it that counts, and where it lies.
-struct Layer {
+struct CutoutTexture {
     texture: Arc<Texture>,
     channel: usize,
     placement: Placement,
 }
 
-impl Cutout {
+impl AlphaCutout {
     /// `None`: no fragment of this material can fail the test. Textures need `has_texcoords`, or planes of the material's.
     pub fn new(material: &Material, has_texcoords: bool) -> Option<Self> {
         let has_texcoords = has_texcoords || material.texgen.is_some();
         let mut textures = Vec::new();
         if let Some(decal) = material.decal.as_ref().filter(|decal| has_texcoords && decal.has_alpha) {
-            textures.push(Layer { texture: decal.clone(), channel: 3, placement: material.decal_placement });
+            textures.push(CutoutTexture { texture: decal.clone(), channel: 3, placement: material.decal_placement });
         }
         if let Some(alpha) = material.alpha.as_ref().filter(|_| has_texcoords) {
             let channel = if alpha.has_alpha { 3 } else { 0 };
-            textures.push(Layer { texture: alpha.clone(), channel, placement: material.alpha_placement });
+            textures.push(CutoutTexture { texture: alpha.clone(), channel, placement: material.alpha_placement });
         }
         textures.retain(|layer| is_whole(&layer.texture));
         let opacity = f64::from(material.opacity);
@@ -96,7 +96,7 @@ fn is_whole(texture: &Texture) -> bool {
     texels > 0 && texture.rgba.len() == 4 * texels
 }
 
-impl Layer {
+impl CutoutTexture {
     /// Between texel centres the filtered value is bilinear, so over a box its extremes lie at the corners of the pieces
     /// that the texel grid cuts the box into: looking there is exact. The coordinates are the surface's.
     fn bound(&self, middle: DVec2, reach: DVec2) -> Alpha {
@@ -168,10 +168,10 @@ fn stops(low: f64, high: f64) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
 
-    fn checker(placement: Placement) -> Layer {
+    fn checker(placement: Placement) -> CutoutTexture {
         let rgba = [0u8, 255, 255, 0].iter().flat_map(|&a| [255, 255, 255, a]).collect();
         let texture = Texture { name: String::from("checker"), width: 2, height: 2, rgba, has_alpha: true };
-        Layer { texture: Arc::new(texture), channel: 3, placement }
+        CutoutTexture { texture: Arc::new(texture), channel: 3, placement }
     }
 
     #[test]
@@ -212,8 +212,8 @@ mod tests {
 
     #[test]
     fn plain_materials_have_no_test_and_faint_ones_always_fail() {
-        assert!(Cutout::new(&Material::default(), true).is_none());
-        let faint = Cutout::new(&Material { opacity: 0.4, ..Material::default() }, false);
+        assert!(AlphaCutout::new(&Material::default(), true).is_none());
+        let faint = AlphaCutout::new(&Material { opacity: 0.4, ..Material::default() }, false);
         assert!(faint.is_some_and(|cutout| cutout.alpha(DVec2::ZERO, DVec2::ZERO).surely_clear()));
     }
 }

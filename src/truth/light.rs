@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::answers::Reason;
-use super::beam::{Apex, Side};
+use super::beam::{Apex, BeamSide};
 use crate::scene::{Frustum, Light, LightKind, LightShape};
 
 pub(super) struct Lamp {
@@ -194,9 +194,9 @@ impl Lamp {
                 .into_iter()
                 .fold(0.0, |most: f64, offset| most.max((inside(point + offset) - value).abs()));
             match value {
-                _ if value.abs() <= moved + error => Side::Near,
-                _ if value > 0.0 => Side::Beyond,
-                _ => Side::Before,
+                _ if value.abs() <= moved + error => BeamSide::Near,
+                _ if value > 0.0 => BeamSide::Beyond,
+                _ => BeamSide::Before,
             }
         };
         let ends = [
@@ -204,10 +204,10 @@ impl Lamp {
             (Reason::ClipPlane, side(&|at| self.beyond_near(at))),
             (Reason::ClipPlane, side(&|at| self.before_far(at))),
         ];
-        if ends.iter().any(|(_, side)| *side == Side::Before) {
+        if ends.iter().any(|(_, side)| *side == BeamSide::Before) {
             return Ok(false);
         }
-        ends.iter().find(|(_, side)| *side == Side::Near).map_or(Ok(true), |(reason, _)| Err(*reason))
+        ends.iter().find(|(_, side)| *side == BeamSide::Near).map_or(Ok(true), |(reason, _)| Err(*reason))
     }
 
     /// Tests the point itself, without error.

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::Surroundings;
 use super::beam::Beam;
-use super::primary::Seen;
+use super::primary::SeenPoint;
 use super::world::Triangle;
 
 /// The part of a triangle within the reach.
@@ -56,7 +56,7 @@ impl Surroundings<'_> {
     }
 
     /// The same of two triangles, where the first is nearer to the light.
-    fn middle_of(&self, first: &Cell<'_>, second: &Cell<'_>, beam: &Beam, seen: &Seen<'_>, apart: f64) -> f64 {
+    fn middle_of(&self, first: &Cell<'_>, second: &Cell<'_>, beam: &Beam, seen: &SeenPoint<'_>, apart: f64) -> f64 {
         let normal = second.triangle.normal();
         // The middle, and how far the second lies behind the first: each linear across the map.
         let at = |corner: &DVec3| {
@@ -86,7 +86,7 @@ impl Surroundings<'_> {
 
     /// By how much a point is nearer to the light than the visible one, as a map's depth has it: linear across the map on any
     /// plane, and in world units next to the visible point.
-    fn rise(&self, point: DVec3, seen: &Seen<'_>) -> f64 {
+    fn rise(&self, point: DVec3, seen: &SeenPoint<'_>) -> f64 {
         let lamp = &self.tracer.lamp;
         let by = lamp.depth_between(point, seen.position);
         if lamp.place().is_none() {

@@ -50,10 +50,10 @@ use beam::Beam;
 use camera::Eye;
 use cutout::Alpha;
 use light::Lamp;
-use primary::Seen;
+use primary::SeenPoint;
 use slab::Segment;
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
-use world::{Placed, Triangle, World};
+use world::{PlacedObject, Triangle, World};
 
 /// Amount of doubt that is granted.
 #[derive(Clone, Debug, PartialEq)]
@@ -230,7 +230,7 @@ impl<'a> Tracer<'a> {
 
     /// The error of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in
     /// which the object's farthest vertex enters too.
-    fn error_of(&self, placed: &Placed, reach: f64) -> f64 {
+    fn error_of(&self, placed: &PlacedObject, reach: f64) -> f64 {
         let (origin, eye) = (placed.origin(), self.eye.position);
         let met = reach + origin.distance(eye) + origin.distance(self.lamp.place().unwrap_or(eye));
         let own = 64.0 * f64::EPSILON * (origin.abs().max_element() + met + placed.reach);
@@ -243,7 +243,7 @@ impl<'a> Tracer<'a> {
 
     /// Distance in world units along the view ray by which a depth buffer may misplace the visible point against another
     /// surface of the same pixel: each of the two by its own error.
-    fn depth_misplacement(&self, seen: &Seen<'_>, bits: u32) -> f64 {
+    fn depth_misplacement(&self, seen: &SeenPoint<'_>, bits: u32) -> f64 {
         let ray = seen.position - self.eye.position;
         let depth = self.eye.depth_of(ray);
         let rise = seen.spread.iter().map(|way| self.eye.depth_of(*way).abs()).sum::<f64>() / self.subpixel;
@@ -291,7 +291,7 @@ impl<'a> Tracer<'a> {
         Pixel { answer, lit_at_center: is_held_at_center.then_some(lit), hit: Some(self.describe(&seen)) }
     }
 
-    fn describe(&self, seen: &Seen<'_>) -> Hit {
+    fn describe(&self, seen: &SeenPoint<'_>) -> Hit {
         let to_light = self.lamp.towards(seen.position);
         Hit {
             object: seen.triangle.object,

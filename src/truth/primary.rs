@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::answers::Reason;
-use super::beam::{Apex, Beam, Side};
+use super::beam::{Apex, Beam, BeamSide};
 use super::slab::Segment;
 use super::world::Triangle;
 use super::{ENOUGH, Tracer, doubt};
 
 /// The surface point behind a pixel.
-pub(super) struct Seen<'w> {
+pub(super) struct SeenPoint<'w> {
     pub triangle: Triangle<'w>,
     pub position: DVec3,
     /// Unit normal on the camera's side.
@@ -24,7 +24,7 @@ pub(super) struct Seen<'w> {
 
 impl Tracer<'_> {
     /// The nearest surface between the near and the far plane, and what makes it doubtful.
-    pub fn look(&self, x: u32, y: u32) -> (Option<Seen<'_>>, Option<Reason>) {
+    pub fn look(&self, x: u32, y: u32) -> (Option<SeenPoint<'_>>, Option<Reason>) {
         let (origin, direction) = (self.eye.position, self.eye.direction(x, y));
         let ray = Segment { origin, direction, start: self.eye.near, end: self.eye.far };
         let Some((triangle, depth)) = self.world.nearest(&ray) else {
@@ -39,7 +39,7 @@ impl Tracer<'_> {
         let known = spread.unwrap_or([DVec3::ZERO; 2]);
         let (reason, widened) = self.search(&self.view_beam(direction, depth, known, error), Some(&triangle));
         let reason = if spread.is_none() { Some(Reason::GrazingView) } else { reason };
-        (Some(Seen { triangle, position, normal, spread: known, error: error + widened }), reason)
+        (Some(SeenPoint { triangle, position, normal, spread: known, error: error + widened }), reason)
     }
 
     fn view_beam(&self, direction: DVec3, depth: f64, surface_spread: [DVec3; 2], error: f64) -> Beam {
@@ -105,7 +105,7 @@ impl Tracer<'_> {
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {
             return None;
         }
-        if triangle.has_cutout() && meeting.at_base != Side::Beyond && meeting.at_start != Side::Before {
+        if triangle.has_cutout() && meeting.at_base != BeamSide::Beyond && meeting.at_start != BeamSide::Before {
             let alpha = self.alpha_in(beam, triangle);
             if alpha.surely_clear() {
                 return None;
@@ -117,10 +117,10 @@ impl Tracer<'_> {
         if near_edge && self.folds_inside(beam, triangle, error) {
             return Some(Reason::Silhouette);
         }
-        if meeting.at_start == Side::Near {
+        if meeting.at_start == BeamSide::Near {
             return Some(Reason::ClipPlane);
         }
-        if is_hit || meeting.at_base == Side::Beyond || meeting.at_start == Side::Before {
+        if is_hit || meeting.at_base == BeamSide::Beyond || meeting.at_start == BeamSide::Before {
             return None;
         }
         match hit {

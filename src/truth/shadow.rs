@@ -5,15 +5,15 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use super::answers::Reason;
-use super::beam::{Beam, Meeting, Side};
-use super::primary::Seen;
+use super::beam::{Beam, BeamSide, Meeting};
+use super::primary::SeenPoint;
 use super::slab::Segment;
 use super::tube::Tube;
 use super::world::Triangle;
 use super::{ENOUGH, Tracer, doubt};
 
 /// Effect of one triangle on a shadow ray.
-enum Verdict {
+enum TriangleVerdict {
     /// It stops the whole beam.
     Blocks,
     /// It stops the centre ray (or not), for the stated reason perhaps not the rest.
@@ -27,7 +27,7 @@ enum Verdict {
 impl Tracer<'_> {
     /// Tests whether the light reaches the centre point, and what makes that doubtful. Of a point that `is_sure` denies, for the
     /// answer is doubtful anyway, only the first.
-    pub fn light_reaches(&self, seen: &Seen<'_>, is_sure: bool) -> (bool, Option<Reason>) {
+    pub fn light_reaches(&self, seen: &SeenPoint<'_>, is_sure: bool) -> (bool, Option<Reason>) {
         let (height, tilt) = self.height_of_light(seen);
         let mut reason = (height.abs() <= tilt).then_some(Reason::GrazingLight);
         let beam = self.shadow_beam(seen);
@@ -42,7 +42,7 @@ impl Tracer<'_> {
     }
 
     /// Height of the light over the visible surface, times its distance if that is finite; and the error of that.
-    pub fn height_of_light(&self, seen: &Seen<'_>) -> (f64, f64) {
+    pub fn height_of_light(&self, seen: &SeenPoint<'_>) -> (f64, f64) {
         let to_light = self.lamp.towards(seen.position);
         // A corner's error tilts the plane by error over the triangle's least height; a light that has a place is seen
         // from a point that is off, too.
@@ -51,7 +51,7 @@ impl Tracer<'_> {
         (seen.normal.dot(to_light), tilt)
     }
 
-    fn shadow_beam(&self, seen: &Seen<'_>) -> Beam {
+    fn shadow_beam(&self, seen: &SeenPoint<'_>) -> Beam {
         Beam {
             apex: self.lamp.apex(seen.position),
             base: seen.position,
@@ -65,7 +65,7 @@ impl Tracer<'_> {
         }
     }
 
-    fn trace_to_light(&self, beam: &Beam, seen: &Seen<'_>) -> (bool, Option<Reason>) {
+    fn trace_to_light(&self, beam: &Beam, seen: &SeenPoint<'_>) -> (bool, Option<Reason>) {
         let direction = beam.axis();
         let radius = beam.radius(self.largest_error);
         let segment =
@@ -73,15 +73,15 @@ impl Tracer<'_> {
         let (mut lit, mut reason, mut looked_at) = (true, None, 0);
         self.visit(beam, &segment, |triangle| {
             match self.judge_shadow(beam, seen, triangle) {
-                Verdict::Blocks => {
+                TriangleVerdict::Blocks => {
                     (lit, reason) = (false, None);
                     return ControlFlow::Break(());
                 }
-                Verdict::Perhaps { center, reason: found } => {
+                TriangleVerdict::Perhaps { center, reason: found } => {
                     lit &= !center;
                     doubt(&mut reason, found);
                 }
-                Verdict::Passes => {}
+                TriangleVerdict::Passes => {}
             }
             looked_at += 1;
             if reason.is_some() && looked_at > ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -91,7 +91,7 @@ impl Tracer<'_> {
     }
 
     /// Tests whether nothing blocks the beam's middle.
-    fn is_clear_at_center(&self, beam: &Beam, seen: &Seen<'_>) -> bool {
+    fn is_clear_at_center(&self, beam: &Beam, seen: &SeenPoint<'_>) -> bool {
         let segment = Segment { origin: beam.origin(), direction: beam.axis(), start: beam.start, end: 1.0 };
         let mut is_clear = true;
         self.world.visit(
@@ -102,7 +102,7 @@ impl Tracer<'_> {
             |triangle| {
                 is_clear = matches!(
                     self.judge_shadow(beam, seen, triangle),
-                    Verdict::Passes | Verdict::Perhaps { center: false, .. }
+                    TriangleVerdict::Passes | TriangleVerdict::Perhaps { center: false, .. }
                 );
                 if is_clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
@@ -110,43 +110,43 @@ impl Tracer<'_> {
         is_clear
     }
 
-    fn judge_shadow(&self, beam: &Beam, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Verdict {
+    fn judge_shadow(&self, beam: &Beam, seen: &SeenPoint<'_>, triangle: &Triangle<'_>) -> TriangleVerdict {
         if !triangle.placed.casts_shadow || triangle.is(&seen.triangle) || triangle.is_degenerate() {
-            return Verdict::Passes;
+            return TriangleVerdict::Passes;
         }
         let error = self.error_in(beam, triangle);
-        let Some(meeting) = beam.meet(&triangle.corners, error) else { return Verdict::Passes };
+        let Some(meeting) = beam.meet(&triangle.corners, error) else { return TriangleVerdict::Passes };
         let near_edge = !meeting.surely_inside && self.passes_any_edge(beam, triangle, error);
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {
-            return Verdict::Passes;
+            return TriangleVerdict::Passes;
         }
         let alpha = self.alpha_in(beam, triangle);
         if alpha.surely_clear() {
-            return Verdict::Passes;
+            return TriangleVerdict::Passes;
         }
-        let is_between = meeting.at_base == Side::Before && meeting.at_start == Side::Beyond;
+        let is_between = meeting.at_base == BeamSide::Before && meeting.at_start == BeamSide::Beyond;
         if meeting.surely_inside && is_between && alpha.surely_opaque() {
-            return Verdict::Blocks;
+            return TriangleVerdict::Blocks;
         }
         let is_fold = near_edge && self.folds_inside(beam, triangle, error);
         let reason = if is_fold {
             Some(Reason::ShadowEdge)
         } else {
             self.doubt_depth(&meeting, seen, triangle)
-                .or((!alpha.surely_opaque() && meeting.at_base != Side::Beyond).then_some(Reason::AlphaTest))
+                .or((!alpha.surely_opaque() && meeting.at_base != BeamSide::Beyond).then_some(Reason::AlphaTest))
         };
-        let own = !is_fold && meeting.at_base == Side::Near && seen.triangle.touches(triangle);
+        let own = !is_fold && meeting.at_base == BeamSide::Near && seen.triangle.touches(triangle);
         let is_crossed = meeting.center.is_some_and(|at| beam.start < at && at < 1.0);
-        Verdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
+        TriangleVerdict::Perhaps { center: is_crossed && !own && alpha.passes_test(), reason }
     }
 
     /// Tests whether the triangle may cut the beam off at one of its ends: at the light, to which it may be arbitrarily
     /// near; within the error of both, it may be on either side. A triangle that shares a corner with the visible one is
     /// the same surface: within the error of the point, and without a fold between, it cannot be in the way.
-    fn doubt_depth(&self, meeting: &Meeting, seen: &Seen<'_>, triangle: &Triangle<'_>) -> Option<Reason> {
+    fn doubt_depth(&self, meeting: &Meeting, seen: &SeenPoint<'_>, triangle: &Triangle<'_>) -> Option<Reason> {
         match (meeting.at_base, meeting.at_start) {
-            (Side::Near, _) if !seen.triangle.touches(triangle) => Some(Reason::Contact),
-            (Side::Before | Side::Near, Side::Near) => Some(Reason::Contact),
+            (BeamSide::Near, _) if !seen.triangle.touches(triangle) => Some(Reason::Contact),
+            (BeamSide::Before | BeamSide::Near, BeamSide::Near) => Some(Reason::Contact),
             _ => None,
         }
     }

@@ -11,12 +11,12 @@ use parry3d_f64::shape::Triangle;
 
 use super::beam::crossing_once;
 use super::solid::Solid;
-use super::world::Placed;
+use super::world::PlacedObject;
 use crate::scene::Object;
 
 /// Way in which a triangle counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rule {
+pub(super) enum CountRule {
     /// It casts no shadow, or has no area.
     Never,
     /// Counts if the light is on the side from which its corners run counter-clockwise in model space.
@@ -29,8 +29,8 @@ pub(super) enum Rule {
 const LEAST_VOLUME: f64 = 9.313_225_746_154_785e-10;
 
 /// The rule for each triangle of an object. `light` in world space; `None`: infinitely far away.
-pub(super) fn rules(object: &Object, solid: &Solid<'_>, placed: &Placed, light: Option<DVec3>) -> Vec<Rule> {
-    let mut rules = vec![Rule::Never; solid.welded.len()];
+pub(super) fn rules(object: &Object, solid: &Solid<'_>, placed: &PlacedObject, light: Option<DVec3>) -> Vec<CountRule> {
+    let mut rules = vec![CountRule::Never; solid.welded.len()];
     if !object.casts_shadow {
         return rules;
     }
@@ -42,7 +42,7 @@ pub(super) fn rules(object: &Object, solid: &Solid<'_>, placed: &Placed, light: 
                 !touches(solid, &shell.triangles, light) && winding(solid, &shell.triangles, light) == 0
             });
         for triangle in shell.triangles {
-            rules[triangle as usize] = if faces_suffice { Rule::Facing } else { Rule::All };
+            rules[triangle as usize] = if faces_suffice { CountRule::Facing } else { CountRule::All };
         }
     }
     rules

@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::Tracer;
-use super::primary::Seen;
-use super::shells::Rule;
+use super::primary::SeenPoint;
+use super::shells::CountRule;
 
 /// In pixels: sides farther than this from the eye's own place, at the depth of what is seen, are not edge-on. A sample
 /// moved by 2^-7 of a pixel meets them within 3 % of the way from the eye.
@@ -46,13 +46,13 @@ impl Plane {
 
 impl Slivers {
     /// Finds them among all triangles that count by `rules`, of each object.
-    pub fn new(tracer: &Tracer<'_>, rules: &[Vec<Rule>]) -> Self {
+    pub fn new(tracer: &Tracer<'_>, rules: &[Vec<CountRule>]) -> Self {
         let eye = &tracer.eye;
         let (center, radius) = tracer.world.ball();
         let most = MOST_APART * eye.right.length().max(eye.up.length()) * (center.distance(eye.position) + radius);
         let mut sides = Vec::new();
         for (object, rules) in (0..).zip(rules) {
-            for (index, rule) in (0..).zip(rules).filter(|(_, rule)| **rule != Rule::Never) {
+            for (index, rule) in (0..).zip(rules).filter(|(_, rule)| **rule != CountRule::Never) {
                 let triangle = tracer.world.triangle(object, index);
                 for k in 0..3 {
                     let [from, to, third] = [0, 1, 2].map(|i| triangle.corners[(k + i) % 3]);
@@ -67,7 +67,7 @@ impl Slivers {
                             Plane::facing(normal.cross(away(from)), from, to - from),
                             Plane::facing(normal.cross(away(to)), to, from - to),
                         ];
-                        let weight = if *rule == Rule::All { 2 } else { 1 };
+                        let weight = if *rule == CountRule::All { 2 } else { 1 };
                         sides.push(Sliver { plane: Plane { normal, point: from }, within, weight });
                     }
                 }
@@ -78,7 +78,7 @@ impl Slivers {
 
     /// By how much the count of a visible point may be off, for the sides that cover its pixel's centre and are drawn
     /// there before it or behind it, whichever.
-    pub fn doubtful(&self, tracer: &Tracer<'_>, seen: &Seen<'_>) -> u32 {
+    pub fn doubtful(&self, tracer: &Tracer<'_>, seen: &SeenPoint<'_>) -> u32 {
         let eye = &tracer.eye;
         let depth = eye.depth_of(seen.position - eye.position);
         // The visible surface and the side are rounded each for itself.

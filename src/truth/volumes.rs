@@ -20,9 +20,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::answers::{Answer, Hit, Reason};
-use super::beam::{Beam, Side, crossing_once};
-use super::primary::Seen;
-use super::shells::{Rule, rules};
+use super::beam::{Beam, BeamSide, crossing_once};
+use super::primary::SeenPoint;
+use super::shells::{CountRule, rules};
 use super::slab::Segment;
 use super::slivers::Slivers;
 use super::world::Triangle;
@@ -129,7 +129,7 @@ struct Tally {
 pub(super) struct VolumeCounter<'t, 'a> {
     tracer: &'t Tracer<'a>,
     /// Rule of each triangle of each object.
-    rules: Vec<Vec<Rule>>,
+    rules: Vec<Vec<CountRule>>,
     slivers: Slivers,
 }
 
@@ -139,7 +139,7 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
         let of_object = |(object, placed): (usize, _)| {
             rules(&scene.objects[object], tracer.world.solid(object as u32), placed, light)
         };
-        let rules: Vec<Vec<Rule>> = tracer.world.placed.iter().enumerate().map(of_object).collect();
+        let rules: Vec<Vec<CountRule>> = tracer.world.placed.iter().enumerate().map(of_object).collect();
         Self { tracer, slivers: Slivers::new(tracer, &rules), rules }
     }
 
@@ -166,7 +166,7 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
     }
 
     /// The count at a visible point, and what a small move of the sample or a depth buffer's error would change.
-    fn behind(&self, seen: &Seen<'_>) -> Tally {
+    fn behind(&self, seen: &SeenPoint<'_>) -> Tally {
         let bits = self.tracer.depth_buffer_bits.unwrap_or(24);
         let error = seen.error + self.tracer.depth_misplacement(seen, bits);
         let mut tally = self.along(&self.beam_of(seen, error), Some(seen));
@@ -182,7 +182,7 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
 
     /// From the light to what a pixel shows. GL rounds the places of vertices in the picture and leaves their depths: at a
     /// pixel's centre the visible surface has the depth of a place aside, and a volume's side that of another.
-    fn beam_of(&self, seen: &Seen<'_>, error: f64) -> Beam {
+    fn beam_of(&self, seen: &SeenPoint<'_>, error: f64) -> Beam {
         let eye = &self.tracer.eye;
         let width = self.tracer.subpixel * eye.depth_of(seen.position - eye.position);
         let slip = [eye.right, eye.up].map(|way| way * width);
@@ -208,8 +208,8 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
     }
 
     /// Tests whether the light may stand in the visible triangle's own plane, and it counts.
-    fn grazing(&self, seen: &Seen<'_>) -> Option<Reason> {
-        if self.rule(&seen.triangle) == Rule::Never {
+    fn grazing(&self, seen: &SeenPoint<'_>) -> Option<Reason> {
+        if self.rule(&seen.triangle) == CountRule::Never {
             return None;
         }
         let (height, tilt) = self.tracer.height_of_light(seen);
@@ -221,7 +221,7 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
         self.tracer.lamp.towards(point)
     }
 
-    fn rule(&self, triangle: &Triangle<'_>) -> Rule {
+    fn rule(&self, triangle: &Triangle<'_>) -> CountRule {
         self.rules[triangle.object as usize][triangle.index as usize]
     }
 
@@ -229,20 +229,20 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
     fn counts(&self, triangle: &Triangle<'_>) -> bool {
         let height = triangle.normal().dot(self.to_light(triangle.corners[0]));
         match self.rule(triangle) {
-            Rule::Never => false,
-            Rule::Facing => (height > 0.0) != triangle.placed.mirrors() && height != 0.0,
-            Rule::All => height != 0.0,
+            CountRule::Never => false,
+            CountRule::Facing => (height > 0.0) != triangle.placed.mirrors() && height != 0.0,
+            CountRule::All => height != 0.0,
         }
     }
 
     /// The count at the beam's base.
-    fn along(&self, beam: &Beam, seen: Option<&Seen<'_>>) -> Tally {
+    fn along(&self, beam: &Beam, seen: Option<&SeenPoint<'_>>) -> Tally {
         let direction = beam.axis();
         let radius = beam.radius(self.tracer.largest_error);
         let segment = Segment { origin: beam.origin(), direction, start: 0.0, end: 1.0 + radius / direction.length() };
         let mut tally = Tally { center: 0, doubtful: 0, reason: None };
         self.tracer.visit(beam, &segment, |triangle| {
-            if self.rule(triangle) != Rule::Never && !triangle.is_degenerate() {
+            if self.rule(triangle) != CountRule::Never && !triangle.is_degenerate() {
                 let share = self.share(beam, seen, triangle);
                 tally.center += share.center;
                 tally.doubtful += u32::from(share.reason.is_some());
@@ -253,7 +253,7 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
         tally
     }
 
-    fn share(&self, beam: &Beam, seen: Option<&Seen<'_>>, triangle: &Triangle<'_>) -> Share {
+    fn share(&self, beam: &Beam, seen: Option<&SeenPoint<'_>>, triangle: &Triangle<'_>) -> Share {
         let error = self.tracer.error_in(beam, triangle);
         let near_edge = self.tracer.passes_any_edge(beam, triangle, error);
         let is_fold = near_edge && self.tracer.folds_inside(beam, triangle, error);
@@ -270,8 +270,8 @@ impl<'t, 'a> VolumeCounter<'t, 'a> {
         if !(meeting.surely_inside || near_edge || meeting.center.is_some()) {
             return Share { center: 0, reason: None };
         }
-        let own = seen.is_some_and(|seen| seen.triangle.continues_in(triangle)) && meeting.at_base == Side::Near;
-        let at_base = meeting.at_base == Side::Near && counts && !own;
+        let own = seen.is_some_and(|seen| seen.triangle.continues_in(triangle)) && meeting.at_base == BeamSide::Near;
+        let at_base = meeting.at_base == BeamSide::Near && counts && !own;
         let crossed = crossing_once(beam.origin(), beam.axis(), &triangle.corners);
         let is_crossed = crossed.is_some_and(|at| 0.0 < at && at < 1.0);
         Share {

@@ -12,7 +12,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, TraversalAction};
 
 use super::beam::crossing;
-use super::cutout::{Alpha, Cutout};
+use super::cutout::{Alpha, AlphaCutout};
 use super::slab::{Segment, Slab};
 use super::solid::{OPEN, Solid};
 use super::tube::Tube;
@@ -22,12 +22,12 @@ use crate::scene::{Object, Scene};
 
 pub(super) struct World<'a> {
     solids: Vec<Solid<'a>>,
-    pub placed: Vec<Placed>,
+    pub placed: Vec<PlacedObject>,
     top: Bvh,
 }
 
 /// An object of the scene.
-pub(super) struct Placed {
+pub(super) struct PlacedObject {
     solid: usize,
     pub casts_shadow: bool,
     world_from_model: DMat4,
@@ -39,7 +39,7 @@ pub(super) struct Placed {
     /// Error of a vertex's wave in f32, in world units.
     pub wave_error: f64,
     /// Cut-out of each part, and last of triangles that no part holds.
-    cutouts: Vec<Option<Cutout>>,
+    cutouts: Vec<Option<AlphaCutout>>,
     has_cutouts: bool,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct Triangle<'w> {
     pub object: u32,
     pub index: u32,
     pub corners: [DVec3; 3],
-    pub placed: &'w Placed,
+    pub placed: &'w PlacedObject,
     solid: &'w Solid<'w>,
 }
 
@@ -231,7 +231,7 @@ impl Triangle<'_> {
         self.cutout().is_some()
     }
 
-    fn cutout(&self) -> Option<&Cutout> {
+    fn cutout(&self) -> Option<&AlphaCutout> {
         let part = self.solid.part[self.index as usize] as usize;
         self.placed.cutouts.get(part).or(self.placed.cutouts.last())?.as_ref()
     }
@@ -267,7 +267,7 @@ impl Triangle<'_> {
     }
 }
 
-impl Placed {
+impl PlacedObject {
     fn to_world(&self, point: DVec3) -> DVec3 {
         self.world_from_model.transform_point3(point)
     }
@@ -291,7 +291,7 @@ impl Placed {
     }
 }
 
-fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Error> {
+fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<PlacedObject, Error> {
     let world_from_model = object.world_from_model;
     let model_from_world = world_from_model.inverse();
     if !(world_from_model.is_finite() && model_from_world.is_finite()) {
@@ -304,7 +304,7 @@ fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Err
     let reach = solid.positions().iter().fold(0.0, farthest);
     let moved_by = object.wave.map_or(0.0, |wave| wave::error(&wave, &object.mesh, &world_from_model));
     let cutouts = find_cutouts(object);
-    Ok(Placed {
+    Ok(PlacedObject {
         solid: index,
         casts_shadow: object.casts_shadow,
         world_from_model,
@@ -317,16 +317,16 @@ fn place(object: &Object, index: usize, solid: &Solid<'_>) -> Result<Placed, Err
     })
 }
 
-fn find_cutouts(object: &Object) -> Vec<Option<Cutout>> {
+fn find_cutouts(object: &Object) -> Vec<Option<AlphaCutout>> {
     let mesh = &object.mesh;
     let has_texcoords = mesh.texcoords.is_some();
     let own = object.material.as_deref();
-    let test = |material: Option<&Material>| material.and_then(|material| Cutout::new(material, has_texcoords));
+    let test = |material: Option<&Material>| material.and_then(|material| AlphaCutout::new(material, has_texcoords));
     let of_part = |material: Option<usize>| test(own.or_else(|| mesh.materials.get(material?)));
     mesh.parts.iter().map(|part| of_part(part.material)).chain([test(own)]).collect()
 }
 
-fn world_box(placed: &Placed, solid: &Solid<'_>) -> Aabb {
+fn world_box(placed: &PlacedObject, solid: &Solid<'_>) -> Aabb {
     let mut used = solid.mesh.indices.iter().map(|&index| placed.to_world(solid.position(index)));
     let first = used.next().unwrap_or(placed.origin());
     let (min, max) = used.fold((first, first), |(min, max), point| (min.min(point), max.max(point)));

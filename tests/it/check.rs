@@ -5,20 +5,20 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use assert_cmd::cargo::CommandCargoExt;
-use glumbra::conformance::bench::{Format, Mutation};
-use glumbra::conformance::{self, Outcome, Subject, Verdict, probe, waivers};
+use glumbra::conformance::bench::{GlFormat, Mutation};
+use glumbra::conformance::{self, DriverUnderTest, RuleOutcome, RuleVerdict, probe, waivers};
 use glumbra::context::{self, ContextRequest, Profile};
 
 /// All rules on the default context of a profile, with one mistake or none; known deviations waived.
-fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<Outcome> {
+fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<RuleOutcome> {
     let context = context::open(&ContextRequest { profile, ..ContextRequest::default() }).unwrap();
-    let subject = Subject::new(context.as_ref(), mutation).unwrap();
+    let subject = DriverUnderTest::new(context.as_ref(), mutation).unwrap();
     let mut outcomes = conformance::run(&subject, &conformance::choose(&[]).unwrap(), |_| {});
     waivers::apply(&waivers::load(None).unwrap(), &subject.info, &mut outcomes);
     outcomes
 }
 
-fn with(outcomes: &[Outcome], verdict: Verdict) -> Vec<&'static str> {
+fn with(outcomes: &[RuleOutcome], verdict: RuleVerdict) -> Vec<&'static str> {
     outcomes.iter().filter(|outcome| outcome.verdict == verdict).map(|outcome| outcome.id).collect()
 }
 
@@ -29,11 +29,11 @@ fn without_a_mistake_no_rule_fails() {
         let failing: Vec<_> = outcomes
             .iter()
             .flat_map(|outcome| &outcome.findings)
-            .filter(|finding| finding.verdict == Verdict::Fail)
+            .filter(|finding| finding.verdict == RuleVerdict::Fail)
             .map(|finding| finding.message())
             .collect();
         assert!(failing.is_empty(), "{profile:?}: {failing:#?}");
-        assert_eq!(with(&outcomes, Verdict::Untestable), untestable, "{profile:?}");
+        assert_eq!(with(&outcomes, RuleVerdict::Untestable), untestable, "{profile:?}");
         assert!(outcomes.iter().all(|outcome| !outcome.findings.is_empty()));
     }
 }
@@ -61,13 +61,13 @@ const MUTATIONS: [(Mutation, &[&str]); 14] = [
 fn every_mistake_turns_its_rules_red() {
     assert_eq!(MUTATIONS.map(|(mutation, _)| mutation), Mutation::ALL);
     let context = context::open(&ContextRequest { profile: Profile::Compatibility, ..Default::default() }).unwrap();
-    let facts = probe::depth_format(context.gl(), Format::Depth24).unwrap();
+    let facts = probe::depth_format(context.gl(), GlFormat::Depth24).unwrap();
     let unit_is_a_code = facts.measured.is_some_and(|measured| measured.units[0].codes < 1.5);
     drop(context);
     let wrong: Vec<String> = MUTATIONS
         .iter()
         .map(|(mutation, due)| (mutation, due.to_vec(), outcomes(Profile::Compatibility, Some(*mutation))))
-        .map(|(mutation, due, outcomes)| (mutation, due, with(&outcomes, Verdict::Fail)))
+        .map(|(mutation, due, outcomes)| (mutation, due, with(&outcomes, RuleVerdict::Fail)))
         .map(|(mutation, mut due, mut red)| {
             let untold = unit_is_a_code && *mutation == Mutation::OneOffsetUnitLess;
             for rules in [&mut due, &mut red] {

@@ -336,7 +336,7 @@ fn far_sides_are_right_or_named() {
 fn assert_nothing_silently_wrong(technique: &str, named: &[&str]) {
     let named = stress::named::cases().unwrap().into_iter().filter(|case| named.contains(&case.name.as_str()));
     let cases: Vec<_> = (10..30).map(|index| stress::random::case(1, index)).chain(named).collect();
-    let options = stress::Options {
+    let options = stress::StressOptions {
         jobs: 2,
         technique: Some(technique.to_owned()),
         pictures: false,

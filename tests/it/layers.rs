@@ -199,7 +199,7 @@ fn second_depth_moves_the_error_to_faces_turned_away() {
     assert!(second.facing.leak_percent <= tuned.facing.leak_percent + 0.01);
     // Half of what looks away is lit by its own acne.
     let away = |found: &Metrics| {
-        let count = |split: glumbra::report::measure::metrics::Split| split.inside + split.outside;
+        let count = |split: glumbra::report::measure::metrics::ErrorSplit| split.inside + split.outside;
         let (all, facing) = (count(found.all.leak), count(found.facing.leak));
         (all - facing) as f64 / (found.all.compared - found.facing.compared) as f64
     };

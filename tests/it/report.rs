@@ -9,7 +9,7 @@ use glumbra::frame::Renderer;
 use glumbra::report::measure::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
 use glumbra::report::measure::grid::{self, Grid};
 use glumbra::report::measure::metrics::{Band, compare};
-use glumbra::report::measure::run::{self, Options, draw_shade};
+use glumbra::report::measure::run::{self, MeasureOptions, draw_shade};
 use glumbra::report::store::fingerprint;
 use glumbra::report::store::merge::{self, equal_but_for_times};
 use glumbra::report::store::results::{Report, Row, SceneReport};
@@ -272,9 +272,9 @@ fn with_keys() -> String {
     SCENE.replace("technique = \"shadow-map\"", keys)
 }
 
-fn options() -> Options {
+fn options() -> MeasureOptions {
     let context = ContextRequest::default();
-    Options { light: 0, runs: 1, jobs: 1, shard: (1, 1), band_texels: 2.0, context }
+    MeasureOptions { light: 0, runs: 1, jobs: 1, shard: (1, 1), band_texels: 2.0, context }
 }
 
 /// The table `[light.shadow]` of a scene's text.
@@ -418,7 +418,7 @@ fn a_stamp_is_of_the_driver_and_the_machine() {
     let stamp = |renderer: &str, jobs, runs| {
         let machine =
             glumbra::report::store::results::Machine { renderer: renderer.to_owned(), jobs, ..machine.clone() };
-        fingerprint::stamp(&machine, &Options { runs, ..options() })
+        fingerprint::stamp(&machine, &MeasureOptions { runs, ..options() })
     };
     assert_eq!(stamp("a", 1, 1), stamp("a", 1, 1));
     for other in [stamp("b", 1, 1), stamp("a", 2, 1), stamp("a", 1, 2)] {

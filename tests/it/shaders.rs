@@ -6,7 +6,7 @@ use std::ffi::{CStr, c_char, c_void};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use glumbra::context::{self, Context, ContextRequest, Loaded};
+use glumbra::context::{self, Context, ContextRequest, LoadedContext};
 use glumbra::device::{Device, Error, Measure};
 use glumbra::pass::{Batch, DrawPass, PassList, Program, Stage, Uniform, Work};
 use glumbra::plan::{self, Plan, Request, ViewRequest};
@@ -116,7 +116,7 @@ impl Kept {
 }
 
 impl Context for Kept {
-    fn loaded(&self) -> &Loaded {
+    fn loaded(&self) -> &LoadedContext {
         self.inner.loaded()
     }
 

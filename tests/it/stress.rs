@@ -8,14 +8,16 @@ use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::scene::{LightKind, Scene};
-use glumbra::stress::{self, Case, CaseResult, Judge, Options, Row, RowSettings, Verdict, named, random, tally};
+use glumbra::stress::{
+    self, Case, CaseResult, CaseRow, Judge, RowSettings, StressOptions, Verdict, named, random, tally,
+};
 
 /// A seed that no development went by.
 const SEED: u64 = 20_261_127;
 
-fn options() -> Options {
+fn options() -> StressOptions {
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-    Options { jobs, technique: None, pictures: false, context: ContextRequest::default() }
+    StressOptions { jobs, technique: None, pictures: false, context: ContextRequest::default() }
 }
 
 fn run(cases: &[Case]) -> Vec<CaseResult> {
@@ -63,10 +65,10 @@ fn random_scenes_are_right_or_warned_of() {
     let results = run(&(0..200).map(small).collect::<Vec<_>>());
     let failures = failures(&results).join("\n");
     assert!(failures.is_empty(), "{failures}");
-    let rows: Vec<&Row> = results.iter().flat_map(|result| &result.rows).collect();
+    let rows: Vec<&CaseRow> = results.iter().flat_map(|result| &result.rows).collect();
     let [_, alarms, ..] = tally(rows.iter().copied());
     assert!(50 * alarms <= rows.len(), "{alarms} false alarms in {} rows: more than 2 %", rows.len());
-    let defaults: Vec<&&Row> = rows.iter().filter(|row| row.settings.is_default()).collect();
+    let defaults: Vec<&&CaseRow> = rows.iter().filter(|row| row.settings.is_default()).collect();
     let unusable = defaults.iter().filter(|row| row.is_unusable()).count();
     assert!(20 * unusable <= defaults.len(), "{unusable} of {} default rows warned or refused", defaults.len());
 }

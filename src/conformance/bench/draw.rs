@@ -4,10 +4,10 @@ use std::cmp::Ordering;
 
 use glow::HasContext;
 
-use super::image::{Format, Image, Sampling};
+use super::image::{GlFormat, GlImage, Sampling};
 use super::mutation::Mutation;
 use super::program::Shader;
-use super::state::{Compare, State, apply};
+use super::state::{GlCompare, GlState, apply};
 use super::surface::Surface;
 use super::{Bench, Error};
 
@@ -21,7 +21,7 @@ pub struct Vertex {
 
 /// The value of a uniform; matrices by columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Uniform {
+pub enum GlUniform {
     Float(f32),
     Vec4([f32; 4]),
     Mat4([f32; 16]),
@@ -29,20 +29,20 @@ pub enum Uniform {
 
 /// All that a draw takes.
 #[derive(Clone, Copy)]
-pub struct Draw<'a> {
+pub struct GlDraw<'a> {
     pub surface: &'a Surface,
-    pub state: State,
+    pub state: GlState,
     pub shader: Shader,
     /// Three for each triangle.
     pub vertices: &'a [Vertex],
-    pub uniforms: &'a [(&'a str, Uniform)],
+    pub uniforms: &'a [(&'a str, GlUniform)],
     /// Images by sampler name; one that is compared is called `shadow`.
-    pub images: &'a [(&'a str, &'a Image, Sampling)],
+    pub images: &'a [(&'a str, &'a GlImage, Sampling)],
 }
 
-impl<'a> Draw<'a> {
+impl<'a> GlDraw<'a> {
     /// A draw without uniforms or images.
-    pub fn plain(surface: &'a Surface, state: State, vertices: &'a [Vertex]) -> Self {
+    pub fn plain(surface: &'a Surface, state: GlState, vertices: &'a [Vertex]) -> Self {
         Self { surface, state, shader: Shader::PLAIN, vertices, uniforms: &[], images: &[] }
     }
 }
@@ -74,7 +74,7 @@ impl Bench {
     /// # Errors
     ///
     /// A shader that is refused, and GL's errors.
-    pub fn draw(&self, draw: &Draw) -> Result<(), Error> {
+    pub fn draw(&self, draw: &GlDraw) -> Result<(), Error> {
         let filter_first = self.mutation == Some(Mutation::FilterThenCompare);
         let program = self.program(draw.shader, filter_first)?;
         let gl = &self.gl;
@@ -93,9 +93,9 @@ impl Bench {
             for &(name, value) in draw.uniforms {
                 let location = gl.get_uniform_location(program, name);
                 match value {
-                    Uniform::Float(value) => gl.uniform_1_f32(location.as_ref(), value),
-                    Uniform::Vec4(value) => gl.uniform_4_f32_slice(location.as_ref(), &value),
-                    Uniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(location.as_ref(), false, &value),
+                    GlUniform::Float(value) => gl.uniform_1_f32(location.as_ref(), value),
+                    GlUniform::Vec4(value) => gl.uniform_4_f32_slice(location.as_ref(), &value),
+                    GlUniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(location.as_ref(), false, &value),
                 }
             }
             gl.bind_vertex_array(Some(self.vertex_array));
@@ -110,7 +110,7 @@ impl Bench {
     }
 
     /// Binds the surface and sets the whole state.
-    pub(crate) fn prepare(&self, surface: &Surface, state: State) {
+    pub(crate) fn prepare(&self, surface: &Surface, state: GlState) {
         let state = self.mutation.map_or(state, |mutation| mutation.state(state));
         // SAFETY: the context is current, and the framebuffer is not deleted.
         unsafe { self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name)) };
@@ -126,11 +126,11 @@ impl Bench {
         &self,
         fragment: &'static str,
         inputs: &[[f32; 4]],
-        images: &[(&str, &Image, Sampling)],
+        images: &[(&str, &GlImage, Sampling)],
     ) -> Result<Vec<[f32; 4]>, Error> {
         let size = [ROW.min(inputs.len()).max(1), inputs.len().div_ceil(ROW).max(1)].map(|side| side as u32);
-        let surface = self.surface(size, Some(Format::Rgba32F), None)?;
-        self.map_into(&surface, State { depth: None, ..State::WRITE }, fragment, inputs, images)?;
+        let surface = self.surface(size, Some(GlFormat::Rgba32F), None)?;
+        self.map_into(&surface, GlState { depth: None, ..GlState::WRITE }, fragment, inputs, images)?;
         let mut results = surface.floats();
         results.truncate(inputs.len());
         Ok(results)
@@ -144,22 +144,22 @@ impl Bench {
     pub fn map_into(
         &self,
         surface: &Surface,
-        state: State,
+        state: GlState,
         fragment: &'static str,
         inputs: &[[f32; 4]],
-        images: &[(&str, &Image, Sampling)],
+        images: &[(&str, &GlImage, Sampling)],
     ) -> Result<(), Error> {
         let mut padded = inputs.to_vec();
         padded.resize(surface.size[0] as usize * surface.size[1] as usize, [0.0; 4]);
         let inputs = self.float_image(surface.size, &padded)?;
         let images: Vec<_> = images.iter().copied().chain([("inputs", &inputs, Sampling::NEAREST)]).collect();
         let shader = Shader { declarations: "uniform sampler2D inputs;", fragment, ..Shader::PLAIN };
-        self.draw(&Draw { shader, images: &images, ..Draw::plain(surface, state, &full(0.0)) })
+        self.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(surface, state, &full(0.0)) })
     }
 }
 
 /// Bits of the orders for which the function holds: less 1, equal 2, greater 4.
-fn function_bits(compare: Compare) -> i32 {
+fn function_bits(compare: GlCompare) -> i32 {
     let orders = [Ordering::Less, Ordering::Equal, Ordering::Greater];
     orders.into_iter().enumerate().map(|(bit, order)| i32::from(compare.holds(order)) << bit).sum()
 }

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use glam::{DMat4, DVec4};
 use glow::HasContext;
 
-use super::{Bench, Error, Image, Mutation, Program, Sampling, State, Surface, Vertex, build};
+use super::{Bench, Error, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
 use crate::context::compatibility::{Binding, BindingError, raw};
 
@@ -23,7 +23,7 @@ pub enum DepthMode {
 
 /// glTexGen for all four coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Texgen {
+pub struct GlTexgen {
     /// EYE_LINEAR, else OBJECT_LINEAR.
     pub eye: bool,
     /// Rows give s, t, r and q of a vertex.
@@ -36,13 +36,13 @@ pub struct Texgen {
 #[derive(Clone, Copy)]
 pub struct FixedDraw<'a> {
     pub surface: &'a Surface,
-    pub state: State,
+    pub state: GlState,
     pub projection: DMat4,
     pub modelview: DMat4,
     pub texture_matrix: DMat4,
     /// `None`: coordinates are the vertices' values.
-    pub texgen: Option<Texgen>,
-    pub image: Option<(&'a Image, Sampling, DepthMode)>,
+    pub texgen: Option<GlTexgen>,
+    pub image: Option<(&'a GlImage, Sampling, DepthMode)>,
     pub color: [f32; 4],
     /// Three for each triangle, positions in model space.
     pub vertices: &'a [Vertex],
@@ -52,7 +52,7 @@ pub struct FixedDraw<'a> {
 
 impl<'a> FixedDraw<'a> {
     /// Clip space as it comes, without a texture.
-    pub fn plain(surface: &'a Surface, state: State, vertices: &'a [Vertex]) -> Self {
+    pub fn plain(surface: &'a Surface, state: GlState, vertices: &'a [Vertex]) -> Self {
         Self {
             surface,
             state,
@@ -72,7 +72,7 @@ impl<'a> FixedDraw<'a> {
 pub struct FixedBench {
     gl: Rc<glow::Context>,
     binding: Binding,
-    programs: RefCell<HashMap<[&'static str; 2], Program>>,
+    programs: RefCell<HashMap<[&'static str; 2], GlProgram>>,
     mutation: Option<Mutation>,
 }
 
@@ -103,7 +103,7 @@ impl FixedBench {
     }
 
     /// Gives GL the planes, eye planes under their modelview.
-    pub fn set_texgen(&self, texgen: &Texgen) {
+    pub fn set_texgen(&self, texgen: &GlTexgen) {
         let transposed = self.mutation == Some(Mutation::PlanesTransposed);
         let planes = if transposed { texgen.planes.transpose() } else { texgen.planes };
         let wrong = self.mutation == Some(Mutation::PlanesUnderWrongModelview);

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
-use super::state::Compare;
+use super::state::GlCompare;
 use super::{Bench, Error};
 use crate::context::DEPTH_COMPONENT32;
 
@@ -13,7 +13,7 @@ const CLAMP: u32 = 0x2900;
 
 /// Internal formats: sized ones, and the unsized one of depth textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
+pub enum GlFormat {
     /// Unsized: the driver chooses the bits [GL 4.6, 8.5.1].
     Depth,
     Depth16,
@@ -27,7 +27,7 @@ pub enum Format {
     Rgba32F,
 }
 
-impl Format {
+impl GlFormat {
     /// The sized depth formats.
     pub const DEPTHS: [Self; 6] =
         [Self::Depth16, Self::Depth24, Self::Depth32, Self::Depth32F, Self::Depth24Stencil8, Self::Depth32FStencil8];
@@ -97,10 +97,10 @@ impl Encoding {
 }
 
 /// A texture, deleted on drop.
-pub struct Image {
+pub struct GlImage {
     gl: Rc<glow::Context>,
     pub(crate) name: glow::Texture,
-    pub format: Format,
+    pub format: GlFormat,
     /// Width and height in texels.
     pub size: [u32; 2],
     pub levels: u32,
@@ -108,7 +108,7 @@ pub struct Image {
     pub encoding: Encoding,
 }
 
-impl Drop for Image {
+impl Drop for GlImage {
     fn drop(&mut self) {
         // SAFETY: the texture is the image's own and is not used again.
         unsafe { self.gl.delete_texture(self.name) };
@@ -117,7 +117,7 @@ impl Drop for Image {
 
 /// Wrap mode for coordinates outside [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wrap {
+pub enum GlWrap {
     Repeat,
     MirroredRepeat,
     ClampToEdge,
@@ -132,22 +132,22 @@ pub struct Sampling {
     pub linear: bool,
     /// Blends levels.
     pub mipmap: bool,
-    pub wrap: Wrap,
+    pub wrap: GlWrap,
     pub border: [f32; 4],
-    pub compare: Option<Compare>,
+    pub compare: Option<GlCompare>,
 }
 
 impl Sampling {
     pub const NEAREST: Self =
-        Self { linear: false, mipmap: false, wrap: Wrap::ClampToEdge, border: [0.0; 4], compare: None };
+        Self { linear: false, mipmap: false, wrap: GlWrap::ClampToEdge, border: [0.0; 4], compare: None };
 
     /// Compares the nearest texel.
-    pub const fn compare(compare: Compare) -> Self {
+    pub const fn compare(compare: GlCompare) -> Self {
         Self { compare: Some(compare), ..Self::NEAREST }
     }
 
     /// Compares four texels.
-    pub const fn compare_linear(compare: Compare) -> Self {
+    pub const fn compare_linear(compare: GlCompare) -> Self {
         Self { linear: true, ..Self::compare(compare) }
     }
 }
@@ -158,7 +158,7 @@ impl Bench {
     /// # Errors
     ///
     /// [`Error::Refused`], with GL's reason.
-    pub fn image(&self, format: Format, size: [u32; 2]) -> Result<Image, Error> {
+    pub fn image(&self, format: GlFormat, size: [u32; 2]) -> Result<GlImage, Error> {
         self.define(format, size, &[None])
     }
 
@@ -167,7 +167,7 @@ impl Bench {
     /// # Errors
     ///
     /// As [`image`](Self::image).
-    pub fn depth_image(&self, format: Format, size: [u32; 2], levels: &[&[f32]]) -> Result<Image, Error> {
+    pub fn depth_image(&self, format: GlFormat, size: [u32; 2], levels: &[&[f32]]) -> Result<GlImage, Error> {
         let bytes: Vec<_> = levels.iter().map(|level| Some(bytemuck::cast_slice(level))).collect();
         self.define(format, size, &bytes)
     }
@@ -177,11 +177,11 @@ impl Bench {
     /// # Errors
     ///
     /// As [`image`](Self::image).
-    pub fn float_image(&self, size: [u32; 2], texels: &[[f32; 4]]) -> Result<Image, Error> {
-        self.define(Format::Rgba32F, size, &[Some(bytemuck::cast_slice(texels))])
+    pub fn float_image(&self, size: [u32; 2], texels: &[[f32; 4]]) -> Result<GlImage, Error> {
+        self.define(GlFormat::Rgba32F, size, &[Some(bytemuck::cast_slice(texels))])
     }
 
-    fn define(&self, format: Format, size: [u32; 2], levels: &[Option<&[u8]>]) -> Result<Image, Error> {
+    fn define(&self, format: GlFormat, size: [u32; 2], levels: &[Option<&[u8]>]) -> Result<GlImage, Error> {
         let gl = &self.gl;
         self.take_errors();
         let (internal, layout, kind) = format.codes();
@@ -201,7 +201,7 @@ impl Bench {
             name
         };
         let encoding = self.encoding(format);
-        let image = Image { gl: gl.clone(), name, format, size, levels: levels.len() as u32, encoding };
+        let image = GlImage { gl: gl.clone(), name, format, size, levels: levels.len() as u32, encoding };
         match self.take_errors() {
             None => Ok(image),
             Some(reason) => Err(Error::Refused { format: format.name(), reason }),
@@ -209,7 +209,7 @@ impl Bench {
     }
 
     /// Reads the encoding of the bound texture.
-    fn encoding(&self, format: Format) -> Encoding {
+    fn encoding(&self, format: GlFormat) -> Encoding {
         if !format.is_depth() {
             return Encoding { bits: 0, stencil_bits: 0, float: false };
         }
@@ -223,7 +223,7 @@ impl Bench {
     }
 
     /// Binds to a unit and sets the whole sampling state.
-    pub(crate) fn bind_image(&self, unit: u32, image: &Image, sampling: Sampling) {
+    pub(crate) fn bind_image(&self, unit: u32, image: &GlImage, sampling: Sampling) {
         let sampling = self.mutation.map_or(sampling, |mutation| mutation.sampling(sampling));
         let filter = |linear| if linear { glow::LINEAR } else { glow::NEAREST };
         let min = match (sampling.mipmap, sampling.linear) {
@@ -232,14 +232,14 @@ impl Bench {
             (false, linear) => filter(linear),
         };
         let wrap = match sampling.wrap {
-            Wrap::Repeat => glow::REPEAT,
-            Wrap::MirroredRepeat => glow::MIRRORED_REPEAT,
-            Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
-            Wrap::ClampToBorder => glow::CLAMP_TO_BORDER,
-            Wrap::Clamp => CLAMP,
+            GlWrap::Repeat => glow::REPEAT,
+            GlWrap::MirroredRepeat => glow::MIRRORED_REPEAT,
+            GlWrap::ClampToEdge => glow::CLAMP_TO_EDGE,
+            GlWrap::ClampToBorder => glow::CLAMP_TO_BORDER,
+            GlWrap::Clamp => CLAMP,
         };
         let mode = if sampling.compare.is_some() { glow::COMPARE_REF_TO_TEXTURE } else { glow::NONE };
-        let compare = sampling.compare.unwrap_or(Compare::LessEqual).code();
+        let compare = sampling.compare.unwrap_or(GlCompare::LessEqual).code();
         let parameters = [
             (glow::TEXTURE_MIN_FILTER, min),
             (glow::TEXTURE_MAG_FILTER, filter(sampling.linear)),

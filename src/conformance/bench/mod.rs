@@ -18,13 +18,13 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
-pub use draw::{Draw, Uniform, Vertex, full, rectangle, triangle};
-pub use image::{Encoding, Format, Image, Sampling, Wrap};
+pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
+pub use image::{Encoding, GlFormat, GlImage, GlWrap, Sampling};
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;
-pub(crate) use program::{Program, build};
-pub use state::{Blend, Compare, Face, Mode, Offset, State, Stencil, StencilOp};
+pub(crate) use program::{GlProgram, build};
+pub use state::{GlBlend, GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
 pub use surface::Surface;
 
 use crate::context::{Context, Profile, error_name};
@@ -49,7 +49,7 @@ pub(super) fn no(what: &'static str) -> impl FnOnce(String) -> Error {
 /// GL objects that every draw needs. The context must be current in every call, and outlive the bench.
 pub struct Bench {
     gl: Rc<glow::Context>,
-    programs: RefCell<HashMap<(Shader, bool), program::Program>>,
+    programs: RefCell<HashMap<(Shader, bool), program::GlProgram>>,
     vertex_array: glow::VertexArray,
     vertex_buffer: glow::Buffer,
     offset_clamp: Option<state::OffsetClamp>,

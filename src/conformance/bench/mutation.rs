@@ -1,7 +1,7 @@
 //! Mistakes that a test makes the bench commit, to see that a rule notices. Pure; no command line knows of it.
 
 use super::image::Sampling;
-use super::state::{Compare, Offset, State, StencilOp};
+use super::state::{GlCompare, GlOffset, GlState, GlStencilOp};
 
 /// One mistake, made at every draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,17 +47,17 @@ impl Mutation {
         Self::BlendIgnored,
     ];
 
-    pub(super) fn state(self, mut state: State) -> State {
+    pub(super) fn state(self, mut state: GlState) -> GlState {
         match self {
             Self::IncrementForIncrementWrap => {
                 for op in state.stencil.iter_mut().flatten().flat_map(|side| &mut side.ops) {
-                    *op = if *op == StencilOp::IncrementWrap { StencilOp::Increment } else { *op };
+                    *op = if *op == GlStencilOp::IncrementWrap { GlStencilOp::Increment } else { *op };
                 }
             }
             Self::OneOffsetUnitLess => {
-                state.offset = state.offset.map(|offset| Offset { units: offset.units - 1.0, ..offset });
+                state.offset = state.offset.map(|offset| GlOffset { units: offset.units - 1.0, ..offset });
             }
-            Self::OffsetClampIgnored => state.offset = state.offset.map(|offset| Offset { clamp: 0.0, ..offset }),
+            Self::OffsetClampIgnored => state.offset = state.offset.map(|offset| GlOffset { clamp: 0.0, ..offset }),
             Self::FrontAndBackSwapped => state.clockwise = !state.clockwise,
             Self::DepthRangeReversed => state.depth_range.reverse(),
             Self::DepthClampIgnored => state.depth_clamp = false,
@@ -75,10 +75,10 @@ impl Mutation {
 
     pub(super) fn sampling(self, sampling: Sampling) -> Sampling {
         let swapped = |compare| match compare {
-            Compare::Less => Compare::LessEqual,
-            Compare::LessEqual => Compare::Less,
-            Compare::Greater => Compare::GreaterEqual,
-            Compare::GreaterEqual => Compare::Greater,
+            GlCompare::Less => GlCompare::LessEqual,
+            GlCompare::LessEqual => GlCompare::Less,
+            GlCompare::Greater => GlCompare::GreaterEqual,
+            GlCompare::GreaterEqual => GlCompare::Greater,
             other => other,
         };
         match self {

@@ -61,12 +61,12 @@ float compare_lod(vec3 at, float lod) { return decide(at.z, textureLod(shadow, a
 ";
 
 /// A linked program, deleted on drop.
-pub(crate) struct Program {
+pub(crate) struct GlProgram {
     gl: Rc<glow::Context>,
     pub(crate) name: glow::Program,
 }
 
-impl Drop for Program {
+impl Drop for GlProgram {
     fn drop(&mut self) {
         // SAFETY: the program is the bench's own and is not used again.
         unsafe { self.gl.delete_program(self.name) };
@@ -92,10 +92,10 @@ impl Bench {
 }
 
 /// Whole sources, linked.
-pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<Program, Error> {
+pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
-        let program = Program { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
+        let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
         attach(gl, program.name, glow::VERTEX_SHADER, vertex)?;
         attach(gl, program.name, glow::FRAGMENT_SHADER, fragment)?;
         gl.bind_attrib_location(program.name, 0, "position");

@@ -6,7 +6,7 @@ use glow::HasContext;
 
 /// Comparison functions of the depth test, the stencil test and depth textures [GL 4.6, 17.3.4].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Compare {
+pub enum GlCompare {
     Never,
     Less,
     Equal,
@@ -17,7 +17,7 @@ pub enum Compare {
     Always,
 }
 
-impl Compare {
+impl GlCompare {
     /// All eight, in GL's order.
     pub const ALL: [Self; 8] = [
         Self::Never,
@@ -52,7 +52,7 @@ impl Compare {
 
 /// glPolygonOffset and, where it is not 0, glPolygonOffsetClamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Offset {
+pub struct GlOffset {
     pub factor: f32,
     pub units: f32,
     pub clamp: f32,
@@ -60,7 +60,7 @@ pub struct Offset {
 
 /// Operation on a stencil value [GL 4.6, 17.3.3].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StencilOp {
+pub enum GlStencilOp {
     Keep,
     Zero,
     Replace,
@@ -71,7 +71,7 @@ pub enum StencilOp {
     Invert,
 }
 
-impl StencilOp {
+impl GlStencilOp {
     pub const ALL: [Self; 8] = [
         Self::Keep,
         Self::Zero,
@@ -99,37 +99,37 @@ impl StencilOp {
 
 /// The stencil test and operations of one side of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stencil {
-    pub compare: Compare,
+pub struct GlStencil {
+    pub compare: GlCompare,
     pub reference: i32,
     pub read_mask: u32,
     pub write_mask: u32,
     /// Stencil test fails, depth test fails, both pass.
-    pub ops: [StencilOp; 3],
+    pub ops: [GlStencilOp; 3],
 }
 
-impl Stencil {
+impl GlStencil {
     /// Always passes, and does `op` where the depth test passes too.
-    pub const fn on_pass(op: StencilOp) -> Self {
+    pub const fn on_pass(op: GlStencilOp) -> Self {
         Self {
-            compare: Compare::Always,
+            compare: GlCompare::Always,
             reference: 0,
             read_mask: 0xFF,
             write_mask: 0xFF,
-            ops: [StencilOp::Keep, StencilOp::Keep, op],
+            ops: [GlStencilOp::Keep, GlStencilOp::Keep, op],
         }
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Face {
+pub enum GlFace {
     Front,
     Back,
 }
 
 /// result = source * first + destination * second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blend {
+pub enum GlBlend {
     /// ONE, ONE.
     Add,
     /// DST_COLOR, ZERO.
@@ -139,31 +139,31 @@ pub enum Blend {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum GlPolygonMode {
     Fill,
     Line,
 }
 
 /// All of GL's state that a bench draw can have.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct GlState {
     /// `None`: depth test and depth writing are off.
-    pub depth: Option<Compare>,
+    pub depth: Option<GlCompare>,
     pub depth_write: bool,
     pub depth_range: [f64; 2],
     pub depth_clamp: bool,
-    pub offset: Option<Offset>,
+    pub offset: Option<GlOffset>,
     /// The polygon modes that the offset is for: POLYGON_OFFSET_FILL and POLYGON_OFFSET_LINE.
     pub offset_modes: [bool; 2],
     /// Stencil states of front and back faces.
-    pub stencil: Option<[Stencil; 2]>,
+    pub stencil: Option<[GlStencil; 2]>,
     /// Faces that are not drawn.
-    pub cull: Option<Face>,
+    pub cull: Option<GlFace>,
     /// True if front faces wind clockwise in window space.
     pub clockwise: bool,
     /// Polygon modes of front and back faces; a core context knows only equal ones.
-    pub mode: [Mode; 2],
-    pub blend: Option<Blend>,
+    pub mode: [GlPolygonMode; 2],
+    pub blend: Option<GlBlend>,
     pub color_write: bool,
     /// x, y, width, height in pixels from the lower left.
     pub scissor: Option<[i32; 4]>,
@@ -174,10 +174,10 @@ pub struct State {
     pub encode_srgb: bool,
 }
 
-impl State {
+impl GlState {
     /// Every fragment is written, colour and depth.
     pub const WRITE: Self = Self {
-        depth: Some(Compare::Always),
+        depth: Some(GlCompare::Always),
         depth_write: true,
         depth_range: [0.0, 1.0],
         depth_clamp: false,
@@ -186,7 +186,7 @@ impl State {
         stencil: None,
         cull: None,
         clockwise: false,
-        mode: [Mode::Fill; 2],
+        mode: [GlPolygonMode::Fill; 2],
         blend: None,
         color_write: true,
         scissor: None,
@@ -196,11 +196,11 @@ impl State {
     };
 
     /// Fragments only count: no depth test, no writes but the stencil's.
-    pub const fn counting(front: StencilOp, back: StencilOp) -> Self {
+    pub const fn counting(front: GlStencilOp, back: GlStencilOp) -> Self {
         Self {
             depth: None,
             color_write: false,
-            stencil: Some([Stencil::on_pass(front), Stencil::on_pass(back)]),
+            stencil: Some([GlStencil::on_pass(front), GlStencil::on_pass(back)]),
             ..Self::WRITE
         }
     }
@@ -210,25 +210,25 @@ impl State {
 pub(super) type OffsetClamp = unsafe extern "system" fn(f32, f32, f32);
 
 /// Sets all of `state`; `size` is the surface's.
-pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &State, size: [u32; 2]) {
+pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &GlState, size: [u32; 2]) {
     let enable = |what, on| unsafe { if on { gl.enable(what) } else { gl.disable(what) } };
     // SAFETY: the context is current; only state is set.
     unsafe {
         enable(glow::DEPTH_TEST, state.depth.is_some());
-        gl.depth_func(state.depth.unwrap_or(Compare::Always).code());
+        gl.depth_func(state.depth.unwrap_or(GlCompare::Always).code());
         gl.depth_mask(state.depth_write);
         gl.depth_range(state.depth_range[0], state.depth_range[1]);
         enable(glow::DEPTH_CLAMP, state.depth_clamp);
         apply_stencil(gl, state);
         enable(glow::CULL_FACE, state.cull.is_some());
-        gl.cull_face(if state.cull == Some(Face::Front) { glow::FRONT } else { glow::BACK });
+        gl.cull_face(if state.cull == Some(GlFace::Front) { glow::FRONT } else { glow::BACK });
         gl.front_face(if state.clockwise { glow::CW } else { glow::CCW });
         apply_mode(gl, state.mode);
         enable(glow::BLEND, state.blend.is_some());
         let (source, destination) = match state.blend {
-            Some(Blend::Add) => (glow::ONE, glow::ONE),
-            Some(Blend::Multiply) => (glow::DST_COLOR, glow::ZERO),
-            Some(Blend::Replace) | None => (glow::ONE, glow::ZERO),
+            Some(GlBlend::Add) => (glow::ONE, glow::ONE),
+            Some(GlBlend::Multiply) => (glow::DST_COLOR, glow::ZERO),
+            Some(GlBlend::Replace) | None => (glow::ONE, glow::ZERO),
         };
         gl.blend_func(source, destination);
         gl.color_mask(state.color_write, state.color_write, state.color_write, state.color_write);
@@ -247,7 +247,7 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
     apply_offset(gl, offset_clamp, state);
 }
 
-fn apply_stencil(gl: &glow::Context, state: &State) {
+fn apply_stencil(gl: &glow::Context, state: &GlState) {
     // SAFETY: as in `apply`.
     unsafe {
         let Some(sides) = state.stencil else { return gl.disable(glow::STENCIL_TEST) };
@@ -255,14 +255,14 @@ fn apply_stencil(gl: &glow::Context, state: &State) {
         for (face, side) in [glow::FRONT, glow::BACK].into_iter().zip(sides) {
             gl.stencil_func_separate(face, side.compare.code(), side.reference, side.read_mask);
             gl.stencil_mask_separate(face, side.write_mask);
-            let [fail, depth_fail, pass] = side.ops.map(StencilOp::code);
+            let [fail, depth_fail, pass] = side.ops.map(GlStencilOp::code);
             gl.stencil_op_separate(face, fail, depth_fail, pass);
         }
     }
 }
 
-fn apply_mode(gl: &glow::Context, mode: [Mode; 2]) {
-    let code = |mode| if mode == Mode::Fill { glow::FILL } else { glow::LINE };
+fn apply_mode(gl: &glow::Context, mode: [GlPolygonMode; 2]) {
+    let code = |mode| if mode == GlPolygonMode::Fill { glow::FILL } else { glow::LINE };
     // SAFETY: as in `apply`.
     unsafe {
         if mode[0] == mode[1] {
@@ -274,13 +274,14 @@ fn apply_mode(gl: &glow::Context, mode: [Mode; 2]) {
     }
 }
 
-fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &State) {
+fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &GlState) {
     // SAFETY: as in `apply`; glPolygonOffsetClamp has the signature that it was loaded with.
     unsafe {
         for (mode, on) in [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE].into_iter().zip(state.offset_modes) {
             if on && state.offset.is_some() { gl.enable(mode) } else { gl.disable(mode) }
         }
-        let Offset { factor, units, clamp } = state.offset.unwrap_or(Offset { factor: 0.0, units: 0.0, clamp: 0.0 });
+        let GlOffset { factor, units, clamp } =
+            state.offset.unwrap_or(GlOffset { factor: 0.0, units: 0.0, clamp: 0.0 });
         match offset_clamp {
             Some(function) => function(factor, units, clamp),
             None => gl.polygon_offset(factor, units),

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
-use super::image::{Format, Image};
+use super::image::{GlFormat, GlImage};
 use super::mutation::Mutation;
 use super::{Bench, Error};
 
@@ -13,8 +13,8 @@ pub struct Surface {
     gl: Rc<glow::Context>,
     pub(crate) name: glow::Framebuffer,
     pub size: [u32; 2],
-    color: Option<Image>,
-    depth: Option<Image>,
+    color: Option<GlImage>,
+    depth: Option<GlImage>,
 }
 
 impl Drop for Surface {
@@ -30,8 +30,8 @@ impl Bench {
     /// # Errors
     ///
     /// [`Error::Refused`] where the driver has no such image or framebuffer.
-    pub fn surface(&self, size: [u32; 2], color: Option<Format>, depth: Option<Format>) -> Result<Surface, Error> {
-        let image = |format: Option<Format>| format.map(|format| self.image(format, size)).transpose();
+    pub fn surface(&self, size: [u32; 2], color: Option<GlFormat>, depth: Option<GlFormat>) -> Result<Surface, Error> {
+        let image = |format: Option<GlFormat>| format.map(|format| self.image(format, size)).transpose();
         let (color, depth) = (image(color)?, image(depth)?);
         let gl = &self.gl;
         // SAFETY: the context is current; the textures are complete.
@@ -65,7 +65,7 @@ impl Bench {
     ///
     /// GL's, but not that of a framebuffer that it does not support.
     pub fn separate_stencil_is_complete(&self) -> Result<bool, Error> {
-        let surface = self.surface([4, 4], None, Some(Format::Depth24))?;
+        let surface = self.surface([4, 4], None, Some(GlFormat::Depth24))?;
         let gl = &self.gl;
         // SAFETY: the context is current; the renderbuffer is deleted here.
         let status = unsafe {
@@ -85,7 +85,7 @@ impl Bench {
 
     /// glCopyTexSubImage2D from the surface's rectangle `from` (x, y, width, height) to `to` in `image`; GL's error, if
     /// it makes one, is the answer.
-    pub fn copy_depth(&self, surface: &Surface, from: [i32; 4], image: &Image, to: [i32; 2]) -> Option<String> {
+    pub fn copy_depth(&self, surface: &Surface, from: [i32; 4], image: &GlImage, to: [i32; 2]) -> Option<String> {
         self.take_errors();
         let [x, y, width, height] = from;
         let x = if self.mutation == Some(Mutation::CopyShifted) { x + 1 } else { x };
@@ -104,7 +104,7 @@ impl Bench {
     /// # Errors
     ///
     /// GL's.
-    pub fn image_depths(&self, image: &Image) -> Result<Vec<f64>, Error> {
+    pub fn image_depths(&self, image: &GlImage) -> Result<Vec<f64>, Error> {
         let gl = &self.gl;
         // SAFETY: the context is current; the framebuffer is deleted here.
         unsafe {
@@ -126,7 +126,7 @@ fn depth_or_color(surface: &Surface) -> &'static str {
     surface.depth.as_ref().or(surface.color.as_ref()).map_or("nothing", |image| image.format.name())
 }
 
-unsafe fn attach(gl: &glow::Context, point: u32, image: Option<&Image>) {
+unsafe fn attach(gl: &glow::Context, point: u32, image: Option<&GlImage>) {
     if let Some(image) = image {
         // SAFETY: as the caller's: a framebuffer is bound, the texture exists.
         unsafe { gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(image.name), 0) };
@@ -135,12 +135,12 @@ unsafe fn attach(gl: &glow::Context, point: u32, image: Option<&Image>) {
 
 impl Surface {
     /// The colour image.
-    pub fn color_image(&self) -> Option<&Image> {
+    pub fn color_image(&self) -> Option<&GlImage> {
         self.color.as_ref()
     }
 
     /// The depth image.
-    pub fn depth_image(&self) -> Option<&Image> {
+    pub fn depth_image(&self) -> Option<&GlImage> {
         self.depth.as_ref()
     }
 
@@ -251,7 +251,7 @@ unsafe fn read_pixels(gl: &glow::Context, [x, y, width, height]: [i32; 4], forma
 
 /// Exactly: packed formats as they are stored; what has at most 24 bits as a float that rounds to the one code; more as
 /// an integer.
-unsafe fn read_depths(gl: &glow::Context, image: &Image, area: [i32; 4]) -> Vec<f64> {
+unsafe fn read_depths(gl: &glow::Context, image: &GlImage, area: [i32; 4]) -> Vec<f64> {
     let (encoding, count) = (image.encoding, area[2].max(0) as usize * area[3].max(0) as usize);
     let packed = image.format.has_stencil() && !encoding.float && encoding.bits == 24;
     let (format, kind) = match () {

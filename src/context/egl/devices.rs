@@ -15,7 +15,7 @@ const RENDERER_EXT: egl::Int = 0x335F;
 
 /// One of the machine's devices, as `--device` counts them.
 #[derive(Clone, Debug, Serialize)]
-pub struct Device {
+pub struct EglDevice {
     pub index: usize,
     /// The renderer's name if EGL gives it, else `software` or `hardware`.
     pub name: String,
@@ -27,7 +27,7 @@ pub struct Device {
 }
 
 /// All devices, in EGL's order, which is that of `--device`.
-pub fn devices() -> Result<Vec<Device>, String> {
+pub fn devices() -> Result<Vec<EglDevice>, String> {
     let egl = api::library()?;
     let raw = enumerate(egl)?;
     Ok(raw.into_iter().enumerate().map(|(index, device)| describe(egl, index, device)).collect())
@@ -55,14 +55,14 @@ pub(super) fn enumerate(egl: &Egl) -> Result<Vec<RawDevice>, String> {
     Ok(devices[..count].to_vec())
 }
 
-fn describe(egl: &Egl, index: usize, device: RawDevice) -> Device {
+fn describe(egl: &Egl, index: usize, device: RawDevice) -> EglDevice {
     let extensions = device_string(egl, device, egl::EXTENSIONS).unwrap_or_default();
     let extensions: Vec<String> = extensions.split_ascii_whitespace().map(str::to_owned).collect();
     let has = |name: &str| extensions.iter().any(|extension| extension == name);
     let software = has("EGL_MESA_device_software");
     let ask = |extension, name| has(extension).then(|| device_string(egl, device, name)).flatten();
     let kind = if software { "software" } else { "hardware" };
-    Device {
+    EglDevice {
         index,
         name: ask("EGL_EXT_device_query_name", RENDERER_EXT).unwrap_or_else(|| kind.to_owned()),
         software,

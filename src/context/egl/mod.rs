@@ -13,9 +13,9 @@ use khronos_egl as egl;
 use khronos_egl::api::{EGL1_0, EGL1_2, EGL1_4};
 
 use self::api::Egl;
-pub use self::devices::{Device, devices};
+pub use self::devices::{EglDevice, devices};
 use super::error::{Reached, Refusal};
-use super::load::{self, Loaded};
+use super::load::{self, LoadedContext};
 use super::{Backend, Context, ContextRequest, Error, Profile};
 
 /// A context that owns its surface, if it needs one.
@@ -23,11 +23,11 @@ use super::{Backend, Context, ContextRequest, Error, Profile};
 /// The order of the fields is that of their end: the context first, then `loaded` with the callback it reports to.
 struct EglContext {
     handles: Handles,
-    loaded: Loaded,
+    loaded: LoadedContext,
 }
 
 impl Context for EglContext {
-    fn loaded(&self) -> &Loaded {
+    fn loaded(&self) -> &LoadedContext {
         &self.loaded
     }
 

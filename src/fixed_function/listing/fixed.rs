@@ -2,10 +2,12 @@
 
 use glam::{DMat4, Mat4};
 
-use super::super::layer::{Blend, Combine, Coordinates, Layer, Lighting, Operand, Primary, Unit, UnitImage};
+use super::super::layer::{
+    Combine, Layer, LayerBlend, LayerLighting, Operand, Primary, Unit, UnitCoordinates, UnitImage,
+};
 use super::super::{bounds, reading};
 use super::c::{self, float, floats, vector};
-use super::state::State;
+use super::state::ListingState;
 use super::{Listing, names};
 use crate::geometry::Placement;
 use crate::pass::{Batch, Compare, Draw, DrawPass, DrawState, FixedFunctionDesc, Sampler, Wrap};
@@ -13,7 +15,7 @@ use crate::pass::{Batch, Compare, Draw, DrawPass, DrawState, FixedFunctionDesc, 
 const COORDINATES: [&str; 4] = ["S", "T", "R", "Q"];
 
 impl<'a> Listing<'a> {
-    pub(super) fn fixed_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut State) {
+    pub(super) fn fixed_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut ListingState) {
         // The list was checked before.
         for layer in reading::layers(batch).unwrap_or_default() {
             self.title(&format!("{}: {}", names(batch), layer.name));
@@ -38,26 +40,26 @@ impl<'a> Listing<'a> {
     }
 
     /// Raster state of a layer: later layers meet the first one's depth.
-    fn set_layer(&mut self, mut state: DrawState, layer: &Layer, now: &mut State) {
+    fn set_layer(&mut self, mut state: DrawState, layer: &Layer, now: &mut ListingState) {
         if !layer.first {
             state.depth_test = state.depth_test.map(|_| Compare::Equal);
             state.depth_write = false;
         }
-        self.change(now, State::of(state));
+        self.change(now, ListingState::of(state));
         if state.color_write && !layer.alpha_write {
             self.body.call("glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE)");
         }
         let factor = match layer.blend {
-            Blend::Replace => return,
-            Blend::Add => "GL_ONE",
-            Blend::Erase => "GL_ZERO",
+            LayerBlend::Replace => return,
+            LayerBlend::Add => "GL_ONE",
+            LayerBlend::Erase => "GL_ZERO",
         };
         self.body.call("glEnable(GL_BLEND)");
         self.body.call("glBlendEquation(GL_FUNC_ADD)");
         self.body.call(&format!("glBlendFunc({factor}, {factor})"));
     }
 
-    fn take_down(&mut self, layer: &Layer, now: &State) {
+    fn take_down(&mut self, layer: &Layer, now: &ListingState) {
         for index in 0..layer.units.len() {
             self.body.call(&format!("disable_unit({index})"));
             self.objects.disables_units = true;
@@ -69,7 +71,7 @@ impl<'a> Listing<'a> {
         if layer.alpha_test.is_some() {
             self.body.call("glDisable(GL_ALPHA_TEST)");
         }
-        if layer.blend != Blend::Replace {
+        if layer.blend != LayerBlend::Replace {
             self.body.call("glDisable(GL_BLEND)");
         }
         if now.state.color_write && !layer.alpha_write {
@@ -122,8 +124,8 @@ impl<'a> Listing<'a> {
         }
     }
 
-    fn coordinates(&mut self, coordinates: &Coordinates, placement: &Placement) {
-        if let Coordinates::EyeLinear(eye_linear) = coordinates {
+    fn coordinates(&mut self, coordinates: &UnitCoordinates, placement: &Placement) {
+        if let UnitCoordinates::EyeLinear(eye_linear) = coordinates {
             let planes = self.objects.planes(&eye_linear.planes, &eye_linear.modelview);
             self.body.load_matrix("GL_TEXTURE", &eye_linear.texture_matrix);
             self.body.call(&format!("load_planes_{planes}()"));
@@ -136,7 +138,7 @@ impl<'a> Listing<'a> {
             self.body.call(&format!("glTranslatef({}, 0.0f)", floats(&[offset_s, offset_t])));
             self.body.call(&format!("glScalef({}, 1.0f)", floats(&[scale_s, scale_t])));
         }
-        if let Coordinates::ObjectLinear(generated) = coordinates {
+        if let UnitCoordinates::ObjectLinear(generated) = coordinates {
             let scale = float(generated.scale);
             self.body.call(&format!("glScalef({scale}, {scale}, 1.0f)"));
             for (name, plane) in COORDINATES.iter().zip([generated.s, generated.t]) {
@@ -179,7 +181,7 @@ impl<'a> Listing<'a> {
     }
 
     /// The modelview is the identity: positions are in eye space.
-    fn lighting(&mut self, lighting: &Lighting) {
+    fn lighting(&mut self, lighting: &LayerLighting) {
         let opaque = |[r, g, b]: [f32; 3]| vector(&[r, g, b, 1.0]);
         for what in ["LIGHTING", "NORMALIZE"] {
             self.body.call(&format!("glEnable(GL_{what})"));

@@ -11,7 +11,7 @@ mod state;
 
 use self::c::{Text, comment};
 use self::objects::Objects;
-use self::state::State;
+use self::state::ListingState;
 use super::{check_state, names, reading};
 use crate::pass::{CubeFace, Draw, DrawPass, ImageId, PassList, Primitive, Redraw, Target, Work};
 
@@ -91,7 +91,7 @@ impl<'a> Listing<'a> {
         self.body.call(&format!("glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[{framebuffer}])"));
         self.body.call(&format!("glViewport(0, 0, {width}, {height})"));
         state::clear(&mut self.body, &pass.clear);
-        let mut now = State::of(pass.state);
+        let mut now = ListingState::of(pass.state);
         state::set(&mut self.body, None, &now.state);
         for batch in &pass.batches {
             match self.fixed {
@@ -105,12 +105,12 @@ impl<'a> Listing<'a> {
     }
 
     /// Sets the parts that differ from the state so far.
-    fn change(&mut self, now: &mut State, next: State) {
+    fn change(&mut self, now: &mut ListingState, next: ListingState) {
         state::set(&mut self.body, Some(&now.state), &next.state);
-        *now = State { mirrored: now.mirrored, ..next };
+        *now = ListingState { mirrored: now.mirrored, ..next };
     }
 
-    fn mirror(&mut self, now: &mut State, mirrored: bool) {
+    fn mirror(&mut self, now: &mut ListingState, mirrored: bool) {
         if now.mirrored != mirrored {
             self.body.call(if mirrored { "glFrontFace(GL_CW)" } else { "glFrontFace(GL_CCW)" });
             now.mirrored = mirrored;

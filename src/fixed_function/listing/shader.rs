@@ -1,15 +1,15 @@
 //! A batch by its program, as the device draws it.
 
 use super::c::{self, columns, float, vector};
-use super::state::State;
+use super::state::ListingState;
 use super::{Listing, names};
 use crate::pass::{Batch, DrawPass, FixedFunctionDesc, Projection, Uniform, UniformValue};
 
 impl<'a> Listing<'a> {
-    pub(super) fn shader_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut State) {
+    pub(super) fn shader_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut ListingState) {
         let program = self.objects.program(&batch.program);
         self.title(&format!("{} by program {}, \"{}\"", names(batch), program + 1, batch.program.label));
-        self.change(now, State::of(batch.state(&pass.state)));
+        self.change(now, ListingState::of(batch.state(&pass.state)));
         self.body.call(&format!("glUseProgram(programs[{program}])"));
         for (unit, input) in batch.inputs.iter().enumerate() {
             let image = input.image.0;

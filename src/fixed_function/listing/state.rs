@@ -5,13 +5,13 @@ use crate::pass::{Blend, Clear, DrawState, Stencil};
 
 /// State that GL has been set to.
 #[derive(Clone, Copy)]
-pub struct State {
+pub struct ListingState {
     pub state: DrawState,
     /// Front faces wind clockwise.
     pub mirrored: bool,
 }
 
-impl State {
+impl ListingState {
     pub fn of(state: DrawState) -> Self {
         Self { state, mirrored: false }
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::super::Error;
-use super::super::tally::Tally;
+use super::super::tally::WarningTally;
 use super::super::text::logical_lines;
 use super::corner::{Corner, Counts, Wrong, read_corner, shorten};
 use super::place::Places;
@@ -28,7 +28,7 @@ pub(super) struct Scan {
     pub mixed_texcoords: bool,
     pub mixed_normals: bool,
     /// Statements that are ignored.
-    pub oddities: Tally,
+    pub oddities: WarningTally,
 }
 
 /// The largest numbers that faces name, of those that had not been read by then, with their lines.

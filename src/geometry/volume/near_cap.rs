@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use glam::{DMat4, DVec3};
 
-use super::near_plane::{NearPlane, Place, Stand};
+use super::near_plane::{NearPlane, Stand, ViewPlace};
 use super::{Caster, Outline};
 
 /// Numbers of an outline's vertices that land on the near plane when projected away from the light.
@@ -35,7 +35,7 @@ pub struct CappedVolume {
     near_cap: Range<u32>,
     landing: Landing,
     /// For each place of the caster: its position, and its vertices once it has them.
-    places: Vec<Place>,
+    places: Vec<ViewPlace>,
     polygon: Vec<u32>,
 }
 
@@ -177,18 +177,18 @@ impl CappedVolume {
 
     /// Adds the place itself.
     fn push_own(&mut self, place: u32) {
-        let Place { own, at, .. } = self.places[place as usize];
+        let ViewPlace { own, at, .. } = self.places[place as usize];
         match own {
-            Place::NONE => self.places[place as usize].own = self.push(at.as_vec3().extend(1.0).to_array()),
+            ViewPlace::NONE => self.places[place as usize].own = self.push(at.as_vec3().extend(1.0).to_array()),
             index => self.polygon.push(index),
         }
     }
 
     /// Adds the point where the place's ray meets the plane. The ray must meet it.
     fn push_projected(&mut self, plane: &NearPlane, place: u32) {
-        let Place { projected, .. } = self.places[place as usize];
+        let ViewPlace { projected, .. } = self.places[place as usize];
         match projected {
-            Place::NONE => {
+            ViewPlace::NONE => {
                 let vertex = plane.projected(&self.places[place as usize]);
                 self.places[place as usize].projected = self.push(vertex);
             }
@@ -198,9 +198,9 @@ impl CappedVolume {
 
     /// Adds the end of the place's ray: at infinity, or beyond all that is seen.
     fn push_infinite(&mut self, plane: &NearPlane, place: u32) {
-        let Place { infinite, .. } = self.places[place as usize];
+        let ViewPlace { infinite, .. } = self.places[place as usize];
         match infinite {
-            Place::NONE => {
+            ViewPlace::NONE => {
                 let vertex = plane.far_end(&self.places[place as usize]);
                 self.places[place as usize].infinite = self.push(vertex);
             }

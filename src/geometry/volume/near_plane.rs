@@ -13,7 +13,7 @@ use super::extrude::at_infinity;
 
 /// A place in view space, and its vertices in the volume once they exist.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct ViewPlace {
     pub at: DVec3,
     height: f64,
     /// l - h w: positive where the ray comes down.
@@ -46,7 +46,7 @@ impl Stand {
     }
 }
 
-impl Place {
+impl ViewPlace {
     pub const NONE: u32 = u32::MAX;
 
     pub fn lands(&self) -> bool {
@@ -81,7 +81,7 @@ impl NearPlane {
     }
 
     /// The end of a place's ray: at infinity, or beyond all that is seen and the near plane.
-    pub fn far_end(&self, place: &Place) -> [f32; 4] {
+    pub fn far_end(&self, place: &ViewPlace) -> [f32; 4] {
         let away = self.away(place.at);
         let Some((normal, distance)) = self.end else { return at_infinity(away) };
         let to_end = (distance - normal.dot(place.at)) / normal.dot(away);
@@ -89,7 +89,7 @@ impl NearPlane {
         (place.at + to_end.max(landing).max(0.0) * away).as_vec3().extend(1.0).to_array()
     }
 
-    pub fn place(&self, at: DVec3) -> Place {
+    pub fn place(&self, at: DVec3) -> ViewPlace {
         let height = -at.z - self.near;
         let fall = self.light_height - height * self.w;
         let stand = match self.light_is_beyond() {
@@ -99,18 +99,26 @@ impl NearPlane {
             false if fall < 0.0 => Stand::Lands,
             _ => Stand::Never,
         };
-        Place { at, height, fall, stand, own: Place::NONE, projected: Place::NONE, infinite: Place::NONE }
+        ViewPlace {
+            at,
+            height,
+            fall,
+            stand,
+            own: ViewPlace::NONE,
+            projected: ViewPlace::NONE,
+            infinite: ViewPlace::NONE,
+        }
     }
 
     /// (l q - h light) / (l - h w), for a place whose ray lands.
-    pub fn projected(&self, place: &Place) -> [f32; 4] {
+    pub fn projected(&self, place: &ViewPlace) -> [f32; 4] {
         let light = self.source.homogeneous().truncate();
         self.on_plane((self.light_height * place.at - place.height * light) / place.fall)
     }
 
     /// Point where the edge between two places meets the plane, if they are on different sides of it. The order of the two
     /// does not change a bit: sums of two commute.
-    pub fn crossing(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
+    pub fn crossing(&self, a: &ViewPlace, b: &ViewPlace) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::AtPlane) != (b.stand == Stand::AtPlane);
         let (ha, hb) = (a.height.abs(), b.height.abs());
         parted.then(|| self.on_plane((b.at * ha + a.at * hb) / (ha + hb)))
@@ -119,7 +127,7 @@ impl NearPlane {
     /// The direction in the plane in which the projection of the edge between two places runs to infinity, if the rays of
     /// just one of them never land: a (B - light) - b (A - light) with a > 0 >= b [GDC, "Handling the "Hard" Near Clip
     /// Plane Capping Case"]. The same bits whichever comes first.
-    pub fn direction_between(&self, a: &Place, b: &Place) -> Option<[f32; 4]> {
+    pub fn direction_between(&self, a: &ViewPlace, b: &ViewPlace) -> Option<[f32; 4]> {
         let parted = (a.stand == Stand::Never) != (b.stand == Stand::Never);
         parted.then(|| match self.source {
             LightSource::Point(_) => {

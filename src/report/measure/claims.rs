@@ -3,9 +3,9 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, Split};
+use super::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
 use super::run::{draw_shade, size_of, with_shadow};
-use super::tune::{self, Point, Search};
+use super::tune::{self, Search, TunedPoint};
 use crate::frame::Renderer;
 use crate::report::numbers::plain;
 use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
@@ -92,7 +92,7 @@ struct Contest<'a> {
 #[derive(Clone)]
 struct Seen {
     settings: String,
-    point: Option<Point>,
+    point: Option<TunedPoint>,
     metrics: Result<Metrics, String>,
 }
 
@@ -140,8 +140,8 @@ impl Contest<'_> {
     }
 
     /// A shadow map whose offset has one of these factors and is `enough`.
-    fn tuned(&mut self, factors: &[f64], enough: &dyn Fn(&Point) -> bool) -> Result<Seen, tune::Error> {
-        let mut tick = |_: &Point| ();
+    fn tuned(&mut self, factors: &[f64], enough: &dyn Fn(&TunedPoint) -> bool) -> Result<Seen, tune::Error> {
+        let mut tick = |_: &TunedPoint| ();
         let mut search = Search::new(self.scene, self.truth, &self.options, self.renderer, &mut tick);
         let Some(point) = search.best_of(self.size, factors, |point| point.leak_facing_percent, enough)? else {
             let metrics = Err(String::from("no such offset has as little false shadow"));
@@ -166,7 +166,7 @@ impl Contest<'_> {
 
     /// Median offset over the lit pixels that face the light, in 2⁻²⁴ of the depth range; `None` without such a pixel, or
     /// without a frustum whose depth it could be measured in.
-    fn median_offset(&self, point: &Point) -> Option<f64> {
+    fn median_offset(&self, point: &TunedPoint) -> Option<f64> {
         let window_from_world = window_from_world(self.scene, self.options.light, point.size)?;
         let unit = match self.scene.lights[self.options.light].shadow.get("format").map(|entry| &entry.value) {
             Some(Value::String(format)) if format == "depth16" => 1.0 / 65535.0,
@@ -205,7 +205,7 @@ fn compared(metrics: &Metrics, quantity: Quantity) -> usize {
 
 /// Share of wrong pixels on surfaces turned away; `None` if none was compared.
 fn wrong_away(metrics: &Metrics) -> Option<f64> {
-    let count = |split: Split| split.inside + split.outside;
+    let count = |split: ErrorSplit| split.inside + split.outside;
     let wrong = |errors: &metrics::Errors| count(errors.false_shadow) + count(errors.leak);
     let compared = metrics.all.compared.checked_sub(metrics.facing.compared).filter(|count| *count > 0)?;
     Some(100.0 * wrong(&metrics.all).saturating_sub(wrong(&metrics.facing)) as f64 / compared as f64)

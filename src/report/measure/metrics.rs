@@ -32,7 +32,7 @@ pub struct Metrics {
     pub all: Errors,
     /// Only surfaces whose visible side faces the light: on the others shading leaves no light.
     pub facing: Errors,
-    pub left_out: LeftOut,
+    pub left_out: NotCompared,
 }
 
 /// The errors over some of the pixels.
@@ -42,9 +42,9 @@ pub struct Errors {
     pub compared: usize,
     pub compared_in_band: usize,
     /// Shadow where light belongs: acne, and light lost.
-    pub false_shadow: Split,
+    pub false_shadow: ErrorSplit,
     /// Light where none belongs.
-    pub leak: Split,
+    pub leak: ErrorSplit,
     pub false_shadow_percent: f64,
     pub leak_percent: f64,
     pub wrong_percent: f64,
@@ -60,7 +60,7 @@ pub struct Errors {
 
 /// Wrong pixels by place: counts, and percent of all compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Split {
+pub struct ErrorSplit {
     pub inside: usize,
     pub outside: usize,
     pub inside_percent: f64,
@@ -69,7 +69,7 @@ pub struct Split {
 
 /// Pixels not compared, each counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct LeftOut {
+pub struct NotCompared {
     /// Neither draws anything.
     pub background: usize,
     /// The ray tracer is not certain.
@@ -194,8 +194,8 @@ fn finish(mut errors: Errors, squares: f64) -> Errors {
     errors
 }
 
-fn leave_out(truth: &Truth, shade: &ShadeImage) -> LeftOut {
-    let mut left_out = LeftOut::default();
+fn leave_out(truth: &Truth, shade: &ShadeImage) -> NotCompared {
+    let mut left_out = NotCompared::default();
     for (pixel, &covered) in truth.pixels.iter().zip(&shade.covered) {
         let counter = match (pixel.answer, covered) {
             (Answer::Background, false) => &mut left_out.background,

@@ -63,7 +63,7 @@ fn equal_pictures_have_no_error() {
     let same = EdgeDistance { edges: 2, mean_pixels: 0.0, p95_pixels: 0.0, max_pixels: 0.0 };
     assert_eq!((metrics.all.rendered_to_true, metrics.all.true_to_rendered), (Some(same), Some(same)));
     assert_eq!(metrics.all, metrics.facing);
-    assert_eq!(metrics.left_out, LeftOut::default());
+    assert_eq!(metrics.left_out, NotCompared::default());
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn each_pixel_left_out_is_counted_once_with_its_reason() {
     // The last column is outside the cone, where a shade is transparent and may be a surface's or none.
     let truth = truth(&["LLA OO", "SS  LO"]);
     let metrics = compare(&truth, &shade(&[".##.# ", "# . . "]), &band(1.0, &truth)).unwrap();
-    let expected = LeftOut { background: 1, ambiguous: 1, outside_cone: 3, not_drawn: 1, only_drawn: 2 };
+    let expected = NotCompared { background: 1, ambiguous: 1, outside_cone: 3, not_drawn: 1, only_drawn: 2 };
     assert_eq!(metrics.left_out, expected);
     assert_eq!((metrics.all.compared, metrics.all.false_shadow_percent), (4, 25.0));
 }

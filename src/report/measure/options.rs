@@ -4,7 +4,7 @@ use crate::context::ContextRequest;
 
 /// Options of a run.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct MeasureOptions {
     pub light: usize,
     /// Timed frames for each row, at least 1.
     pub runs: usize,

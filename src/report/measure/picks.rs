@@ -34,7 +34,7 @@ const LOADED_FROM: usize = 10;
 
 /// Spread of a scene's times.
 #[derive(Debug, Default)]
-pub struct Times<'r> {
+pub struct RowTimes<'r> {
     /// Measured rows, and those of them whose runs differ much among themselves.
     pub rows: usize,
     pub unsteady: usize,
@@ -45,7 +45,7 @@ pub struct Times<'r> {
     bars: HashMap<&'r str, [f64; 2]>,
 }
 
-impl<'r> Times<'r> {
+impl<'r> RowTimes<'r> {
     pub fn of(scene: &'r SceneReport) -> Self {
         let mut times = Self::default();
         let mut works: HashMap<&str, Vec<Spread>> = HashMap::new();
@@ -110,7 +110,7 @@ pub struct Pick<'r> {
     pub measured: &'r Measured,
     /// Time that it was picked by.
     pub milliseconds: f64,
-    /// See [`Times::bar`].
+    /// See [`RowTimes::bar`].
     pub bar: [f64; 2],
     /// Rows that the times cannot rule out in its place.
     pub rivals: Vec<&'r Row>,
@@ -121,14 +121,14 @@ pub struct Pick<'r> {
 /// Both recommendations for a scene, and their basis.
 #[derive(Debug)]
 pub struct Picks<'r> {
-    pub times: Times<'r>,
+    pub times: RowTimes<'r>,
     pub cheapest: Option<Pick<'r>>,
     pub most_exact: Option<Pick<'r>>,
 }
 
 impl<'r> Picks<'r> {
     pub fn of(scene: &'r SceneReport, goals: &Goals) -> Self {
-        let times = Times::of(scene);
+        let times = RowTimes::of(scene);
         let cheapest = cheapest(scene, &times, goals.wrong_percent);
         let most_exact = most_exact(scene, &times, goals.milliseconds);
         Self { times, cheapest, most_exact }
@@ -140,9 +140,9 @@ fn judged(scene: &SceneReport) -> impl Iterator<Item = (&Row, &Measured)> {
     measured.filter(|(_, measured)| measured.is_judged())
 }
 
-/// The rows that no other is both faster and less wrong than, by [`Times::of_row`] and wrong percent; fastest first. Without
-/// those of which too few pixels could be compared.
-pub fn pareto<'r>(scene: &'r SceneReport, times: &Times<'_>) -> Vec<(&'r Row, &'r Measured)> {
+/// The rows that no other is both faster and less wrong than, by [`RowTimes::of_row`] and wrong percent; fastest first.
+/// Without those of which too few pixels could be compared.
+pub fn pareto<'r>(scene: &'r SceneReport, times: &RowTimes<'_>) -> Vec<(&'r Row, &'r Measured)> {
     let mut rows: Vec<_> = judged(scene).collect();
     rows.sort_by(|(_, a), (_, b)| {
         let by_time = times.of_row(a).total_cmp(&times.of_row(b));
@@ -159,7 +159,7 @@ pub fn pareto<'r>(scene: &'r SceneReport, times: &Times<'_>) -> Vec<(&'r Row, &'
 
 /// The fastest row that is wrong in at most `percent` of the pixels compared; its rivals are as little wrong, and their bars
 /// meet its own.
-fn cheapest<'r>(scene: &'r SceneReport, times: &Times<'_>, percent: f64) -> Option<Pick<'r>> {
+fn cheapest<'r>(scene: &'r SceneReport, times: &RowTimes<'_>, percent: f64) -> Option<Pick<'r>> {
     let mut front = pareto(scene, times).into_iter();
     let (row, measured) = front.find(|(_, measured)| measured.wrong_percent() <= percent)?;
     let bar = times.bar(measured);
@@ -172,7 +172,7 @@ fn cheapest<'r>(scene: &'r SceneReport, times: &Times<'_>, percent: f64) -> Opti
 }
 
 /// The least wrong row that takes at most so long; its rivals are less wrong, and their bars begin within that time.
-fn most_exact<'r>(scene: &'r SceneReport, times: &Times<'_>, milliseconds: f64) -> Option<Pick<'r>> {
+fn most_exact<'r>(scene: &'r SceneReport, times: &RowTimes<'_>, milliseconds: f64) -> Option<Pick<'r>> {
     let mut front = pareto(scene, times).into_iter();
     let (row, measured) = front.rfind(|(_, measured)| times.of_row(measured) <= milliseconds)?;
     let bar = times.bar(measured);

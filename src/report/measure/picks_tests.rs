@@ -90,7 +90,7 @@ fn bars_that_meet_cannot_be_told_apart() {
 #[test]
 fn the_front_is_sorted_and_descends() {
     let scene = scene(steady);
-    let times = Times::of(&scene);
+    let times = RowTimes::of(&scene);
     let front = pareto(&scene, &times);
     assert!(front.len() > 3);
     for pair in front.windows(2) {

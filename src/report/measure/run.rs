@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics, ShadeImage};
-pub use super::options::Options;
+pub use super::options::MeasureOptions;
 use crate::context;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
@@ -59,7 +59,7 @@ pub struct Sweep {
 ///
 /// A scene that does not load, a light that is not there, a wrong row of a grid file, a truth that the ray tracer cannot
 /// find.
-pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Options) -> Result<Sweep, Error> {
+pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &MeasureOptions) -> Result<Sweep, Error> {
     let (index, shards) = options.shard;
     if index == 0 || index > shards {
         return Err(Error::Shard { index, count: shards });
@@ -197,7 +197,7 @@ fn summarise(truth: &Truth, trace_ms: f64) -> TruthSummary {
 
 impl Sweep {
     /// The rows of this shard that `done` does not have.
-    pub fn todo(&self, options: &Options, done: &[Row]) -> Vec<usize> {
+    pub fn todo(&self, options: &MeasureOptions, done: &[Row]) -> Vec<usize> {
         let (index, count) = options.shard;
         let done: HashSet<usize> = done.iter().map(|row| row.index).collect();
         (0..self.rows.len()).filter(|row| row % count == index - 1 && !done.contains(row)).collect()
@@ -217,7 +217,7 @@ impl Sweep {
     pub fn run(
         &self,
         todo: &[usize],
-        options: &Options,
+        options: &MeasureOptions,
         stop: &Arc<AtomicBool>,
         mut finished: impl FnMut(Row),
     ) -> Result<(), Error> {
@@ -226,7 +226,7 @@ impl Sweep {
         Ok(())
     }
 
-    fn row(&self, index: usize, options: &Options, renderer: &mut Renderer) -> Row {
+    fn row(&self, index: usize, options: &MeasureOptions, renderer: &mut Renderer) -> Row {
         let (row, settings) = &self.rows[index];
         let scene = with_shadow(&self.scene, options.light, settings);
         let band = Band { texels: options.band_texels, map_size: [size_of(settings); 2] };
@@ -242,7 +242,7 @@ impl Sweep {
     /// # Errors
     ///
     /// An error of the plan or the device.
-    pub fn saved(&self, options: &Options, renderer: &mut Renderer) -> Result<Saved, frame::Error> {
+    pub fn saved(&self, options: &MeasureOptions, renderer: &mut Renderer) -> Result<Saved, frame::Error> {
         let mut cost = |keep_all| {
             let plan = renderer.plan(&self.scene, &Request { frames: 100, keep_all, ..Request::default() })?;
             renderer.draw(&plan)?;
@@ -286,7 +286,7 @@ fn measure(
     scene: &Scene,
     truth: &Truth,
     band: &Band,
-    options: &Options,
+    options: &MeasureOptions,
     renderer: &mut Renderer,
 ) -> Result<Measured, String> {
     let metrics = check(scene, options.light, truth, band, renderer)?;
@@ -342,7 +342,7 @@ pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Resul
 /// # Errors
 ///
 /// A context that cannot be had.
-pub fn machine(options: &Options) -> Result<Machine, Error> {
+pub fn machine(options: &MeasureOptions) -> Result<Machine, Error> {
     let context = context::open(&options.context)?;
     let info = context.describe();
     let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {

@@ -48,7 +48,7 @@ pub struct TuneOptions {
 
 /// One point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Point {
+pub struct TunedPoint {
     pub size: u32,
     pub factor: f64,
     pub units: f64,
@@ -71,11 +71,11 @@ pub struct Point {
 /// Points that the search measured, and its choice.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Tuned {
-    pub curve: Vec<Point>,
+    pub curve: Vec<TunedPoint>,
     /// The best offset of each size that has a clean one, by size.
-    pub best: Vec<Point>,
+    pub best: Vec<TunedPoint>,
     /// The smallest map that leaks no more than it may, or, where none does, the one that leaks least.
-    pub chosen: Option<Point>,
+    pub chosen: Option<TunedPoint>,
     /// The chosen point as `[light.shadow]`, with the other keys of the scene's own: it replaces that table.
     pub chosen_toml: Option<String>,
     /// Pixels of which the truth is sure and which were drawn, those of them that face the light, and those in shadow.
@@ -94,7 +94,7 @@ pub struct Rival {
     pub technique: &'static str,
     /// Settings in TOML.
     pub settings: String,
-    /// Errors as in [`Point`]; or why it cannot draw this scene.
+    /// Errors as in [`TunedPoint`]; or why it cannot draw this scene.
     pub errors: Result<RivalErrors, String>,
 }
 
@@ -119,7 +119,7 @@ pub fn tune(
     scene: &Scene,
     options: &TuneOptions,
     renderer: &mut Renderer,
-    mut tick: impl FnMut(&Point),
+    mut tick: impl FnMut(&TunedPoint),
 ) -> Result<Tuned, Error> {
     let count = scene.lights.len();
     scene.lights.get(options.light).ok_or(Error::NoLight { index: options.light, count })?;
@@ -145,7 +145,7 @@ pub fn tune(
     let (compared, compared_facing) = curve.first().map_or((0, 0), |point| (point.compared, point.compared_facing));
     check_count(options.light, compared, compared_facing)?;
     let chosen = within.or(least);
-    let toml = |point: Point| {
+    let toml = |point: TunedPoint| {
         let shadow = changed(&scene.lights[options.light].shadow, point.size, point.factor, point.units)?;
         let lines = shadow.entries.iter().map(|(key, entry)| format!("{key} = {}\n", entry.value.to_toml()));
         Ok::<_, scene::Error>(format!("[light.shadow]\n{}", lines.collect::<String>()))
@@ -174,8 +174,8 @@ pub(super) struct Search<'a> {
     truth: &'a Truth,
     options: &'a TuneOptions,
     renderer: &'a mut Renderer,
-    curve: Vec<Point>,
-    tick: &'a mut dyn FnMut(&Point),
+    curve: Vec<TunedPoint>,
+    tick: &'a mut dyn FnMut(&TunedPoint),
 }
 
 impl<'a> Search<'a> {
@@ -184,7 +184,7 @@ impl<'a> Search<'a> {
         truth: &'a Truth,
         options: &'a TuneOptions,
         renderer: &'a mut Renderer,
-        tick: &'a mut dyn FnMut(&Point),
+        tick: &'a mut dyn FnMut(&TunedPoint),
     ) -> Self {
         Self { scene, truth, options, renderer, curve: Vec::new(), tick }
     }
@@ -194,10 +194,10 @@ impl<'a> Search<'a> {
         &mut self,
         size: u32,
         factors: &[f64],
-        leak: fn(&Point) -> f64,
-        enough: &dyn Fn(&Point) -> bool,
-    ) -> Result<Option<Point>, Error> {
-        let mut best: Option<Point> = None;
+        leak: fn(&TunedPoint) -> f64,
+        enough: &dyn Fn(&TunedPoint) -> bool,
+    ) -> Result<Option<TunedPoint>, Error> {
+        let mut best: Option<TunedPoint> = None;
         for factor in factors {
             if let Some(point) = self.least_units(size, *factor, enough)?
                 && best.is_none_or(|best| leak(&point) < leak(&best))
@@ -209,7 +209,12 @@ impl<'a> Search<'a> {
     }
 
     /// The least power of two of units, or none at all, that is `enough` with `factor`.
-    fn least_units(&mut self, size: u32, factor: f64, enough: &dyn Fn(&Point) -> bool) -> Result<Option<Point>, Error> {
+    fn least_units(
+        &mut self,
+        size: u32,
+        factor: f64,
+        enough: &dyn Fn(&TunedPoint) -> bool,
+    ) -> Result<Option<TunedPoint>, Error> {
         // Exponents; -1 stands for no units.
         let (mut low, mut high) = (-1, MOST_UNITS_LOG2);
         let mut found = self.point(size, factor, units_of(high))?;
@@ -229,7 +234,11 @@ impl<'a> Search<'a> {
     }
 
     /// Units between those of a `point` that is `enough` and half of them, to a sixteenth of them, as few as are enough.
-    pub(super) fn refined(&mut self, point: Point, enough: &dyn Fn(&Point) -> bool) -> Result<Point, Error> {
+    pub(super) fn refined(
+        &mut self,
+        point: TunedPoint,
+        enough: &dyn Fn(&TunedPoint) -> bool,
+    ) -> Result<TunedPoint, Error> {
         let (mut low, mut found) = (0.5 * point.units, point);
         for _ in 0..3 {
             let middle = self.point(point.size, point.factor, 0.5 * (low + found.units))?;
@@ -272,14 +281,14 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn point(&mut self, size: u32, factor: f64, units: f64) -> Result<Point, Error> {
+    fn point(&mut self, size: u32, factor: f64, units: f64) -> Result<TunedPoint, Error> {
         let shadow = changed(&self.scene.lights[self.options.light].shadow, size, factor, units)?;
         let scene = with_shadow(self.scene, self.options.light, &shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer)?;
         let band = Band { texels: self.options.band_texels, map_size: [size; 2] };
         let Metrics { all, facing, .. } = metrics::compare(self.truth, &shade, &band)?;
         let false_shadow_percent = facing.false_shadow.outside_percent;
-        let point = Point {
+        let point = TunedPoint {
             size,
             factor,
             units,

@@ -13,7 +13,7 @@ fn page(change: impl FnOnce(&mut Report)) -> String {
     let png = |name: &str| Some(name.as_bytes().to_vec());
     let difference = DifferencePicture { row: 5, caption: "5 < 6".to_owned(), png: b"difference".to_vec() };
     let scene = ScenePictures { picture: png("picture"), truth: png("truth"), differences: vec![difference] };
-    to_html(&report, &Pictures { scenes: vec![scene] }, &GOALS)
+    to_html(&report, &ReportPictures { scenes: vec![scene] }, &GOALS)
 }
 
 /// Every tag that is opened is closed, in order.
@@ -47,7 +47,7 @@ fn tags_are_closed() {
     check_nesting(&page(|_| ()));
     check_nesting(&page(|report| report.scenes.clear()));
     check_nesting(&page(|report| report.scenes[0].rows.clear()));
-    check_nesting(&to_html(&samples::report(), &Pictures::default(), &Goals::default()));
+    check_nesting(&to_html(&samples::report(), &ReportPictures::default(), &Goals::default()));
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn every_row_has_every_column() {
 fn goals_that_nothing_meets_name_what_comes_nearest() {
     let mut report = samples::report();
     report.scenes[0].rows.retain(|row| row.technique == "shadow-map");
-    let page = to_html(&report, &Pictures::default(), &Goals { wrong_percent: 1e-9, milliseconds: 1e-3 });
+    let page = to_html(&report, &ReportPictures::default(), &Goals { wrong_percent: 1e-9, milliseconds: 1e-3 });
     assert!(page.contains("The least wrong is row") && page.contains("The fastest is row"));
 }
 

@@ -119,7 +119,7 @@ fn every_point_has_its_error_bar() {
     };
     let ends = svg.split("points=\"").skip(1).filter(|part| is_end(part.split('"').next().unwrap_or_default())).count();
     let rows = report.scenes[0].rows.iter().filter(|row| row.measured().is_some()).count();
-    let front = pareto(&report.scenes[0], &Times::of(&report.scenes[0])).len();
+    let front = pareto(&report.scenes[0], &RowTimes::of(&report.scenes[0])).len();
     // Those of the front are drawn once more above its line; one stands in the legend.
     assert_eq!(ends, 2 * (rows + front + 1));
     assert!(texts(&svg).iter().any(|text| text == "least to greatest run"));

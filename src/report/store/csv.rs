@@ -133,7 +133,7 @@ fn error_columns(errors: Option<&Errors>) -> Vec<(String, Option<String>)> {
 }
 
 fn left_out_columns(measured: Option<&Measured>) -> [(&'static str, Option<String>); 5] {
-    let column = |name, of: fn(&crate::report::measure::metrics::LeftOut) -> usize| {
+    let column = |name, of: fn(&crate::report::measure::metrics::NotCompared) -> usize| {
         (name, measured.map(|measured| of(&measured.metrics.left_out).to_string()))
     };
     [

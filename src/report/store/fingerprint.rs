@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use super::results::{Machine, Row, VERSION};
 use crate::geometry::{Material, Mesh, Texture};
-use crate::report::measure::options::Options;
+use crate::report::measure::options::MeasureOptions;
 use crate::scene::{LightKind, Scene, Settings};
 
 /// Hashes everything that decides the rows, but not the machine. File names are not included: the same scene in another
 /// folder has the same fingerprint.
-pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: &Options) -> String {
+pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: &MeasureOptions) -> String {
     let mut mark = Mark::new();
     mark.scene(scene);
     for row in rows {
@@ -23,7 +23,7 @@ pub fn of_rows<'r>(scene: &Scene, rows: impl Iterator<Item = &'r Row>, options: 
 }
 
 /// Hashes the program, the driver and the machine, which all rows of one report must share.
-pub fn stamp(machine: &Machine, options: &Options) -> String {
+pub fn stamp(machine: &Machine, options: &MeasureOptions) -> String {
     let mut mark = Mark::new();
     mark.debug(&(machine, options.runs));
     // If the program cannot be read, its version is used.

@@ -41,7 +41,7 @@ pub fn path_in(folder: &Path) -> PathBuf {
 
 /// Rows of a journal, and warnings about the rejected ones.
 #[derive(Debug, Default)]
-pub struct Done {
+pub struct JournalRows {
     /// Rows, each with the fingerprint of its scene; the first of each index.
     pub rows: Vec<(String, Row)>,
     /// Warnings, one sentence each.
@@ -54,14 +54,14 @@ pub struct Done {
 /// # Errors
 ///
 /// A file that cannot be read.
-pub fn done(folder: &Path, stamp: &str, is_known: impl Fn(&str, &Row) -> Known) -> Result<Done, Error> {
+pub fn done(folder: &Path, stamp: &str, is_known: impl Fn(&str, &Row) -> Known) -> Result<JournalRows, Error> {
     let path = path_in(folder);
     let file = match File::open(&path) {
         Ok(file) => file,
-        Err(reason) if reason.kind() == io::ErrorKind::NotFound => return Ok(Done::default()),
+        Err(reason) if reason.kind() == io::ErrorKind::NotFound => return Ok(JournalRows::default()),
         Err(reason) => return Err(Error { path, reason }),
     };
-    let mut done = Done::default();
+    let mut done = JournalRows::default();
     let mut seen = HashSet::new();
     let (mut others, mut strange) = (0, 0);
     for (number, line) in BufReader::new(file).split(b'\n').enumerate() {
@@ -164,7 +164,7 @@ mod tests {
     use crate::report::samples;
 
     /// Writes a journal of the sample's rows under stamp "s", applies `change` to its bytes, and reads it again.
-    fn after(change: impl FnOnce(&mut Vec<u8>)) -> Done {
+    fn after(change: impl FnOnce(&mut Vec<u8>)) -> JournalRows {
         let folder = tempfile::tempdir().unwrap();
         let rows = samples::report().scenes.remove(0).rows;
         let mut journal = Journal::open(folder.path(), false, "s").unwrap();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::pictures::rows_that_matter;
 use super::results::{Report, SceneReport};
 use crate::report::measure::picks::Goals;
-use crate::report::show::html::{DifferencePicture, Pictures, ScenePictures};
+use crate::report::show::html::{DifferencePicture, ReportPictures, ScenePictures};
 
 /// Reason why the pictures of a part cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -24,7 +24,7 @@ pub fn folder_in(folder: &Path) -> PathBuf {
 }
 
 /// Each picture with its file.
-pub(super) fn files(folder: &Path, report: &Report, pictures: &Pictures) -> Vec<(PathBuf, Vec<u8>)> {
+pub(super) fn files(folder: &Path, report: &Report, pictures: &ReportPictures) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = Vec::new();
     for (scene, of_scene) in report.scenes.iter().zip(&pictures.scenes) {
         let mut add = |what: &str, png: &[u8]| files.push((path_of(folder, scene, what), png.to_vec()));
@@ -63,9 +63,9 @@ fn path_of(folder: &Path, scene: &SceneReport, what: &str) -> PathBuf {
 /// # Errors
 ///
 /// A picture that cannot be read or is none of its scene's size.
-pub fn of_parts(parts: &[PathBuf], report: &mut Report, goals: &Goals) -> Result<Pictures, Error> {
+pub fn of_parts(parts: &[PathBuf], report: &mut Report, goals: &Goals) -> Result<ReportPictures, Error> {
     let folders: Vec<&Path> = parts.iter().map(|part| folder_of(part)).collect();
-    let mut pictures = Pictures::default();
+    let mut pictures = ReportPictures::default();
     for scene in &report.scenes {
         let mut of_scene = ScenePictures {
             picture: find(&folders, scene, "picture")?,
@@ -132,7 +132,7 @@ mod tests {
         let difference = |row: &usize| DifferencePicture { row: *row, caption: String::new(), png: png(size) };
         let differences = rows.iter().map(difference).collect();
         let of_scene = ScenePictures { picture: Some(png(size)), truth: Some(png(size)), differences };
-        let pictures = Pictures { scenes: vec![of_scene] };
+        let pictures = ReportPictures { scenes: vec![of_scene] };
         write::write_all(folder, &report, &pictures, &Goals::default()).unwrap();
         report
     }

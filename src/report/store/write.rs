@@ -12,7 +12,7 @@ use super::results::{Report, SceneReport};
 use super::{csv, picture_files};
 use crate::output::atomic_write;
 use crate::report::measure::picks::Goals;
-use crate::report::show::html::{Pictures, to_html};
+use crate::report::show::html::{ReportPictures, to_html};
 use crate::report::show::plots::{self, Links};
 
 /// Reason why a report could not be written.
@@ -36,7 +36,7 @@ pub enum Error {
 /// # Errors
 ///
 /// The first file that could not be written; then none of them is new, unless a rename itself failed.
-pub fn write_all(folder: &Path, report: &Report, pictures: &Pictures, goals: &Goals) -> Result<(), Error> {
+pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goals: &Goals) -> Result<(), Error> {
     let mut files = vec![
         (folder.join("report.json"), to_json(folder, report)?),
         (folder.join("report.csv"), csv::to_csv(report).into_bytes()),
@@ -141,7 +141,7 @@ mod tests {
     }
 
     fn write(folder: &Path, report: &Report) -> Result<(), Error> {
-        write_all(folder, report, &Pictures::default(), &Goals::default())
+        write_all(folder, report, &ReportPictures::default(), &Goals::default())
     }
 
     #[test]
@@ -169,7 +169,7 @@ mod tests {
             report.scenes = vec![samples::scene(name, fingerprint)];
             let scene =
                 ScenePictures { truth: Some(png.clone()), differences: vec![difference(row)], ..Default::default() };
-            write_all(folder.path(), &report, &Pictures { scenes: vec![scene] }, &Goals::default()).unwrap();
+            write_all(folder.path(), &report, &ReportPictures { scenes: vec![scene] }, &Goals::default()).unwrap();
         };
         write("old.toml", "f1", 3);
         for mine in ["plots/mine.svg", "pictures/mine.png", "pictures/f1-note.png"] {
@@ -242,7 +242,7 @@ mod tests {
         let difference = DifferencePicture { row: 5, caption: "size = 256".to_owned(), png: png.clone() };
         let scene = ScenePictures { picture: Some(png.clone()), truth: Some(png), differences: vec![difference] };
         let goals = Goals { wrong_percent: 0.3, milliseconds: 10.0 };
-        write_all(&folder, &samples::report(), &Pictures { scenes: vec![scene] }, &goals).unwrap();
+        write_all(&folder, &samples::report(), &ReportPictures { scenes: vec![scene] }, &goals).unwrap();
         let page = fs::read_to_string(folder.join("report.html")).unwrap();
         assert_eq!(page.matches("data:image/png;base64,iVBOR").count(), 3);
     }

@@ -25,7 +25,7 @@ use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
-use super::shadow_map::depth::{self, DepthEnding, Layer};
+use super::shadow_map::depth::{self, DepthEnding, DepthLayer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
 use super::shadow_map::{self, bias};
 use super::{Axis, ShadowSettings, Technique};
@@ -129,9 +129,10 @@ impl ShadowSettings for Settings {
         let mut draw = |name, image, ending: Option<DepthEnding>, offset, shared_alone| {
             let is_second = ending.is_some();
             let receivers: &[&Drawable] = if is_second { &layers.receivers } else { &[] };
-            let layer = Layer { ending, clamped, receivers, ..Layer::plain(name, image, offset, &layers.casters) };
+            let layer =
+                DepthLayer { ending, clamped, receivers, ..DepthLayer::plain(name, image, offset, &layers.casters) };
             let layer = match shared_alone && !view.keep_all {
-                true => Layer {
+                true => DepthLayer {
                     scissor: Some(shared.scissor),
                     casters: &shared.casters.whole,
                     in_parts: &shared.casters.in_parts,

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::casters;
-use super::shadow_map::depth::{self, Layer};
+use super::shadow_map::depth::{self, DepthLayer};
 use super::shadow_map::settings::{self as map, Settings};
 use super::shadow_map::{self, fit};
 use super::{Axis, ShadowSettings, Technique};
@@ -114,7 +114,7 @@ impl ShadowSettings for SecondDepthSettings {
             return Ok(shadow_map::without_casters(view, settings, notes));
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
-        let layer = Layer::plain("second depth", "map", offset, &casters);
+        let layer = DepthLayer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, settings, list, notes);
         notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
         let forecast = forecast::Map {

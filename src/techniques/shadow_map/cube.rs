@@ -7,7 +7,7 @@
 use glam::{DMat4, DVec3, Vec2};
 
 use super::casters::{in_the_map, may_cast};
-use super::depth::{self, Layer};
+use super::depth::{self, DepthLayer};
 use super::forecast::{self, Stored};
 use super::map::map_info;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
@@ -177,7 +177,7 @@ fn draw(
         };
         let fewer: Vec<&Drawable> = fewer.iter().collect();
         let casters = if settings.simplified { &fewer } else { casters };
-        let layer = Layer::plain("depth", "map", offset, casters);
+        let layer = DepthLayer::plain("depth", "map", offset, casters);
         let clamped = depth::is_clamped(face_view, &layer, &format!("face {}", face.name()), notes);
         let (state, _) = depth::state(settings, offset, clamped);
         let batches = depth::batches(face_view, &layer, settings, list);

@@ -16,7 +16,7 @@ use crate::pass::{
 };
 
 /// One pass of depth over the casters.
-pub struct Layer<'a> {
+pub struct DepthLayer<'a> {
     /// Name of the pass, after the light's number.
     pub name: &'static str,
     /// Name of the image, after the light's number.
@@ -37,7 +37,7 @@ pub struct Layer<'a> {
     pub receivers_in_parts: &'a [InParts<'a>],
 }
 
-impl<'a> Layer<'a> {
+impl<'a> DepthLayer<'a> {
     /// A layer of the depth of `casters`, all over the map.
     pub fn plain(name: &'static str, image: &'static str, offset: PolygonOffset, casters: &'a [&'a Drawable]) -> Self {
         Self {
@@ -75,12 +75,12 @@ pub struct DepthEnding {
 /// Draws a layer and, with `transfer = "copy"`, copies it. Returns the depth texture.
 pub fn draw(
     view: &FrustumView<'_>,
-    layer: &Layer<'_>,
+    layer: &DepthLayer<'_>,
     settings: &Settings,
     list: &mut PassList,
     notes: &mut Notes,
 ) -> ImageId {
-    let Layer { name, image, .. } = layer;
+    let DepthLayer { name, image, .. } = layer;
     let levels = bias::levels(settings);
     let storage = if levels > 1 { Storage::Mipmapped(levels) } else { Storage::Texture };
     let map = list.image(desc(view, image, settings, storage));
@@ -89,8 +89,12 @@ pub fn draw(
         Transfer::Copy => list.image(desc(view, &format!("{image}: depth buffer"), settings, Storage::Renderbuffer)),
     };
     let mut batches = batches(view, layer, settings, list);
-    let received =
-        Layer { casters: layer.receivers, in_parts: layer.receivers_in_parts, ending: layer.ending.clone(), ..*layer };
+    let received = DepthLayer {
+        casters: layer.receivers,
+        in_parts: layer.receivers_in_parts,
+        ending: layer.ending.clone(),
+        ..*layer
+    };
     let received = self::batches(view, &received, settings, list);
     let label = format!("light {}: {name}", view.index);
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
@@ -141,7 +145,7 @@ pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Stor
 
 /// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that casters before the near plane are drawn at that plane's
 /// depth instead of being clipped; notes it for `what`. Near and far are the map's, not the light's.
-pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: &mut Notes) -> bool {
+pub fn is_clamped(view: &FrustumView<'_>, layer: &DepthLayer<'_>, what: &str, notes: &mut Notes) -> bool {
     let Some(item) = clamps_near(view, layer) else { return layer.clamped };
     let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };
     let why = format!("{} may come nearer than the near plane at {near}: it casts from there", item.label);
@@ -153,7 +157,7 @@ pub fn is_clamped(view: &FrustumView<'_>, layer: &Layer<'_>, what: &str, notes: 
 }
 
 /// The first caster of the layer that may lie before the near plane.
-fn clamps_near<'a>(view: &FrustumView<'_>, layer: &Layer<'a>) -> Option<&'a Drawable> {
+fn clamps_near<'a>(view: &FrustumView<'_>, layer: &DepthLayer<'a>) -> Option<&'a Drawable> {
     let in_parts = layer.in_parts.iter().map(|part| part.item);
     layer.casters.iter().copied().chain(in_parts).find(|item| is_before_near(view, item))
 }
@@ -191,7 +195,7 @@ const LAST: f64 = 1.0 - 1.0 / 32_768.0;
 /// Tests whether an offset could move a caster to the depth that the map is cleared to. Points beyond the box of parallel
 /// light are compared at depth 1, and would be lit through it. A steep side's offset has no bound. Casters beyond the box
 /// itself must still be clipped.
-fn ends_before_cleared(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings) -> bool {
+fn ends_before_cleared(view: &FrustumView<'_>, layer: &DepthLayer<'_>, settings: &Settings) -> bool {
     let PolygonOffset { factor, units } = layer.offset;
     let clip_from_world = map_clip_from_world(view, settings);
     let is_held = |item: &&Drawable| {
@@ -219,7 +223,7 @@ fn depths_kept() -> DMat4 {
 }
 
 /// The casters in as few batches as their alpha tests allow, with the layer's ending.
-pub fn batches(view: &FrustumView<'_>, layer: &Layer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
+pub fn batches(view: &FrustumView<'_>, layer: &DepthLayer<'_>, settings: &Settings, list: &mut PassList) -> Vec<Batch> {
     let clip_from_world = map_clip_from_world(view, settings);
     let clip_from_world =
         if ends_before_cleared(view, layer, settings) { depths_kept() * clip_from_world } else { clip_from_world };

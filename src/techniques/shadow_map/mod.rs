@@ -16,7 +16,7 @@ mod tag;
 pub(super) mod term;
 
 use self::casters::casters;
-use self::depth::Layer;
+use self::depth::DepthLayer;
 use self::forecast::Stored;
 use self::settings::Settings;
 use super::claims::{Claim, Contender, Quantity, Relation};
@@ -146,7 +146,7 @@ fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, 
         if settings.simplified { simplified_casters::simplified(view, &casters, settings, notes) } else { Vec::new() };
     let fewer: Vec<&Drawable> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
-    let layer = Layer::plain("depth", "map", offset.polygon, casters);
+    let layer = DepthLayer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, settings, list, notes);
     let mut term = looked_up(view, map, settings, offset.texels, notes);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::casters::CastingObject;
 use super::choice::CountMethod;
-use super::points::{Point, World};
+use super::points::{CountedPoint, CountedWorld};
 use super::settings::{Method, Settings};
 use super::shapes::model_distance;
 use crate::geometry::volume::SurfaceKind;
@@ -44,7 +44,7 @@ pub fn warn(
     }
     let distance = |caster: &CastingObject| model_distance(view, caster, settings);
     let ends = settings.method == Method::ZFailTruncated;
-    let world = World::new(view, &drawn, if ends { Some(&distance) } else { None });
+    let world = CountedWorld::new(view, &drawn, if ends { Some(&distance) } else { None });
     let [width, height] = view.scene.image.size;
     let step = (f64::from(width) * f64::from(height) / f64::from(MOST_SAMPLES)).sqrt().max(1.0);
     let [across, down] = [width, height].map(|size| (f64::from(size) / step).ceil() as u32);
@@ -67,9 +67,10 @@ pub fn warn(
         });
         is_sure.then_some((fault, point))
     });
-    let wrong: Vec<(Fault, Point)> = samples.collect();
+    let wrong: Vec<(Fault, CountedPoint)> = samples.collect();
     for fault in [Fault::Hole, Fault::NearInVolume, Fault::EvenCount, Fault::Ended, Fault::TooMany] {
-        let points: Vec<Point> = wrong.iter().filter(|(own, _)| *own == fault).map(|(_, point)| *point).collect();
+        let points: Vec<CountedPoint> =
+            wrong.iter().filter(|(own, _)| *own == fault).map(|(_, point)| *point).collect();
         if !points.is_empty() {
             let what = describe(fault, &points, &drawn, settings, view);
             let share = format!("{} of {} sampled pixels are wrong", points.len(), across * down);
@@ -130,13 +131,13 @@ fn most_layers(drawn: &[&CastingObject]) -> usize {
 }
 
 /// Tests whether the count may be a multiple of 256, which looks like none. The point is then surely in shadow.
-fn may_wrap(point: &Point) -> bool {
+fn may_wrap(point: &CountedPoint) -> bool {
     let most = point.within + point.doubtful;
     most >= LAYERS && most / LAYERS > point.within.saturating_sub(1) / LAYERS
 }
 
 /// Reason why a pixel is wrong; `None`: it is right, or the depth buffer's rounding decides.
-fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
+fn fault(point: &CountedPoint, settings: &Settings) -> Option<Fault> {
     if point.doubtful > 0 {
         return None;
     }
@@ -169,12 +170,12 @@ fn fault(point: &Point, settings: &Settings) -> Option<Fault> {
 
 fn describe(
     fault: Fault,
-    points: &[Point],
+    points: &[CountedPoint],
     drawn: &[&CastingObject],
     settings: &Settings,
     view: &LightView<'_>,
 ) -> String {
-    let most = |of: fn(&Point) -> u32| points.iter().map(of).max().unwrap_or(0);
+    let most = |of: fn(&CountedPoint) -> u32| points.iter().map(of).max().unwrap_or(0);
     match fault {
         Fault::Hole => {
             let mut names: Vec<&str> =

@@ -18,7 +18,7 @@ const SUBPIXEL: f64 = 1.0 / 256.0;
 
 /// A visible point, and its counts.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct CountedPoint {
     /// Number of volumes that hold it.
     pub within: u32,
     /// Number of volumes that hold it if they end at the given distance.
@@ -38,7 +38,7 @@ pub struct Point {
 }
 
 /// Surfaces to see and volumes to count.
-pub struct World<'a> {
+pub struct CountedWorld<'a> {
     view: &'a LightView<'a>,
     source: LightSource,
     surfaces: Triangles,
@@ -61,7 +61,7 @@ struct Eye {
     up: DVec3,
 }
 
-impl<'a> World<'a> {
+impl<'a> CountedWorld<'a> {
     /// Prepares the volumes of `casting`. `distance`: how far each caster's volume goes, in its model's units, if it ends.
     pub fn new(
         view: &'a LightView<'a>,
@@ -114,7 +114,7 @@ impl<'a> World<'a> {
 
     /// Point seen at a place of the picture, in pixels from its upper left corner. `None`: nothing, or a point outside the
     /// light's shape.
-    pub fn at(&self, place: DVec2) -> Option<Point> {
+    pub fn at(&self, place: DVec2) -> Option<CountedPoint> {
         let camera = &self.view.scene.camera;
         let [width, height] = self.view.scene.image.size.map(f64::from);
         let way = self.eye.ahead + (place.x - 0.5 * width) * self.eye.right + (0.5 * height - place.y) * self.eye.up;
@@ -145,10 +145,10 @@ impl<'a> World<'a> {
                 through_holes += if normal.dot(light_ray) * normal.dot(way) > 0.0 { 1 } else { -1 };
             });
         }
-        Some(Point { before, through_holes, aside, ..self.held(point, way, own, doubt) })
+        Some(CountedPoint { before, through_holes, aside, ..self.held(point, way, own, doubt) })
     }
 
-    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64) -> Point {
+    fn held(&self, point: DVec3, way: DVec3, own: u32, doubt: f64) -> CountedPoint {
         let ray = self.toward(point);
         let length = ray.way.length();
         let longer = Ray { end: 1.0 + (4.0 * doubt / length).clamp(IN_PLANE, 1.0), ..ray };
@@ -189,7 +189,7 @@ impl<'a> World<'a> {
             });
         }
         let behind = (1.0 - first).max(0.0) * length;
-        Point { within, within_ended, doubtful, before: 0, through_holes: 0, aside: 0.0, is_shadowed, behind }
+        CountedPoint { within, within_ended, doubtful, before: 0, through_holes: 0, aside: 0.0, is_shadowed, behind }
     }
 
     /// Rounding of f32 in a point of a triangle: four times, by 2^-24 of what meets in a transform.

@@ -98,11 +98,11 @@ fn parallel_beams_meet_what_lies_straight_before_their_base() {
         assert_eq!(meeting.is_some(), expected.is_some(), "{base}");
         let Some((meeting, expected)) = meeting.zip(expected) else { continue };
         assert!((meeting.center.unwrap() - expected).abs() < 1e-12 && meeting.surely_inside);
-        assert_eq!((meeting.at_base, meeting.at_start), (Side::Before, Side::Beyond));
+        assert_eq!((meeting.at_base, meeting.at_start), (BeamSide::Before, BeamSide::Beyond));
     }
     // Behind the base, and farther up than the segment's own piece: nothing is before its start.
     let behind = parallel.meet(&triangle(-0.2, -1.0), 1e-9).unwrap();
     let far_up = parallel.meet(&triangle(-0.2, 99.0), 1e-9).unwrap();
-    assert_eq!([behind, far_up].map(|meeting| meeting.at_base), [Side::Beyond, Side::Before]);
-    assert_eq!([behind, far_up].map(|meeting| meeting.at_start), [Side::Beyond; 2]);
+    assert_eq!([behind, far_up].map(|meeting| meeting.at_base), [BeamSide::Beyond, BeamSide::Before]);
+    assert_eq!([behind, far_up].map(|meeting| meeting.at_start), [BeamSide::Beyond; 2]);
 }

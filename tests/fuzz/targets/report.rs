@@ -2,7 +2,7 @@
 #![no_main]
 
 use glumbra::report::measure::picks::Goals;
-use glumbra::report::show::html::{Pictures, to_html};
+use glumbra::report::show::html::{ReportPictures, to_html};
 use glumbra::report::store::{csv, merge};
 use libfuzzer_sys::fuzz_target;
 
@@ -12,6 +12,6 @@ fuzz_target!(|bytes: &[u8]| {
     let parts = vec![(path.clone(), report.clone()), (path, report)];
     if let Ok(report) = merge::merge(parts) {
         let _ = csv::to_csv(&report);
-        let _ = to_html(&report, &Pictures::default(), &Goals::default());
+        let _ = to_html(&report, &ReportPictures::default(), &Goals::default());
     }
 });

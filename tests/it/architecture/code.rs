@@ -23,6 +23,18 @@ pub struct File {
     children: BTreeSet<String>,
     /// Absolute paths that it names.
     named: BTreeSet<Module>,
+    /// Types, traits and type aliases that other files can name.
+    pub types: BTreeSet<String>,
+}
+
+impl File {
+    /// Folder of the file, below `src`; a file directly in `src` is a folder of its own.
+    pub fn folder(&self) -> PathBuf {
+        match Path::new(&self.path).parent() {
+            Some(folder) if folder != Path::new("") => folder.to_path_buf(),
+            _ => Path::new(&self.path).with_extension(""),
+        }
+    }
 }
 
 /// A library by its modules.
@@ -216,6 +228,17 @@ impl<'a> Visit<'a> for Reader {
             {
                 self.file.children.insert(child.ident.to_string());
             }
+            let named = match item {
+                syn::Item::Struct(item) => Some((&item.vis, &item.ident)),
+                syn::Item::Enum(item) => Some((&item.vis, &item.ident)),
+                syn::Item::Union(item) => Some((&item.vis, &item.ident)),
+                syn::Item::Trait(item) => Some((&item.vis, &item.ident)),
+                syn::Item::Type(item) => Some((&item.vis, &item.ident)),
+                _ => None,
+            };
+            self.file.types.extend(
+                named.filter(|(vis, _)| !matches!(vis, syn::Visibility::Inherited)).map(|(_, name)| name.to_string()),
+            );
         }
         visit::visit_file(self, file);
     }

@@ -1,14 +1,14 @@
 //! The library's order: which module may use which, that no files use each other in a circle, where `unsafe` and raw GL
-//! may stand, and that every row of a table has its folders.
+//! may stand, that neighbours have no two types of one name, and that every row of a table has its folders.
 
 mod code;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use code::{Arrow, Code, Module};
+use code::{Arrow, Code, File, Module};
 
 /// Each module, and those that it may use directly; it may use what these may use, too.
 const ARROWS: &[(&str, &[&str])] = &[
@@ -51,6 +51,12 @@ const GL: &[&str] = &["context", "device", "fixed_function", "conformance"];
 
 /// Modules in which `unsafe` may stand besides: signal handlers, and locks on files, are calls to the C library.
 const UNSAFE: &[&str] = &["process"];
+
+/// Type names that neighbours may share, each with the reason.
+const SHARED_NAMES: &[(&str, &str)] = &[
+    ("Error", "each module has its own, and names it with the module: `scene::Error`"),
+    ("Settings", "each technique has its own, as each has its own `Technique`"),
+];
 
 /// Folders of `glsl/` that belong to no row: what rows share, what surfaces and views are made of.
 const SHARED_SHADERS: &[&str] = &["common", "surfaces", "views"];
@@ -128,6 +134,51 @@ fn unsafe_code_and_gl_stand_where_they_may() {
         let may = GL.contains(&top) || UNSAFE.contains(&top);
         assert!(!file.is_unsafe || may, "src/{} is unsafe: only {GL:?} and {UNSAFE:?} may be", file.path);
     }
+}
+
+/// Types of one name in one folder, in a folder and its parent, or in two folders of one parent.
+fn doubled_names(code: &Code) -> Vec<String> {
+    let mut places: BTreeMap<&str, Vec<&File>> = BTreeMap::new();
+    for file in code.files.values() {
+        for name in &file.types {
+            places.entry(name).or_default().push(file);
+        }
+    }
+    let are_neighbours = |a: &File, b: &File| {
+        let (a, b) = (a.folder(), b.folder());
+        a == b || a.parent() == b.parent() || a.parent() == Some(&b) || b.parent() == Some(&a)
+    };
+    let mut found = Vec::new();
+    for (name, files) in places {
+        for (index, a) in files.iter().enumerate() {
+            for b in files[index + 1..].iter().filter(|b| are_neighbours(a, b)) {
+                found.push(format!("{name}: src/{} and src/{}", a.path, b.path));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn no_two_types_of_neighbours_have_one_name() {
+    let is_shared = |line: &String| SHARED_NAMES.iter().any(|(name, _)| line.starts_with(&format!("{name}:")));
+    let found: Vec<String> = doubled_names(library()).into_iter().filter(|line| !is_shared(line)).collect();
+    assert!(found.is_empty(), "types of one name in neighbouring folders:\n{}", found.join("\n"));
+}
+
+#[test]
+fn a_doubled_name_that_is_planted_is_found() {
+    let lib = ("lib.rs", "mod pass; mod frame; mod truth;");
+    let found = |image: &str, frame: &str, beam: &str| {
+        let pass = ("pass/mod.rs", "mod image; pub struct Pass;");
+        let truth = [("truth/mod.rs", "mod rays;"), ("truth/rays/mod.rs", "mod beam;"), ("truth/rays/beam.rs", beam)];
+        let files = [lib, pass, ("pass/image.rs", image), ("frame.rs", frame)];
+        doubled_names(&planted(&[&files[..], &truth].concat()))
+    };
+    assert_eq!(found("pub(super) struct Pass;", "", ""), ["Pass: src/pass/mod.rs and src/pass/image.rs"]);
+    assert_eq!(found("pub trait T {}", "pub type T = u8;", ""), ["T: src/frame.rs and src/pass/image.rs"]);
+    assert_eq!(found("struct Pass;", "struct Pass;", ""), Vec::<String>::new(), "private types are their file's");
+    assert_eq!(found("pub enum Side {}", "", "pub enum Side {}"), Vec::<String>::new(), "far apart");
 }
 
 /// Reads a library of a few files.

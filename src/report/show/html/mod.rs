@@ -15,7 +15,7 @@ use tags::{escape, list};
 
 /// All pictures of a report, in the order of its scenes. Scenes without an entry are shown without pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pictures {
+pub struct ReportPictures {
     pub scenes: Vec<ScenePictures>,
 }
 
@@ -42,7 +42,7 @@ pub(crate) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// The whole page.
-pub fn to_html(report: &Report, pictures: &Pictures, goals: &Goals) -> String {
+pub fn to_html(report: &Report, pictures: &ReportPictures, goals: &Goals) -> String {
     let none = ScenePictures::default();
     let scenes = report.scenes.iter().enumerate().map(|(index, scene)| {
         let pictures = pictures.scenes.get(index).unwrap_or(&none);

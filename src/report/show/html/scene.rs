@@ -5,7 +5,7 @@ use super::tags::{escape, figure, list};
 use super::{ScenePictures, claims};
 use crate::report::measure::difference::LEGEND;
 use crate::report::measure::metrics::Band;
-use crate::report::measure::picks::{Goals, Picks, Times, pareto, titles, unjudged};
+use crate::report::measure::picks::{Goals, Picks, RowTimes, pareto, titles, unjudged};
 use crate::report::numbers::{bytes, grouped, plain};
 use crate::report::show::plots::{self, Links};
 use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport};
@@ -19,7 +19,7 @@ pub(super) fn section(
 ) -> String {
     let [width, height] = scene.size;
     let truth = &scene.truth;
-    let times = Times::of(scene);
+    let times = RowTimes::of(scene);
     let mut text = format!(
         "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles. The truth \
          took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).</p>\n",
@@ -147,7 +147,7 @@ fn band_text(scene: &SceneReport) -> String {
     format!("<p>The band reaches {range} away from true shadow edges.</p>\n")
 }
 
-fn marks(scene: &SceneReport, times: &Times<'_>, goals: &Goals) -> Marks {
+fn marks(scene: &SceneReport, times: &RowTimes<'_>, goals: &Goals) -> Marks {
     let mut marks = Marks::new();
     let mut mark = |row: &Row, why| marks.entry(row.index).or_default().push(why);
     if let Some(row) = scene.rows.iter().find(|row| row.index == 0) {
@@ -211,7 +211,7 @@ fn card(
     (row, measured): (&Row, &Measured),
     doubts: &[String],
     number: usize,
-    times: &Times<'_>,
+    times: &RowTimes<'_>,
 ) -> String {
     let [least, greatest] = times.bar(measured).map(plain);
     let doubts: String = doubts.iter().map(|doubt| format!("<p class=\"doubt\">{}</p>\n", escape(doubt))).collect();

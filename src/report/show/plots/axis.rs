@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A logarithmic axis that holds some values.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Axis {
+pub(crate) struct PlotAxis {
     pub range: Range<f64>,
     /// Ticks with a label and a line.
     pub ticks: Vec<f64>,
@@ -14,7 +14,7 @@ pub(crate) struct Axis {
     pub floor: Option<f64>,
 }
 
-impl Axis {
+impl PlotAxis {
     /// An axis over values not below zero; `None` if there are none.
     pub fn over(values: impl Iterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.filter(|value| value.is_finite() && *value >= 0.0).collect();
@@ -74,22 +74,22 @@ mod tests {
 
     #[test]
     fn a_wide_axis_has_powers_of_ten() {
-        let axis = Axis::over([0.013, 40.0].into_iter()).unwrap();
+        let axis = PlotAxis::over([0.013, 40.0].into_iter()).unwrap();
         assert_eq!(axis.ticks, [0.01, 0.1, 1.0, 10.0]);
         assert_eq!(axis.floor, None);
     }
 
     #[test]
     fn a_narrow_axis_has_digits() {
-        assert_eq!(Axis::over([4.0, 30.0].into_iter()).unwrap().ticks, [5.0, 10.0, 20.0]);
-        assert_eq!(Axis::over([4.0, 6.0].into_iter()).unwrap().ticks, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
-        assert!(Axis::over([4.0].into_iter()).unwrap().ticks.len() >= 2);
+        assert_eq!(PlotAxis::over([4.0, 30.0].into_iter()).unwrap().ticks, [5.0, 10.0, 20.0]);
+        assert_eq!(PlotAxis::over([4.0, 6.0].into_iter()).unwrap().ticks, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+        assert!(PlotAxis::over([4.0].into_iter()).unwrap().ticks.len() >= 2);
     }
 
     #[test]
     fn zeros_lie_on_a_floor_below_everything() {
         for least in [0.003, 0.01, 0.019, 0.5, 1.0] {
-            let axis = Axis::over([0.0, least, 7.0].into_iter()).unwrap();
+            let axis = PlotAxis::over([0.0, least, 7.0].into_iter()).unwrap();
             let floor = axis.floor.unwrap();
             assert!(2.0 * floor <= least && axis.range.contains(&floor), "{least}: {floor}");
             assert_eq!(axis.place(0.0), floor);
@@ -99,8 +99,8 @@ mod tests {
 
     #[test]
     fn only_zeros_and_nothing() {
-        let axis = Axis::over([0.0].into_iter()).unwrap();
+        let axis = PlotAxis::over([0.0].into_iter()).unwrap();
         assert!(axis.range.contains(&axis.place(0.0)));
-        assert_eq!(Axis::over(std::iter::empty()), None);
+        assert_eq!(PlotAxis::over(std::iter::empty()), None);
     }
 }

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Error;
-use super::axis::Axis;
+use super::axis::PlotAxis;
 use crate::report::numbers::plain;
 use crate::report::show::html::tags::escape;
 
@@ -50,7 +50,7 @@ pub(crate) struct Marker {
     pub is_outlined: bool,
 }
 
-pub(crate) struct Canvas<'a> {
+pub(crate) struct PlotCanvas<'a> {
     root: Root<'a>,
     chart: Chart<'a>,
     legend_y: i32,
@@ -61,8 +61,8 @@ pub(crate) struct Canvas<'a> {
 /// Draws on a new sheet; the result is SVG.
 pub(crate) fn draw(
     words: &Words<'_>,
-    axes: [&Axis; 2],
-    draw: impl FnOnce(&mut Canvas<'_>) -> Result<(), Error>,
+    axes: [&PlotAxis; 2],
+    draw: impl FnOnce(&mut PlotCanvas<'_>) -> Result<(), Error>,
 ) -> Result<String, Error> {
     let (mut svg, links);
     svg = String::new();
@@ -71,7 +71,7 @@ pub(crate) fn draw(
         root.fill(&WHITE).map_err(failed)?;
         write_titles(&root, words)?;
         let chart = draw_axes(&root, words, axes)?;
-        let mut canvas = Canvas { root, chart, legend_y: 100, links: String::new() };
+        let mut canvas = PlotCanvas { root, chart, legend_y: 100, links: String::new() };
         draw(&mut canvas)?;
         canvas.root.present().map_err(failed)?;
         links = canvas.links;
@@ -99,8 +99,8 @@ fn write_titles(root: &Root<'_>, words: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&Axis; 2]) -> Result<Chart<'a>, Error> {
-    let coordinates = |axis: &Axis| {
+fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&PlotAxis; 2]) -> Result<Chart<'a>, Error> {
+    let coordinates = |axis: &PlotAxis| {
         axis.range.clone().log_scale().with_key_points(axis.ticks.clone()).with_light_points(axis.minor.iter().copied())
     };
     let mut chart = ChartBuilder::on(root)
@@ -112,7 +112,7 @@ fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&Axis; 2]) -> Resu
         .y_label_area_size(66)
         .build_cartesian_2d(coordinates(x), coordinates(y))
         .map_err(failed)?;
-    let label = |axis: &Axis| {
+    let label = |axis: &PlotAxis| {
         let floor = axis.floor;
         move |value: &f64| if floor == Some(*value) { "0".to_owned() } else { plain(*value) }
     };
@@ -132,7 +132,7 @@ fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&Axis; 2]) -> Resu
     Ok(chart)
 }
 
-impl Canvas<'_> {
+impl PlotCanvas<'_> {
     /// Place in pixels.
     pub fn place(&self, x: f64, y: f64) -> Place {
         self.chart.plotting_area().map_coordinate(&(x, y))
@@ -191,7 +191,7 @@ impl Canvas<'_> {
     }
 
     /// Draws the line of zeros.
-    pub fn floor(&self, axis: &Axis, height: f64) -> Result<(), Error> {
+    pub fn floor(&self, axis: &PlotAxis, height: f64) -> Result<(), Error> {
         let ends = [axis.range.start, axis.range.end].map(|x| self.place(x, height));
         let dashes = (ends[0].0..ends[1].0).step_by(10).map(|x| [(x, ends[0].1), ((x + 5).min(ends[1].0), ends[0].1)]);
         for dash in dashes {

@@ -8,11 +8,11 @@ pub(crate) mod canvas;
 
 use std::path::Path;
 
-use crate::report::measure::picks::{Times, pareto};
+use crate::report::measure::picks::{RowTimes, pareto};
 use crate::report::numbers::{grouped, plain};
 use crate::report::store::results::{Machine, Measured, Row, SceneReport};
-use axis::Axis;
-use canvas::{Canvas, Marker, Words};
+use axis::PlotAxis;
+use canvas::{Marker, PlotCanvas, Words};
 
 /// Reason why a plot could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -53,12 +53,12 @@ struct Points<'a> {
     techniques: Vec<&'a str>,
     /// Ascending, each once.
     sizes: Vec<f64>,
-    times: Times<'a>,
+    times: RowTimes<'a>,
 }
 
 impl<'a> Points<'a> {
     fn of(scene: &'a SceneReport) -> Self {
-        let times = Times::of(scene);
+        let times = RowTimes::of(scene);
         let mut all = Self { points: Vec::new(), techniques: Vec::new(), sizes: Vec::new(), times };
         let compared = |m: &&Measured| m.metrics.all.compared > 0 && m.frame_redrawn.median > 0.0;
         for (row, measured) in scene.rows.iter().filter_map(|row| Some((row, row.measured().filter(compared)?))) {
@@ -87,7 +87,7 @@ impl<'a> Points<'a> {
         }
     }
 
-    fn techniques_legend(&self, canvas: &mut Canvas<'_>) -> Result<(), Error> {
+    fn techniques_legend(&self, canvas: &mut PlotCanvas<'_>) -> Result<(), Error> {
         canvas.legend_heading("Technique")?;
         let has_points = |kind: usize| self.points.iter().any(|point| point.technique == kind);
         for (kind, name) in self.techniques.iter().enumerate().filter(|(kind, _)| has_points(*kind)) {
@@ -105,8 +105,8 @@ impl<'a> Points<'a> {
 /// An error of the plotting library.
 pub fn error_against_time(scene: &SceneReport, machine: &Machine, links: Links<'_>) -> Result<Option<String>, Error> {
     let all = Points::of(scene);
-    let x = Axis::over(all.points.iter().flat_map(|point| point.bar));
-    let y = Axis::over(all.points.iter().map(|point| point.wrong_percent));
+    let x = PlotAxis::over(all.points.iter().flat_map(|point| point.bar));
+    let y = PlotAxis::over(all.points.iter().map(|point| point.wrong_percent));
     let Some((x, y)) = x.zip(y) else { return Ok(None) };
     let words = Words {
         title: format!("Error against time: {}", file_name(&scene.path)),
@@ -115,7 +115,7 @@ pub fn error_against_time(scene: &SceneReport, machine: &Machine, links: Links<'
         y: "wrong pixels, in % of those compared",
     };
     let front: Vec<usize> = pareto(scene, &all.times).iter().map(|(row, _)| row.index).collect();
-    let draw = |canvas: &mut Canvas<'_>| {
+    let draw = |canvas: &mut PlotCanvas<'_>| {
         if let Some(floor) = y.floor {
             canvas.floor(&x, floor)?;
         }
@@ -147,7 +147,7 @@ fn tip(point: &Point<'_>) -> String {
 }
 
 /// A staircase, since nothing is known between two settings: right of and above it lies what a setting attains.
-fn draw_front(canvas: &Canvas<'_>, all: &Points<'_>, front: &[usize], y: &Axis) -> Result<(), Error> {
+fn draw_front(canvas: &PlotCanvas<'_>, all: &Points<'_>, front: &[usize], y: &PlotAxis) -> Result<(), Error> {
     let of = |index: &usize| all.points.iter().find(|point| point.row.index == *index);
     let places: Vec<_> = front
         .iter()
@@ -176,7 +176,7 @@ fn draw_front(canvas: &Canvas<'_>, all: &Points<'_>, front: &[usize], y: &Axis) 
     Ok(())
 }
 
-fn draw_time_legend(canvas: &mut Canvas<'_>, all: &Points<'_>) -> Result<(), Error> {
+fn draw_time_legend(canvas: &mut PlotCanvas<'_>, all: &Points<'_>) -> Result<(), Error> {
     all.techniques_legend(canvas)?;
     if all.sizes.len() > 1 {
         canvas.legend_heading("Map size")?;
@@ -214,15 +214,15 @@ pub fn error_against_map_size(
     if all.sizes.len() < 2 {
         return Ok(None);
     }
-    let y = Axis::over(all.points.iter().map(|point| point.wrong_percent));
-    let Some((x, y)) = Axis::at(&all.sizes).zip(y) else { return Ok(None) };
+    let y = PlotAxis::over(all.points.iter().map(|point| point.wrong_percent));
+    let Some((x, y)) = PlotAxis::at(&all.sizes).zip(y) else { return Ok(None) };
     let words = Words {
         title: format!("Error against map size: {}", file_name(&scene.path)),
         captions: &captions(scene, machine),
         x: "size of the map, in texels along a side",
         y: "wrong pixels, in % of those compared",
     };
-    let draw = |canvas: &mut Canvas<'_>| {
+    let draw = |canvas: &mut PlotCanvas<'_>| {
         if let Some(floor) = y.floor {
             canvas.floor(&x, floor)?;
         }
@@ -249,7 +249,7 @@ pub fn error_against_map_size(
 }
 
 /// A technique's least wrong setting at each size, joined.
-fn draw_best(canvas: &Canvas<'_>, all: &Points<'_>, kind: usize, y: &Axis) -> Result<(), Error> {
+fn draw_best(canvas: &PlotCanvas<'_>, all: &Points<'_>, kind: usize, y: &PlotAxis) -> Result<(), Error> {
     let best = |size: &f64| {
         let here = all.points.iter().filter(|point| point.technique == kind && point.size == Some(*size));
         let least = here.map(|point| point.wrong_percent).min_by(f64::total_cmp)?;

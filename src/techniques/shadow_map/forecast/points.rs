@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec3};
 
 use crate::geometry::rays::{Boxes, Ray};
-use crate::geometry::sampled::{Crossing, Sampled};
+use crate::geometry::sampled::{Crossing, SampledMesh};
 use crate::lights::projector::Rays;
 use crate::lights::{Drawable, LightView, alpha};
 
@@ -11,7 +11,7 @@ use crate::lights::{Drawable, LightView, alpha};
 pub struct Placed<'a> {
     pub item: &'a Drawable,
     model_from_world: DMat4,
-    mesh: Sampled,
+    mesh: SampledMesh,
 }
 
 /// A point that the camera sees.
@@ -71,7 +71,7 @@ fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
             Some(wave) => wave.moved(&item.mesh.0),
             None => item.mesh.0.clone(),
         };
-        let mesh = Sampled::new(&mesh, item.indices.clone());
+        let mesh = SampledMesh::new(&mesh, item.indices.clone());
         Placed { item, model_from_world: item.world_from_model.inverse(), mesh }
     };
     view.items.iter().map(of).filter(|placed| placed.model_from_world.is_finite()).collect()
