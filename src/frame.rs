@@ -18,10 +18,13 @@ use crate::scene::Scene;
 /// Reason why a frame could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
+    /// The scene cannot be planned, or the driver's limits are too low for its plan.
     #[error(transparent)]
     Plan(#[from] plan::Error),
+    /// The driver failed, or the plan breaks one of GL's rules.
     #[error(transparent)]
     Device(#[from] device::Error),
+    /// The depth formats could not be measured.
     #[error(transparent)]
     Probe(#[from] probe::Error),
 }
@@ -82,6 +85,7 @@ pub fn on_contexts<T: Send>(
 /// A planned scene's pictures.
 #[derive(Clone, Debug)]
 pub struct Frame {
+    /// The picture, 8 bits a channel or float as [`Request::float_picture`] says.
     pub picture: Pixels,
     /// Views in the request's order.
     pub views: Vec<Pixels>,

@@ -9,7 +9,9 @@ use glow::HasContext;
 pub struct DebugMessage {
     /// GL_DEBUG_TYPE_*.
     pub kind: u32,
+    /// Number of the message; the driver chooses it.
     pub id: u32,
+    /// Text of the driver, without a line end of its own.
     pub text: String,
 }
 

@@ -7,21 +7,31 @@ use super::{Backend, Choice};
 /// A backend that was tried, and its answer.
 #[derive(Clone, Debug)]
 pub struct Attempt {
+    /// Backend that was tried.
     pub backend: Backend,
+    /// Step that failed.
     pub reached: Reached,
+    /// Reason that the system or the driver gave.
     pub answer: String,
 }
 
+/// Reason why there is no context, or why it cannot be used.
 #[derive(Clone, Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// Every backend failed; each with its reason, in the order of the tries.
     #[error("{}", Report(.0))]
     NoContext(Vec<Attempt>),
+    /// The requested EGL device has no context.
     #[error("--device {index}: {answer}; `glumbra info` lists the devices")]
     Device { index: usize, answer: String },
+    /// A device is requested together with a context that is not EGL's.
     #[error("--device {index} chooses among EGL devices; a context of kind `{}` has none", choice_name(.choice))]
     DeviceWithoutEgl { index: usize, choice: Choice },
+    /// The driver refuses to make the context current on this thread.
     #[error("the {backend} context cannot be made current: {answer}")]
     NotCurrent { backend: String, answer: String },
+    /// The system's window could not be opened or drawn to.
     #[error("the window cannot be shown: {0}")]
     Present(String),
 }

@@ -10,41 +10,60 @@ use super::load::LoadedContext;
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
     pub backend: String,
+    /// GL_VENDOR.
     pub vendor: String,
+    /// GL_RENDERER.
     pub renderer: String,
+    /// GL_VERSION.
     pub version: String,
+    /// GL_SHADING_LANGUAGE_VERSION.
     pub shading_language: String,
     /// `core` or `compatibility`, by GL_CONTEXT_PROFILE_MASK; `none` before OpenGL 3.2.
     pub profile: &'static str,
+    /// True if the driver has GL_KHR_debug, or OpenGL 4.3, which includes it.
     pub khr_debug: bool,
     /// True if errors are reported with their text, at the call that made them.
     pub debug_output: bool,
     /// Bits of the counter of GL_TIME_ELAPSED queries; 0: passes cannot be timed on the device.
     pub timer_bits: u32,
+    /// Limits of the context.
     pub limits: ContextLimits,
 }
 
+/// Limits of a context, as its GL_MAX_* queries answer.
 #[derive(Clone, Debug, Serialize)]
 pub struct ContextLimits {
+    /// GL_MAX_TEXTURE_SIZE, in texels.
     pub texture_size: i32,
+    /// GL_MAX_CUBE_MAP_TEXTURE_SIZE, in texels.
     pub cube_map_size: i32,
+    /// GL_MAX_ARRAY_TEXTURE_LAYERS.
     pub array_layers: i32,
     /// Units that a fragment shader can read.
     pub texture_units: i32,
+    /// GL_MAX_RENDERBUFFER_SIZE, in pixels.
     pub renderbuffer_size: i32,
+    /// GL_MAX_VIEWPORT_DIMS: width and height in pixels.
     pub viewport: [i32; 2],
+    /// GL_MAX_COLOR_ATTACHMENTS.
     pub color_attachments: i32,
+    /// GL_MAX_DRAW_BUFFERS.
     pub draw_buffers: i32,
+    /// GL_MAX_SAMPLES, for each pixel.
     pub samples: i32,
     /// Bits below the pixel to which vertices are snapped.
     pub subpixel_bits: i32,
     /// 1 where anisotropic filtering is absent.
     pub anisotropy: f32,
+    /// GL_MAX_CLIP_DISTANCES.
     pub clip_distances: i32,
+    /// GL_MAX_VERTEX_ATTRIBS.
     pub vertex_attributes: i32,
     /// Scalars, of one stage.
     pub vertex_uniforms: i32,
+    /// GL_MAX_FRAGMENT_UNIFORM_COMPONENTS.
     pub fragment_uniforms: i32,
+    /// GL_MAX_UNIFORM_BLOCK_SIZE.
     pub uniform_block_bytes: i32,
 }
 

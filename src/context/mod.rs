@@ -33,9 +33,11 @@ use error::Refusal;
 /// Kind of context that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct ContextRequest {
+    /// Maker of the context; [`Choice::Auto`] tries several.
     pub choice: Choice,
     /// An EGL device by its index in [`egl::devices`]; then only [`Backend::EglDevice`] is tried.
     pub device: Option<usize>,
+    /// OpenGL profile of the context.
     pub profile: Profile,
     /// True for a debug context, whose errors are collected with their text (KHR_debug).
     pub debug: bool,
@@ -47,8 +49,11 @@ pub enum Choice {
     /// EGL, then OSMesa, then a hidden window where there is a display.
     #[default]
     Auto,
+    /// EGL only, in any of its ways.
     Egl,
+    /// OSMesa only.
     OsMesa,
+    /// A hidden window only; it needs a display.
     Window,
 }
 

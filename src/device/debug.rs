@@ -28,6 +28,7 @@ pub struct Debug {
 const MOST_FLAGS: usize = 8;
 
 impl Debug {
+    /// A reader of the errors of `context`; it shares the context's functions and its log.
     pub fn new(context: &dyn Context) -> Self {
         Self { gl: context.gl().clone(), log: context.debug_log().cloned() }
     }

@@ -9,13 +9,33 @@ use crate::pass::{Cube, CubeFace, Format, ImageId, PassList, Storage, Target};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
     /// Red, green, blue, alpha.
-    Rgba8 { size: [u32; 2], data: Vec<u8> },
+    Rgba8 {
+        /// Width and height.
+        size: [u32; 2],
+        /// Four bytes a texel.
+        data: Vec<u8>,
+    },
     /// Red, green, blue, alpha.
-    RgbaF32 { size: [u32; 2], data: Vec<f32> },
-    /// Window-space depth in [0, 1], one number a texel.
-    Depth { size: [u32; 2], data: Vec<f32> },
-    /// Stencil values, one number a texel.
-    Stencil { size: [u32; 2], data: Vec<u8> },
+    RgbaF32 {
+        /// Width and height.
+        size: [u32; 2],
+        /// Four numbers a texel.
+        data: Vec<f32>,
+    },
+    /// Window-space depth in [0, 1].
+    Depth {
+        /// Width and height.
+        size: [u32; 2],
+        /// One number a texel.
+        data: Vec<f32>,
+    },
+    /// Stencil values.
+    Stencil {
+        /// Width and height.
+        size: [u32; 2],
+        /// One byte a texel.
+        data: Vec<u8>,
+    },
 }
 
 impl Pixels {

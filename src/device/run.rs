@@ -28,6 +28,7 @@ pub enum Measure {
 /// The time of one pass in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
+    /// Label of the pass, as `glumbra plan` prints it.
     pub label: String,
     /// Time from its first call to the return of glFinish, in milliseconds.
     pub wall_ms: f64,

@@ -19,8 +19,11 @@ pub const LETTER: [u32; 2] = [6, 10];
 /// A size of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Font {
+    /// 6 by 10 pixels a letter.
     Small,
+    /// 7 by 13 pixels a letter.
     Text,
+    /// 9 by 18 pixels a letter, bold.
     Title,
 }
 
@@ -72,6 +75,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
+    /// A canvas of one colour, `size` pixels wide and high.
     pub fn new(size: [u32; 2], color: Color) -> Self {
         let count = size[0] as usize * size[1] as usize;
         Self { size, bytes: color.iter().copied().cycle().take(3 * count).collect() }
@@ -83,6 +87,7 @@ impl Canvas {
         Self { size, bytes }
     }
 
+    /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }

@@ -18,13 +18,18 @@ use crate::views::View;
 
 /// Reason why a file could not be written.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The file could not be written.
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
     Write { path: PathBuf, reason: String },
+    /// The file's folder is missing; it is never made.
     #[error("{path}: the folder {folder} does not exist", path = .path.display(), folder = .folder.display())]
     NoFolder { path: PathBuf, folder: PathBuf },
+    /// The name is that of a folder.
     #[error("{path}: is a folder; name a file that ends in .png, .exr or .npy", path = .path.display())]
     Folder { path: PathBuf },
+    /// The name has none of the known endings.
     #[error("{path}: cannot tell the format: end it in .png, .exr or .npy", path = .path.display())]
     UnknownFormat { path: PathBuf },
 }
@@ -32,8 +37,11 @@ pub enum Error {
 /// A file format, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFormat {
+    /// 8 bits a channel, 16 for depths and distances, which are stretched to be visible.
     Png,
+    /// 32-bit float.
     Exr,
+    /// NumPy's array, in the pixels' own type.
     Npy,
 }
 
@@ -89,7 +97,9 @@ pub fn beside(path: &Path, name: &str) -> PathBuf {
 /// A picture with its place and meaning.
 #[derive(Clone, Copy, Debug)]
 pub struct Output<'a> {
+    /// File to write; its ending chooses the format.
     pub path: &'a Path,
+    /// The picture's pixels.
     pub pixels: &'a Pixels,
     /// `None`: the main picture.
     pub view: Option<View>,

@@ -30,10 +30,13 @@ impl Deref for MeshRef {
 /// Draws that share program, uniforms and inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Batch {
+    /// Shaders of the batch.
     pub program: Program,
     /// The program's computation, for readers without shaders.
     pub meaning: FixedFunctionDesc,
+    /// Uniforms that all draws share.
     pub uniforms: Vec<Uniform>,
+    /// Images that the shaders sample.
     pub inputs: Vec<Input>,
     /// Faces that are not drawn, in addition to those of the pass's state.
     pub cull: Option<Face>,
@@ -42,6 +45,7 @@ pub struct Batch {
     /// GL_CLIP_DISTANCE0 and following, as many as the vertex stage writes by the uniform `clip_planes`; not in a pass
     /// that clips by a distance of its own.
     pub clip_planes: u8,
+    /// Draws in their order.
     pub draws: Vec<Draw>,
 }
 
@@ -62,10 +66,13 @@ impl Batch {
 pub struct Draw {
     /// The object's name, for plans.
     pub label: String,
+    /// Mesh whose vertices it reads.
     pub mesh: MeshRef,
+    /// Way in which the indices are joined.
     pub primitive: Primitive,
     /// Range of the mesh's indices.
     pub indices: Range<u32>,
+    /// Order of the mesh's triangles; `indices` counts in it.
     pub order: IndexOrder,
     /// Bounds of the range, in model space.
     pub bounds: Aabb,
@@ -88,9 +95,12 @@ impl Draw {
     }
 }
 
+/// Primitives that indices are joined to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Primitive {
+    /// GL_TRIANGLES: three indices each.
     Triangles,
+    /// GL_LINES: two indices each.
     Lines,
 }
 

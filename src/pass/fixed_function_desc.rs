@@ -45,6 +45,7 @@ pub struct Texturing {
 /// Factors of alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlphaTest {
+    /// Opacity of the material, in [0, 1].
     pub opacity: f32,
     /// True if the decal's alpha is a factor.
     pub decal: bool,
@@ -55,6 +56,7 @@ pub struct AlphaTest {
 /// Surfaces under the illumination formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lit {
+    /// Projection of the camera.
     pub clip_from_eye: DMat4,
     /// True: GL's lighting per vertex; false: Phong's, per fragment.
     pub per_vertex: bool,
@@ -62,12 +64,17 @@ pub struct Lit {
     pub lit: bool,
     /// The scene's ambient light times the material's.
     pub scene_ambient: [f32; 3],
+    /// Ambient reflectance of the material; black if no light needs it.
     pub ambient: [f32; 3],
+    /// Diffuse reflectance of the material; black without lights.
     pub diffuse: [f32; 3],
     /// Specular colour; black if no light has one.
     pub specular: [f32; 3],
+    /// Specular exponent; 0 if no light is specular.
     pub shininess: f32,
+    /// Textures of the surface.
     pub texturing: Texturing,
+    /// Lights in the scene's order.
     pub lights: Vec<FixedFunctionLight>,
 }
 
@@ -78,8 +85,11 @@ pub struct FixedFunctionLight {
     pub index: usize,
     /// Position in eye space, homogeneous like GL_POSITION: w = 0 for parallel light, whose direction is towards it.
     pub position: [f32; 4],
+    /// Ambient colour of the light.
     pub ambient: [f32; 3],
+    /// Diffuse colour of the light.
     pub diffuse: [f32; 3],
+    /// Specular colour of the light.
     pub specular: [f32; 3],
     /// GL's constant, linear and quadratic attenuation.
     pub attenuation: [f32; 3],
@@ -89,16 +99,20 @@ pub struct FixedFunctionLight {
     pub dimming: f32,
     /// Texture coordinates of the light; `None`: it reaches everywhere, and no lookup needs them.
     pub projection: Option<Projection>,
+    /// Shade of the light at each point.
     pub shade: Shade,
 }
 
 /// The view that shows a light's shade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadeView {
+    /// Projection of the camera.
     pub clip_from_eye: DMat4,
+    /// Textures of the surface, for its alpha test.
     pub texturing: Texturing,
     /// As [`FixedFunctionLight::projection`].
     pub projection: Option<Projection>,
+    /// Shade that is shown.
     pub shade: Shade,
 }
 
@@ -107,6 +121,7 @@ pub struct ShadeView {
 pub struct Projection {
     /// Index of the light, as at the end of its uniforms' names.
     pub light: usize,
+    /// Planes that make (s, t, r, q).
     pub texgen: Texgen,
     /// Scale and offset from (s/q, t/q) to the frustum's [0, 1] square, where they are not the same.
     pub frustum_from_map: Option<Vec4>,
@@ -125,6 +140,7 @@ pub enum Shade {
     Dark,
     /// The input of this name at (s/q, t/q, r/q), with a comparison if its sampler has one.
     Texture {
+        /// Name of the input.
         input: Cow<'static, str>,
         /// True if r/q is clamped to [0, 1] although the format does not clamp it.
         clamped: bool,

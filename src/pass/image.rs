@@ -11,12 +11,16 @@ use crate::geometry::Texture;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ImageId(pub usize);
 
+/// Description of an image: what the device makes for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageDesc {
+    /// Label, as `glumbra plan` prints it.
     pub label: String,
     /// Width and height in texels.
     pub size: [u32; 2],
+    /// Format of a texel.
     pub format: Format,
+    /// Kind of GL object, and where its texels come from.
     pub storage: Storage,
 }
 
@@ -74,15 +78,22 @@ pub struct Cube {
 /// A face of a cube map, in GL's order; named by the axis that it is looked along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CubeFace {
+    /// GL_TEXTURE_CUBE_MAP_POSITIVE_X.
     PositiveX,
+    /// GL_TEXTURE_CUBE_MAP_NEGATIVE_X.
     NegativeX,
+    /// GL_TEXTURE_CUBE_MAP_POSITIVE_Y.
     PositiveY,
+    /// GL_TEXTURE_CUBE_MAP_NEGATIVE_Y.
     NegativeY,
+    /// GL_TEXTURE_CUBE_MAP_POSITIVE_Z.
     PositiveZ,
+    /// GL_TEXTURE_CUBE_MAP_NEGATIVE_Z.
     NegativeZ,
 }
 
 impl CubeFace {
+    /// All six, in GL's order.
     pub const ALL: [Self; 6] =
         [Self::PositiveX, Self::NegativeX, Self::PositiveY, Self::NegativeY, Self::PositiveZ, Self::NegativeZ];
 
@@ -92,10 +103,14 @@ impl CubeFace {
     }
 }
 
+/// Format of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
+    /// GL_RGBA8.
     Rgba8,
+    /// GL_RGBA32F.
     Rgba32F,
+    /// Depth with a stated number of bits.
     Depth(DepthFormat),
     /// Unsized: the driver chooses the bits [GL 4.6, 8.5.1].
     UnsizedDepth,
@@ -123,9 +138,13 @@ impl Format {
 /// Sized depth formats [GL 4.6, table 8.13].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DepthFormat {
+    /// GL_DEPTH_COMPONENT16, fixed point.
     Depth16,
+    /// GL_DEPTH_COMPONENT24, fixed point.
     Depth24,
+    /// GL_DEPTH_COMPONENT32, fixed point.
     Depth32,
+    /// GL_DEPTH_COMPONENT32F, floating point.
     Depth32F,
 }
 
@@ -160,13 +179,18 @@ impl fmt::Display for Format {
 pub struct Input {
     /// The sampler uniform.
     pub name: Cow<'static, str>,
+    /// Image that is sampled.
     pub image: ImageId,
+    /// Way in which it is sampled.
     pub sampler: Sampler,
 }
 
+/// Sampling of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sampler {
+    /// GL_TEXTURE_MIN_FILTER and GL_TEXTURE_MAG_FILTER.
     pub filter: Filter,
+    /// GL_TEXTURE_WRAP_S and GL_TEXTURE_WRAP_T.
     pub wrap: Wrap,
     /// GL_TEXTURE_COMPARE_MODE = GL_COMPARE_REF_TO_TEXTURE with this function; `None`: GL_NONE.
     pub compare: Option<Compare>,
@@ -175,25 +199,34 @@ pub struct Sampler {
     pub lod_halves: Option<u8>,
 }
 
+/// Filter of a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filter {
+    /// GL_NEAREST.
     Nearest,
+    /// GL_LINEAR; drivers average the results of a comparison, too (percentage closer filtering).
     Linear,
     /// GL_LINEAR_MIPMAP_LINEAR, magnified by GL_LINEAR.
     Trilinear,
 }
 
+/// Addressing of coordinates outside [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wrap {
+    /// GL_REPEAT.
     Repeat,
+    /// GL_CLAMP_TO_EDGE.
     ClampToEdge,
     /// Texels beyond [0, 1] have this value in all components [GL 4.6, 8.14.2].
     ClampToBorder(Border),
 }
 
+/// Border of a texture, equal in all components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Border {
+    /// 0: for a depth map, nearest.
     Zero,
+    /// 1: for a depth map, farthest.
     One,
 }
 

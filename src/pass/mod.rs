@@ -26,7 +26,9 @@ pub(crate) use program::glsl;
 /// Everything that a frame's passes refer to, and the passes in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassList {
+    /// Images that the passes draw into and read, by [`ImageId`].
     pub images: Vec<ImageDesc>,
+    /// Passes in the order in which they are drawn.
     pub passes: Vec<Pass>,
 }
 
@@ -37,6 +39,7 @@ impl PassList {
         ImageId(self.images.len() - 1)
     }
 
+    /// Description of an image of this list.
     pub fn desc(&self, id: ImageId) -> &ImageDesc {
         &self.images[id.0]
     }
@@ -47,7 +50,9 @@ impl PassList {
 pub struct Pass {
     /// Name of the pass in plans, times and errors; unique in the list.
     pub label: String,
+    /// Rule for frames after the first.
     pub redraw: Redraw,
+    /// Work of the pass.
     pub work: Work,
 }
 
@@ -60,12 +65,16 @@ pub enum Redraw {
     WhenChanged,
 }
 
+/// Work of a pass.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Work {
+    /// Clears a target and draws into it.
     Draw(DrawPass),
     /// glCopyTexSubImage2D of the whole image, from the framebuffer that has `from` as its depth attachment.
     CopyDepth {
+        /// Image with the depth values.
         from: ImageId,
+        /// Depth texture that they are copied into, as many as it holds.
         to: ImageId,
         /// Face of `to`, if that is a cube map.
         face: Option<CubeFace>,
@@ -75,17 +84,22 @@ pub enum Work {
 /// Draws into one target under one draw state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawPass {
+    /// Images that it draws into.
     pub target: Target,
     /// Size in pixels, from the target's lower left corner. Clears affect the whole target.
     pub viewport: [u32; 2],
+    /// Values that the target is cleared to first.
     pub clear: Clear,
+    /// Draw state; a batch can change some of it.
     pub state: DrawState,
+    /// Batches in the order in which they are drawn.
     pub batches: Vec<Batch>,
 }
 
 /// Framebuffer attachments, all of one size at their level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Target {
+    /// Colour attachment; `None`: no colour is drawn.
     pub color: Option<ImageId>,
     /// Depth attachment; also the stencil attachment if its format has both.
     pub depth: Option<ImageId>,
@@ -98,8 +112,11 @@ pub struct Target {
 /// Values to clear to before the draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clear {
+    /// RGBA; `None`: the stored colours stay.
     pub color: Option<[f32; 4]>,
+    /// Window-space depth in [0, 1]; `None`: the stored depths stay.
     pub depth: Option<f32>,
+    /// Stencil value; `None`: the stored values stay.
     pub stencil: Option<u8>,
 }
 

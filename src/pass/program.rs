@@ -9,7 +9,9 @@ use super::Define;
 /// A piece of GLSL with the name of its file under `glsl/`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Chunk {
+    /// Path below `glsl/`, for errors and listings.
     pub name: Cow<'static, str>,
+    /// GLSL text.
     pub text: Cow<'static, str>,
 }
 
@@ -37,10 +39,13 @@ pub(crate) use glsl;
 /// One shader variant. Two that are equal are compiled once.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Program {
+    /// Label, as `glumbra plan` and errors print it.
     pub label: String,
     /// Defines before the chunks of both stages.
     pub defines: Vec<Define>,
+    /// Chunks of the vertex stage, in order.
     pub vertex: Vec<Chunk>,
+    /// Chunks of the fragment stage, in order.
     pub fragment: Vec<Chunk>,
     /// Attributes that the vertex stage reads; others are neither uploaded nor bound.
     pub attributes: Vec<Attribute>,
@@ -58,6 +63,7 @@ pub enum Attribute {
 }
 
 impl Attribute {
+    /// All three, by location.
     pub const ALL: [Self; 3] = [Self::Position, Self::Normal, Self::Texcoord];
 
     /// The name in GLSL.
@@ -69,6 +75,7 @@ impl Attribute {
         }
     }
 
+    /// Number of floats for each vertex.
     pub fn components(self) -> i32 {
         match self {
             Self::Position | Self::Normal => 3,
@@ -77,20 +84,31 @@ impl Attribute {
     }
 }
 
+/// A uniform by name, with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uniform {
+    /// Name in GLSL.
     pub name: Cow<'static, str>,
+    /// Value, whose kind must be the type in GLSL.
     pub value: UniformValue,
 }
 
+/// Value of a uniform, by its GLSL type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UniformValue {
+    /// `float`.
     Float(f32),
+    /// `vec2`.
     Vec2(Vec2),
+    /// `vec3`.
     Vec3(Vec3),
+    /// `vec4`.
     Vec4(Vec4),
+    /// `vec4[]`, from element 0.
     Vec4Array(Vec<Vec4>),
+    /// `mat3`, in columns.
     Mat3(Mat3),
+    /// `mat4`, in columns.
     Mat4(Mat4),
 }
 
@@ -106,6 +124,7 @@ macro_rules! from_value {
 from_value!(f32 => Float, Vec2 => Vec2, Vec3 => Vec3, Vec4 => Vec4, Vec<Vec4> => Vec4Array, Mat3 => Mat3, Mat4 => Mat4);
 
 impl Uniform {
+    /// The uniform `name` with this value.
     pub fn new(name: impl Into<Cow<'static, str>>, value: impl Into<UniformValue>) -> Self {
         Self { name: name.into(), value: value.into() }
     }

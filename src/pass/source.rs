@@ -7,13 +7,17 @@ use super::{Chunk, Program};
 /// A stage of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
+    /// GL_VERTEX_SHADER.
     Vertex,
+    /// GL_FRAGMENT_SHADER.
     Fragment,
 }
 
 impl Stage {
+    /// Both, in the order of the pipeline.
     pub const ALL: [Self; 2] = [Self::Vertex, Self::Fragment];
 
+    /// `vertex` or `fragment`, for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Vertex => "vertex",
@@ -28,6 +32,7 @@ impl Stage {
 /// the first file: `#version` and the defines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
+    /// GLSL, whole.
     pub text: String,
     /// Name of each file, and its first line in the whole text, from 1.
     files: Vec<(String, usize)>,
@@ -36,9 +41,11 @@ pub struct Source {
 /// A line of a [`Source`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SourceLine<'a> {
+    /// Name of the chunk, or of the part before the first chunk.
     pub file: &'a str,
     /// In the file, from 1.
     pub line: usize,
+    /// The line itself, without its end.
     pub text: &'a str,
 }
 

@@ -3,34 +3,50 @@
 /// Comparison functions of depth test and depth textures [GL 4.6, tables 8.31 and 17.3.4].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compare {
+    /// GL_NEVER.
     Never,
+    /// GL_LESS: the new value is less than the stored one.
     Less,
+    /// GL_LEQUAL.
     LessEqual,
+    /// GL_EQUAL.
     Equal,
+    /// GL_NOTEQUAL.
     NotEqual,
+    /// GL_GEQUAL.
     GreaterEqual,
+    /// GL_GREATER.
     Greater,
+    /// GL_ALWAYS.
     Always,
 }
 
+/// Facing of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
+    /// GL_FRONT.
     Front,
+    /// GL_BACK.
     Back,
 }
 
 /// glPolygonOffset for filled polygons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolygonOffset {
+    /// Multiple of the polygon's greatest depth slope.
     pub factor: f32,
+    /// Multiple of the smallest depth step that the format resolves.
     pub units: f32,
 }
 
 /// Operation on a stencil value [GL 4.6, 17.3.3]. Values are eight bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StencilOp {
+    /// GL_KEEP.
     Keep,
+    /// GL_ZERO.
     Zero,
+    /// GL_REPLACE: the reference value.
     Replace,
     /// Stops at 255.
     Increment,
@@ -40,6 +56,7 @@ pub enum StencilOp {
     Decrement,
     /// Modulo 256.
     DecrementWrap,
+    /// GL_INVERT: every bit.
     Invert,
 }
 
@@ -47,23 +64,33 @@ pub enum StencilOp {
 /// the depth test off, the depth test passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StencilOps {
+    /// Where the stencil test fails.
     pub stencil_fail: StencilOp,
+    /// Where the stencil test passes and the depth test fails.
     pub depth_fail: StencilOp,
+    /// Where both pass.
     pub pass: StencilOp,
 }
 
 impl StencilOps {
+    /// All three leave the value as it is.
     pub const KEEP: Self = Self { stencil_fail: StencilOp::Keep, depth_fail: StencilOp::Keep, pass: StencilOp::Keep };
 }
 
 /// The stencil test [GL 4.6, 17.3.3]: `(reference & read_mask) test (stored & read_mask)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stencil {
+    /// Comparison of the reference with the stored value.
     pub test: Compare,
+    /// Reference value.
     pub reference: u8,
+    /// Bits that are compared.
     pub read_mask: u8,
+    /// Bits that are written; 0: the stored values stay.
     pub write_mask: u8,
+    /// Operations for front faces.
     pub front: StencilOps,
+    /// Operations for back faces.
     pub back: StencilOps,
 }
 
@@ -81,10 +108,13 @@ pub enum Blend {
 pub struct DrawState {
     /// `None`: the depth test, and with it depth writing, is off.
     pub depth_test: Option<Compare>,
+    /// True if depth is written where the tests pass.
     pub depth_write: bool,
+    /// True if all four channels are written.
     pub color_write: bool,
     /// The faces that are not drawn.
     pub cull: Option<Face>,
+    /// Offset of the depth of filled polygons; `None`: off.
     pub polygon_offset: Option<PolygonOffset>,
     /// glDepthRange; reversed where the first exceeds the second.
     pub depth_range: [f32; 2],

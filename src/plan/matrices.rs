@@ -28,6 +28,7 @@ pub struct Matrices {
 pub struct LightMatrices {
     /// Index into the scene's lights.
     pub index: usize,
+    /// Name of the light, as in [`crate::scene::Light::name`].
     pub name: String,
     /// `spot`, `point` or `directional`.
     pub kind: &'static str,

@@ -83,6 +83,7 @@ impl Default for Limits {
 /// One picture beside the main one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ViewRequest {
+    /// View that is wanted.
     pub view: View,
     /// Index into the scene's lights; 0 for views of no light.
     pub light: usize,
@@ -91,12 +92,17 @@ pub struct ViewRequest {
 /// A frame's passes, its pictures' images, and what was left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
+    /// Images and passes.
     pub list: PassList,
+    /// Image of the picture.
     pub picture: ImageId,
     /// Views in the request's order.
     pub views: Vec<(ViewRequest, ImageId)>,
+    /// Parts that this frame does not draw, each with the reason.
     pub left_out: Vec<LeftOut>,
+    /// Choices that techniques made, each with the reason.
     pub chosen: Vec<Chosen>,
+    /// Errors that the picture will show, one sentence each.
     pub warnings: Vec<String>,
     /// Maps of the lights that the picture or a view needs, in the scene's order.
     pub maps: Vec<MapInfo>,
@@ -106,25 +112,35 @@ pub struct Plan {
 
 /// Reason why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// A key of a light or of the scene has a wrong value.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The lights cannot be joined into passes.
     #[error(transparent)]
     Composition(#[from] compositions::Error),
+    /// A view names a light that the scene does not have.
     #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
     NoSuchLight { view: String, count: usize },
+    /// A view shows a light's map, and its technique makes none.
     #[error("--aov {view}: light {light} has no shadow map ({why})")]
     NoMap { view: &'static str, light: usize, why: &'static str },
+    /// A view does not exist for this kind of light.
     #[error("--aov {view}: light {light} is a {kind} light and {why}")]
     NoView { view: &'static str, light: usize, kind: &'static str, why: &'static str },
+    /// An image is larger than the driver allows.
     #[error("{what} is {size}x{size}, more than the driver's limit of {limit}: choose a smaller one")]
     TooLarge { what: String, size: u32, limit: u32 },
+    /// A pass binds more textures than the driver allows.
     #[error("the lit pass needs {needed} textures at once, the driver has {limit}: use fewer lights, maps or images")]
     TooManyInputs { needed: usize, limit: u32 },
+    /// Too many lights are guarded by clip planes.
     #[error(
         "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
+    /// A request names a pass that the plan does not have.
     #[error("--shaders {wanted}: no pass has that in its name; the passes are {names}")]
     NoSuchPass { wanted: String, names: String },
 }
@@ -168,37 +184,57 @@ impl Plan {
 /// A plan as `--json` prints it.
 #[derive(Debug, Serialize)]
 pub struct Summary {
+    /// Passes in their order.
     pub passes: Vec<PassSummary>,
+    /// Images of all passes.
     pub images: Vec<ImageSummary>,
+    /// Bytes of all images.
     pub image_bytes: u64,
     /// Vertex and index buffers: each attribute and index order of each mesh that a draw reads, once.
     pub buffer_bytes: u64,
+    /// As [`Plan::left_out`].
     pub left_out: Vec<LeftOut>,
+    /// As [`Plan::chosen`].
     pub chosen: Vec<Chosen>,
+    /// As [`Plan::warnings`].
     pub warnings: Vec<String>,
 }
 
 /// A pass in words and numbers.
 #[derive(Debug, Serialize)]
 pub struct PassSummary {
+    /// Label, unique in the plan.
     pub label: String,
+    /// `every frame` or `once`.
     pub redraw: &'static str,
+    /// Images that it draws into, with their formats.
     pub target: Vec<String>,
+    /// Width and height in pixels.
     pub size: [u32; 2],
+    /// Draw state in words; most of what is at GL's default is not named.
     pub state: Vec<String>,
+    /// Programs with their defines, each once.
     pub shaders: Vec<String>,
+    /// Sampled images, each once.
     pub inputs: Vec<String>,
+    /// Draws, one line each.
     pub draws: Vec<String>,
+    /// Number of draws.
     pub draw_calls: usize,
+    /// Number of triangles; lines do not count.
     pub triangles: u64,
 }
 
 /// An image in words and numbers.
 #[derive(Debug, Serialize)]
 pub struct ImageSummary {
+    /// Label, unique in the plan.
     pub label: String,
+    /// Internal format without `GL_`, e.g. `DEPTH_COMPONENT24`.
     pub format: String,
+    /// Width and height in texels, of the largest level.
     pub size: [u32; 2],
+    /// Bytes of all texels, faces and mipmaps included.
     pub bytes: u64,
 }
 

@@ -38,6 +38,7 @@ pub enum Floor {
     Touching,
     /// A little below it, because the model has a floor of its own.
     Below,
+    /// No floor.
     Absent,
 }
 

@@ -9,19 +9,25 @@ use crate::geometry;
 
 /// Reason why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The system refused to read the file.
     #[error("{path}: cannot be read: {reason}", path = .path.display())]
     Read { path: PathBuf, reason: io::Error },
 
+    /// The path is that of a folder.
     #[error("{path}: is a folder; name a scene (.toml) or a model (.obj)", path = .path.display())]
     Folder { path: PathBuf },
 
+    /// The file is longer than any scene.
     #[error("{path}: has {bytes} bytes; a scene file may have {limit}", path = .path.display())]
     TooLong { path: PathBuf, bytes: u64, limit: u64 },
 
+    /// The file's name has none of the known endings.
     #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj", path = .path.display())]
     UnknownKind { path: PathBuf },
 
+    /// A byte of the file is not UTF-8.
     #[error("{path}:{line}: is not UTF-8 text", path = .path.display())]
     NotUtf8 { path: PathBuf, line: usize },
 
@@ -37,6 +43,7 @@ pub enum Error {
     #[error("{origin}: {source}")]
     Asset { origin: Origin, source: geometry::Error },
 
+    /// A model is too small or too large for a scene around it.
     #[error(
         "{path}: is {size:.3e} across; a scene is supplied around models that are {least:e} to {most:e} across: \
          scale it, e.g. --set object.0.scale={scale:e}",
@@ -44,6 +51,7 @@ pub enum Error {
     )]
     Size { path: PathBuf, size: f64, least: f64, most: f64, scale: f64 },
 
+    /// The path of a model is not UTF-8.
     #[error("{path}: is not UTF-8, which a scene's text must be: the file cannot be named in one", path = .path.display())]
     NoText { path: PathBuf },
 

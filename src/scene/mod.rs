@@ -36,6 +36,7 @@ const LONGEST_FILE: u64 = 4 << 20;
 /// A scene and its warnings.
 #[derive(Clone, Debug)]
 pub struct Loaded {
+    /// The resolved scene.
     pub scene: Scene,
     /// One line each, with the place that it is about.
     pub warnings: Vec<String>,
@@ -46,6 +47,7 @@ pub struct Loaded {
 pub struct Embedded {
     /// The file's name, for messages.
     pub path: &'static str,
+    /// Text of the scene file.
     pub text: &'static str,
     /// Pictures, each with its name in the file.
     pub pictures: &'static [(&'static str, &'static [u8])],

@@ -10,10 +10,15 @@ use crate::geometry::{Material, Mesh, Texture, Wave};
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    /// Size and background of the picture.
     pub image: Image,
+    /// The camera.
     pub camera: Camera,
+    /// Shading of all surfaces.
     pub shading: Shading,
+    /// Lights in the file's order.
     pub lights: Vec<Light>,
+    /// Objects in the file's order.
     pub objects: Vec<Object>,
 }
 
@@ -32,6 +37,7 @@ impl Scene {
     }
 }
 
+/// The picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Width and height in pixels, each in 1..=16384.
@@ -43,14 +49,17 @@ pub struct Image {
 /// A symmetric perspective camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
+    /// Position, in world space.
     pub eye: DVec3,
+    /// Point that it looks at, in world space; not `eye`.
     pub target: DVec3,
     /// Unit vector, not parallel to the view direction.
     pub up: DVec3,
     /// Full vertical angle, in (0, pi).
     pub fov_y_radians: f64,
-    /// 0 < near < far.
+    /// Distance of the near plane along the view direction; 0 < near < far.
     pub near: f64,
+    /// Distance of the far plane along the view direction.
     pub far: f64,
 }
 
@@ -63,11 +72,16 @@ pub struct Shading {
     pub per_vertex: bool,
 }
 
+/// A light.
 #[derive(Clone, Debug)]
 pub struct Light {
+    /// Place of the light, and what it reaches.
     pub kind: LightKind,
+    /// Ambient colour, RGB; GL's GL_AMBIENT.
     pub ambient: [f32; 3],
+    /// Diffuse colour, RGB.
     pub diffuse: [f32; 3],
+    /// Specular colour, RGB.
     pub specular: [f32; 3],
     /// Name as written, or `light 0` by its place in the file.
     pub name: String,
@@ -78,10 +92,13 @@ pub struct Light {
 /// Kind of a light, with the values that only this kind has.
 #[derive(Clone, Debug)]
 pub enum LightKind {
+    /// A spotlight.
     Spot(Spot),
+    /// A point light.
     Point(Point),
     /// Parallel light from infinitely far away. `direction`: the way that it travels, of unit length.
     Directional {
+        /// Unit vector in world space.
         direction: DVec3,
     },
 }
@@ -89,7 +106,9 @@ pub enum LightKind {
 /// A spotlight: it lights everything within its frustum's sides, or within the cone inscribed in them.
 #[derive(Clone, Debug)]
 pub struct Spot {
+    /// Frustum that it lights, and that its maps have.
     pub frustum: Frustum,
+    /// Shape at which the light ends.
     pub shape: LightShape,
     /// GL's constant, linear and quadratic attenuation; (1, 0, 0): none.
     pub attenuation: [f32; 3],
@@ -102,10 +121,12 @@ pub struct Spot {
 /// A point light: it lights equally in all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
+    /// Position, in world space.
     pub position: DVec3,
     /// 0 < near < far: range of the light's maps, along the coordinate axis nearest to the direction (the largest of |x|,
     /// |y| and |z|), as the six faces of a cube map measure depth. They do not bound the light.
     pub near: f64,
+    /// Far end of that range.
     pub far: f64,
     /// Attenuation as in [`Spot::attenuation`].
     pub attenuation: [f32; 3],
@@ -114,14 +135,17 @@ pub struct Point {
 /// A symmetric, square frustum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frustum {
+    /// Apex, in world space.
     pub position: DVec3,
+    /// Point on the axis, in world space; not `position`.
     pub target: DVec3,
     /// Unit vector, not parallel to the way from position to target.
     pub up: DVec3,
     /// Full angle between opposite sides, in (0, pi).
     pub cone_radians: f64,
-    /// 0 < near < far, along the axis.
+    /// Distance of the near plane along the axis; 0 < near < far.
     pub near: f64,
+    /// Distance of the far plane along the axis.
     pub far: f64,
 }
 
@@ -137,6 +161,7 @@ pub enum LightShape {
 /// A mesh placed in the world.
 #[derive(Clone, Debug)]
 pub struct Object {
+    /// Name as written, or the path of the mesh.
     pub name: String,
     /// Shared: the same file is loaded once however often it is used.
     pub mesh: Arc<Mesh>,

@@ -9,8 +9,13 @@ use std::sync::Arc;
 /// Place of a value in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// A line of a file, from 1.
-    File { path: Arc<Path>, line: usize },
+    /// A line of a file.
+    File {
+        /// The file, as the user named it or found from there.
+        path: Arc<Path>,
+        /// From 1.
+        line: usize,
+    },
     /// The command line, e.g. `--set light.shadow.size=2048`.
     CommandLine(Arc<str>),
     /// Supplied by glumbra.
@@ -31,11 +36,14 @@ impl fmt::Display for Origin {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{origin}: {message}")]
 pub struct SettingsError {
+    /// Place of the setting.
     pub origin: Origin,
+    /// Sentence that names the key and says what is wrong.
     pub message: String,
 }
 
 impl SettingsError {
+    /// An error at `origin`.
     pub fn new(origin: &Origin, message: impl Into<String>) -> Self {
         Self { origin: origin.clone(), message: message.into() }
     }
@@ -59,17 +67,26 @@ impl Place {
 /// A value with its place.
 #[derive(Clone, Debug)]
 pub struct Entry {
+    /// The value.
     pub value: Value,
+    /// Place of the value.
     pub origin: Origin,
 }
 
+/// A TOML value; arrays and tables keep the place of each part.
 #[derive(Clone, Debug)]
 pub enum Value {
+    /// A string.
     String(String),
+    /// An integer.
     Integer(i64),
+    /// A number with a point or an exponent; may be infinite or NaN.
     Float(f64),
+    /// `true` or `false`.
     Boolean(bool),
+    /// An array, of values of any kind.
     Array(Vec<Entry>),
+    /// A table.
     Table(Settings),
 }
 
@@ -91,7 +108,9 @@ impl Value {
 pub struct Settings {
     /// The dotted name for messages, e.g. `light.shadow`; empty for the file's root.
     pub path: String,
+    /// Place of the table's header.
     pub origin: Origin,
+    /// Keys and values.
     pub entries: Vec<(String, Entry)>,
 }
 
@@ -102,10 +121,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The entry of `key`; `None`: it is not written.
     pub fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|(name, _)| name == key).map(|(_, entry)| entry)
     }
 
+    /// Tests whether no key is written.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
@@ -182,6 +203,7 @@ impl<'a> Reader<'a> {
         self.error(key, format_args!("must be {expected}, not {}", found.kind()))
     }
 
+    /// A string; `None`: the key is not written.
     pub fn string(&mut self, key: &'static str) -> Result<Option<&'a str>> {
         match self.entry(key).map(|entry| &entry.value) {
             None => Ok(None),
@@ -190,6 +212,7 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// `true` or `false`; `None`: the key is not written.
     pub fn boolean(&mut self, key: &'static str) -> Result<Option<bool>> {
         match self.entry(key).map(|entry| &entry.value) {
             None => Ok(None),
@@ -198,6 +221,7 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// An integer in `range`; `None`: the key is not written.
     pub fn integer(&mut self, key: &'static str, range: RangeInclusive<i64>) -> Result<Option<i64>> {
         let value = match self.entry(key).map(|entry| &entry.value) {
             None => return Ok(None),

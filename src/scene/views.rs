@@ -54,6 +54,7 @@ impl Scene {
 }
 
 impl Camera {
+    /// The camera looks along -z of view space, y is up.
     pub fn view_from_world(&self) -> DMat4 {
         spaces::view_from_world(self.eye, self.target, self.up)
     }
@@ -65,6 +66,7 @@ impl Camera {
 }
 
 impl Light {
+    /// The spotlight's own values; `None`: another kind.
     pub fn spot(&self) -> Option<&Spot> {
         if let LightKind::Spot(spot) = &self.kind { Some(spot) } else { None }
     }
@@ -105,10 +107,12 @@ impl LightKind {
 }
 
 impl Frustum {
+    /// The light looks along -z of its view space, y is up.
     pub fn view_from_world(&self) -> DMat4 {
         spaces::view_from_world(self.position, self.target, self.up)
     }
 
+    /// Perspective of the light's square image.
     pub fn clip_from_view(&self) -> DMat4 {
         spaces::perspective(self.cone_radians, 1.0, self.near, self.far)
     }
@@ -118,6 +122,7 @@ impl Frustum {
         Self { near: 1e-3 * self.near, far: 1e3 * self.far, ..self.clone() }
     }
 
+    /// Perspective and view together.
     pub fn clip_from_world(&self) -> DMat4 {
         self.clip_from_view() * self.view_from_world()
     }

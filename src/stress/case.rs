@@ -10,6 +10,7 @@ use crate::scene::{self, Loaded};
 pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
+    /// True if it was made from a seed; `false`: a named case.
     pub is_random: bool,
     /// Extreme property of the scene.
     pub why: String,

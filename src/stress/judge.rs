@@ -58,7 +58,9 @@ pub struct Judge<'a> {
 
 /// A row, and what a picture of it needs.
 pub struct Judged {
+    /// The row with its verdict.
     pub row: CaseRow,
+    /// Shade that was compared; `None`: nothing was drawn.
     pub shade: Option<ShadeImage>,
     /// Pixels beyond the bound, by index.
     pub beyond: Vec<usize>,

@@ -58,9 +58,12 @@ struct Made {
 
 /// Reason why the list of cases cannot be used: a fault of this program's own data.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The list does not follow TOML's grammar, or a key is wrong.
     #[error("data/stress/cases.toml: {0}")]
     Toml(#[from] toml::de::Error),
+    /// A case names a scene or a value that does not exist.
     #[error("data/stress/cases.toml: case \"{case}\": {what}")]
     Case { case: String, what: String },
 }

@@ -19,8 +19,10 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// All five, from right to silently wrong.
     pub const ALL: [Self; 5] = [Self::Right, Self::FalseAlarm, Self::Warned, Self::Refused, Self::SilentlyWrong];
 
+    /// The verdict in words, for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -37,8 +39,10 @@ impl Verdict {
 pub struct CaseRow {
     /// Index into the scene's lights.
     pub light: usize,
+    /// Technique and keys.
     #[serde(flatten)]
     pub settings: RowSettings,
+    /// Verdict.
     pub verdict: Verdict,
     /// Pixels compared with the truth.
     pub compared: usize,
@@ -93,7 +97,9 @@ pub struct RowPictures {
 /// One case with all its rows.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CaseResult {
+    /// Name of the case, unique in a run.
     pub name: String,
+    /// True if it was made from a seed; `false`: a named case.
     pub is_random: bool,
     /// Extreme property of the scene.
     pub why: String,
@@ -101,11 +107,13 @@ pub struct CaseResult {
     pub sweep: Option<(String, f64)>,
     /// Drawn pixels of which the ray tracer is certain, in [0, 1], over all lights.
     pub decided: f64,
+    /// Time to trace, draw and judge it.
     pub seconds: f64,
     /// Reason why the case has no rows: the scene was refused.
     pub refused: Option<String>,
     /// True if a refusal is what the case expects.
     pub refusal_expected: bool,
+    /// Rows of all lights.
     pub rows: Vec<CaseRow>,
     /// Pictures of the worst row of each technique whose rows are not all right, if pictures are requested.
     #[serde(skip)]

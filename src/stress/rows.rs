@@ -10,6 +10,7 @@ const ASSUMED: &str = "closed = \"assume\"";
 /// One way to draw a light's shadow.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct RowSettings {
+    /// Name of the technique, as in a scene file.
     pub technique: String,
     /// Keys of `[light.shadow]` in TOML, ready for an inline table; empty: the technique's defaults.
     pub keys: String,

@@ -23,6 +23,7 @@ pub struct StressOptions {
     pub technique: Option<String>,
     /// True if pictures of wrong rows are kept.
     pub pictures: bool,
+    /// Contexts that the cases are drawn on.
     pub context: ContextRequest,
 }
 

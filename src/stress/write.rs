@@ -12,15 +12,21 @@ use crate::report::show::plots;
 
 /// Reason why a run's results could not be written.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The system refused to make the folder.
     #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
     Folder { path: PathBuf, reason: io::Error },
+    /// The system refused to write a file.
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
     Write { path: PathBuf, reason: io::Error },
+    /// The results cannot be put in JSON.
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// A sweep's plot cannot be drawn.
     #[error(transparent)]
     Plot(#[from] plots::Error),
+    /// A case's scene cannot be saved.
     #[error("{0}")]
     Scene(String),
 }
@@ -37,7 +43,7 @@ struct Run<'a> {
 ///
 /// # Errors
 ///
-/// What the encoder says.
+/// An error of the encoder.
 pub fn to_json(seed: u64, results: &[CaseResult]) -> Result<Vec<u8>, Error> {
     Ok(serde_json::to_vec_pretty(&Run { glumbra: env!("CARGO_PKG_VERSION"), seed, cases: results })?)
 }

@@ -7,6 +7,7 @@ use glam::DVec3;
 pub struct Truth {
     /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` answers, row by row from the top.
     pub pixels: Vec<Pixel>,
@@ -15,6 +16,7 @@ pub struct Truth {
 /// One pixel's answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
+    /// Answer over all places where the sample may lie.
     pub answer: Answer,
     /// Answer of the centre ray alone, if the light's shape holds the point. Ambiguous pixels have it too, so that shadow
     /// edges can be located through them. Never count it as truth.
@@ -23,13 +25,16 @@ pub struct Pixel {
     pub hit: Option<Hit>,
 }
 
+/// Answer for one pixel and one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// Nothing is drawn here.
     Background,
     /// Drawn, but outside the light's cone or frustum (near and far planes included).
     OutsideCone,
+    /// The light reaches the visible point.
     Lit,
+    /// Something blocks the light.
     Shadowed,
     /// A sample moved by less than the stated error decides otherwise.
     Ambiguous(Reason),
@@ -59,6 +64,7 @@ pub enum Reason {
 }
 
 impl Reason {
+    /// All nine, in the order of the declaration.
     pub const ALL: [Self; 9] = [
         Self::Silhouette,
         Self::DepthTie,
@@ -96,6 +102,7 @@ pub struct Hit {
     pub triangle: u32,
     /// From the eye, in world units.
     pub distance: f64,
+    /// Position, in world space.
     pub position: DVec3,
     /// The triangle's unit normal on the side that the camera sees.
     pub normal: DVec3,
@@ -130,6 +137,7 @@ impl Truth {
         self.pixels.get(y as usize * self.width as usize + x as usize)
     }
 
+    /// Number of pixels whose answer is `wanted`.
     pub fn count(&self, wanted: impl Fn(Answer) -> bool) -> usize {
         self.pixels.iter().filter(|pixel| wanted(pixel.answer)).count()
     }

@@ -83,15 +83,21 @@ impl Default for Options {
 
 /// Reason why there is no truth.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The scene does not have the light.
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
+    /// Camera or light has a position that is not finite.
     #[error("the camera or the light has no usable position")]
     View,
+    /// The transform of an object cannot be inverted.
     #[error("object `{name}`: its transform has no inverse")]
     Transform { name: String },
+    /// The triangles of a mesh cannot be traced.
     #[error("mesh `{name}`: {what}")]
     Mesh { name: String, what: String },
+    /// More pixels are ambiguous than [`Options::most_ambiguous`] allows.
     #[error(
         "the ray tracer cannot decide {percent:.2} % of the drawn pixels (limit {most_percent} %; {reasons}): \
          there is no truth to measure against"

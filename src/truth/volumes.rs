@@ -34,6 +34,7 @@ use crate::scene::Scene;
 pub struct VolumeCounts {
     /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height`, row by row from the top.
     pub pixels: Vec<CountPixel>,
@@ -42,6 +43,7 @@ pub struct VolumeCounts {
 /// One pixel's count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountPixel {
+    /// Count over all places where the sample may lie.
     pub count: Count,
     /// Count of the centre ray alone, also for ambiguous pixels; it is not truth there.
     pub at_center: Option<u32>,
@@ -49,10 +51,12 @@ pub struct CountPixel {
     pub hit: Option<Hit>,
 }
 
+/// Number of shadow volumes that hold the point behind a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
     /// Nothing is drawn here.
     Background,
+    /// This many.
     Exactly(u32),
     /// A sample moved by less than the stated error may count otherwise.
     Ambiguous(Reason),
@@ -65,6 +69,7 @@ impl VolumeCounts {
         if ambiguous == 0 { 0.0 } else { ambiguous as f64 / self.count(|count| count != Count::Background) as f64 }
     }
 
+    /// Number of pixels whose count is `wanted`.
     pub fn count(&self, wanted: impl Fn(Count) -> bool) -> usize {
         self.pixels.iter().filter(|pixel| wanted(pixel.count)).count()
     }

@@ -74,28 +74,34 @@ pub struct Arguments {
     bench: bool,
 }
 
-/// Which scene: one dense model, or a hundred of it.
+/// Scene to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Scene {
+    /// One dense model.
     S1,
+    /// A hundred of it.
     S2,
 }
 
 /// Program that draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Who {
+    /// The floor: the same picture by the fewest GL calls.
     Floor,
     /// The floor with its triangles in vertex-cache order and its heap kept: what a hand-tuned program reaches.
     Tuned,
+    /// This project's command.
     Glumbra,
     /// The floor's context, one clear, one pixel read.
     Clear,
 }
 
-/// In which frames the map is drawn.
+/// Frames in which the map is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Redraw {
+    /// All of them.
     Always,
+    /// The first.
     Once,
 }
 

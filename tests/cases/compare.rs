@@ -84,7 +84,7 @@ pub fn measure(actual: &Picture, expected: &Picture) -> Result<Difference, Strin
 ///
 /// # Errors
 ///
-/// What [`measure`] refuses, and a difference beyond the tolerance, in words.
+/// Pictures that [`measure`] refuses, and a difference beyond the tolerance, in words.
 pub fn compare(actual: &Picture, expected: &Picture, tolerance: &Tolerance) -> Result<Difference, String> {
     let found = measure(actual, expected)?;
     let differing = differing(actual, expected, tolerance.slight);

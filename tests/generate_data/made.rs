@@ -14,7 +14,7 @@ use glam::DVec3;
 ///
 /// # Errors
 ///
-/// What cannot be written.
+/// A file that cannot be written.
 pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(folder.join("meshes"))?;
     std::fs::create_dir_all(folder.join("textures"))?;

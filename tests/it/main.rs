@@ -10,6 +10,7 @@ mod claims;
 mod cli;
 mod contexts;
 mod coverage;
+mod doc_comments;
 mod documents;
 mod doubt;
 mod extremes;

@@ -21,13 +21,17 @@ pub struct Binding {
 
 /// Reason why a context cannot draw by the fixed-function pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum BindingError {
+    /// The program asked for a core context.
     #[error("the {backend} context was requested in the core profile, which has no fixed-function pipeline")]
     Core { backend: String },
+    /// The program asked for a compatibility context, and the driver made a core one.
     #[error(
         "the {backend} context says that it is of the core profile: the driver has no fixed-function pipeline for it"
     )]
     Refused { backend: String },
+    /// The context lacks functions that every compatibility context has.
     #[error("the {backend} context lacks {} of the fixed-function pipeline's functions, {first} among them", .count)]
     Missing { backend: String, first: &'static str, count: usize },
 }

@@ -16,6 +16,7 @@ const RENDERER_EXT: egl::Int = 0x335F;
 /// One of the machine's devices, as `--device` counts them.
 #[derive(Clone, Debug, Serialize)]
 pub struct EglDevice {
+    /// Place in EGL's list of devices, from 0.
     pub index: usize,
     /// The renderer's name if EGL gives it, else `software` or `hardware`.
     pub name: String,
@@ -23,6 +24,7 @@ pub struct EglDevice {
     pub software: bool,
     /// The device's file, e.g. `/dev/dri/card0`.
     pub file: Option<String>,
+    /// Names of the device's EGL extensions.
     pub extensions: Vec<String>,
 }
 

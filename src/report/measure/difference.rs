@@ -9,13 +9,21 @@ use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
 use super::metrics::{Error, ShadeImage, is_lit};
 use crate::truth::{Answer, Pixel, Truth};
 
+/// Colour where nothing is drawn.
 pub const BACKGROUND: [u8; 3] = [0x12, 0x12, 0x16];
+/// Colour of surfaces outside the light's cone or frustum.
 pub const OUTSIDE_CONE: [u8; 3] = [0x32, 0x32, 0x3a];
+/// Colour of shadow that both have.
 pub const SHADOWED: [u8; 3] = [0x60, 0x60, 0x68];
+/// Colour where the ray tracer is not certain.
 pub const AMBIGUOUS: [u8; 3] = [0xa6, 0xa6, 0xa6];
+/// Colour of light that both have.
 pub const LIT: [u8; 3] = [0xf2, 0xf2, 0xf2];
+/// Colour of shadow where light belongs.
 pub const FALSE_SHADOW: [u8; 3] = [0x00, 0x72, 0xb2];
+/// Colour of light where shadow belongs.
 pub const LEAK: [u8; 3] = [0xe6, 0x9f, 0x00];
+/// Colour where only the truth, or only the picture, has a surface in the light.
 pub const NOT_COMPARED: [u8; 3] = [0xcc, 0x79, 0xa7];
 
 /// The colours that only a difference has, then those it shares with the truth.

@@ -17,9 +17,11 @@ pub(super) struct Pair {
 pub struct EdgeDistance {
     /// Edges measured: sides of pixels.
     pub edges: usize,
+    /// Mean distance.
     pub mean_pixels: f64,
     /// 95 % of the edges are not farther away.
     pub p95_pixels: f64,
+    /// Greatest distance.
     pub max_pixels: f64,
 }
 

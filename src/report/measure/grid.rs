@@ -11,6 +11,7 @@ pub const MOST_ROWS: usize = 100_000;
 
 /// Reason why a grid file cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
     /// The file cannot be read, or is no TOML.
     #[error(transparent)]
@@ -18,8 +19,10 @@ pub enum Error {
     /// An unknown key or a wrong value, with its line.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// The file has no sweep.
     #[error("{path}: has no [[sweep]]; write one with a technique and an array of values for each key to vary", path = .path.display())]
     Empty { path: PathBuf },
+    /// The sweeps have more combinations than a report may have rows.
     #[error("{path}: is a grid of {rows} rows, more than {MOST_ROWS}: list fewer values, or split it", path = .path.display())]
     TooManyRows { path: PathBuf, rows: u64 },
 }
@@ -33,8 +36,11 @@ pub fn to_inline(settings: &Settings) -> String {
 /// Sweep of each scene. A setting holds `technique` and the keys that are varied.
 #[derive(Clone, Debug)]
 pub enum Grid {
-    /// Every technique that serves the light, over its own axes; `quick` takes few values of each.
-    Standard { quick: bool },
+    /// Every technique that serves the light, over its own axes.
+    Standard {
+        /// True for few values of each axis.
+        quick: bool,
+    },
     /// The same for every light.
     Own(Vec<Settings>),
 }

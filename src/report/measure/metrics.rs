@@ -18,6 +18,7 @@ pub const FEWEST_COMPARED: usize = 1000;
 pub struct ShadeImage {
     /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
     /// `width * height` values, 0: shadow, 1: full light. Only values of drawn pixels are used.
     pub shade: Vec<f32>,
@@ -28,25 +29,32 @@ pub struct ShadeImage {
 /// All errors of one picture.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
+    /// Band around the true shadow edges by which errors are split.
     pub band: Band,
+    /// Errors over all pixels compared.
     pub all: Errors,
     /// Only surfaces whose visible side faces the light: on the others shading leaves no light.
     pub facing: Errors,
+    /// Pixels that were not compared.
     pub left_out: NotCompared,
 }
 
 /// The errors over some of the pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Errors {
-    /// Pixels compared, and of these those in the band.
+    /// Pixels compared.
     pub compared: usize,
+    /// Number of these that lie in the band.
     pub compared_in_band: usize,
     /// Shadow where light belongs: acne, and light lost.
     pub false_shadow: ErrorSplit,
     /// Light where none belongs.
     pub leak: ErrorSplit,
+    /// Pixels of false shadow.
     pub false_shadow_percent: f64,
+    /// Pixels of leak.
     pub leak_percent: f64,
+    /// Sum of both.
     pub wrong_percent: f64,
     /// The part of `wrong_percent` outside the band.
     pub wrong_outside_percent: f64,
@@ -61,9 +69,13 @@ pub struct Errors {
 /// Wrong pixels by place: counts, and percent of all compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorSplit {
+    /// Number of wrong pixels in the band.
     pub inside: usize,
+    /// Number of wrong pixels beyond the band.
     pub outside: usize,
+    /// `inside` in percent.
     pub inside_percent: f64,
+    /// `outside` in percent.
     pub outside_percent: f64,
 }
 
@@ -84,13 +96,18 @@ pub struct NotCompared {
 
 /// Reason why a picture cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// Picture and truth have different sizes.
     #[error("the picture has {found:?} pixels, the truth {expected:?}")]
     Size { found: [u32; 2], expected: [u32; 2] },
+    /// A list has fewer or more values than the picture has pixels.
     #[error("the picture's {what} holds {found} values, not {expected}")]
     Length { what: &'static str, found: usize, expected: usize },
+    /// The shade of a drawn pixel is no fraction, or no number.
     #[error("the shade at column {x}, row {y} is {value}, not in [0, 1]")]
     Value { x: u32, y: u32, value: f32 },
+    /// The band's width or the map's size makes no sense.
     #[error("a band of {texels} texels of a map of {size:?}: neither may be below zero, nor the map empty")]
     Band { texels: f64, size: [u32; 2] },
 }

@@ -35,17 +35,20 @@ const LOADED_FROM: usize = 10;
 /// Spread of a scene's times.
 #[derive(Debug, Default)]
 pub struct RowTimes<'r> {
-    /// Measured rows, and those of them whose runs differ much among themselves.
+    /// Measured rows.
     pub rows: usize,
+    /// Rows whose median run takes much longer than the least.
     pub unsteady: usize,
-    /// Rows that do the same work as others, and those of them whose least times differ much.
+    /// Twins: rows that do the same work as others.
     pub twins: usize,
+    /// Twins whose least run takes much longer than that of another.
     pub unlike: usize,
     /// The least and the greatest run of all rows of a work.
     bars: HashMap<&'r str, [f64; 2]>,
 }
 
 impl<'r> RowTimes<'r> {
+    /// Statistics of the scene's measured rows.
     pub fn of(scene: &'r SceneReport) -> Self {
         let mut times = Self::default();
         let mut works: HashMap<&str, Vec<Spread>> = HashMap::new();
@@ -106,7 +109,9 @@ impl<'r> RowTimes<'r> {
 /// A recommended setting.
 #[derive(Debug)]
 pub struct Pick<'r> {
+    /// The row.
     pub row: &'r Row,
+    /// Its measurement.
     pub measured: &'r Measured,
     /// Time that it was picked by.
     pub milliseconds: f64,
@@ -121,12 +126,16 @@ pub struct Pick<'r> {
 /// Both recommendations for a scene, and their basis.
 #[derive(Debug)]
 pub struct Picks<'r> {
+    /// Spread of the times that both are picked by.
     pub times: RowTimes<'r>,
+    /// The fastest row that is exact enough; `None`: no row is.
     pub cheapest: Option<Pick<'r>>,
+    /// The most exact row that is fast enough; `None`: no row is.
     pub most_exact: Option<Pick<'r>>,
 }
 
 impl<'r> Picks<'r> {
+    /// Picks by `goals` among the scene's measured rows.
     pub fn of(scene: &'r SceneReport, goals: &Goals) -> Self {
         let times = RowTimes::of(scene);
         let cheapest = cheapest(scene, &times, goals.wrong_percent);

@@ -25,25 +25,35 @@ use crate::views::View;
 
 /// Reason why a report cannot be started. Errors of a row are kept in that row.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The scene does not load.
     #[error(transparent)]
     Scene(#[from] scene::Error),
+    /// There is no context to measure on.
     #[error(transparent)]
     Context(#[from] context::Error),
+    /// The ray tracer has no answer for the scene.
     #[error(transparent)]
     Truth(#[from] truth::Error),
+    /// A row of the grid makes no valid scene.
     #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
     Row { scene: PathBuf, inline: String, reason: String },
+    /// The scene does not have the light.
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
+    /// The shard is none of 1/N to N/N.
     #[error("--shard {index}/{count}: write I/N with 1 <= I <= N")]
     Shard { index: usize, count: usize },
 }
 
 /// A scene ready to be swept.
 pub struct Sweep {
+    /// The scene as written.
     pub scene: Scene,
+    /// The ray tracer's answer for the measured light.
     pub truth: Truth,
+    /// The scene's part of the report, still without rows.
     pub report: SceneReport,
     /// Warnings of loading the scene and laying out its grid.
     pub warnings: Vec<String>,

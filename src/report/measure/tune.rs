@@ -13,17 +13,24 @@ use crate::truth::{self, Answer, Pixel, Truth};
 
 /// Reason why nothing can be tuned.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// A setting of the search makes no valid scene.
     #[error(transparent)]
     Scene(#[from] scene::Error),
+    /// The ray tracer has no answer for the scene.
     #[error(transparent)]
     Truth(#[from] truth::Error),
+    /// A setting could not be drawn.
     #[error(transparent)]
     Frame(#[from] frame::Error),
+    /// A picture does not fit its truth.
     #[error(transparent)]
     Metrics(#[from] metrics::Error),
+    /// The scene does not have the light.
     #[error("the scene has {count} lights, there is no light {index}")]
     NoLight { index: usize, count: usize },
+    /// Too few pixels can be compared.
     #[error(
         "nothing can be tuned: of light {light} {compared} pixels could be compared, {facing} of them on surfaces that face \
          it; each needs {FEWEST_COMPARED} at least. Does the light reach what the camera sees? Is the picture large enough \
@@ -35,6 +42,7 @@ pub enum Error {
 /// Search range, and limits of a good result.
 #[derive(Clone, Debug)]
 pub struct TuneOptions {
+    /// Index of the tuned light.
     pub light: usize,
     /// Map sizes to try, smallest first.
     pub sizes: Vec<u32>,
@@ -49,8 +57,11 @@ pub struct TuneOptions {
 /// One point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct TunedPoint {
+    /// Side of the map in texels.
     pub size: u32,
+    /// Slope factor of glPolygonOffset.
     pub factor: f64,
+    /// Units of glPolygonOffset.
     pub units: f64,
     /// False shadow on surfaces that face the light, beyond the edge band, in percent of those compared.
     pub false_shadow_percent: f64,
@@ -60,17 +71,20 @@ pub struct TunedPoint {
     pub leak_percent: f64,
     /// Leak on surfaces that face the light, where shading does not hide it, in percent of those compared.
     pub leak_facing_percent: f64,
+    /// False shadow and leak, in percent of all pixels that were compared.
     pub wrong_percent: f64,
     /// True if the false shadow is within [`TuneOptions::false_per_100_000`].
     pub clean: bool,
-    /// Pixels that the percentages are of: all, and those on surfaces that face the light.
+    /// Pixels that the percentages are of.
     pub compared: usize,
+    /// Number of these on surfaces that face the light.
     pub compared_facing: usize,
 }
 
 /// Points that the search measured, and its choice.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Tuned {
+    /// Every point that was measured, in the order of the search.
     pub curve: Vec<TunedPoint>,
     /// The best offset of each size that has a clean one, by size.
     pub best: Vec<TunedPoint>,
@@ -78,9 +92,11 @@ pub struct Tuned {
     pub chosen: Option<TunedPoint>,
     /// The chosen point as `[light.shadow]`, with the other keys of the scene's own: it replaces that table.
     pub chosen_toml: Option<String>,
-    /// Pixels of which the truth is sure and which were drawn, those of them that face the light, and those in shadow.
+    /// Pixels of which the truth is sure and which were drawn.
     pub compared: usize,
+    /// Number of these on surfaces that face the light.
     pub compared_facing: usize,
+    /// Number of these in shadow.
     pub compared_shadowed: usize,
     /// True if `chosen` is within the requested leak.
     pub within_leak: bool,
@@ -91,6 +107,7 @@ pub struct Tuned {
 /// A technique without polygon offset on the same scene.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Rival {
+    /// Name of the technique, as in a scene file.
     pub technique: &'static str,
     /// Settings in TOML.
     pub settings: String,
@@ -98,10 +115,14 @@ pub struct Rival {
     pub errors: Result<RivalErrors, String>,
 }
 
+/// Errors of a rival, in percent as in [`TunedPoint`].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct RivalErrors {
+    /// As [`TunedPoint::false_shadow_percent`].
     pub false_shadow_percent: f64,
+    /// As [`TunedPoint::leak_percent`].
     pub leak_percent: f64,
+    /// As [`TunedPoint::wrong_percent`].
     pub wrong_percent: f64,
 }
 

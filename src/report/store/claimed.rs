@@ -9,16 +9,21 @@ use crate::report::numbers::plain;
 /// A claim of a document, and its result on this scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claimed {
-    /// Technique that the claim is about, and its document.
+    /// Technique that the claim is about.
     pub technique: String,
+    /// Document and section.
     pub source: String,
+    /// The claim in a sentence.
     pub says: String,
     /// Compared quantity, with its unit.
     pub quantity: String,
+    /// Measurement on the relation's left.
     pub first: Measurement,
     /// Relation between both, in words: "at most 0.5 ×", "more than".
     pub relation: String,
+    /// Measurement on the relation's right.
     pub second: Measurement,
+    /// Result.
     pub verdict: ClaimVerdict,
 }
 
@@ -27,21 +32,26 @@ pub struct Claimed {
 pub struct Measurement {
     /// Settings in TOML.
     pub settings: String,
+    /// Measured value, in the unit of [`Claimed::quantity`].
     pub value: Option<f64>,
     /// Reason why there is no value.
     pub why: Option<String>,
 }
 
+/// Result of a claim on one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimVerdict {
+    /// The measured numbers stand in the claimed relation.
     Holds,
+    /// They do not.
     Fails,
     /// One of the numbers is missing.
     Unknown,
 }
 
 impl ClaimVerdict {
+    /// The verdict in words, for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Holds => "holds",

@@ -98,6 +98,7 @@ pub fn done(folder: &Path, stamp: &str, is_known: impl Fn(&str, &Row) -> Known) 
 /// Relation of a journal's row to a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
+    /// Row of the run, with the same settings.
     Row,
     /// Row of a scene, or a grid, that the run does not have.
     OtherScene,

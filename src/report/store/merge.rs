@@ -11,36 +11,47 @@ use super::results::{Machine, Measured, Outcome, Report, Row, SceneReport, VERSI
 
 /// Reason why a report cannot be read, or parts cannot be joined.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The system refused to read the file.
     #[error("{path}: cannot be read: {reason}", path = .path.display())]
     Read { path: PathBuf, reason: std::io::Error },
+    /// The file is no JSON.
     #[error("{path}: is no JSON, or was cut off: {reason}", path = .path.display())]
     Json { path: PathBuf, reason: String },
+    /// The file is JSON, and no report.
     #[error("{path}: is no report of glumbra: {reason}", path = .path.display())]
     NoReport { path: PathBuf, reason: String },
+    /// The report was written by another version of glumbra.
     #[error("{path}: has layout {found}, this glumbra reads {VERSION}: measure again", path = .path.display())]
     Version { path: PathBuf, found: u64 },
+    /// A report contradicts itself.
     #[error("{path}: scene {scene}: {reason}: the file is damaged", path = .path.display(), scene = .scene.display())]
     Damaged { path: PathBuf, scene: PathBuf, reason: String },
+    /// No report is named.
     #[error("there is nothing to merge: name the folders of at least one report")]
     Nothing,
+    /// Two parts were drawn by different drivers.
     #[error(
         "{second} was drawn by another {what} than {first}: \"{second_value}\", not \"{first_value}\"; their errors and \
          times cannot be combined in one report",
         first = .first.display(), second = .second.display()
     )]
     Driver { first: PathBuf, second: PathBuf, what: &'static str, first_value: String, second_value: String },
+    /// A part has a scene that the others do not have.
     #[error(
         "{second} holds scene {scene}, which is not in {first}: parts of one sweep have the same scenes, light, size and \
          grid",
         first = .first.display(), second = .second.display(), scene = .scene.display()
     )]
     Scenes { first: PathBuf, second: PathBuf, scene: PathBuf },
+    /// Two parts have different facts about one scene.
     #[error(
         "{first} and {second} disagree on {what} of scene {scene}",
         first = .first.display(), second = .second.display(), scene = .scene.display()
     )]
     Differ { first: PathBuf, second: PathBuf, scene: PathBuf, what: &'static str },
+    /// Two parts have one row, with different errors.
     #[error(
         "{first} and {second} both hold row {row} of scene {scene} ({settings}), and not only their times differ",
         first = .first.display(), second = .second.display(), scene = .scene.display()

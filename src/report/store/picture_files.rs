@@ -11,9 +11,12 @@ use crate::report::show::html::{DifferencePicture, ReportPictures, ScenePictures
 
 /// Reason why the pictures of a part cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The system refused to read the file.
     #[error("{path}: cannot be read: {reason}", path = .path.display())]
     Read { path: PathBuf, reason: std::io::Error },
+    /// The file is no PNG, or of another size than its scene.
     #[error("{path}: is no picture of this report ({reason}): the file is damaged", path = .path.display())]
     Damaged { path: PathBuf, reason: String },
 }

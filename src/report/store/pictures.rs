@@ -13,10 +13,13 @@ use crate::report::show::html::{DifferencePicture, ScenePictures};
 /// Reason why a picture could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
+    /// The picture could not be drawn.
     #[error(transparent)]
     Frame(#[from] frame::Error),
+    /// The picture does not fit its truth.
     #[error(transparent)]
     Difference(#[from] metrics::Error),
+    /// The PNG encoder failed.
     #[error("a picture of the report cannot be encoded: {0}")]
     Encode(#[from] image::ImageError),
 }

@@ -14,12 +14,14 @@ pub struct Report {
     pub version: u32,
     /// True if every row of the grid is there.
     pub complete: bool,
+    /// Machine and driver of all rows.
     pub machine: Machine,
     /// Notes for the reader: what was joined, what went wrong.
     #[serde(default)]
     pub notes: Vec<String>,
     /// Requested scenes, of which [`Self::scenes`] may be a part.
     pub asked_scenes: usize,
+    /// Scenes in the requested order.
     pub scenes: Vec<SceneReport>,
 }
 
@@ -29,13 +31,17 @@ pub const VERSION: u32 = 1;
 /// Machine and driver that it was measured on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
-    /// The processor, as the system names it, and its logical cores.
+    /// The processor, as the system names it.
     pub processor: String,
+    /// Number of logical cores.
     pub cores: usize,
-    /// GL_RENDERER and GL_VERSION, and the way the context was made.
+    /// GL_RENDERER.
     pub renderer: String,
+    /// GL_VERSION.
     pub gl_version: String,
+    /// Way in which the context was made, e.g. `EGL surfaceless`.
     pub backend: String,
+    /// Version of glumbra.
     pub glumbra: String,
     /// Rows measured at once; above 1 the times disturb each other.
     pub jobs: usize,
@@ -56,7 +62,9 @@ pub struct SceneReport {
     pub light: usize,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// Triangles of all objects, as loaded.
     pub triangles: u64,
+    /// Summary of the ray tracer's answer.
     pub truth: TruthSummary,
     /// Parts that the plan leaves out of the scene as written, and the time that this saves.
     #[serde(default)]
@@ -75,27 +83,37 @@ pub struct SceneReport {
 pub struct Saved {
     /// True if both drew the same picture, to the bit. If not, nothing here counts.
     pub same_pixels: bool,
+    /// A frame with nothing left out.
     pub whole: Cost,
     /// A frame that keeps what a static scene's first frame drew.
     pub pruned: Cost,
+    /// Parts that the second frame leaves out, each with the reason.
     pub left_out: Vec<crate::lights::LeftOut>,
 }
 
 /// Cost of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
+    /// Time of a frame.
     pub frame: Spread,
+    /// Bytes of the plan's images.
     pub image_bytes: u64,
+    /// Draws of a frame.
     pub draw_calls: usize,
+    /// Triangles of a frame.
     pub triangles: u64,
 }
 
 /// Summary of the ray tracer's answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruthSummary {
+    /// Pixels on which something is drawn.
     pub drawn: usize,
+    /// Drawn pixels in the light.
     pub lit: usize,
+    /// Drawn pixels in shadow.
     pub shadowed: usize,
+    /// Drawn pixels of which the ray tracer is not certain.
     pub ambiguous: usize,
     /// Ambiguous pixels, in percent of `drawn`.
     pub ambiguous_percent: f64,
@@ -108,15 +126,19 @@ pub struct TruthSummary {
 pub struct Row {
     /// Index in the grid, from 0; row 0 is the scene as written.
     pub index: usize,
+    /// Name of the technique, as in a scene file.
     pub technique: String,
     /// `key = value` in TOML, without the technique: all keys of `[light.shadow]`, the scene's own among them.
     pub settings: Vec<(String, String)>,
+    /// Measurement, or the reason why there is none.
     pub outcome: Outcome,
 }
 
+/// Outcome of one setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
+    /// Errors and costs.
     Measured(Box<Measured>),
     /// Reason why the row could not be drawn or compared.
     Failed(String),
@@ -125,33 +147,42 @@ pub enum Outcome {
 /// Errors and costs of a setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
+    /// Errors against the truth.
     pub metrics: Metrics,
     /// Every pass drawn, the maps among them, in milliseconds from the first call to the end of glFinish.
     pub frame_redrawn: Spread,
     /// A frame that keeps what a static scene's first frame drew.
     pub frame_kept: Spread,
+    /// Cost of each pass, in the order of the plan.
     pub passes: Vec<PassCost>,
     /// Images of the plan: maps, buffers, textures.
     pub image_bytes: u64,
     /// Vertex and index buffers.
     #[serde(default)]
     pub buffer_bytes: u64,
-    /// Draws and triangles of a frame with everything drawn.
+    /// Draws of a frame with everything drawn.
     pub draw_calls: usize,
+    /// Triangles of a frame with everything drawn.
     pub triangles: u64,
     /// Hash of the work of its passes: rows with the same one should take the same time. Empty in older reports.
     #[serde(default)]
     pub work: String,
+    /// Parts that the plan leaves out, each with the reason.
     pub left_out: Vec<crate::lights::LeftOut>,
+    /// The plan's warnings, one sentence each.
     pub warnings: Vec<String>,
 }
 
 /// Times of several runs in milliseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
+    /// The middle run, or the mean of the two middle ones.
     pub median: f64,
+    /// The fastest run.
     pub least: f64,
+    /// The slowest run.
     pub greatest: f64,
+    /// Number of runs.
     pub runs: usize,
 }
 
@@ -170,10 +201,13 @@ impl Spread {
 /// Cost of one pass when it is drawn and waited for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PassCost {
+    /// Label of the pass, as `glumbra plan` prints it.
     pub label: String,
+    /// Time by the wall clock, to the end of glFinish.
     pub wall: Spread,
     /// GL_TIME_ELAPSED, where the driver counts it.
     pub gpu: Option<Spread>,
+    /// Triangles that the pass draws.
     pub triangles: u64,
     /// GL_SAMPLES_PASSED: fragments that passed the depth test.
     pub fragments: Option<u64>,

@@ -17,15 +17,21 @@ use crate::report::show::plots::{self, Links};
 
 /// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
+    /// The system refused to make the folder.
     #[error("{path}: the folder cannot be made: {reason}", path = .path.display())]
     Folder { path: PathBuf, reason: io::Error },
+    /// The system refused to write a file.
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
     Write { path: PathBuf, reason: io::Error },
+    /// A plot or picture of an older report cannot be removed.
     #[error("{path}: is of an older report and cannot be removed: {reason}", path = .path.display())]
     Stale { path: PathBuf, reason: io::Error },
+    /// The report cannot be put in JSON.
     #[error("the report of {path} cannot be put in JSON: {reason}", path = .path.display())]
     Json { path: PathBuf, reason: String },
+    /// A scene's plot cannot be drawn.
     #[error("{scene}: {reason}", scene = .scene.display())]
     Plot { scene: PathBuf, reason: plots::Error },
 }
@@ -103,6 +109,7 @@ fn to_json(folder: &Path, report: &Report) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
+/// Makes the folder and its parents, where they are missing.
 pub fn make_folder(folder: &Path) -> Result<(), Error> {
     fs::create_dir_all(folder).map_err(|reason| Error::Folder { path: folder.to_owned(), reason })
 }

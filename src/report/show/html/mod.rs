@@ -16,6 +16,7 @@ use tags::{escape, list};
 /// All pictures of a report, in the order of its scenes. Scenes without an entry are shown without pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReportPictures {
+    /// One entry for each scene, from the first.
     pub scenes: Vec<ScenePictures>,
 }
 
@@ -26,6 +27,7 @@ pub struct ScenePictures {
     pub picture: Option<Vec<u8>>,
     /// By [`crate::report::measure::difference::truth_picture`].
     pub truth: Option<Vec<u8>>,
+    /// Differences of the rows that matter most.
     pub differences: Vec<DifferencePicture>,
 }
 
@@ -34,7 +36,9 @@ pub struct ScenePictures {
 pub struct DifferencePicture {
     /// The row's index in the grid.
     pub row: usize,
+    /// Sentence below the picture.
     pub caption: String,
+    /// PNG file.
     pub png: Vec<u8>,
 }
 

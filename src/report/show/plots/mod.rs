@@ -17,6 +17,7 @@ use canvas::{Marker, PlotCanvas, Words};
 /// Reason why a plot could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
+    /// The plotting library failed.
     #[error("the plot cannot be drawn: {0}")]
     Draw(String),
 }
