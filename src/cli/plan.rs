@@ -68,7 +68,7 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
     }
     let summary = plan.summary();
     if arguments.print_scene {
-        let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.overrides())?;
+        let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.changes.overrides())?;
         return super::print(&settings.to_toml());
     }
     if arguments.json {

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::scene_args::parse_size;
+use super::scene_args::SceneChanges;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
@@ -76,13 +76,8 @@ pub struct ReportArgs {
     #[arg(long, value_name = "TEXELS", default_value_t = 2.0)]
     band: f64,
 
-    /// The picture's size in pixels, in place of the scene's
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
-
-    /// Changes a key of the scenes, e.g. camera.fov_y=30
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    changes: SceneChanges,
 
     #[command(flatten)]
     context: ContextArgs,
@@ -225,8 +220,8 @@ fn options(arguments: &ReportArgs) -> MeasureOptions {
 }
 
 fn prepare(arguments: &ReportArgs, grid: &Grid, options: &MeasureOptions) -> Result<Vec<Sweep>, Error> {
-    let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
-    let overrides: Vec<String> = size.into_iter().chain(arguments.set.iter().cloned()).collect();
+    arguments.scenes.iter().try_for_each(|path| arguments.changes.check(path))?;
+    let overrides = arguments.changes.overrides();
     let bar = super::spinner("tracing the truth of {msg}");
     let prepared = arguments.scenes.iter().map(|path| {
         bar.set_message(path.display().to_string());

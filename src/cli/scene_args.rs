@@ -1,6 +1,6 @@
 //! Arguments of every subcommand that draws: a scene and changes of it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,26 +9,23 @@ use crate::plan::ViewRequest;
 use crate::scene::{self, Loaded};
 use crate::views::VIEWS;
 
-/// The scene, and changes to it.
+/// Changes of a scene.
 #[derive(Clone, Debug, Args)]
-pub struct SceneArgs {
-    /// A scene (.toml), or a model (.obj) around which a floor, a spotlight and a camera are supplied
-    pub scene: PathBuf,
-
+pub struct SceneChanges {
     /// The picture's size in pixels, in place of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<[u32; 2]>,
+    size: Option<[u32; 2]>,
 
     /// Changes a key of the scene, e.g. light.shadow.size=2048 (every light) or light.0.cone=45 (the first)
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
+    set: Vec<String>,
 
     /// Supplies no floor under a model
     #[arg(long)]
-    pub no_floor: bool,
+    no_floor: bool,
 }
 
-impl SceneArgs {
+impl SceneChanges {
     /// The overrides in order, those of options of their own first.
     pub fn overrides(&self) -> Vec<String> {
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
@@ -36,16 +33,28 @@ impl SceneArgs {
         size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
     }
 
-    /// Refuses options that do not apply to the scene.
-    pub fn check(&self) -> Result<(), Error> {
-        let is_scene = self.scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-        if self.no_floor && is_scene { Err(Error::NoFloor { scene: self.scene.clone() }) } else { Ok(()) }
+    /// Refuses options that do not apply to the file `scene`.
+    pub fn check(&self, scene: &Path) -> Result<(), Error> {
+        let is_scene = scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        if self.no_floor && is_scene { Err(Error::NoFloor { scene: scene.to_owned() }) } else { Ok(()) }
     }
+}
 
+/// The scene, and changes to it.
+#[derive(Clone, Debug, Args)]
+pub struct SceneArgs {
+    /// A scene (.toml), or a model (.obj) around which a floor, a spotlight and a camera are supplied
+    pub scene: PathBuf,
+
+    #[command(flatten)]
+    pub changes: SceneChanges,
+}
+
+impl SceneArgs {
     /// Loads the scene and prints its warnings.
     pub fn load(&self) -> Result<Loaded, Error> {
-        self.check()?;
-        let loaded = scene::load(&self.scene, &self.overrides())?;
+        self.changes.check(&self.scene)?;
+        let loaded = scene::load(&self.scene, &self.changes.overrides())?;
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));
         }

@@ -19,6 +19,7 @@ mod faults;
 mod figures;
 mod fit;
 mod fixed_function;
+mod floor;
 mod generated;
 mod geometry_files;
 mod guards;
