@@ -10,6 +10,7 @@ use super::guard::Guard;
 use super::map::MapInfo;
 use super::projector::Projector;
 use super::{Drawable, Viewer, drawable};
+use crate::geometry::Derived;
 use crate::math::Aabb;
 use crate::pass::{
     Attribute, Batch, Chunk, Define, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef,
@@ -23,6 +24,8 @@ pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
     pub camera: &'a CameraView<'a>,
+    /// What earlier plans found from meshes.
+    pub derived: &'a Derived,
     /// Into [`Scene::lights`].
     pub index: usize,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.

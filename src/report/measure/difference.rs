@@ -6,7 +6,8 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
 
-use super::metrics::{Error, ShadeImage, is_lit};
+use super::metrics::{Error, is_lit};
+use crate::frame::ShadeImage;
 use crate::truth::{Answer, Pixel, Truth};
 
 pub const BACKGROUND: [u8; 3] = [0x12, 0x12, 0x16];

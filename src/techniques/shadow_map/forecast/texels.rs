@@ -7,6 +7,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 use super::Map;
 use super::points::{Items, Placed};
+use super::raster::{At, Raster, Spot};
 use crate::geometry::rays::Ray;
 use crate::lights::Drawable;
 use crate::lights::projector::{Projector, Rays};
@@ -43,6 +44,11 @@ pub struct Texels<'a> {
     casts: Vec<bool>,
     projector: Projector,
     world_from_light: DMat4,
+    /// The map's clip space.
+    map_from_light: DMat4,
+    clip_from_raster: DMat4,
+    /// The items by their places in the map.
+    raster: Raster,
     known: HashMap<[u32; 3], f64>,
 }
 
@@ -60,16 +66,23 @@ impl<'a> Texels<'a> {
     pub fn new(items: &'a Items<'a>, map: &'a Map<'a>, projector: Projector) -> Self {
         let casters: HashSet<*const Drawable> = map.casters.iter().map(|caster| std::ptr::from_ref(*caster)).collect();
         let casts = |placed: &Placed<'_>| casters.contains(&std::ptr::from_ref(placed.item));
-        Self {
+        let raster_from_clip = raster_from_clip(map.settings);
+        let map_from_light = raster_from_clip * projector.crop.map_clip_from_light_clip() * projector.clip_from_light;
+        let mut texels = Self {
             items,
             settings: map.settings,
             stored: map.stored,
             offset: map.offset.polygon,
             casts: items.placed.iter().map(casts).collect(),
             world_from_light: projector.light_from_world.inverse(),
+            map_from_light,
+            clip_from_raster: raster_from_clip.inverse(),
+            raster: Raster::default(),
             projector,
             known: HashMap::new(),
-        }
+        };
+        texels.raster = items.raster(|point| texels.spot(point));
+        texels
     }
 
     pub fn projector(&self) -> &Projector {
@@ -90,11 +103,20 @@ impl<'a> Texels<'a> {
     /// Place where a point in light space is looked up, in texels of level 0 from a corner of the map, and its window
     /// depth.
     pub fn place(&self, light: DVec3) -> (DVec2, f64) {
-        let crop = raster_from_clip(self.settings) * self.projector.crop.map_clip_from_light_clip();
-        let clip = crop * self.projector.clip_from_light * light.extend(1.0);
+        let clip = self.map_from_light * light.extend(1.0);
         let ndc = clip.truncate() / clip.w;
         let size = f64::from(self.settings.size);
         ((0.5 + 0.5 * ndc.truncate()) * size, 0.5 + 0.5 * ndc.z)
+    }
+
+    /// The place among the items of the light's ray through a point in world space.
+    pub fn at(&self, point: DVec3) -> Option<At<'_>> {
+        self.raster.at(&self.spot(point))
+    }
+
+    fn spot(&self, point: DVec3) -> Spot {
+        let light = self.projector.light_from_world.transform_point3(point);
+        Spot::new(self.map_from_light * light.extend(1.0), light.abs().max_element() + point.abs().max_element())
     }
 
     /// The depth that a texel holds.
@@ -111,7 +133,7 @@ impl<'a> Texels<'a> {
     fn found(&self, level: u32, at: [u32; 2]) -> f64 {
         let center = DVec2::new(f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5);
         let ray = self.ray(level, center);
-        let layers = self.layers(&ray);
+        let layers = self.layers(&ray, center / f64::from(self.size(level)));
         let casting = || layers.iter().filter(|layer| layer.casts);
         // The depth test compares depths after the offset, and GL_DEPTH_CLAMP clamps those [GL 4.6, 14.6.5 and 17.3.4].
         let moved = || casting().map(|layer| layer.depth + self.moved(level, center, layer)).fold(1.0, f64::min);
@@ -161,8 +183,7 @@ impl<'a> Texels<'a> {
     fn ray(&self, level: u32, place: DVec2) -> Ray {
         let clip = &self.projector.clip_from_light;
         let map = 2.0 * place / f64::from(self.size(level)) - 1.0;
-        let clip_from_raster = raster_from_clip(self.settings).inverse();
-        let map = clip_from_raster.transform_point3(map.extend(0.0)).truncate();
+        let map = self.clip_from_raster.transform_point3(map.extend(0.0)).truncate();
         let light = self.projector.crop.light_clip(map);
         let scale = DVec2::new(clip.x_axis.x, clip.y_axis.y);
         let (from, to) = match self.projector.rays {
@@ -180,8 +201,8 @@ impl<'a> Texels<'a> {
         Ray { origin: from, way: to - from, start: 1e-9, end: 1.0 }
     }
 
-    /// Layers that the ray crosses and the map draws, in no order.
-    fn layers(&self, ray: &Ray) -> Vec<Crossing> {
+    /// Layers that the ray through a place in [0, 1]² crosses and the map draws, in no order.
+    fn layers(&self, ray: &Ray, place: DVec2) -> Vec<Crossing> {
         let mut layers = Vec::new();
         let far_sides = match self.settings.cull {
             None => None,
@@ -191,7 +212,7 @@ impl<'a> Texels<'a> {
         let with_receivers = matches!(self.stored, Stored::Middle { .. });
         // Surfaces beyond the far plane are a second layer at depth 1.
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
-        self.items.crossings(ray, |item, met| {
+        self.items.crossings(ray, Some(At { raster: &self.raster, place }), |item, met| {
             let casts = self.casts[item];
             // The ray runs away from the light: a surface that it meets from behind looks away from the light.
             if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
