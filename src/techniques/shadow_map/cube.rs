@@ -15,6 +15,7 @@ use super::term::{sampler, texture_from_light_clip};
 use super::{bias, simplified_casters, tag};
 use crate::lights::caster_culling::Unseen;
 use crate::lights::guard::Guard;
+use crate::lights::light::ShadeSource;
 use crate::lights::projector::{Projector, Rays, face_frustum};
 use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
@@ -197,8 +198,9 @@ fn draw(
 /// Light term of the cube.
 fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
-    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
-    term.meaning = Shade::Shader("a shade that is looked up in a cube map");
+    let meaning = Shade::Shader("a shade that is looked up in a cube map");
+    let shade = ShadeSource::of(glsl!("shadow_map/cube.frag"), meaning);
+    let mut term = LightTerm::new(view.scene, index, shade);
     term.coordinates = Some(Coordinates {
         texture_from_light_clip: DMat4::IDENTITY,
         receiver_bias: DMat4::IDENTITY,
@@ -209,20 +211,20 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     });
     let rays = Rays::From { position: point.position, near: point.near };
     let sampler = sampler(rays, settings);
-    term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
-    term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
-    term.defines.push(Define::flag("CUBE").of_light(index));
-    term.shade.insert(0, glsl!("shadow_map/map.glsl"));
+    term.shade.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
+    term.shade.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
+    term.shade.defines.push(Define::flag("CUBE").of_light(index));
+    term.shade.chunks.insert(0, glsl!("shadow_map/map.glsl"));
     if settings.kernel > 1 {
-        term.shade.insert(1, glsl!("shadow_map/percentage_closer.glsl"));
-        term.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
+        term.shade.chunks.insert(1, glsl!("shadow_map/percentage_closer.glsl"));
+        term.shade.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
     }
     let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
-        term.defines.push(Define::flag("SEAMS").of_light(index));
+        term.shade.defines.push(Define::flag("SEAMS").of_light(index));
         // Width of the seam, for a face of side 2; rounding may bring a lookup nearer.
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
-        term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
+        term.shade.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);

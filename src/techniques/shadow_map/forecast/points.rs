@@ -54,12 +54,20 @@ impl<'a> Items<'a> {
         Self { boxes: Boxes::new(bounds), placed }
     }
 
-    /// Calls `look` with every crossing of a ray in world space, and its item; holes are left out. `at`: the ray's place in
-    /// a raster of these items, if it has one.
-    pub fn crossings(&self, ray: &Ray, at: Option<At<'_>>, mut look: impl FnMut(usize, Crossing)) {
+    /// Calls `look` with every crossing of a ray in world space with an item that is `wanted`, and the item; holes are left
+    /// out. `at`: the ray's place in a raster of these items, if it has one.
+    pub fn crossings(
+        &self,
+        ray: &Ray,
+        at: Option<At<'_>>,
+        wanted: impl Fn(usize) -> bool,
+        mut look: impl FnMut(usize, Crossing),
+    ) {
         let mut cross = |index: u32| {
             let index = index as usize;
-            self.placed[index].crossings(ray, |met| look(index, met));
+            if wanted(index) {
+                self.placed[index].crossings(ray, |met| look(index, met));
+            }
         };
         if at.and_then(|at| at.raster.met(at.place, &mut cross)).is_none() {
             self.boxes.met(ray, cross);
@@ -68,7 +76,10 @@ impl<'a> Items<'a> {
 
     /// The items by their places, which `spot` finds for points in world space.
     pub fn raster(&self, spot: impl Fn(DVec3) -> Spot) -> Raster {
-        Raster::new(self.placed.iter().map(Placed::bounds), spot)
+        let corners = |placed: &Placed<'_>| {
+            placed.item.bounds.corners().map(|corner| placed.item.world_from_model.transform_point3(corner))
+        };
+        Raster::new(self.placed.iter().map(corners), spot)
     }
 }
 
@@ -118,11 +129,16 @@ impl Placed<'_> {
 pub fn seen(items: &Items<'_>, at: Option<At<'_>>, eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
     let ray = Ray { origin, way, start: 0.0, end: 1.0 };
     let mut nearest: Option<(f64, usize, u32)> = None;
-    items.crossings(&ray, at, |item, met| {
-        if nearest.is_none_or(|(t, ..)| met.t < t) {
-            nearest = Some((met.t, item, met.triangle));
-        }
-    });
+    items.crossings(
+        &ray,
+        at,
+        |_| true,
+        |item, met| {
+            if nearest.is_none_or(|(t, ..)| met.t < t) {
+                nearest = Some((met.t, item, met.triangle));
+            }
+        },
+    );
     let (t, item, triangle) = nearest?;
     let (point, normal) = (origin + t * way, items.placed[item].normal(triangle));
     let normal = if normal.dot(eye - point) < 0.0 { -normal } else { normal };
@@ -144,12 +160,11 @@ pub fn on_the_way(items: &Items<'_>, seen: &Seen, behind: f64, rays: &Rays, at: 
     let way = to_light(seen.point, rays);
     let ray = Ray { origin: seen.point, way, start: behind, end };
     let mut all = Vec::new();
-    items.crossings(&ray, at, |item, met| {
-        if items.placed[item].item.casts_shadow {
-            let is_own = (item, met.triangle) == (seen.item, seen.triangle);
-            // The ray runs to the light: a surface that it meets from the front looks away from the light.
-            all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
-        }
+    let casts_shadow = |item: usize| items.placed[item].item.casts_shadow;
+    items.crossings(&ray, at, casts_shadow, |item, met| {
+        let is_own = (item, met.triangle) == (seen.item, seen.triangle);
+        // The ray runs to the light: a surface that it meets from the front looks away from the light.
+        all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
     });
     all
 }

@@ -2,8 +2,6 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use crate::math::Aabb;
-
 /// Greatest number of cells a side.
 const MOST_CELLS: usize = 128;
 
@@ -59,13 +57,13 @@ pub struct At<'r> {
 }
 
 impl Raster {
-    /// Sorts `boxes` by where `spot` sees their corners.
-    pub fn new(boxes: impl ExactSizeIterator<Item = Aabb>, spot: impl Fn(DVec3) -> Spot) -> Self {
+    /// Sorts boxes, each by its corners, by where `spot` sees their corners.
+    pub fn new(boxes: impl ExactSizeIterator<Item = [DVec3; 8]>, spot: impl Fn(DVec3) -> Spot) -> Self {
         let side = (2.0 * (boxes.len() as f64).sqrt()).ceil().clamp(1.0, MOST_CELLS as f64) as usize;
         let mut raster = Self { side, cells: vec![Vec::new(); side * side], everywhere: Vec::new() };
-        for (index, bounds) in boxes.enumerate() {
+        for (index, corners) in boxes.enumerate() {
             let index = index as u32;
-            let Some((min, max)) = rectangle(&bounds, &spot) else {
+            let Some((min, max)) = rectangle(&corners, &spot) else {
                 raster.everywhere.push(index);
                 continue;
             };
@@ -113,10 +111,10 @@ impl Raster {
 }
 
 /// Rectangle that holds the places of a box; `None` if a corner lies behind the eye, or so near it that rounding decides.
-fn rectangle(bounds: &Aabb, spot: &impl Fn(DVec3) -> Spot) -> Option<(DVec2, DVec2)> {
+fn rectangle(corners: &[DVec3; 8], spot: &impl Fn(DVec3) -> Spot) -> Option<(DVec2, DVec2)> {
     let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for corner in bounds.corners() {
-        let spot = spot(corner);
+    for corner in corners {
+        let spot = spot(*corner);
         if !spot.is_sure() {
             return None;
         }
@@ -129,6 +127,7 @@ fn rectangle(bounds: &Aabb, spot: &impl Fn(DVec3) -> Spot) -> Option<(DVec2, DVe
 mod tests {
     use super::*;
     use crate::geometry::rays::{Boxes, Ray};
+    use crate::math::Aabb;
     use crate::math::spaces::perspective;
 
     /// Every box that a ray of an eye meets is among those of its place, whether the boxes lie before the eye, around it or
@@ -149,7 +148,7 @@ mod tests {
             let clip = clip_from_view * point.extend(1.0);
             Spot::new(clip, point.abs().max_element())
         };
-        let raster = Raster::new(boxes.iter().copied(), spot);
+        let raster = Raster::new(boxes.iter().map(Aabb::corners), spot);
         let exact = Boxes::new(boxes.iter().map(|bounds| [bounds.min, bounds.max]));
         let (mut met, mut looked_at) = (0, 0);
         for _ in 0..5000 {

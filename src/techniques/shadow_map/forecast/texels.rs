@@ -49,7 +49,8 @@ pub struct Texels<'a> {
     clip_from_raster: DMat4,
     /// The items by their places in the map.
     raster: Raster,
-    known: HashMap<[u32; 3], f64>,
+    /// Depths by level and place, as one number each.
+    known: HashMap<u64, f64>,
 }
 
 /// A layer that a texel's ray crosses.
@@ -121,7 +122,7 @@ impl<'a> Texels<'a> {
 
     /// The depth that a texel holds.
     pub fn depth(&mut self, level: u32, [x, y]: [u32; 2]) -> f64 {
-        let key = [level, x, y];
+        let key = u64::from(level) << 48 | u64::from(y) << 24 | u64::from(x);
         if let Some(depth) = self.known.get(&key) {
             return *depth;
         }
@@ -136,7 +137,12 @@ impl<'a> Texels<'a> {
         let layers = self.layers(&ray, center / f64::from(self.size(level)));
         let casting = || layers.iter().filter(|layer| layer.casts);
         // The depth test compares depths after the offset, and GL_DEPTH_CLAMP clamps those [GL 4.6, 14.6.5 and 17.3.4].
-        let moved = || casting().map(|layer| layer.depth + self.moved(level, center, layer)).fold(1.0, f64::min);
+        let moved = || {
+            casting().fold(1.0, |nearest, layer| match layer.depth + self.least_move(layer) < nearest {
+                true => f64::min(nearest, layer.depth + self.moved(level, center, layer)),
+                false => nearest,
+            })
+        };
         match self.stored {
             Stored::Nearest => moved(),
             Stored::Middle { margin, eye_linear, alone } => {
@@ -212,14 +218,19 @@ impl<'a> Texels<'a> {
         let with_receivers = matches!(self.stored, Stored::Middle { .. });
         // Surfaces beyond the far plane are a second layer at depth 1.
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
-        self.items.crossings(ray, Some(At { raster: &self.raster, place }), |item, met| {
-            let casts = self.casts[item];
-            // The ray runs away from the light: a surface that it meets from behind looks away from the light.
-            if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
-                let depth = self.depth_along(met.t);
-                layers.push(Crossing { depth, item, triangle: met.triangle, casts });
-            }
-        });
+        let at = Some(At { raster: &self.raster, place });
+        self.items.crossings(
+            ray,
+            at,
+            |item| with_receivers || self.casts[item],
+            |item, met| {
+                // The ray runs away from the light: a surface that it meets from behind looks away from the light.
+                if far_sides.is_none_or(|far| far == met.from_behind) {
+                    let depth = self.depth_along(met.t);
+                    layers.push(Crossing { depth, item, triangle: met.triangle, casts: self.casts[item] });
+                }
+            },
+        );
         layers
     }
 
@@ -227,6 +238,12 @@ impl<'a> Texels<'a> {
     fn depth_along(&self, t: f64) -> f64 {
         let start = if matches!(self.projector.rays, Rays::From { .. }) { 0.0 } else { self.distance(0.0) };
         self.depth_at(start + t * (self.distance(1.0) - start))
+    }
+
+    /// The least that the polygon offset may move a layer by: seen head-on for a factor above 0, edge-on below.
+    fn least_move(&self, layer: &Crossing) -> f64 {
+        let PolygonOffset { factor, units } = self.offset;
+        f64::from(factor.min(0.0)) + f64::from(units) * unit(self.settings.format, layer.depth)
     }
 
     /// Movement of a layer by the polygon offset, in window depth [GL 4.6, 14.6.5].
