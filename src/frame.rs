@@ -9,11 +9,12 @@ use std::time::Instant;
 use crate::conformance::probe;
 use crate::context::{self, Context, ContextRequest};
 use crate::device::{self, Device, Measure, PassTime, Pixels};
-use crate::geometry::Texture;
+use crate::geometry::{Derived, Texture};
 use crate::pass::{DepthFormat, Format};
-use crate::plan::{self, Limits, Plan, Request};
+use crate::plan::{self, Limits, Plan, Request, ViewRequest};
 use crate::process::doing;
 use crate::scene::Scene;
+use crate::views::View;
 
 /// Reason why a frame could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -36,6 +37,8 @@ const DRAWING: &str = "drawing";
 pub struct Renderer {
     device: Device,
     limits: Limits,
+    /// Kept from plan to plan.
+    derived: Derived,
 }
 
 /// Does `work` for each of 0..`count` on `jobs` threads, each with a context and a renderer of its own, until all is done
@@ -106,16 +109,16 @@ impl Renderer {
     pub fn new(context: &Rc<dyn Context>) -> Self {
         let device = Device::new(context);
         let (max_image_size, max_inputs) = device.limits();
-        Self { device, limits: Limits { max_image_size, max_inputs } }
+        Self { device, limits: Limits { max_image_size, max_inputs }, derived: Derived::default() }
     }
 
     /// Plans `scene` within the driver's limits.
     ///
     /// # Errors
     ///
-    /// See [`plan::make`].
+    /// See [`plan::make_with`].
     pub fn plan(&mut self, scene: &Scene, request: &Request) -> Result<Plan, Error> {
-        let mut plan = plan::make(scene, &Request { limits: self.limits, ..request.clone() })?;
+        let mut plan = plan::make_with(scene, &Request { limits: self.limits, ..request.clone() }, &self.derived)?;
         self.warn_of_formats(&mut plan)?;
         Ok(plan)
     }
@@ -234,6 +237,47 @@ impl Renderer {
         }
         Ok(())
     }
+}
+
+/// A rendered shade: how much of the light's diffuse and specular terms reaches each pixel, in [0, 1]. Row 0 is the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShadeImage {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// `width * height` values, 0: shadow, 1: full light. Only values of drawn pixels are used.
+    pub shade: Vec<f32>,
+    /// True if the picture shows a surface there that lies in the light's cone or frustum.
+    pub covered: Vec<bool>,
+}
+
+impl ShadeImage {
+    /// The shade in RGBA texels of [`View::Shade`], for a picture of this size in pixels.
+    pub fn of_view([width, height]: [u32; 2], texels: &[f32]) -> Self {
+        Self {
+            width,
+            height,
+            shade: texels.chunks_exact(4).map(|texel| texel[0].clamp(0.0, 1.0)).collect(),
+            covered: texels.chunks_exact(4).map(|texel| texel[3] > 0.0).collect(),
+        }
+    }
+}
+
+/// The shade of one light as GL draws it.
+///
+/// # Errors
+///
+/// An error of the plan or the device.
+pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, Error> {
+    let request = Request { views: vec![ViewRequest { view: View::Shade, light }], ..Request::default() };
+    let plan = renderer.plan(scene, &request)?;
+    renderer.draw(&plan)?;
+    let texels = match renderer.read(&plan)?.views.pop() {
+        Some(Pixels::RgbaF32 { data, .. }) => data,
+        _ => Vec::new(),
+    };
+    Ok(ShadeImage::of_view(scene.image.size, &texels))
 }
 
 /// Tests whether a format has the bits of the picture's depth buffer, which is fixed-point.

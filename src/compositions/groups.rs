@@ -31,7 +31,7 @@ const ONCE: Stencil = Stencil {
 fn textures(scene: &Scene, term: &LightTerm) -> usize {
     let spot = scene.lights.get(term.index).and_then(|light| light.spot());
     let image = spot.is_some_and(|spot| spot.image.is_some());
-    term.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
+    term.shade.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
 }
 
 /// Number of lights in each group, in order. One group, which may be empty, at least.

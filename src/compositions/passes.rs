@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::Error;
 use super::projection::CameraProjection;
+use crate::geometry::Derived;
 use crate::lights::cut::Cutter;
 use crate::lights::{Drawable, Ending, LightTerm, Notes, Viewer};
 use crate::pass::{
@@ -13,12 +14,15 @@ use crate::pass::{
 use crate::scene::Scene;
 
 /// The batches that draw surfaces as a viewer sees them, lit by the terms. `None` where a light's transform has no inverse.
-pub type Surfaces = fn(&Scene, &[Drawable], &Viewer, &[LightTerm], &Ending, &mut PassList) -> Option<Vec<Batch>>;
+pub type Surfaces =
+    fn(&Scene, &[Drawable], &Viewer, &[LightTerm], &Ending, &Derived, &mut PassList) -> Option<Vec<Batch>>;
 
 /// Builder of a frame's passes.
 pub struct Passes<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
+    /// What earlier plans found from meshes.
+    pub derived: &'a Derived,
     /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
     pub kept: Vec<usize>,
     /// True if volumes are counted in the picture.
@@ -112,7 +116,7 @@ impl Passes<'_> {
         ending: &Ending,
     ) -> Result<(), Error> {
         let items = self.cut_items(onto.lens);
-        let batches = (self.surface)(self.scene, &items, &onto.lens.camera, terms, ending, self.list);
+        let batches = (self.surface)(self.scene, &items, &onto.lens.camera, terms, ending, self.derived, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;
@@ -153,7 +157,7 @@ impl Passes<'_> {
 impl<'a> Passes<'a> {
     /// The items as every pass before this lens draws them.
     pub fn cut_items(&self, lens: &CameraProjection) -> Cow<'a, [Drawable]> {
-        let cutter = Cutter::for_eye(self.scene, &lens.camera, self.counted);
+        let cutter = Cutter::for_eye(self.scene, &lens.camera, self.counted, self.derived);
         cutter.map_or(Cow::Borrowed(self.items), |cutter| cutter.cut_all(self.items, &self.kept))
     }
 }

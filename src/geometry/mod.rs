@@ -1,5 +1,6 @@
 //! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals, shadow volumes. No GL, no scene.
 
+mod derived;
 mod error;
 mod map_options;
 mod material;
@@ -19,6 +20,7 @@ mod vertex_cache_order;
 pub mod volume;
 mod wave;
 
+pub use derived::{Derived, Most};
 pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Placement, Texture};
 pub use mesh::{Mesh, Part};

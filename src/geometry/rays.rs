@@ -1,6 +1,6 @@
 //! Rays against triangles, in f64: techniques sample with them to find out where their pictures are wrong.
 
-use glam::DVec3;
+use glam::{BVec3, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
@@ -87,6 +87,8 @@ impl Triangles {
 struct Slab {
     ray: Ray,
     inverse: DVec3,
+    /// Axes that the ray runs down.
+    backwards: BVec3,
     pad: f64,
 }
 
@@ -94,15 +96,19 @@ impl Slab {
     /// Prepares the ray for boxes within `reach` of the origin. Its own end may be at infinity, where no box is.
     fn new(ray: &Ray, reach: f64) -> Self {
         let size = ray.origin.abs().max_element().max(reach);
-        Self { ray: *ray, inverse: ray.way.recip(), pad: 16.0 * f64::EPSILON * size }
+        let inverse = ray.way.recip();
+        Self { ray: *ray, inverse, backwards: inverse.cmplt(DVec3::ZERO), pad: 16.0 * f64::EPSILON * size }
     }
 
     fn meets(&self, node: &BvhNode) -> bool {
         let min = (DVec3::from_array(node.mins().to_array()) - self.pad - self.ray.origin) * self.inverse;
         let max = (DVec3::from_array(node.maxs().to_array()) + self.pad - self.ray.origin) * self.inverse;
-        // f64::min and max leave out a NaN, which is 0 times infinity: a ray in the face of a box.
-        let enter = min.x.min(max.x).max(min.y.min(max.y)).max(min.z.min(max.z)).max(self.ray.start);
-        let leave = min.x.max(max.x).min(min.y.max(max.y)).min(min.z.max(max.z)).min(self.ray.end);
+        let (near, far) = (DVec3::select(self.backwards, max, min), DVec3::select(self.backwards, min, max));
+        // These comparisons leave out a NaN, which is 0 times infinity: a ray in the face of a box.
+        let later = |enter: f64, near: f64| if near > enter { near } else { enter };
+        let sooner = |leave: f64, far: f64| if far < leave { far } else { leave };
+        let enter = later(later(later(self.ray.start, near.x), near.y), near.z);
+        let leave = sooner(sooner(sooner(self.ray.end, far.x), far.y), far.z);
         enter <= leave * (1.0 + 1e-12)
     }
 }

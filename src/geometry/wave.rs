@@ -3,11 +3,12 @@
 //! read vertices. The vertex stage has its own arithmetic (`glsl/common/position.vert`), the ray tracer another.
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Mesh;
+use super::derived::{Derived, Most};
+use super::mesh::Mesh;
 use crate::math::Aabb;
 
 /// Moves a vertex p to `p + reach sin(2 pi (vector . p + phase))`, in model space.
@@ -23,6 +24,9 @@ pub struct Wave {
 
 /// Rounding of f32 arithmetic in a coordinate, relative to the greatest operand.
 const SLACK: f64 = 1.0 / (1 << 21) as f64;
+
+/// Number of moved meshes that are kept for one mesh at rest.
+const MOST_WAVES: usize = 8;
 
 impl Wave {
     /// The box that holds what moves out of `rest`, wherever the wave stands.
@@ -47,27 +51,13 @@ impl Wave {
         TAU * self.vector.dot(self.reach).abs() >= 1.0
     }
 
-    /// `rest` with its vertices moved, its normals with them, kept as long as somebody draws it: a plan is made for every
-    /// frame. Vertices in one place stay in one place: what is closed stays closed.
-    pub fn moved(&self, rest: &Arc<Mesh>) -> Arc<Mesh> {
-        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        known.retain(|entry| entry.moved.strong_count() > 0);
-        let is_it = |entry: &&Known| std::ptr::eq(entry.rest.as_ptr(), Arc::as_ptr(rest)) && entry.wave == *self;
-        if let Some(moved) = known.iter().find(is_it).and_then(|entry| entry.moved.upgrade()) {
-            return moved;
-        }
-        let moved = Arc::new(self.mesh(rest));
-        known.push(Known { rest: Arc::downgrade(rest), wave: *self, moved: Arc::downgrade(&moved) });
-        moved
-    }
-
-    fn mesh(&self, rest: &Mesh) -> Mesh {
-        let mut mesh = Mesh { name: format!("{}, waving", rest.name), ..rest.clone() };
-        for (index, position) in mesh.positions.iter_mut().enumerate() {
-            let place = DVec3::from_array(position.map(f64::from));
-            let (sine, cosine) = (TAU * (self.vector.dot(place) + self.phase).fract()).sin_cos();
-            *position = (place + self.reach * sine).as_vec3().to_array();
-            let Some(normal) = mesh.normals.get_mut(index) else { continue };
+    /// `rest` with its vertices moved, its normals with them. Vertices in one place stay in one place: what is closed stays
+    /// closed.
+    pub fn moved(&self, rest: &Mesh) -> Mesh {
+        let (name, positions) = (format!("{}, waving", rest.name), self.moved_positions(rest));
+        let mut mesh = Mesh { name, positions, ..rest.clone() };
+        for (normal, position) in mesh.normals.iter_mut().zip(&rest.positions) {
+            let cosine = self.angle(*position).cos();
             let old = DVec3::from_array(normal.map(f64::from));
             // The cofactors of the Jacobian: its inverse transpose times its determinant, with no division.
             let slope = TAU * cosine;
@@ -77,12 +67,23 @@ impl Wave {
         mesh.update_bounds();
         mesh
     }
-}
 
-struct Known {
-    rest: Weak<Mesh>,
-    wave: Wave,
-    moved: Weak<Mesh>,
-}
+    /// The positions of [`Wave::moved`] alone.
+    pub fn moved_positions(&self, rest: &Mesh) -> Vec<[f32; 3]> {
+        let moved = |position: &[f32; 3]| {
+            let place = DVec3::from_array(position.map(f64::from));
+            (place + self.reach * self.angle(*position).sin()).as_vec3().to_array()
+        };
+        rest.positions.iter().map(moved).collect()
+    }
 
-static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+    /// The mesh of [`Wave::moved`], kept in `derived`.
+    pub fn moved_once(&self, rest: &Arc<Mesh>, derived: &Derived) -> Arc<Mesh> {
+        derived.get(rest, Most::OfMesh(MOST_WAVES), *self, || Arc::new(self.moved(rest)))
+    }
+
+    /// Angle at a vertex, in radians.
+    fn angle(&self, position: [f32; 3]) -> f64 {
+        TAU * (self.vector.dot(DVec3::from_array(position.map(f64::from))) + self.phase).fract()
+    }
+}

@@ -9,14 +9,13 @@
 //! so that depths agree to the bit.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4, Vec2, Vec3};
 
 use super::projector::{Projector, Rays};
 use super::{Drawable, Viewer};
-use crate::geometry::{Mesh, Part};
+use crate::geometry::{Derived, Mesh, Most, Part};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
 use crate::scene::{LightKind, Scene};
@@ -79,7 +78,9 @@ fn ordinary_for_camera(scene: &Scene) -> f64 {
 }
 
 /// Cuts meshes for one map or picture, with the error of a clip coordinate that it does not show.
-pub struct Cutter {
+pub struct Cutter<'d> {
+    /// Cut meshes of earlier plans: a pass that draws the same meshes is not redrawn.
+    derived: &'d Derived,
     clip_from_world: DMat4,
     /// The error of x and y that does not show, where w is 1.
     across: f64,
@@ -93,10 +94,17 @@ pub struct Cutter {
     origin: Option<DVec3>,
 }
 
-impl Cutter {
+impl<'d> Cutter<'d> {
     /// A cutter for a map of `size` texels a side, each `texel` wide at a distance of 1 along its axis, or anywhere in
     /// parallel light. What is drawn `clamped` shows what lies beyond the far plane, too.
-    pub fn for_map(projector: &Projector, clip_from_world: &DMat4, texel: f64, size: u32, clamped: bool) -> Self {
+    pub fn for_map(
+        projector: &Projector,
+        clip_from_world: &DMat4,
+        texel: f64,
+        size: u32,
+        clamped: bool,
+        derived: &'d Derived,
+    ) -> Self {
         // An eighth of what a slope of 45 degrees falls away by over one texel; offsets have a multiple of that.
         let (along, nearest) = match projector.rays {
             // z = A w - B, and B is about twice the distance of the near plane: z / w grows by B / w² along the ray, and
@@ -107,14 +115,15 @@ impl Cutter {
         // A twentieth of a texel, of which a width of 2 has as many as the map's size.
         let planes = if clamped { &PLANES[..4] } else { &PLANES[..] };
         let across = 0.1 / f64::from(size);
-        Self { clip_from_world: *clip_from_world, across, along, nearest, planes, origin: None }
+        Self { derived, clip_from_world: *clip_from_world, across, along, nearest, planes, origin: None }
     }
 
     /// A cutter for an eye; `None` if vertices must stay as they are: per-vertex light is computed at the file's vertices.
     /// Surfaces that volumes' caps meet must not be cut either. `counted`: volumes' sides meet what is drawn.
-    pub fn for_eye(scene: &Scene, viewer: &Viewer, counted: bool) -> Option<Self> {
+    pub fn for_eye(scene: &Scene, viewer: &Viewer, counted: bool, derived: &'d Derived) -> Option<Self> {
         let ordinary = if counted { ORDINARY } else { ordinary_for_camera(scene) };
         (!scene.shading.per_vertex).then_some(Self {
+            derived,
             clip_from_world: viewer.clip_from_world(),
             across: ordinary * CLIP_ROUNDINGS * 2.0_f64.powi(-24),
             along: f64::INFINITY,
@@ -150,7 +159,7 @@ impl Cutter {
         if item.wave.is_some() || triangles > MOST_TRIANGLES || !item.bounds.corners().into_iter().any(reaches) {
             return vec![Cow::Borrowed(item)];
         }
-        let cut = self.cached(item, &clip_from_model);
+        let cut = self.cut_once(item, &clip_from_model);
         if cut.is_empty() {
             return vec![Cow::Borrowed(item)];
         }
@@ -166,28 +175,15 @@ impl Cutter {
         cut.into_iter().map(part).collect()
     }
 
-    /// Cut meshes, kept as long as their mesh lives: a plan is made for every frame, and a pass that draws the same meshes
-    /// is not redrawn.
-    fn cached(&self, item: &Drawable, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
+    /// The meshes of [`Cutter::cut_mesh`], found once.
+    fn cut_once(&self, item: &Drawable, clip_from_model: &DMat4) -> Vec<(Arc<Mesh>, DVec3)> {
         let key = Key {
-            mesh: Arc::as_ptr(&item.mesh.0) as usize,
             indices: (item.indices.start, item.indices.end),
             clip_from_model: clip_from_model.to_cols_array().map(f64::to_bits),
             forgiven: [self.across, self.along].map(f64::to_bits),
             planes: self.planes.len(),
         };
-        let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
-        let cache = cache.get_or_insert_default();
-        cache.retain(|_, entry| entry.source.strong_count() > 0);
-        if let Some(entry) = cache.get(&key) {
-            return entry.cut.clone();
-        }
-        if cache.len() >= MOST_KEPT {
-            cache.clear();
-        }
-        let cut = self.cut_mesh(item, clip_from_model);
-        cache.insert(key, Entry { source: Arc::downgrade(&item.mesh.0), cut: cut.clone() });
-        cut
+        self.derived.get(&item.mesh.0, Most::OfAll(MOST_KEPT), key, || self.cut_mesh(item, clip_from_model))
     }
 
     /// Cut meshes, each with an origin of its own in the item's space; none if nothing needs to be cut, or nothing is left.
@@ -259,21 +255,13 @@ fn pieces(polygon: Vec<Corner>, nearest: f64) -> Vec<Vec<Corner>> {
 /// Number of cut casters that are kept.
 const MOST_KEPT: usize = 256;
 
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq)]
 struct Key {
-    mesh: usize,
     indices: (u32, u32),
     clip_from_model: [u64; 16],
     forgiven: [u64; 2],
     planes: usize,
 }
-
-struct Entry {
-    source: Weak<Mesh>,
-    cut: Vec<(Arc<Mesh>, DVec3)>,
-}
-
-static CACHE: Mutex<Option<HashMap<Key, Entry>>> = Mutex::new(None);
 
 /// A vertex, in f64, with all that passes read of one.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat4, Vec4};
 
 use super::Notes;
-use crate::geometry::{Material, Placement, Texture, Wave};
+use crate::geometry::{Derived, Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
@@ -35,14 +35,14 @@ pub struct Drawable {
 }
 
 /// The scene's items, in its order. Successive parts of a mesh with one material are one item. Parts that the alpha test
-/// would discard completely are left out. With `moved`, vertices that a wave moves are moved already.
-pub fn items(scene: &Scene, moved: bool) -> Vec<Drawable> {
+/// would discard completely are left out. With `moved`, which keeps moved meshes, vertices that a wave moves are moved already.
+pub fn items(scene: &Scene, moved: Option<&Derived>) -> Vec<Drawable> {
     let mut materials = Materials::default();
     let mut items: Vec<Drawable> = Vec::new();
     for (index, object) in scene.objects.iter().enumerate() {
-        let (mesh, wave) = match object.wave {
-            Some(wave) if moved => (wave.moved(&object.mesh), None),
-            wave => (object.mesh.clone(), wave),
+        let (mesh, wave) = match (object.wave, moved) {
+            (Some(wave), Some(derived)) => (wave.moved_once(&object.mesh, derived), None),
+            (wave, _) => (object.mesh.clone(), wave),
         };
         let mut last_material: Option<Option<usize>> = None;
         for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {

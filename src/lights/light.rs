@@ -10,6 +10,7 @@ use super::guard::Guard;
 use super::map::MapInfo;
 use super::projector::Projector;
 use super::{Drawable, Viewer, drawable};
+use crate::geometry::Derived;
 use crate::math::Aabb;
 use crate::pass::{
     Attribute, Batch, Chunk, Define, Draw, DrawState, Face, FixedFunctionDesc, ImageId, IndexOrder, Input, MeshRef,
@@ -23,6 +24,8 @@ pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
     pub camera: &'a CameraView<'a>,
+    /// What earlier plans found from meshes.
+    pub derived: &'a Derived,
     /// Into [`Scene::lights`].
     pub index: usize,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
@@ -66,14 +69,7 @@ impl FrustumView<'_> {
 pub struct LightTerm {
     /// Index into [`Scene::lights`].
     pub index: usize,
-    /// Chunks that define `float shade_@()`, together.
-    pub shade: Vec<Chunk>,
-    /// Description of the shade in the terms of fixed function.
-    pub meaning: Shade,
-    /// Defines in addition to those that [`crate::surfaces`] adds for every light.
-    pub defines: Vec<Define>,
-    pub uniforms: Vec<Uniform>,
-    pub inputs: Vec<Input>,
+    pub shade: ShadeSource,
     /// Generation of `light_coord_@`; `None`: neither the shade nor the light's reach needs it.
     pub coordinates: Option<Coordinates>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
@@ -93,6 +89,36 @@ pub struct LightTerm {
     /// Passes after which the stencil buffer is 0 where the light reaches. If they tag surfaces by `shade`, the lit pass
     /// does not evaluate it again.
     pub counting: Option<StencilCount>,
+}
+
+/// How a shader finds a light's shade.
+#[derive(Clone, Debug)]
+pub struct ShadeSource {
+    /// Chunks that define `float shade_@()`, together.
+    pub chunks: Vec<Chunk>,
+    /// Description of the shade in the terms of fixed function.
+    pub meaning: Shade,
+    /// Defines in addition to those that [`crate::surfaces`] adds for every light.
+    pub defines: Vec<Define>,
+    pub uniforms: Vec<Uniform>,
+    pub inputs: Vec<Input>,
+}
+
+impl ShadeSource {
+    /// A shade that `chunk` finds alone.
+    pub fn of(chunk: Chunk, meaning: Shade) -> Self {
+        Self { chunks: vec![chunk], meaning, defines: Vec::new(), uniforms: Vec::new(), inputs: Vec::new() }
+    }
+
+    /// Light everywhere.
+    pub fn lit() -> Self {
+        Self::of(glsl!("common/unshadowed.frag"), Shade::Lit)
+    }
+
+    /// Shadow everywhere.
+    pub fn dark() -> Self {
+        Self::of(glsl!("common/shadowed.frag"), Shade::Dark)
+    }
 }
 
 /// Factors of a light's colours, each in [0, 1]: a light may be drawn in parts, by several passes.
@@ -271,34 +297,22 @@ impl VolumeDraw {
 impl LightTerm {
     /// Light `index` of `scene`, which nothing shadows.
     pub fn unshadowed(scene: &Scene, index: usize) -> Self {
-        Self { meaning: Shade::Lit, ..Self::new(scene, index, glsl!("common/unshadowed.frag")) }
+        Self::new(scene, index, ShadeSource::lit())
     }
 
     /// A copy of this term with the given shade and without a stencil count.
-    pub fn under(&self, scene: &Scene, shade: Chunk, meaning: Shade) -> Self {
+    pub fn under(&self, scene: &Scene, shade: ShadeSource) -> Self {
         let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
-        Self {
-            shade: vec![shade],
-            meaning,
-            defines: Vec::new(),
-            uniforms: Vec::new(),
-            inputs: Vec::new(),
-            coordinates: self.coordinates.clone().filter(|_| bounded),
-            counting: None,
-            ..self.clone()
-        }
+        let coordinates = self.coordinates.clone().filter(|_| bounded);
+        Self { shade, coordinates, counting: None, ..self.clone() }
     }
 
-    /// Light `index` of `scene`, whose shade `shade` finds; with the coordinates that the light's own reach needs: those
-    /// of a spotlight's frustum. Where texture units find the shade too, its technique sets [`LightTerm::meaning`].
-    pub fn new(scene: &Scene, index: usize, shade: Chunk) -> Self {
+    /// Light `index` of `scene` with a shade, and with the coordinates that the light's own reach needs: those of a
+    /// spotlight's frustum.
+    pub fn new(scene: &Scene, index: usize, shade: ShadeSource) -> Self {
         Self {
             index,
-            shade: vec![shade],
-            meaning: Shade::Shader("a shade that its technique has a shader for"),
-            defines: Vec::new(),
-            uniforms: Vec::new(),
-            inputs: Vec::new(),
+            shade,
             coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,

@@ -4,7 +4,8 @@
 use glam::{DMat4, DVec3};
 
 use super::Crop;
-use crate::scene::Frustum;
+use crate::pass::CubeFace;
+use crate::scene::{Frustum, Point};
 
 /// One map's view of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,4 +50,20 @@ impl Projector {
             Rays::Along(_) => 2.0 / scale,
         }
     }
+}
+
+/// The frustum of a face of the cube around a point light, turned as cube maps have their texels [GL 4.6, table 8.19].
+pub fn face_frustum(point: &Point, face: CubeFace) -> Frustum {
+    let (direction, up) = match face {
+        CubeFace::PositiveX => (DVec3::X, -DVec3::Y),
+        CubeFace::NegativeX => (-DVec3::X, -DVec3::Y),
+        CubeFace::PositiveY => (DVec3::Y, DVec3::Z),
+        CubeFace::NegativeY => (-DVec3::Y, -DVec3::Z),
+        CubeFace::PositiveZ => (DVec3::Z, -DVec3::Y),
+        CubeFace::NegativeZ => (-DVec3::Z, -DVec3::Y),
+    };
+    let Point { position, near, far, .. } = *point;
+    // A target so far away that its coordinates may round, but stay on the axis.
+    let target = position + direction * position.abs().max_element().max(1.0);
+    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
 }

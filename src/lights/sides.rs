@@ -63,7 +63,7 @@ mod tests {
         let faces = |object: &str, eye: DVec3| {
             std::fs::write(&path, format!("[[object]]\n{object}\n")).unwrap();
             let scene = scene::load(Path::new(&path), &[]).unwrap().scene;
-            let item = &items(&scene, false)[0];
+            let item = &items(&scene, None)[0];
             let view = view_from_world(eye, DVec3::ZERO, DVec3::new(0.1, 0.7, 0.5));
             normals_face_eye(item, &(view * item.world_from_model))
         };

@@ -1,7 +1,5 @@
 //! The finished GLSL of a program, as the device compiles it and `glumbra plan --shaders` prints it.
 
-use std::fmt::Write;
-
 use super::{Chunk, Program};
 
 /// A stage of a program.
@@ -34,6 +32,8 @@ impl Stage {
 pub struct Source {
     /// GLSL, whole.
     pub text: String,
+    /// Number of lines in `text` that have ended.
+    lines: usize,
     /// Name of each file, and its first line in the whole text, from 1.
     files: Vec<(String, usize)>,
 }
@@ -64,11 +64,10 @@ const HEAD: &str = "#version 330 core
 impl Program {
     /// The finished GLSL of a stage: `#version`, the defines, then each chunk under a `#line` of its own.
     pub fn source(&self, stage: Stage) -> Source {
-        let mut source = Source { text: String::from(HEAD), files: vec![(String::from("#version and defines"), 1)] };
-        for define in &self.defines {
-            // Writing into a string cannot fail.
-            let _ = writeln!(source.text, "{define}");
-        }
+        let mut source =
+            Source { text: String::new(), lines: 0, files: vec![(String::from("#version and defines"), 1)] };
+        source.append(HEAD);
+        self.defines.iter().for_each(|define| source.append(&format!("{define}\n")));
         self.chunks(stage).iter().for_each(|chunk| source.push(chunk));
         source
     }
@@ -85,12 +84,18 @@ impl Program {
 impl Source {
     fn push(&mut self, chunk: &Chunk) {
         let number = self.files.len();
-        let _ = writeln!(self.text, "// file {number}: {}\n#line 1 {number}", chunk.name);
-        self.files.push((chunk.name.to_string(), self.text.lines().count() + 1));
-        self.text.push_str(&chunk.text);
+        self.append(&format!("// file {number}: {}\n#line 1 {number}\n", chunk.name));
+        self.files.push((chunk.name.to_string(), self.lines + 1));
+        self.append(&chunk.text);
         if !chunk.text.ends_with('\n') {
-            self.text.push('\n');
+            self.append("\n");
         }
+    }
+
+    /// Appends text and counts its lines. All before it is left alone, so that many chunks cost as much as their text.
+    fn append(&mut self, text: &str) {
+        self.lines += ended_lines(text);
+        self.text.push_str(text);
     }
 
     /// Place of line `line` of the whole text, counted from 1.
@@ -108,10 +113,36 @@ impl Source {
     }
 }
 
+/// Number of lines that end in `text`.
+fn ended_lines(text: &str) -> usize {
+    #[cfg(test)]
+    tests::COUNTED.with(|counted| counted.set(counted.get() + text.len()));
+    text.matches('\n').count()
+}
+
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
     use crate::pass::Define;
+
+    thread_local! {
+        /// Bytes whose lines [`ended_lines`] has counted.
+        pub static COUNTED: Cell<usize> = const { Cell::new(0) };
+    }
+
+    #[test]
+    fn lines_of_each_chunk_are_counted_once() {
+        for chunks in [0, 1, 100, 3000] {
+            let chunk = |k: usize| Chunk { name: format!("chunk {k}").into(), text: "a\nb\n".repeat(k % 7 + 1).into() };
+            let program = Program { fragment: (0..chunks).map(chunk).collect(), ..program() };
+            COUNTED.with(|counted| counted.set(0));
+            let source = program.source(Stage::Fragment);
+            assert_eq!(COUNTED.with(Cell::get), source.text.len(), "{chunks} chunks");
+            assert_eq!(source.lines, source.text.lines().count());
+        }
+    }
 
     fn program() -> Program {
         let chunk = |name: &str, text: &str| Chunk { name: name.to_owned().into(), text: text.to_owned().into() };

@@ -6,6 +6,7 @@ use super::matrices::Matrices;
 use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest};
 use crate::compositions::passes::Passes;
+use crate::geometry::Derived;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
 use crate::lights::{CameraView, Drawable, LightView, Notes};
@@ -16,10 +17,10 @@ use crate::surfaces;
 use crate::techniques::{self, LightShadow};
 
 /// The unpruned plan.
-pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Plan, Error> {
     let shadows = techniques::read(scene)?;
     let moved = shadows.iter().any(|shadow| shadow.technique.needs_vertices());
-    let items = items(scene, moved);
+    let items = items(scene, moved.then_some(derived));
     let mut list = PassList::default();
     let mut notes = Notes::default();
     note_clear(scene, &mut notes);
@@ -28,13 +29,24 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
     let camera = CameraView::new(scene, &items);
-    let terms = light_terms(&shadows, scene, &items, &camera, request, &mut list, &mut notes)?;
+    let view = LightView {
+        scene,
+        items: &items,
+        camera: &camera,
+        derived,
+        index: 0,
+        shown_whole: false,
+        keep_all: request.keep_all,
+        sampled_warnings: request.sampled_warnings,
+    };
+    let terms = light_terms(&shadows, &view, request, &mut list, &mut notes)?;
     let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
     let passes = Passes {
         scene,
         items: &items,
+        derived,
         kept,
         counted,
         list: &mut list,
@@ -60,12 +72,10 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 }
 
 /// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
-/// errors do not depend on where the camera looks.
+/// errors do not depend on where the camera looks. `any`: the view of any light.
 fn light_terms(
     shadows: &[LightShadow],
-    scene: &Scene,
-    items: &[Drawable],
-    camera: &CameraView<'_>,
+    any: &LightView<'_>,
     request: &Request,
     list: &mut PassList,
     notes: &mut Notes,
@@ -77,17 +87,15 @@ fn light_terms(
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
         // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
-        let keep_all = request.keep_all;
-        let sampled_warnings = request.sampled_warnings;
-        let view = LightView { scene, items, camera, index, shown_whole, keep_all, sampled_warnings };
-        let absent = why_absent(&view).filter(|_| !keep_all);
+        let view = LightView { index, shown_whole, ..*any };
+        let absent = why_absent(&view).filter(|_| !view.keep_all);
         let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
         let mut term = if absent.is_none() || shown {
             shadow.settings.describe(&view, list, notes)?
         } else {
             shadow.settings.describe(&view, &mut spare_list, &mut spare_notes)?
         };
-        if keep_all && term.guard == Guard::Auto {
+        if view.keep_all && term.guard == Guard::Auto {
             term.guard = Guard::Fragment;
         }
         if let Some(why) = absent {

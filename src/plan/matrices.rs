@@ -7,10 +7,11 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::Plan;
 use super::pictures::PlannedLight;
-use crate::lights::Coordinates;
+use crate::lights::projector::{Projector, face_frustum};
+use crate::lights::{Coordinates, MapShape};
 use crate::math::texgen::{self, SetUp, Split, Texgen};
-use crate::pass::{Batch, UniformValue, Work};
-use crate::scene::Scene;
+use crate::pass::{Batch, CubeFace, UniformValue, Work};
+use crate::scene::{LightKind, Scene};
 
 /// The camera's view and the lights' texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,19 @@ pub struct LightMatrices {
     pub kind: &'static str,
     /// `None`: the light is drawn without texture coordinates.
     pub coordinates: Option<Coordinates>,
+    /// Faces of a cube map.
+    pub faces: Vec<FaceMatrices>,
+}
+
+/// Matrices that one face of a cube map is drawn with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceMatrices {
+    /// Face, by the axis that it is looked along.
+    pub face: CubeFace,
+    /// `P_light`.
+    pub face_clip_from_face: DMat4,
+    /// `L⁻¹`.
+    pub face_from_world: DMat4,
 }
 
 const SET_UPS: [(SetUp, &str); 4] =
@@ -48,10 +62,21 @@ impl Matrices {
                 name: source.name.clone(),
                 kind: source.kind.name(),
                 coordinates: light.term.coordinates.clone(),
+                faces: light.term.map_info.map_or_else(Vec::new, |map| faces(&source.kind, map.shape)),
             })
         });
         Self { eye_from_world: scene.camera.view_from_world(), moved: DVec3::ZERO, lights: lights.collect() }
     }
+}
+
+/// The faces of a point light's map.
+fn faces(kind: &LightKind, shape: MapShape) -> Vec<FaceMatrices> {
+    let (LightKind::Point(point), MapShape::Cube { .. }) = (kind, shape) else { return Vec::new() };
+    let matrices = |face| {
+        let Projector { clip_from_light, light_from_world, .. } = Projector::of_frustum(&face_frustum(point, face));
+        FaceMatrices { face, face_clip_from_face: clip_from_light, face_from_world: light_from_world }
+    };
+    CubeFace::ALL.map(matrices).into()
 }
 
 impl Plan {
@@ -163,6 +188,9 @@ impl Text {
             self.line("  no texture coordinates: nothing is looked up by them, and nothing bounds its reach");
             return;
         };
+        if !light.faces.is_empty() {
+            self.cube(&light.faces);
+        }
         let biased = coordinates.receiver_bias != DMat4::IDENTITY;
         self.matrix("S, texture_from_light_clip", &coordinates.texture_from_light_clip);
         if biased {
@@ -178,6 +206,17 @@ impl Text {
                 Some(texgen) => self.set_up(&texgen, &words),
                 None => self.line("    a matrix of it has no inverse"),
             }
+        }
+    }
+
+    fn cube(&mut self, faces: &[FaceMatrices]) {
+        self.line("  The map is a cube [GL 4.6, 8.13]. It is looked up by (s, t, r), the way from the light, below.");
+        self.line("  Each face is drawn with gl_Position = P_light L^-1 x_world:");
+        for FaceMatrices { face, face_clip_from_face, face_from_world } in faces {
+            let name = face.name();
+            self.line(&format!("  Face {name}"));
+            self.matrix(&format!("P_light of {name}, face_clip_from_face"), face_clip_from_face);
+            self.matrix(&format!("L^-1 of {name}, face_from_world"), face_from_world);
         }
     }
 

@@ -13,6 +13,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::compositions;
+use crate::geometry::Derived;
 use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
 use crate::scene::{Scene, SettingsError};
@@ -145,15 +146,25 @@ pub enum Error {
     NoSuchPass { wanted: String, names: String },
 }
 
-/// Plans a frame of `scene`.
+/// Plans one frame of `scene`.
 ///
 /// # Errors
 ///
 /// A technique's key with a wrong value, a view of a light or map that is not there, an image beyond the driver's
 /// limits.
 pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+    make_with(scene, request, &Derived::default())
+}
+
+/// The same, where `derived` keeps from plan to plan what is expensive to find again. A [`crate::frame::Renderer`] has one.
+///
+/// # Errors
+///
+/// As [`make`].
+pub fn make_with(scene: &Scene, request: &Request, derived: &Derived) -> Result<Plan, Error> {
+    derived.forget_dropped();
     let near = scene.brought_near();
-    let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request)?;
+    let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request, derived)?;
     plan.matrices.moved = near.map_or(DVec3::ZERO, |near| near.camera.eye - scene.camera.eye);
     prune::prune(&mut plan, request);
     plan.check(&request.limits)?;

@@ -36,7 +36,14 @@ impl Pictures<'_> {
         check_cuts(&terms)?;
         composition.check(self.passes.scene, &terms)?;
         let items = self.passes.cut_items(&lens);
-        surfaces::explain_guards(self.passes.scene, &items, &lens.camera, &terms, self.passes.notes);
+        surfaces::explain_guards(
+            self.passes.scene,
+            &items,
+            &lens.camera,
+            &terms,
+            self.passes.derived,
+            self.passes.notes,
+        );
         let buffers = self.buffers(composition.needs_stencil(self.passes.scene, &terms));
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;

@@ -65,9 +65,9 @@ pub(super) fn hair(bounds: &Aabb) -> f64 {
 /// Tests whether a model has faces in the plane of its lowest point that are seen from above: a floor there would show through
 /// them. The bottom of a closed mesh is not seen.
 pub(super) fn has_floor(object: &Object) -> bool {
-    let mesh = object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh));
+    let (mesh, positions) = (&object.mesh, object.drawn_positions());
     let place = |index: &u32| {
-        let position = mesh.positions.get(*index as usize).copied().unwrap_or_default();
+        let position = positions.get(*index as usize).copied().unwrap_or_default();
         object.world_from_model.transform_point3(DVec3::from_array(position.map(f64::from)))
     };
     let bounds = object.world_bounds();

@@ -25,6 +25,7 @@ pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Po
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;
 pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};
+pub use views::with_shadow;
 
 use crate::math::Aabb;
 use assets::{Assets, has_extension};

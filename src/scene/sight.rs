@@ -2,12 +2,9 @@
 //! Triangles are clipped one by one: a box's corners do not describe a floor that passes under the eye. The work is linear
 //! in the triangles.
 
-use std::sync::Arc;
-
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
 use super::{Camera, Frustum, Object};
-use crate::geometry::Mesh;
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
 
@@ -87,7 +84,7 @@ impl Pyramid {
 
     /// The depths of the faces of the object's box that are in view.
     pub fn span_of_box(&self, object: &Object) -> Span {
-        let bounds = object.wave.map_or(object.mesh.bounds, |wave| wave.bounds(object.mesh.bounds));
+        let bounds = object.reach(object.mesh.bounds);
         let view_from_model = self.view_from_world * object.world_from_model;
         let corners = bounds.corners().map(|corner| view_from_model.transform_point3(corner));
         let inside =
@@ -151,16 +148,16 @@ impl Pyramid {
 
     /// The same with each triangle's corners.
     fn visit_triangles(&self, object: &Object, mut look: impl FnMut(&[DVec3; 3], &[DVec3]) -> bool) {
-        let mesh = drawn_mesh(object);
+        let (mesh, positions) = (&object.mesh, object.drawn_positions());
         let view_from_model = self.view_from_world * object.world_from_model;
         for part in &mesh.parts {
-            if is_clear(object, part.material) || self.misses(&part.bounds, &view_from_model) {
+            if is_clear(object, part.material) || self.misses(&object.reach(part.bounds), &view_from_model) {
                 continue;
             }
             let indices = &mesh.indices[part.indices.start as usize..part.indices.end as usize];
             for triangle in indices.as_chunks::<3>().0 {
                 let corners = triangle.map(|index| {
-                    let place = DVec3::from_array(mesh.positions[index as usize].map(f64::from));
+                    let place = DVec3::from_array(positions[index as usize].map(f64::from));
                     view_from_model.transform_point3(place)
                 });
                 let outside = corners.map(|corner| self.outside(corner));
@@ -229,11 +226,6 @@ fn hides(polygon: &[DVec3], point: DVec3, far: f64) -> bool {
         (1..polygon.len() - 1).map(|k| (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0])).sum::<DVec3>();
     let at = normal.dot(polygon[0]) / normal.dot(point);
     left != right && 0.0 < at && at * -point.z < far
-}
-
-/// The mesh as this frame draws it.
-fn drawn_mesh(object: &Object) -> Arc<Mesh> {
-    object.wave.map_or_else(|| object.mesh.clone(), |wave| wave.moved(&object.mesh))
 }
 
 /// Tests whether the alpha test leaves nothing of a part.

@@ -1,8 +1,10 @@
 //! Matrices and bounds of a scene.
 
+use std::borrow::Cow;
+
 use glam::{DMat4, DVec3};
 
-use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
+use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Settings, Spot};
 use crate::math::{Aabb, spaces};
 
 /// Ratio of distance from the world's origin to size from which a scene is moved.
@@ -131,7 +133,28 @@ impl Frustum {
 impl Object {
     /// The box around the mesh's own box, grown by its wave, in world space.
     pub fn world_bounds(&self) -> Aabb {
-        let bounds = self.wave.map_or(self.mesh.bounds, |wave| wave.bounds(self.mesh.bounds));
-        bounds.transformed(&self.world_from_model)
+        self.reach(self.mesh.bounds).transformed(&self.world_from_model)
     }
+
+    /// A box in model space, grown by the wave.
+    pub fn reach(&self, bounds: Aabb) -> Aabb {
+        self.wave.map_or(bounds, |wave| wave.bounds(bounds))
+    }
+
+    /// The mesh's positions, moved by the wave.
+    pub fn drawn_positions(&self) -> Cow<'_, [[f32; 3]]> {
+        match &self.wave {
+            Some(wave) => Cow::Owned(wave.moved_positions(&self.mesh)),
+            None => Cow::Borrowed(&self.mesh.positions),
+        }
+    }
+}
+
+/// `scene` with `[light.shadow]` of one light replaced.
+pub fn with_shadow(scene: &Scene, light: usize, settings: &Settings) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(light) = scene.lights.get_mut(light) {
+        light.shadow = settings.clone();
+    }
+    scene
 }

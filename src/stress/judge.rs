@@ -25,14 +25,12 @@ use std::collections::HashMap;
 use super::results::{CaseRow, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
-use crate::frame::{self, Renderer};
+use crate::frame::{self, Renderer, ShadeImage};
 use crate::lights::map::Bias;
 use crate::lights::{MapInfo, MapShape};
 use crate::pass::{DepthFormat, Face};
 use crate::plan::{Plan, Request, ViewRequest};
-use crate::report::measure::metrics::ShadeImage;
-use crate::report::measure::run::with_shadow;
-use crate::scene::{self, LightKind, LightShape, Scene};
+use crate::scene::{self, LightKind, LightShape, Scene, with_shadow};
 use crate::truth::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
 use crate::views::View;
 
@@ -144,19 +142,17 @@ impl<'a> Judge<'a> {
         let shadow = scene::shadow_settings(&settings.to_inline()).map_err(|error| refused(&error))?;
         let scene = with_shadow(scene, self.light, &shadow);
         let (plan, picture, shade) = self.frame(&scene, renderer)?;
-        let [width, height] = scene.image.size;
+        let mut seen = ShadeImage::of_view(scene.image.size, &shade);
         let channel = |texels: &[f32], channel: usize| -> Vec<f32> {
             texels.chunks_exact(4).map(|texel| texel[channel]).collect()
         };
-        let covered = channel(&shade, 3).into_iter().map(|alpha| alpha > 0.0).collect();
-        let mut shade = channel(&shade, 0);
         if settings.pictured {
             let none = scene::shadow_settings("technique = \"none\"").map_err(|error| refused(&error))?;
             let (_, unshadowed, _) = self.frame(&with_shadow(&scene, self.light, &none), renderer)?;
-            shade = channel(&picture, 0).into_iter().zip(channel(&unshadowed, 0)).map(seen_shade).collect();
+            let seen_shade = |pair| seen_shade(pair).clamp(0.0, 1.0);
+            seen.shade = channel(&picture, 0).into_iter().zip(channel(&unshadowed, 0)).map(seen_shade).collect();
         }
-        shade.iter_mut().for_each(|value| *value = value.clamp(0.0, 1.0));
-        Ok((plan, ShadeImage { width, height, shade, covered }))
+        Ok((plan, seen))
     }
 
     /// The plan, the picture's texels and the shade's.

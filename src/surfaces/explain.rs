@@ -2,6 +2,7 @@
 
 use super::guarded::plane;
 use super::partition::partition;
+use crate::geometry::Derived;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::{Drawable, LightTerm, Notes, Viewer};
 use crate::math::frustum::{self, Overlap};
@@ -11,7 +12,14 @@ use crate::scene::Scene;
 const MOST_NAMES: usize = 3;
 
 /// Notes the guards that the items in `viewer`'s view need for each light, and what is left out for them.
-pub fn explain_guards(scene: &Scene, items: &[Drawable], viewer: &Viewer, terms: &[&LightTerm], notes: &mut Notes) {
+pub fn explain_guards(
+    scene: &Scene,
+    items: &[Drawable],
+    viewer: &Viewer,
+    terms: &[&LightTerm],
+    derived: &Derived,
+    notes: &mut Notes,
+) {
     let clip_from_world = viewer.clip_from_world();
     let seen = |item: &&Drawable| {
         frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
@@ -20,7 +28,7 @@ pub fn explain_guards(scene: &Scene, items: &[Drawable], viewer: &Viewer, terms:
     for term in terms {
         let Some(plane) = plane(scene, term, viewer) else { continue };
         let on = |side| seen.iter().copied().filter(move |item| plane.side(item, viewer) == side).collect::<Vec<_>>();
-        explain(term, &plane, viewer, [on(Side::Before), on(Side::Across), on(Side::Behind)], notes);
+        explain(term, &plane, viewer, [on(Side::Before), on(Side::Across), on(Side::Behind)], derived, notes);
     }
 }
 
@@ -29,6 +37,7 @@ fn explain(
     plane: &LightPlane,
     viewer: &Viewer,
     [before, across, behind]: [Vec<&Drawable>; 3],
+    derived: &Derived,
     notes: &mut Notes,
 ) {
     let index = term.index;
@@ -52,7 +61,7 @@ fn explain(
         }
         (Guard::ClipPlane, false) => notes.chosen(of, "clip-plane", format!("{crossing}; each is drawn once a side")),
         (Guard::Cull | Guard::SpotCutoff, false) => {
-            let why = match triangles(&across, plane, viewer) {
+            let why = match triangles(&across, plane, viewer, derived) {
                 Some([crossing, all]) => {
                     format!("{crossing} of {all} triangles of {} cross the light's plane", names(&across))
                 }
@@ -65,11 +74,11 @@ fn explain(
 }
 
 /// Number of triangles of `items` that cross the plane, and of all; `None` if some are not known before they are drawn.
-fn triangles(items: &[&Drawable], plane: &LightPlane, viewer: &Viewer) -> Option<[u32; 2]> {
+fn triangles(items: &[&Drawable], plane: &LightPlane, viewer: &Viewer, derived: &Derived) -> Option<[u32; 2]> {
     let mut sum = [0, 0];
     let count = |item: &Drawable| (item.indices.end - item.indices.start) / 3;
     for item in items {
-        let [_, across, _] = partition(item, &plane.in_model(item, viewer))?;
+        let [_, across, _] = partition(item, &plane.in_model(item, viewer), derived)?;
         sum[0] += across.as_ref().map_or(0, count);
         sum[1] += count(item);
     }

@@ -5,6 +5,7 @@ use glam::Vec4;
 
 use super::Ending;
 use super::partition::partition;
+use crate::geometry::Derived;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::{Drawable, LightTerm, Viewer};
 use crate::scene::Scene;
@@ -42,12 +43,20 @@ pub struct Piece {
 pub const MOST_CLIP_PLANES: usize = 3;
 
 /// The pieces that `items` are drawn as.
-pub fn pieces(scene: &Scene, items: &[Drawable], viewer: &Viewer, terms: &[LightTerm], ending: &Ending) -> Vec<Piece> {
+pub fn pieces(
+    scene: &Scene,
+    items: &[Drawable],
+    viewer: &Viewer,
+    terms: &[LightTerm],
+    ending: &Ending,
+    derived: &Derived,
+) -> Vec<Piece> {
     let whole = |item: &Drawable| Piece { item: item.clone(), reaches: Vec::new(), clip_planes: Vec::new() };
     let mut pieces: Vec<Piece> = items.iter().map(whole).collect();
     for term in terms {
         let plane = plane(scene, term, viewer);
-        pieces = pieces.into_iter().flat_map(|piece| under(piece, term, plane.as_ref(), viewer, ending)).collect();
+        let one = |piece| under(piece, term, plane.as_ref(), viewer, ending, derived);
+        pieces = pieces.into_iter().flat_map(one).collect();
     }
     pieces
 }
@@ -58,7 +67,14 @@ pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPl
 }
 
 /// Splits `piece` for one more light.
-fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Viewer, ending: &Ending) -> Vec<Piece> {
+fn under(
+    piece: Piece,
+    term: &LightTerm,
+    plane: Option<&LightPlane>,
+    viewer: &Viewer,
+    ending: &Ending,
+    derived: &Derived,
+) -> Vec<Piece> {
     let Some(plane) = plane.filter(|_| term.guard != Guard::None) else { return vec![piece.with(Reach::Free)] };
     // A view shows one light, also where it does not reach: nothing is left out.
     if *ending != Ending::Lit {
@@ -76,10 +92,10 @@ fn under(piece: Piece, term: &LightTerm, plane: Option<&LightPlane>, viewer: &Vi
         (Guard::Auto, Side::Across) => Reach::Fragment,
         (Guard::ClipPlane, Side::Across) => return cut(piece, plane),
         (Guard::Cull, Side::Across) => {
-            return parted(piece, plane, viewer, [Reach::Free, Reach::Fragment, Reach::Nowhere]);
+            return parted(piece, plane, viewer, derived, [Reach::Free, Reach::Fragment, Reach::Nowhere]);
         }
         (Guard::SpotCutoff, Side::Across) => {
-            return parted(piece, plane, viewer, [Reach::Cutoff, Reach::Fragment, Reach::Cutoff]);
+            return parted(piece, plane, viewer, derived, [Reach::Cutoff, Reach::Fragment, Reach::Cutoff]);
         }
     };
     vec![piece.with(alone)]
@@ -106,8 +122,8 @@ fn cut(piece: Piece, plane: &LightPlane) -> Vec<Piece> {
 }
 
 /// The triangles before the light's plane, across it and behind it.
-fn parted(piece: Piece, plane: &LightPlane, viewer: &Viewer, reaches: [Reach; 3]) -> Vec<Piece> {
-    let Some(parts) = partition(&piece.item, &plane.in_model(&piece.item, viewer)) else {
+fn parted(piece: Piece, plane: &LightPlane, viewer: &Viewer, derived: &Derived, reaches: [Reach; 3]) -> Vec<Piece> {
+    let Some(parts) = partition(&piece.item, &plane.in_model(&piece.item, viewer), derived) else {
         return vec![piece.with(Reach::Fragment)];
     };
     let parts = parts.into_iter().zip(reaches).filter_map(|(part, reach)| Some((part?, reach)));

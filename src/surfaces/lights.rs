@@ -8,7 +8,7 @@ use super::Ending;
 use super::guarded::{self, Reach};
 use crate::lights::drawable::{side_map, upload};
 use crate::lights::guard::Guard;
-use crate::lights::light::{Addition, Gain};
+use crate::lights::light::{Addition, Gain, ShadeSource};
 use crate::lights::{Drawable, LightTerm, Viewer};
 use crate::math::texgen;
 use crate::pass::{
@@ -82,7 +82,7 @@ impl<'a> Variants<'a> {
                 Reach::Nowhere if source.ambient == [0.0; 3] => None,
                 Reach::Nowhere => {
                     (source.diffuse, source.specular) = ([0.0; 3], [0.0; 3]);
-                    let mut term = self.term.under(scene, glsl!("common/shadowed.frag"), Shade::Dark);
+                    let mut term = self.term.under(scene, ShadeSource::dark());
                     (term.coordinates, term.frustum_from_map, term.dimming) = (None, None, 0.0);
                     Some(light_parts(&source, viewer, &term, reach, ending, list)?)
                 }
@@ -128,12 +128,13 @@ fn light_parts(
         None if reach == Reach::Nowhere => glsl!("surfaces/nowhere.frag"),
         None => glsl!("surfaces/everywhere.frag"),
     };
+    let ShadeSource { chunks, defines, uniforms, inputs, .. } = term.shade.clone();
     let mut parts = LightParts {
         index,
-        defines: term.defines.clone(),
-        shade: term.shade.iter().map(|chunk| chunk.for_light(index)).collect(),
-        uniforms: term.uniforms.clone(),
-        inputs: term.inputs.clone(),
+        defines,
+        shade: chunks.iter().map(|chunk| chunk.for_light(index)).collect(),
+        uniforms,
+        inputs,
         reach: in_reach.for_light(index),
         side: None,
         has_coordinates: projection.is_some(),
@@ -207,7 +208,7 @@ fn meaning(
         beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
         dimming: term.dimming,
         projection,
-        shade: term.meaning.clone(),
+        shade: term.shade.meaning.clone(),
     }
 }
 

@@ -10,6 +10,7 @@ mod variant;
 use glam::Mat3;
 
 use self::lights::{LightParts, Variants};
+use crate::geometry::Derived;
 use crate::lights::light::Addition;
 use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
 use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
@@ -26,10 +27,11 @@ pub fn batches(
     viewer: &Viewer,
     terms: &[LightTerm],
     ending: &Ending,
+    derived: &Derived,
     list: &mut PassList,
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
-    let pieces = guarded::pieces(scene, items, viewer, terms, ending);
+    let pieces = guarded::pieces(scene, items, viewer, terms, ending, derived);
     let adds = terms.iter().any(|term| term.addition != Addition::None);
     let ambient = !terms.iter().any(|term| term.addition == Addition::Light);
     let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();

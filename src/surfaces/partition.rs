@@ -1,12 +1,11 @@
 //! Splits an item's triangles by a plane: those before it, those across it and those behind it, each a range of one mesh
 //! [LEC, "Careful about Back Projecting Shadow Maps"].
 
-use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::geometry::Mesh;
+use crate::geometry::{Derived, Mesh, Most};
 use crate::lights::Drawable;
 use crate::lights::guard::{ModelPlane, Side};
 use crate::math::Aabb;
@@ -14,11 +13,13 @@ use crate::pass::MeshRef;
 
 /// The item's triangles before, across and behind the plane; `None` for a part without any. `None` for an item whose
 /// vertices the vertex stage moves.
-pub fn partition(item: &Drawable, plane: &ModelPlane) -> Option<[Option<Drawable>; 3]> {
+pub fn partition(item: &Drawable, plane: &ModelPlane, derived: &Derived) -> Option<[Option<Drawable>; 3]> {
     if item.wave.is_some() {
         return None;
     }
-    let parts = cached(item, &plane.rounded());
+    let (plane, most) = (plane.rounded(), MOST_PLANES * item.mesh.parts.len().max(1));
+    let key = (item.indices.clone(), plane);
+    let parts = derived.get(&item.mesh.0, Most::OfMesh(most), key, || part(item, &plane));
     let mut start = 0;
     Some(parts.ends.map(|(end, bounds)| {
         let indices = start..end;
@@ -35,38 +36,8 @@ struct Parts {
     ends: [(u32, Aabb); 3],
 }
 
-/// Partitions of a mesh, kept as long as it lives: a plan is made for every frame, and lights and objects mostly stand
-/// still.
-struct Entry {
-    source: Weak<Mesh>,
-    indices: Range<u32>,
-    plane: ModelPlane,
-    parts: Parts,
-}
-
-static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
-
-/// Number of planes kept for one mesh; the oldest goes first. A moving light adds a plane in every frame.
+/// Number of planes kept for each part of a mesh. A moving light adds a plane in every frame.
 const MOST_PLANES: usize = 8;
-
-fn cached(item: &Drawable, plane: &ModelPlane) -> Parts {
-    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
-    cache.retain(|entry| entry.source.strong_count() > 0);
-    let is_range =
-        |entry: &Entry| entry.indices == item.indices && std::ptr::eq(entry.source.as_ptr(), Arc::as_ptr(&item.mesh.0));
-    if let Some(entry) = cache.iter().find(|entry| is_range(entry) && entry.plane == *plane) {
-        return entry.parts.clone();
-    }
-    let parts = part(item, plane);
-    if cache.iter().filter(|entry| is_range(entry)).count() >= MOST_PLANES
-        && let Some(oldest) = cache.iter().position(is_range)
-    {
-        cache.remove(oldest);
-    }
-    let (source, indices) = (Arc::downgrade(&item.mesh.0), item.indices.clone());
-    cache.push(Entry { source, indices, plane: *plane, parts: parts.clone() });
-    parts
-}
 
 fn part(item: &Drawable, plane: &ModelPlane) -> Parts {
     let mut lists: [Vec<u32>; 3] = Default::default();

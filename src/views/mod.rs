@@ -91,25 +91,26 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
     let ending = match view {
         View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
         View::LightDistance => {
-            term.meaning = Shade::Shader("r/q as a colour");
+            term.shade.meaning = Shade::Shader("r/q as a colour");
             if let Some(coordinates) = &mut term.coordinates {
                 coordinates.receiver_bias = glam::DMat4::IDENTITY;
             }
-            term.inputs.clear();
-            term.uniforms.clear();
+            term.shade.inputs.clear();
+            term.shade.uniforms.clear();
             Ending::View { chunk: glsl!("views/distance.frag"), shade: false }
         }
         View::ProjectedMap => {
-            term.uniforms.clear();
+            term.shade.uniforms.clear();
             let name = format!("depth_map_{}", term.index);
-            term.meaning = Shade::Texture { input: name.clone().into(), clamped: false };
-            term.inputs = vec![Input { name: name.into(), ..uncompared(term.map?) }];
+            term.shade.meaning = Shade::Texture { input: name.clone().into(), clamped: false };
+            term.shade.inputs = vec![Input { name: name.into(), ..uncompared(term.map?) }];
             Ending::View { chunk: glsl!("views/projected_map.frag"), shade: false }
         }
         View::TexelsPerPixel => {
-            term.uniforms.clear();
-            term.meaning = Shade::Shader("texels per pixel");
-            term.inputs = vec![Input { name: format!("counted_map_{}", term.index).into(), ..uncompared(term.map?) }];
+            term.shade.uniforms.clear();
+            term.shade.meaning = Shade::Shader("texels per pixel");
+            let name = format!("counted_map_{}", term.index);
+            term.shade.inputs = vec![Input { name: name.into(), ..uncompared(term.map?) }];
             Ending::View { chunk: glsl!("views/texels_per_pixel.frag"), shade: false }
         }
         View::Depth

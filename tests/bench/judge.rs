@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene;
 use glumbra::truth::{self, Truth};
 

@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
-use glumbra::report::measure::metrics::{Band, Errors, ShadeImage, compare};
-use glumbra::report::measure::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Scene};
+use glumbra::frame::{Renderer, ShadeImage, draw_shade};
+use glumbra::report::measure::metrics::{Band, Errors, compare};
+use glumbra::scene::{self, Scene, with_shadow};
 use glumbra::truth::{self, Hit, Truth};
 
 use crate::support::rims::Rims;

@@ -1,10 +1,9 @@
 //! Warnings of maps that cannot show what is seen: given where the picture is wrong, and not where it is right.
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, compare};
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 use glumbra::stress::{Judge, RowSettings, random};
 use glumbra::truth;

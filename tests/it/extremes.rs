@@ -8,9 +8,8 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 use glumbra::truth;
 

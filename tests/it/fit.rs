@@ -3,11 +3,10 @@
 use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{Plan, Request};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::report::measure::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::{self, Scene, with_shadow};
 use glumbra::truth;
 
 /// Boxes and spheres on a floor, wider than the camera sees.

@@ -5,9 +5,8 @@
 
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene;
 use glumbra::views::View;
 

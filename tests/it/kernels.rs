@@ -5,8 +5,7 @@
 //! products of similar triangles. [GL 4.6, 8.14.3 and 8.23.1]
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
-use glumbra::report::measure::run::draw_shade;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::scene::{self, Scene};
 
 const SIZE: u32 = 32;

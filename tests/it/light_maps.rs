@@ -5,11 +5,10 @@ use std::path::Path;
 
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::report::measure::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::{self, Scene, with_shadow};
 use glumbra::truth;
 
 use crate::support::rims;

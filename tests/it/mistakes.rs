@@ -2,10 +2,10 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, ShadeImage};
 use glumbra::pass::{UniformValue, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::report::measure::metrics::{Band, Metrics, ShadeImage, compare};
+use glumbra::report::measure::metrics::{Band, Metrics, compare};
 use glumbra::scene::{self, Scene};
 use glumbra::truth::{self, Truth};
 use glumbra::views::View;

@@ -7,9 +7,8 @@ use std::path::Path;
 use glumbra::context::{self, ContextRequest, Profile};
 use glumbra::device::Pixels;
 use glumbra::fixed_function::FixedFunction;
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::Request;
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 use glumbra::truth::{self, Answer};
 

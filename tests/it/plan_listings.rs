@@ -114,6 +114,38 @@ fn matrices_are_those_of_the_document() {
     assert!(text.contains("Set-up (ii), texgen = \"world\", which this scene uses"), "{text}");
 }
 
+/// The place of a direction in its face is that of [GL 4.6, table 8.19].
+#[test]
+fn matrices_of_a_cubes_faces_are_the_tables() {
+    let text = printed("data/cases/scenes/room.toml", &["--matrices"]);
+    let faces: Vec<&str> = text.split("\n  Face ").skip(1).collect();
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    // The major axis, and those of sc and tc.
+    let table = [
+        ("+x", x, -z, -y),
+        ("-x", -x, z, -y),
+        ("+y", y, x, z),
+        ("-y", -y, x, -z),
+        ("+z", z, x, -y),
+        ("-z", -z, -x, -y),
+    ];
+    assert_eq!(faces.len(), table.len(), "{text}");
+    let light = DVec3::new(0.1, 0.2, -0.1);
+    for ((name, major, s, t), text) in table.into_iter().zip(faces) {
+        assert!(text.starts_with(&format!("{name}\n")), "{name}: {text}");
+        let clip_from_face = matrix(text, &format!("P_light of {name}, "));
+        let clip_from_world = clip_from_face * matrix(text, &format!("L^-1 of {name}, "));
+        for way in [DVec3::new(1.0, 0.3, -0.2), DVec3::new(0.1, 0.9, 0.4), DVec3::new(0.2, -0.6, 0.8)] {
+            let clip = clip_from_world * (light + way).extend(1.0);
+            let expected = DVec3::new(s.dot(way), t.dot(way), major.dot(way));
+            let found = DVec3::new(clip.x, clip.y, clip.w);
+            // The numbers have eight digits.
+            assert!(found.abs_diff_eq(expected, 1e-6), "{name} {way}: {found} is not {expected}");
+        }
+    }
+    assert!(!printed(BOX, &["--matrices"]).contains("Face "));
+}
+
 #[test]
 fn planes_beside_the_lights_own_are_printed() {
     let sample = printed("data/scenes/hw_shadowmaps_simple.toml", &["--matrices"]);

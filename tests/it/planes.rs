@@ -2,9 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
-use glumbra::report::measure::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Scene};
+use glumbra::frame::{Renderer, draw_shade};
+use glumbra::scene::{self, Scene, with_shadow};
 use glumbra::truth::{self, Answer};
 
 use crate::support::random::Random;

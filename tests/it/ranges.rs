@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
-use glumbra::report::measure::run::draw_shade;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::scene::{self, LightKind, Loaded, Object, Scene};
 
 use crate::support::random::Random;

@@ -2,9 +2,8 @@
 //! not.
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::Request;
-use glumbra::report::measure::run::draw_shade;
 use glumbra::scene::{self, Scene};
 
 fn scene(shadow: &str) -> Scene {

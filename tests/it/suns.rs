@@ -1,10 +1,9 @@
 //! Random scenes under a sun and above floors of any size, drawn with every kind of lookup, against ray-traced truth.
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::frame::Renderer;
+use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Errors, compare};
-use glumbra::report::measure::run::{draw_shade, with_shadow};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::{self, Scene, with_shadow};
 use glumbra::truth::{self, Truth};
 
 use crate::support::random::Random;

@@ -11,7 +11,7 @@ use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::drawable::depth_batches;
 use crate::lights::guard::Guard;
-use crate::lights::light::{Addition, Counted, Gain, Lighting, StencilCount, VolumeDepths, VolumeDraw};
+use crate::lights::light::{Addition, Counted, Gain, Lighting, ShadeSource, StencilCount, VolumeDepths, VolumeDraw};
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
@@ -226,8 +226,9 @@ impl Passes<'_> {
                     // Surfaces are clipped like those whose depth they must equal.
                     let state = lens.of_surfaces(DrawState { scissor: counting.scissor, ..pass.state });
                     let ending = Ending::View { chunk: glsl!("stencil_counted/tag.frag"), shade: true };
-                    let asked = LightTerm { meaning: Shade::Shader("a shade that only tags"), ..term.clone() };
-                    self.surfaces_if(redraw, &Onto { state, ..onto }, &[asked], &ending)?;
+                    let mut tagged = term.clone();
+                    tagged.shade.meaning = Shade::Shader("a shade that only tags");
+                    self.surfaces_if(redraw, &Onto { state, ..onto }, &[tagged], &ending)?;
                 }
             }
         }
@@ -290,7 +291,7 @@ impl Passes<'_> {
             return None;
         }
         let gain = Gain { ambient: 1.0, diffuse, specular: 0.0 };
-        let mut part = LightTerm { dimming: 0.0, gain, ..unshadowed(self.scene, term) };
+        let mut part = LightTerm { dimming: 0.0, gain, ..term.under(self.scene, ShadeSource::lit()) };
         if per_vertex {
             weigh(&mut part, term.dimming);
         }
@@ -311,17 +312,13 @@ fn of_all(term: &LightTerm) -> bool {
 /// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(StencilCount::tags);
-    if tagged { unshadowed(scene, term) } else { LightTerm { counting: None, ..term.clone() } }
+    if tagged { term.under(scene, ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
 }
 
 /// Weights the light's diffuse colour.
 fn weigh(term: &mut LightTerm, weight: f32) {
     if weight < 1.0 {
-        term.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(term.index));
-        term.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
+        term.shade.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(term.index));
+        term.shade.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
     }
-}
-
-fn unshadowed(scene: &Scene, term: &LightTerm) -> LightTerm {
-    term.under(scene, glsl!("common/unshadowed.frag"), Shade::Lit)
 }

@@ -1,13 +1,13 @@
 //! Views of one counted light: its count, its shade, its volumes and their silhouettes.
 
-use super::{LIT, once_counted, unshadowed};
+use super::{LIT, once_counted};
 use crate::compositions::Error;
 use crate::compositions::passes::{Buffers, Onto, Passes};
 use crate::compositions::projection::CameraProjection;
-use crate::lights::light::{StencilCount, VolumeDraw};
+use crate::lights::light::{ShadeSource, StencilCount, VolumeDraw};
 use crate::lights::{Ending, LightTerm};
 use crate::pass::{
-    Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Shade, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, Format, ImageId, Redraw, Uniform, glsl,
 };
 use crate::views::{self, View};
 
@@ -42,7 +42,7 @@ impl Passes<'_> {
         let Some((ending, lit)) = views::camera_pass(view, &lit) else {
             return Err(Error::NoCount { view: view.name(), light: term.index });
         };
-        let shadowed = term.under(self.scene, glsl!("common/shadowed.frag"), Shade::Dark);
+        let shadowed = term.under(self.scene, ShadeSource::dark());
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(&onto, &[shadowed], &ending)?;
         self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
@@ -64,7 +64,7 @@ impl Passes<'_> {
         counting: &StencilCount,
     ) -> Result<ImageId, Error> {
         let target = buffers.target();
-        let unshadowed = unshadowed(self.scene, term);
+        let unshadowed = term.under(self.scene, ShadeSource::lit());
         let onto = self.first(label, target, lens, self.background());
         self.surfaces(&onto, &[unshadowed], &Ending::Lit)?;
         let (draws, name): (&[VolumeDraw], _) = match view {

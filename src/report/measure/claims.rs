@@ -3,13 +3,13 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
-use super::run::{draw_shade, size_of, with_shadow};
-use super::tune::{self, Search, TunedPoint};
-use crate::frame::Renderer;
+use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, ErrorSplit};
+use super::run::size_of;
+use super::tune::{self, TunedPoint, Search};
+use crate::frame::{Renderer, draw_shade};
 use crate::report::numbers::plain;
 use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
-use crate::scene::{Scene, Value};
+use crate::scene::{Scene, Value, with_shadow};
 use crate::techniques::TABLE;
 use crate::techniques::claims::{Contender, Quantity, Relation};
 use crate::truth::{Answer, Hit, Truth};

@@ -6,7 +6,8 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
 
-use super::metrics::{Error, ShadeImage, is_lit};
+use super::metrics::{Error, is_lit};
+use crate::frame::ShadeImage;
 use crate::truth::{Answer, Pixel, Truth};
 
 /// Colour where nothing is drawn.

@@ -6,25 +6,13 @@
 pub use super::band::Band;
 use super::band::find_band;
 use super::edges::{Pair, connected_pairs, distances};
+use crate::frame::ShadeImage;
 use crate::truth::{Answer, Pixel, Truth};
 
 pub use super::edges::EdgeDistance;
 
 /// The fewest pixels compared by which a setting is recommended: a tenth of a percent of them is one pixel.
 pub const FEWEST_COMPARED: usize = 1000;
-
-/// A rendered shade: how much of the light's diffuse and specular terms reaches each pixel, in [0, 1]. Row 0 is the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ShadeImage {
-    /// In pixels.
-    pub width: u32,
-    /// In pixels.
-    pub height: u32,
-    /// `width * height` values, 0: shadow, 1: full light. Only values of drawn pixels are used.
-    pub shade: Vec<f32>,
-    /// True if the picture shows a surface there that lies in the light's cone or frustum.
-    pub covered: Vec<bool>,
-}
 
 /// All errors of one picture.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

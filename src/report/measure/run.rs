@@ -8,17 +8,16 @@ use std::time::Instant;
 
 use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
-use super::metrics::{self, Band, Metrics, ShadeImage};
+use super::metrics::{self, Band, Metrics};
 pub use super::options::MeasureOptions;
 use crate::context;
-use crate::device::Pixels;
-use crate::frame::{self, Renderer};
+use crate::frame::{self, Renderer, draw_shade};
 use crate::plan::{self, Request, ViewRequest};
 use crate::report::store::fingerprint;
 use crate::report::store::results::{
     Cost, Machine, Measured, Outcome, Row, Saved, SceneReport, Spread, TruthSummary, bytes_of,
 };
-use crate::scene::{self, Loaded, Scene, Settings, Value};
+use crate::scene::{self, Loaded, Scene, Settings, Value, with_shadow};
 use crate::techniques::{self, TABLE, Technique};
 use crate::truth::{self, Answer, Truth};
 use crate::views::View;
@@ -283,15 +282,6 @@ impl Sweep {
     }
 }
 
-/// `scene` with `[light.shadow]` of one light replaced.
-pub fn with_shadow(scene: &Scene, light: usize, settings: &Settings) -> Scene {
-    let mut scene = scene.clone();
-    if let Some(light) = scene.lights.get_mut(light) {
-        light.shadow = settings.clone();
-    }
-    scene
-}
-
 fn measure(
     scene: &Scene,
     truth: &Truth,
@@ -323,28 +313,6 @@ fn measure(
 fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
     let shade = draw_shade(scene, light, renderer).map_err(|error| error.to_string())?;
     metrics::compare(truth, &shade, band).map_err(|error| error.to_string())
-}
-
-/// The shade of one light as GL draws it.
-///
-/// # Errors
-///
-/// An error of the plan or the device.
-pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, frame::Error> {
-    let request = Request { views: vec![ViewRequest { view: View::Shade, light }], ..Request::default() };
-    let plan = renderer.plan(scene, &request)?;
-    renderer.draw(&plan)?;
-    let [width, height] = scene.image.size;
-    let texels = match renderer.read(&plan)?.views.pop() {
-        Some(Pixels::RgbaF32 { data, .. }) => data,
-        _ => Vec::new(),
-    };
-    Ok(ShadeImage {
-        width,
-        height,
-        shade: texels.chunks_exact(4).map(|texel| texel[0].clamp(0.0, 1.0)).collect(),
-        covered: texels.chunks_exact(4).map(|texel| texel[3] > 0.0).collect(),
-    })
 }
 
 /// Describes the machine that is measured on.

@@ -5,9 +5,9 @@
 
 use super::grid;
 use super::metrics::{self, Band, FEWEST_COMPARED, Metrics};
-use super::run::{draw_shade, over, size_of, with_shadow};
-use crate::frame::{self, Renderer};
-use crate::scene::{self, Scene, Settings};
+use super::run::{over, size_of};
+use crate::frame::{self, Renderer, draw_shade};
+use crate::scene::{self, Scene, Settings, with_shadow};
 use crate::techniques::{TABLE, Technique};
 use crate::truth::{self, Answer, Pixel, Truth};
 

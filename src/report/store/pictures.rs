@@ -2,12 +2,12 @@
 
 use super::results::{Row, SceneReport};
 use crate::device::Pixels;
-use crate::frame::{self, Renderer};
+use crate::frame::{self, Renderer, draw_shade};
 use crate::plan::Request;
 use crate::report::measure::difference::{self, difference_picture, truth_picture};
 use crate::report::measure::metrics;
 use crate::report::measure::picks::{Goals, Pick, Picks};
-use crate::report::measure::run::{Sweep, draw_shade};
+use crate::report::measure::run::Sweep;
 use crate::report::show::html::{DifferencePicture, ScenePictures};
 
 /// Reason why a picture could not be drawn.

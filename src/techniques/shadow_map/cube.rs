@@ -4,7 +4,7 @@
 //! A face that holds no caster, or in which the camera sees nothing, is not drawn: it keeps the depth that maps are cleared
 //! to, so that lookups in it, or into it across a seam, find light.
 
-use glam::{DMat4, DVec3, Vec2};
+use glam::{DMat4, Vec2};
 
 use super::casters::{in_the_map, may_cast};
 use super::depth::{self, DepthLayer};
@@ -15,7 +15,8 @@ use super::term::{sampler, texture_from_light_clip};
 use super::{bias, simplified_casters, tag};
 use crate::lights::caster_culling::Unseen;
 use crate::lights::guard::Guard;
-use crate::lights::projector::{Projector, Rays};
+use crate::lights::light::ShadeSource;
+use crate::lights::projector::{Projector, Rays, face_frustum};
 use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
@@ -118,7 +119,7 @@ fn needed<'a>(
 /// Tests whether the camera may see something that is looked up in the face.
 fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Settings) -> bool {
     let half_angle = (1.0 + 2.0 * (SEAM_TEXELS + bias::kernel_reach(settings)) / f64::from(settings.size)).atan();
-    let frustum = Frustum { cone_radians: 2.0 * half_angle, ..frustum_of(point, face) };
+    let frustum = Frustum { cone_radians: 2.0 * half_angle, ..face_frustum(point, face) };
     let face_clip = frustum.unbounded().clip_from_world();
     let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
@@ -128,29 +129,13 @@ fn is_seen(view: &LightView<'_>, point: &Point, face: CubeFace, settings: &Setti
         && view.camera.visible.iter().any(in_face)
 }
 
-/// The frustum of a face, turned as cube maps have their texels [GL 4.6, table 8.19].
-fn frustum_of(point: &Point, face: CubeFace) -> Frustum {
-    let (direction, up) = match face {
-        CubeFace::PositiveX => (DVec3::X, -DVec3::Y),
-        CubeFace::NegativeX => (-DVec3::X, -DVec3::Y),
-        CubeFace::PositiveY => (DVec3::Y, DVec3::Z),
-        CubeFace::NegativeY => (-DVec3::Y, -DVec3::Z),
-        CubeFace::PositiveZ => (DVec3::Z, -DVec3::Y),
-        CubeFace::NegativeZ => (-DVec3::Z, -DVec3::Y),
-    };
-    let Point { position, near, far, .. } = *point;
-    // A target so far away that its coordinates may round, but stay on the axis.
-    let target = position + direction * position.abs().max_element().max(1.0);
-    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
-}
-
 fn seen_from<'a>(view: &LightView<'a>, point: &Point, face: CubeFace) -> FrustumView<'a> {
-    FrustumView { light_view: *view, projector: Projector::of_frustum(&frustum_of(point, face)) }
+    FrustumView { light_view: *view, projector: Projector::of_frustum(&face_frustum(point, face)) }
 }
 
 /// The projectors of all faces.
 pub fn projectors(point: &Point) -> Vec<Projector> {
-    CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&frustum_of(point, face))).collect()
+    CubeFace::ALL.into_iter().map(|face| Projector::of_frustum(&face_frustum(point, face))).collect()
 }
 
 /// Draws the faces and, with `transfer = "copy"`, copies each from one depth buffer. Returns the cube.
@@ -213,8 +198,9 @@ fn draw(
 /// Light term of the cube.
 fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) -> LightTerm {
     let index = view.index;
-    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/cube.frag"));
-    term.meaning = Shade::Shader("a shade that is looked up in a cube map");
+    let meaning = Shade::Shader("a shade that is looked up in a cube map");
+    let shade = ShadeSource::of(glsl!("shadow_map/cube.frag"), meaning);
+    let mut term = LightTerm::new(view.scene, index, shade);
     term.coordinates = Some(Coordinates {
         texture_from_light_clip: DMat4::IDENTITY,
         receiver_bias: DMat4::IDENTITY,
@@ -225,20 +211,20 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     });
     let rays = Rays::From { position: point.position, near: point.near };
     let sampler = sampler(rays, settings);
-    term.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
-    term.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
-    term.defines.push(Define::flag("CUBE").of_light(index));
-    term.shade.insert(0, glsl!("shadow_map/map.glsl"));
+    term.shade.inputs.push(Input { name: format!("shadow_map_{index}").into(), image: map, sampler });
+    term.shade.uniforms.push(Uniform::of_light("face_depth", index, face_depth(point, settings)));
+    term.shade.defines.push(Define::flag("CUBE").of_light(index));
+    term.shade.chunks.insert(0, glsl!("shadow_map/map.glsl"));
     if settings.kernel > 1 {
-        term.shade.insert(1, glsl!("shadow_map/percentage_closer.glsl"));
-        term.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
+        term.shade.chunks.insert(1, glsl!("shadow_map/percentage_closer.glsl"));
+        term.shade.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
     }
     let reach = bias::kernel_reach(settings) + if settings.filter == Filter::Linear { 0.5 } else { 0.0 };
     if reach > 0.0 {
-        term.defines.push(Define::flag("SEAMS").of_light(index));
+        term.shade.defines.push(Define::flag("SEAMS").of_light(index));
         // Width of the seam, for a face of side 2; rounding may bring a lookup nearer.
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
-        term.uniforms.push(Uniform::of_light("seam", index, seam as f32));
+        term.shade.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
     term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
@@ -254,7 +240,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
 fn face_depth(point: &Point, settings: &Settings) -> Vec2 {
     let Point { near, far, .. } = *point;
     let (a, b) = ((far + near) / (far - near), 2.0 * far * near / (far - near));
-    let any_face = Projector::of_frustum(&frustum_of(point, CubeFace::PositiveX));
+    let any_face = Projector::of_frustum(&face_frustum(point, CubeFace::PositiveX));
     let moved = bias::offset(settings).texels * bias::texel_at_one(&any_face, settings);
     let texture = texture_from_light_clip(settings);
     let (scale, offset) = (texture.z_axis.z, texture.w_axis.z);

@@ -229,7 +229,7 @@ pub fn batches(view: &FrustumView<'_>, layer: &DepthLayer<'_>, settings: &Settin
         if ends_before_cleared(view, layer, settings) { depths_kept() * clip_from_world } else { clip_from_world };
     let texel = bias::texel_at_one(&view.projector, settings);
     let clamped = layer.clamped || clamps_near(view, layer).is_some();
-    let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped);
+    let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped, view.derived);
     let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
     let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);

@@ -156,6 +156,7 @@ fn whole_texels(needed: &Aabb, settings: &Settings) -> (DVec3, DVec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Derived;
     use crate::lights::CameraView;
     use crate::lights::drawable::items;
     use crate::scene;
@@ -172,14 +173,16 @@ mod tests {
 
     fn box_of(objects: &str, shadow: &str) -> Option<Aabb> {
         let scene = scene_of(objects, shadow);
-        let items = items(&scene, false);
+        let items = items(&scene, None);
         let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
         let (shown_whole, keep_all, sampled_warnings) = (false, false, false);
         let camera = CameraView::new(&scene, &items);
+        let derived = Derived::default();
         let view = LightView {
             scene: &scene,
             items: &items,
             camera: &camera,
+            derived: &derived,
             index: 0,
             shown_whole,
             keep_all,

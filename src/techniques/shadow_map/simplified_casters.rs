@@ -1,10 +1,10 @@
 //! Casters at the map's resolution (`casters = "texel"`): triangles that no texel shows are not drawn.
 
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 use super::bias;
 use super::settings::Settings;
-use crate::geometry::Mesh;
+use crate::geometry::{Derived, Mesh, Most};
 use crate::lights::projector::Rays;
 use crate::lights::{Drawable, FrustumView, Notes};
 use crate::pass::MeshRef;
@@ -26,7 +26,7 @@ pub fn simplified(
         if before < FEWEST || item.needs_alpha_test() || item.wave.is_some() {
             return item;
         }
-        let mesh = cached(&item, allowed_error(view, &item, settings));
+        let mesh = simplified_once(&item, allowed_error(view, &item, settings), view.derived);
         let after = mesh.triangle_count() as u32;
         if after < before {
             notes.left_out(
@@ -64,32 +64,14 @@ fn allowed_error(view: &FrustumView<'_>, item: &Drawable, settings: &Settings) -
     allowed / axes.map(|axis| axis.truncate().length()).into_iter().fold(0.0, f64::max)
 }
 
-/// A simplified range of a mesh and the exponent of its error, kept as long as the mesh lives: a plan is made for every
-/// frame, and the same caster may occur many times.
-struct Entry {
-    source: Weak<Mesh>,
-    indices: std::ops::Range<u32>,
-    exponent: i32,
-    mesh: Arc<Mesh>,
-}
-
-static CACHE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
+/// Number of simplified meshes that are kept for each part of a mesh.
+const MOST_ERRORS: usize = 32;
 
 /// A simplified mesh. The error is rounded down to a power of two, so that casters at all distances share a few meshes.
-fn cached(item: &Drawable, error: f64) -> Arc<Mesh> {
+fn simplified_once(item: &Drawable, error: f64, derived: &Derived) -> Arc<Mesh> {
     let exponent = error.log2().floor().clamp(-120.0, 120.0) as i32;
-    let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
-    cache.retain(|entry| entry.source.strong_count() > 0);
-    let is_it = |entry: &&Entry| {
-        entry.exponent == exponent
-            && entry.indices == item.indices
-            && std::ptr::eq(entry.source.as_ptr(), Arc::as_ptr(&item.mesh.0))
-    };
-    if let Some(entry) = cache.iter().find(is_it) {
-        return entry.mesh.clone();
-    }
-    let mesh = Arc::new(item.mesh.simplified(item.indices.clone(), (f64::from(exponent)).exp2() as f32));
-    let (source, indices) = (Arc::downgrade(&item.mesh.0), item.indices.clone());
-    cache.push(Entry { source, indices, exponent, mesh: mesh.clone() });
-    mesh
+    let (most, key) = (MOST_ERRORS * item.mesh.parts.len().max(1), (item.indices.clone(), exponent));
+    derived.get(&item.mesh.0, Most::OfMesh(most), key, || {
+        Arc::new(item.mesh.simplified(item.indices.clone(), f64::from(exponent).exp2() as f32))
+    })
 }

@@ -5,6 +5,7 @@ use glam::{DMat4, DVec3, Vec4};
 use super::map::map_info;
 use super::settings::{Addressing, Bias, HalfTexel, Mipmaps, Order, Settings};
 use super::{bias, tag};
+use crate::lights::light::ShadeSource;
 use crate::lights::projector::Rays;
 use crate::lights::{Coordinates, Crop, FrustumView, LightTerm};
 use crate::math::texgen::{direct3d_scale_bias, scale_bias};
@@ -17,14 +18,18 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     let index = view.index;
     let name = format!("shadow_map_{index}");
     let clamped = settings.format == DepthFormat::Depth32F;
-    let mut term = LightTerm::new(view.scene, index, glsl!("shadow_map/shade.frag"));
-    term.meaning = Shade::Texture { input: name.clone().into(), clamped };
-    term.inputs.push(Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) });
-    term.shade = chunks(settings);
+    let shade = ShadeSource {
+        chunks: chunks(settings),
+        meaning: Shade::Texture { input: name.clone().into(), clamped },
+        defines: Vec::new(),
+        uniforms: Vec::new(),
+        inputs: vec![Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) }],
+    };
+    let mut term = LightTerm::new(view.scene, index, shade);
     // A floating-point map does not clamp the reference. A normal offset may move it out of any map's depths; the other
     // biases clamp each tap's own.
     if clamped && settings.bias == Bias::Offset || settings.bias == Bias::NormalOffset {
-        term.defines.push(Define::flag("CLAMP_REFERENCE").of_light(index));
+        term.shade.defines.push(Define::flag("CLAMP_REFERENCE").of_light(index));
     }
     let mut coordinates = Coordinates {
         texture_from_light_clip: texture_from_light_clip(settings) * view.projector.crop.map_clip_from_light_clip(),
@@ -89,47 +94,52 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
 fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
     if settings.mipmaps != Mipmaps::None {
-        term.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
+        term.shade.meaning = Shade::Shader("a shade of more comparisons than one: of two levels");
     }
     if settings.kernel == 1 && settings.bias == Bias::Offset {
         return;
     }
-    term.meaning = Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
-    term.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
+    term.shade.meaning =
+        Shade::Shader("a shade of more comparisons than one, or of a reference that is worked out for each");
+    term.shade.defines.push(Define::number("KERNEL", settings.kernel).of_light(index));
     let of_light = |name, value: f32| Uniform::of_light(name, index, value);
     if let Rays::Along(_) = view.projector.rays {
-        term.defines.push(Define::flag("PARALLEL").of_light(index));
+        term.shade.defines.push(Define::flag("PARALLEL").of_light(index));
     }
     let towards_light = if settings.order == Order::LessEqual { 1.0 } else { -1.0 };
     match settings.bias {
         Bias::Offset => {}
         Bias::ReceiverPlane => {
-            term.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
-            term.uniforms.push(of_light("towards_light", towards_light));
+            term.shade.uniforms.push(of_light("filter_reach", bias::filter_reach(settings) as f32));
+            term.shade.uniforms.push(of_light("towards_light", towards_light));
         }
         Bias::Adaptive => {
-            term.uniforms.push(of_light("towards_light", towards_light));
+            term.shade.uniforms.push(of_light("towards_light", towards_light));
         }
         Bias::NormalOffset => {
-            term.defines.push(Define::flag("NORMAL_OFFSET").of_light(index));
+            term.shade.defines.push(Define::flag("NORMAL_OFFSET").of_light(index));
             let texture = coordinates.texture_from_light_clip * coordinates.receiver_bias;
             let light_clip = coordinates.light_clip_from_light;
             let texture_from_light = texture * light_clip;
             if let Rays::Along(_) = view.projector.rays {
                 let light_from_texture = texture_from_light.inverse().as_mat4();
-                term.uniforms.push(Uniform::of_light("light_from_texture", index, light_from_texture));
+                term.shade.uniforms.push(Uniform::of_light("light_from_texture", index, light_from_texture));
             } else {
                 let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
                 let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
-                term.uniforms.push(Uniform::of_light("light_from_map", index, Vec4::from(from_map.map(|x| x as f32))));
+                term.shade.uniforms.push(Uniform::of_light(
+                    "light_from_map",
+                    index,
+                    Vec4::from(from_map.map(|x| x as f32)),
+                ));
             }
             let reach = bias::reach_texels(settings) * bias::texel_sides_at_one(&view.projector, settings);
-            term.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light.as_mat4()));
-            term.uniforms.push(Uniform::of_light("offset_reach", index, reach.as_vec2()));
+            term.shade.uniforms.push(Uniform::of_light("texture_from_light", index, texture_from_light.as_mat4()));
+            term.shade.uniforms.push(Uniform::of_light("offset_reach", index, reach.as_vec2()));
         }
     }
     if settings.bias != Bias::Offset {
-        term.defines.push(Define::flag("DERIVATIVES").of_light(index));
+        term.shade.defines.push(Define::flag("DERIVATIVES").of_light(index));
     }
 }
 

@@ -1,12 +1,12 @@
 //! Casters: the connected parts of an object, with their adjacency, which is found once for each mesh.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 use glam::DMat4;
 
-use crate::geometry::Mesh;
 use crate::geometry::volume::Caster;
+use crate::geometry::{Derived, Mesh, Most};
 use crate::lights::Drawable;
 use crate::math::Aabb;
 
@@ -24,7 +24,7 @@ pub struct CastingObject {
 }
 
 /// The objects of `items` that cast, each with all its parts: a surface may be closed only across them.
-pub fn casting_objects(items: &[Drawable]) -> Vec<CastingObject> {
+pub fn casting_objects(items: &[Drawable], derived: &Derived) -> Vec<CastingObject> {
     let mut casting = Vec::new();
     for parts in items.chunk_by(|a, b| a.object == b.object) {
         let [first, ..] = parts else { continue };
@@ -35,7 +35,7 @@ pub fn casting_objects(items: &[Drawable]) -> Vec<CastingObject> {
         casting.push(CastingObject {
             label: first.label.clone(),
             object: first.object,
-            caster: adjacency(&first.mesh.0, ranges),
+            caster: adjacency(&first.mesh.0, ranges, derived),
             world_from_model: first.world_from_model,
             bounds: parts.iter().fold(Aabb::EMPTY, |bounds, part| bounds.union(part.bounds)),
             has_holes: parts.iter().any(Drawable::needs_alpha_test),
@@ -44,23 +44,10 @@ pub fn casting_objects(items: &[Drawable]) -> Vec<CastingObject> {
     casting
 }
 
-struct Known {
-    mesh: Weak<Mesh>,
-    ranges: Vec<Range<u32>>,
-    caster: Arc<Caster>,
-}
+/// Number of lists of ranges whose adjacency is kept for one mesh: objects of one mesh may leave out different parts.
+const MOST_RANGES: usize = 64;
 
-/// Casters of every mesh that is still alive: neither a moved light nor the next frame searches edges again.
-static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
-
-fn adjacency(mesh: &Arc<Mesh>, ranges: Vec<Range<u32>>) -> Arc<Caster> {
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    known.retain(|entry| entry.mesh.strong_count() > 0);
-    let same = |entry: &&Known| std::ptr::eq(entry.mesh.as_ptr(), Arc::as_ptr(mesh)) && entry.ranges == ranges;
-    if let Some(found) = known.iter().find(same) {
-        return found.caster.clone();
-    }
-    let caster = Arc::new(Caster::new(mesh, &ranges));
-    known.push(Known { mesh: Arc::downgrade(mesh), ranges, caster: caster.clone() });
-    caster
+/// The caster of a mesh: neither a moved light nor the next frame searches edges again.
+fn adjacency(mesh: &Arc<Mesh>, ranges: Vec<Range<u32>>, derived: &Derived) -> Arc<Caster> {
+    derived.get(mesh, Most::OfMesh(MOST_RANGES), ranges.clone(), || Arc::new(Caster::new(mesh, &ranges)))
 }

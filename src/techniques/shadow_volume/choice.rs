@@ -62,7 +62,10 @@ fn why_unneeded(
     if outside_cone(view, caster) {
         return Some("the caster is outside the light's cone");
     }
-    if !volume.may_shadow_view(viewer) {
+    let clip_from_model = view.camera.clip_from_world * caster.world_from_model;
+    let is_seen = frustum::overlap(&clip_from_model, &caster.bounds) == Overlap::Inside;
+    // What is seen whole shadows what lies behind it in view.
+    if !is_seen && !volume.may_shadow_view(viewer) {
         return Some("its shadow falls outside the view");
     }
     extent::is_flat_before_all(view, caster, source(view))

@@ -66,7 +66,7 @@ impl ShadowSettings for Settings {
     ) -> Result<LightTerm, SettingsError> {
         let mut term = LightTerm::unshadowed(view.scene, view.index);
         term.dimming = self.dimming;
-        let casting = casting_objects(view.items);
+        let casting = casting_objects(view.items, view.derived);
         explain(view, &casting, notes);
         let ways = choice::ways(view, &casting, self, notes);
         let shapes = shapes::shapes(view, &casting, &ways, source(view), self, notes);

@@ -4,7 +4,8 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use glumbra::report::measure::metrics::{Band, ShadeImage, compare};
+use glumbra::frame::ShadeImage;
+use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::scene::{Camera, Image, LightKind, Scene};
 use glumbra::truth::{self, Answer, Hit, Truth};
 

@@ -31,7 +31,7 @@ impl Forecast<'_> {
             let way = to_light(across, &rays);
             // In the seen triangle's plane, so that surfaces at its depth stay there.
             let moved = across + way * (seen.normal.dot(seen.point - across) / seen.normal.dot(way));
-            let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays);
+            let met = on_the_way(self.items, &Seen { point: moved, ..*seen }, -slack, &rays, None);
             is_alike = is_alike && self::signature(&met, slack) == signature;
             is_lit = is_lit && !met.iter().any(|met| !met.is_own && met.t > slack);
             if !(is_alike || is_lit) {

@@ -9,6 +9,7 @@
 mod even;
 mod lookup;
 mod points;
+mod raster;
 mod texels;
 mod told;
 
@@ -16,6 +17,7 @@ use glam::DVec3;
 
 use self::lookup::Receiver;
 use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
+use self::raster::{Raster, Spot};
 use self::texels::Texels;
 pub use self::texels::{Alone, Stored};
 use super::bias;
@@ -132,6 +134,8 @@ struct Forecast<'a> {
     map: &'a Map<'a>,
     items: &'a Items<'a>,
     texels: Vec<Texels<'a>>,
+    /// The items by their places in the picture.
+    raster: Raster,
     /// Pixels from sample to sample.
     step: u32,
     /// Samples that face the light, within its reach.
@@ -143,7 +147,8 @@ impl<'a> Forecast<'a> {
     fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a Items<'a>) -> Self {
         let texels = |projector: &Projector| Texels::new(items, map, projector.clone());
         let texels = map.projectors.iter().map(texels).collect();
-        Self { view, map, items, texels, step: 1, reached: 0, wrong: Vec::new() }
+        let raster = items.raster(|point| picture_spot(view, point));
+        Self { view, map, items, texels, raster, step: 1, reached: 0, wrong: Vec::new() }
     }
 
     /// Tests whether a few samples do not show that all is well.
@@ -165,7 +170,8 @@ impl<'a> Forecast<'a> {
         let middles = |size: u32| (step / 2..size).step_by(step as usize);
         for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
             let [near, far] = ray(x, y);
-            let Some(point) = seen(self.items, self.view.scene.camera.eye, near, far - near) else { continue };
+            let at = self.raster.at_both([near, far], |point| picture_spot(self.view, point));
+            let Some(point) = seen(self.items, at, self.view.scene.camera.eye, near, far - near) else { continue };
             // Points where the rays of the neighbouring pixels meet the same plane.
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
@@ -184,7 +190,7 @@ impl<'a> Forecast<'a> {
             return None;
         }
         self.reached += 1;
-        let way = self.way(point);
+        let way = self.way(point, index);
         let receiver = receiver(&self.texels[index], point, beside);
         let is_blocked = way.blockers().next().is_some();
         // The texels are rounded to their format as they are found; f32 may take more, of the stored depth and of the
@@ -235,13 +241,14 @@ impl<'a> Forecast<'a> {
         if error.is_finite() { error.abs().min(1.0) } else { 1.0 }
     }
 
-    /// Surfaces between a point and the light.
-    fn way<'p>(&self, point: &'p Seen) -> Way<'p> {
+    /// Surfaces between a point and the light, on a map that shows it.
+    fn way<'p>(&self, point: &'p Seen, texels: usize) -> Way<'p> {
         let slack = self.slack(point);
         // A surface that the light lies in is edge-on to it, and shadows nothing.
         let end = if matches!(self.rays(), Rays::From { .. }) { 1.0 - SLACK } else { f64::INFINITY };
         let length = to_light(point.point, &self.rays()).length();
-        Way { point, met: on_the_way(self.items, point, -slack, &self.rays()), slack, end, length }
+        let at = self.texels[texels].at(point.point);
+        Way { point, met: on_the_way(self.items, point, -slack, &self.rays(), at), slack, end, length }
     }
 
     /// Reason why a point is wrong, whose pixel is one world unit wide.
@@ -329,6 +336,12 @@ impl<'a> Forecast<'a> {
             _ => true,
         }
     }
+}
+
+/// Place of a point in the picture.
+fn picture_spot(view: &LightView<'_>, point: DVec3) -> Spot {
+    let size = point.abs().max_element() + view.scene.camera.eye.abs().max_element();
+    Spot::new(view.camera.clip_from_world * point.extend(1.0), size)
 }
 
 /// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.

@@ -2,10 +2,12 @@
 
 use glam::{DMat4, DVec3};
 
+use super::raster::{At, Raster, Spot};
 use crate::geometry::rays::{Boxes, Ray};
 use crate::geometry::sampled::{Crossing, SampledMesh};
 use crate::lights::projector::Rays;
 use crate::lights::{Drawable, LightView, alpha};
+use crate::math::Aabb;
 
 /// An item made ready for rays.
 pub struct Placed<'a> {
@@ -48,19 +50,36 @@ pub struct Items<'a> {
 impl<'a> Items<'a> {
     pub fn new(view: &LightView<'a>) -> Self {
         let placed = placed(view);
-        let bounds = |placed: &Placed<'_>| {
-            let bounds = placed.item.bounds.transformed(&placed.item.world_from_model);
-            [bounds.min, bounds.max]
-        };
-        Self { boxes: Boxes::new(placed.iter().map(bounds)), placed }
+        let bounds = placed.iter().map(Placed::bounds).map(|bounds| [bounds.min, bounds.max]);
+        Self { boxes: Boxes::new(bounds), placed }
     }
 
-    /// Calls `look` with every crossing of a ray in world space, and its item; holes are left out.
-    pub fn crossings(&self, ray: &Ray, mut look: impl FnMut(usize, Crossing)) {
-        self.boxes.met(ray, |index| {
+    /// Calls `look` with every crossing of a ray in world space with an item that is `wanted`, and the item; holes are left
+    /// out. `at`: the ray's place in a raster of these items, if it has one.
+    pub fn crossings(
+        &self,
+        ray: &Ray,
+        at: Option<At<'_>>,
+        wanted: impl Fn(usize) -> bool,
+        mut look: impl FnMut(usize, Crossing),
+    ) {
+        let mut cross = |index: u32| {
             let index = index as usize;
-            self.placed[index].crossings(ray, |met| look(index, met));
-        });
+            if wanted(index) {
+                self.placed[index].crossings(ray, |met| look(index, met));
+            }
+        };
+        if at.and_then(|at| at.raster.met(at.place, &mut cross)).is_none() {
+            self.boxes.met(ray, cross);
+        }
+    }
+
+    /// The items by their places, which `spot` finds for points in world space.
+    pub fn raster(&self, spot: impl Fn(DVec3) -> Spot) -> Raster {
+        let corners = |placed: &Placed<'_>| {
+            placed.item.bounds.corners().map(|corner| placed.item.world_from_model.transform_point3(corner))
+        };
+        Raster::new(self.placed.iter().map(corners), spot)
     }
 }
 
@@ -68,16 +87,21 @@ impl<'a> Items<'a> {
 fn placed<'a>(view: &LightView<'a>) -> Vec<Placed<'a>> {
     let of = |item: &'a Drawable| {
         let mesh = match &item.wave {
-            Some(wave) => wave.moved(&item.mesh.0),
+            Some(wave) => wave.moved_once(&item.mesh.0, view.derived),
             None => item.mesh.0.clone(),
         };
-        let mesh = SampledMesh::new(&mesh, item.indices.clone());
+        let mesh = SampledMesh::new(&mesh, item.indices.clone(), view.derived);
         Placed { item, model_from_world: item.world_from_model.inverse(), mesh }
     };
     view.items.iter().map(of).filter(|placed| placed.model_from_world.is_finite()).collect()
 }
 
 impl Placed<'_> {
+    /// The box around the item's own box, in world space.
+    fn bounds(&self) -> Aabb {
+        self.item.bounds.transformed(&self.item.world_from_model)
+    }
+
     /// Calls `look` with every crossing of a ray in world space; holes are left out.
     fn crossings(&self, ray: &Ray, mut look: impl FnMut(Crossing)) {
         let origin = self.model_from_world.transform_point3(ray.origin);
@@ -101,15 +125,20 @@ impl Placed<'_> {
     }
 }
 
-/// The nearest point on the way from the near plane to the far plane, `origin` to `origin + way`.
-pub fn seen(items: &Items<'_>, eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
+/// The nearest point on the way from the near plane to the far plane, `origin` to `origin + way`, at a place of the picture.
+pub fn seen(items: &Items<'_>, at: Option<At<'_>>, eye: DVec3, origin: DVec3, way: DVec3) -> Option<Seen> {
     let ray = Ray { origin, way, start: 0.0, end: 1.0 };
     let mut nearest: Option<(f64, usize, u32)> = None;
-    items.crossings(&ray, |item, met| {
-        if nearest.is_none_or(|(t, ..)| met.t < t) {
-            nearest = Some((met.t, item, met.triangle));
-        }
-    });
+    items.crossings(
+        &ray,
+        at,
+        |_| true,
+        |item, met| {
+            if nearest.is_none_or(|(t, ..)| met.t < t) {
+                nearest = Some((met.t, item, met.triangle));
+            }
+        },
+    );
     let (t, item, triangle) = nearest?;
     let (point, normal) = (origin + t * way, items.placed[item].normal(triangle));
     let normal = if normal.dot(eye - point) < 0.0 { -normal } else { normal };
@@ -124,18 +153,18 @@ pub fn to_light(point: DVec3, rays: &Rays) -> DVec3 {
     }
 }
 
-/// All casters on the line through the point and the light, from `behind` of it (a parameter below 0) on.
-pub fn on_the_way(items: &Items<'_>, seen: &Seen, behind: f64, rays: &Rays) -> Vec<Met> {
+/// All casters on the line through the point and the light, from `behind` of it (a parameter below 0) on. `at`: the
+/// point's place in a map.
+pub fn on_the_way(items: &Items<'_>, seen: &Seen, behind: f64, rays: &Rays, at: Option<At<'_>>) -> Vec<Met> {
     let end = if matches!(rays, Rays::From { .. }) { 1.0 } else { f64::MAX };
     let way = to_light(seen.point, rays);
     let ray = Ray { origin: seen.point, way, start: behind, end };
     let mut all = Vec::new();
-    items.crossings(&ray, |item, met| {
-        if items.placed[item].item.casts_shadow {
-            let is_own = (item, met.triangle) == (seen.item, seen.triangle);
-            // The ray runs to the light: a surface that it meets from the front looks away from the light.
-            all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
-        }
+    let casts_shadow = |item: usize| items.placed[item].item.casts_shadow;
+    items.crossings(&ray, at, casts_shadow, |item, met| {
+        let is_own = (item, met.triangle) == (seen.item, seen.triangle);
+        // The ray runs to the light: a surface that it meets from the front looks away from the light.
+        all.push(Met { item, triangle: met.triangle, t: met.t, is_far_side: !met.from_behind, is_own });
     });
     all
 }

@@ -7,6 +7,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 use super::Map;
 use super::points::{Items, Placed};
+use super::raster::{At, Raster, Spot};
 use crate::geometry::rays::Ray;
 use crate::lights::Drawable;
 use crate::lights::projector::{Projector, Rays};
@@ -43,7 +44,13 @@ pub struct Texels<'a> {
     casts: Vec<bool>,
     projector: Projector,
     world_from_light: DMat4,
-    known: HashMap<[u32; 3], f64>,
+    /// The map's clip space.
+    map_from_light: DMat4,
+    clip_from_raster: DMat4,
+    /// The items by their places in the map.
+    raster: Raster,
+    /// Depths by level and place, as one number each.
+    known: HashMap<u64, f64>,
 }
 
 /// A layer that a texel's ray crosses.
@@ -60,16 +67,23 @@ impl<'a> Texels<'a> {
     pub fn new(items: &'a Items<'a>, map: &'a Map<'a>, projector: Projector) -> Self {
         let casters: HashSet<*const Drawable> = map.casters.iter().map(|caster| std::ptr::from_ref(*caster)).collect();
         let casts = |placed: &Placed<'_>| casters.contains(&std::ptr::from_ref(placed.item));
-        Self {
+        let raster_from_clip = raster_from_clip(map.settings);
+        let map_from_light = raster_from_clip * projector.crop.map_clip_from_light_clip() * projector.clip_from_light;
+        let mut texels = Self {
             items,
             settings: map.settings,
             stored: map.stored,
             offset: map.offset.polygon,
             casts: items.placed.iter().map(casts).collect(),
             world_from_light: projector.light_from_world.inverse(),
+            map_from_light,
+            clip_from_raster: raster_from_clip.inverse(),
+            raster: Raster::default(),
             projector,
             known: HashMap::new(),
-        }
+        };
+        texels.raster = items.raster(|point| texels.spot(point));
+        texels
     }
 
     pub fn projector(&self) -> &Projector {
@@ -90,16 +104,25 @@ impl<'a> Texels<'a> {
     /// Place where a point in light space is looked up, in texels of level 0 from a corner of the map, and its window
     /// depth.
     pub fn place(&self, light: DVec3) -> (DVec2, f64) {
-        let crop = raster_from_clip(self.settings) * self.projector.crop.map_clip_from_light_clip();
-        let clip = crop * self.projector.clip_from_light * light.extend(1.0);
+        let clip = self.map_from_light * light.extend(1.0);
         let ndc = clip.truncate() / clip.w;
         let size = f64::from(self.settings.size);
         ((0.5 + 0.5 * ndc.truncate()) * size, 0.5 + 0.5 * ndc.z)
     }
 
+    /// The place among the items of the light's ray through a point in world space.
+    pub fn at(&self, point: DVec3) -> Option<At<'_>> {
+        self.raster.at(&self.spot(point))
+    }
+
+    fn spot(&self, point: DVec3) -> Spot {
+        let light = self.projector.light_from_world.transform_point3(point);
+        Spot::new(self.map_from_light * light.extend(1.0), light.abs().max_element() + point.abs().max_element())
+    }
+
     /// The depth that a texel holds.
     pub fn depth(&mut self, level: u32, [x, y]: [u32; 2]) -> f64 {
-        let key = [level, x, y];
+        let key = u64::from(level) << 48 | u64::from(y) << 24 | u64::from(x);
         if let Some(depth) = self.known.get(&key) {
             return *depth;
         }
@@ -111,10 +134,15 @@ impl<'a> Texels<'a> {
     fn found(&self, level: u32, at: [u32; 2]) -> f64 {
         let center = DVec2::new(f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5);
         let ray = self.ray(level, center);
-        let layers = self.layers(&ray);
+        let layers = self.layers(&ray, center / f64::from(self.size(level)));
         let casting = || layers.iter().filter(|layer| layer.casts);
         // The depth test compares depths after the offset, and GL_DEPTH_CLAMP clamps those [GL 4.6, 14.6.5 and 17.3.4].
-        let moved = || casting().map(|layer| layer.depth + self.moved(level, center, layer)).fold(1.0, f64::min);
+        let moved = || {
+            casting().fold(1.0, |nearest, layer| match layer.depth + self.least_move(layer) < nearest {
+                true => f64::min(nearest, layer.depth + self.moved(level, center, layer)),
+                false => nearest,
+            })
+        };
         match self.stored {
             Stored::Nearest => moved(),
             Stored::Middle { margin, eye_linear, alone } => {
@@ -161,8 +189,7 @@ impl<'a> Texels<'a> {
     fn ray(&self, level: u32, place: DVec2) -> Ray {
         let clip = &self.projector.clip_from_light;
         let map = 2.0 * place / f64::from(self.size(level)) - 1.0;
-        let clip_from_raster = raster_from_clip(self.settings).inverse();
-        let map = clip_from_raster.transform_point3(map.extend(0.0)).truncate();
+        let map = self.clip_from_raster.transform_point3(map.extend(0.0)).truncate();
         let light = self.projector.crop.light_clip(map);
         let scale = DVec2::new(clip.x_axis.x, clip.y_axis.y);
         let (from, to) = match self.projector.rays {
@@ -180,8 +207,8 @@ impl<'a> Texels<'a> {
         Ray { origin: from, way: to - from, start: 1e-9, end: 1.0 }
     }
 
-    /// Layers that the ray crosses and the map draws, in no order.
-    fn layers(&self, ray: &Ray) -> Vec<Crossing> {
+    /// Layers that the ray through a place in [0, 1]² crosses and the map draws, in no order.
+    fn layers(&self, ray: &Ray, place: DVec2) -> Vec<Crossing> {
         let mut layers = Vec::new();
         let far_sides = match self.settings.cull {
             None => None,
@@ -191,14 +218,19 @@ impl<'a> Texels<'a> {
         let with_receivers = matches!(self.stored, Stored::Middle { .. });
         // Surfaces beyond the far plane are a second layer at depth 1.
         let ray = &Ray { end: if with_receivers { f64::MAX } else { 1.0 }, ..*ray };
-        self.items.crossings(ray, |item, met| {
-            let casts = self.casts[item];
-            // The ray runs away from the light: a surface that it meets from behind looks away from the light.
-            if (casts || with_receivers) && far_sides.is_none_or(|far| far == met.from_behind) {
-                let depth = self.depth_along(met.t);
-                layers.push(Crossing { depth, item, triangle: met.triangle, casts });
-            }
-        });
+        let at = Some(At { raster: &self.raster, place });
+        self.items.crossings(
+            ray,
+            at,
+            |item| with_receivers || self.casts[item],
+            |item, met| {
+                // The ray runs away from the light: a surface that it meets from behind looks away from the light.
+                if far_sides.is_none_or(|far| far == met.from_behind) {
+                    let depth = self.depth_along(met.t);
+                    layers.push(Crossing { depth, item, triangle: met.triangle, casts: self.casts[item] });
+                }
+            },
+        );
         layers
     }
 
@@ -206,6 +238,12 @@ impl<'a> Texels<'a> {
     fn depth_along(&self, t: f64) -> f64 {
         let start = if matches!(self.projector.rays, Rays::From { .. }) { 0.0 } else { self.distance(0.0) };
         self.depth_at(start + t * (self.distance(1.0) - start))
+    }
+
+    /// The least that the polygon offset may move a layer by: seen head-on for a factor above 0, edge-on below.
+    fn least_move(&self, layer: &Crossing) -> f64 {
+        let PolygonOffset { factor, units } = self.offset;
+        f64::from(factor.min(0.0)) + f64::from(units) * unit(self.settings.format, layer.depth)
     }
 
     /// Movement of a layer by the polygon offset, in window depth [GL 4.6, 14.6.5].

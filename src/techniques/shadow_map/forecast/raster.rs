@@ -1,0 +1,168 @@
+//! Items by their places in a picture or a map: all rays through one place meet the same few items.
+
+use glam::{DVec2, DVec3, DVec4};
+
+/// Greatest number of cells a side.
+const MOST_CELLS: usize = 128;
+
+/// Growth of each box's place, as a share of the raster: far more than rounding moves a place.
+const RIM: f64 = 1e-6;
+
+/// Depth below which a corner has no sure place, relative to the coordinates that it is found from.
+const LEAST_DEPTH: f64 = 1e-6;
+
+/// Boxes in a square of cells.
+#[derive(Default)]
+pub struct Raster {
+    /// Number of cells a side.
+    side: usize,
+    /// Boxes that cover some of each cell, row by row.
+    cells: Vec<Vec<Covering>>,
+    /// Boxes that have no place, as they reach behind the eye: rays through any place may meet them.
+    everywhere: Vec<u32>,
+}
+
+/// A box by its index, and the rectangle that it covers.
+#[derive(Clone, Copy)]
+struct Covering {
+    index: u32,
+    min: DVec2,
+    max: DVec2,
+}
+
+/// Place of a point in [0, 1]², its depth before the eye, and the greatest coordinate that these were found from.
+pub struct Spot {
+    pub place: DVec2,
+    pub depth: f64,
+    pub size: f64,
+}
+
+impl Spot {
+    /// The spot at a point of clip space.
+    pub fn new(clip: DVec4, size: f64) -> Self {
+        Self { place: 0.5 + 0.5 * clip.truncate().truncate() / clip.w, depth: clip.w, size }
+    }
+
+    /// Tests whether rounding leaves the place as it is.
+    fn is_sure(&self) -> bool {
+        self.place.is_finite() && self.depth > LEAST_DEPTH * self.size
+    }
+}
+
+/// A raster, and a place in it.
+#[derive(Clone, Copy)]
+pub struct At<'r> {
+    pub raster: &'r Raster,
+    pub place: DVec2,
+}
+
+impl Raster {
+    /// Sorts boxes, each by its corners, by where `spot` sees their corners.
+    pub fn new(boxes: impl ExactSizeIterator<Item = [DVec3; 8]>, spot: impl Fn(DVec3) -> Spot) -> Self {
+        let side = (2.0 * (boxes.len() as f64).sqrt()).ceil().clamp(1.0, MOST_CELLS as f64) as usize;
+        let mut raster = Self { side, cells: vec![Vec::new(); side * side], everywhere: Vec::new() };
+        for (index, corners) in boxes.enumerate() {
+            let index = index as u32;
+            let Some((min, max)) = rectangle(&corners, &spot) else {
+                raster.everywhere.push(index);
+                continue;
+            };
+            if max.cmplt(DVec2::ZERO).any() || min.cmpgt(DVec2::ONE).any() {
+                continue;
+            }
+            let [first, last] = [raster.cell(min), raster.cell(max)];
+            for y in first[1]..=last[1] {
+                for cell in &mut raster.cells[y * side + first[0]..=y * side + last[0]] {
+                    cell.push(Covering { index, min, max });
+                }
+            }
+        }
+        raster
+    }
+
+    /// The place of the ray through a spot. `None`: rounding may move it.
+    pub fn at(&self, spot: &Spot) -> Option<At<'_>> {
+        spot.is_sure().then_some(At { raster: self, place: spot.place })
+    }
+
+    /// The same for a ray through two points. `None`: rounding may move them, or has moved them apart.
+    pub fn at_both(&self, ends: [DVec3; 2], spot: impl Fn(DVec3) -> Spot) -> Option<At<'_>> {
+        let [near, far] = ends.map(spot);
+        let apart = (near.place - far.place).abs().max_element();
+        self.at(&near).filter(|_| far.is_sure() && apart < 0.25 * RIM)
+    }
+
+    /// Calls `look` with each box that a ray through `place` may meet, in no order. `None`: the place lies outside.
+    pub fn met(&self, place: DVec2, mut look: impl FnMut(u32)) -> Option<()> {
+        if !(place.cmpge(DVec2::ZERO).all() && place.cmple(DVec2::ONE).all()) {
+            return None;
+        }
+        let [x, y] = self.cell(place);
+        let covering = self.cells[y * self.side + x].iter();
+        let covering = covering.filter(|own| own.min.cmple(place).all() && own.max.cmpge(place).all());
+        covering.map(|own| own.index).chain(self.everywhere.iter().copied()).for_each(&mut look);
+        Some(())
+    }
+
+    fn cell(&self, place: DVec2) -> [usize; 2] {
+        // A cast takes numbers below 0 to 0.
+        (place * self.side as f64).to_array().map(|at| (at as usize).min(self.side - 1))
+    }
+}
+
+/// Rectangle that holds the places of a box; `None` if a corner lies behind the eye, or so near it that rounding decides.
+fn rectangle(corners: &[DVec3; 8], spot: &impl Fn(DVec3) -> Spot) -> Option<(DVec2, DVec2)> {
+    let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for corner in corners {
+        let spot = spot(*corner);
+        if !spot.is_sure() {
+            return None;
+        }
+        (min, max) = (min.min(spot.place), max.max(spot.place));
+    }
+    Some((min - RIM, max + RIM))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::rays::{Boxes, Ray};
+    use crate::math::Aabb;
+    use crate::math::spaces::perspective;
+
+    /// Every box that a ray of an eye meets is among those of its place, whether the boxes lie before the eye, around it or
+    /// behind it; and most others are not.
+    #[test]
+    fn no_box_on_a_ray_is_missed() {
+        let clip_from_view = perspective(1.2, 1.0, 0.1, 100.0);
+        let mut random = fastrand::Rng::with_seed(5);
+        let mut number = |least: f64, most: f64| least + (most - least) * random.f64();
+        let boxes: Vec<Aabb> = (0..500)
+            .map(|_| {
+                let center = DVec3::new(number(-20.0, 20.0), number(-20.0, 20.0), number(-40.0, 10.0));
+                let half = DVec3::new(number(0.0, 1.0), number(0.0, 1.0), number(0.0, 1.0)).powf(3.0) * 4.0;
+                Aabb { min: center - half, max: center + half }
+            })
+            .collect();
+        let spot = |point: DVec3| {
+            let clip = clip_from_view * point.extend(1.0);
+            Spot::new(clip, point.abs().max_element())
+        };
+        let raster = Raster::new(boxes.iter().map(Aabb::corners), spot);
+        let exact = Boxes::new(boxes.iter().map(|bounds| [bounds.min, bounds.max]));
+        let (mut met, mut looked_at) = (0, 0);
+        for _ in 0..5000 {
+            let place = DVec2::new(number(0.0, 1.0), number(0.0, 1.0));
+            let way = clip_from_view.inverse().project_point3((2.0 * place - 1.0).extend(0.5));
+            let mut near = Vec::new();
+            raster.met(place, |index| near.push(index)).unwrap();
+            exact.met(&Ray { origin: DVec3::ZERO, way, start: 0.0, end: f64::MAX }, |index| {
+                assert!(near.contains(&index), "box {index}: {:?} at {place}", boxes[index as usize]);
+                met += 1;
+            });
+            looked_at += near.len();
+        }
+        assert!(met > 10_000 && looked_at < 4 * met, "{met} met, {looked_at} looked at");
+        assert_eq!(raster.met(DVec2::new(1.1, 0.5), |_| {}), None);
+    }
+}
