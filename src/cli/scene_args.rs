@@ -45,7 +45,7 @@ impl SceneArgs {
     /// Loads the scene and prints its warnings.
     pub fn load(&self) -> Result<Loaded, Error> {
         self.check()?;
-        let loaded = scene::load(&self.scene, &self.overrides())?;
+        let loaded = crate::load(&self.scene, &self.overrides())?;
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));
         }

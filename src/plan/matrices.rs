@@ -6,8 +6,7 @@ use std::fmt::Write;
 use glam::{DMat4, DVec3, DVec4};
 
 use super::Plan;
-use super::pictures::PlannedLight;
-use crate::lights::Coordinates;
+use crate::lights::{Coordinates, LightTerm};
 use crate::math::texgen::{self, SetUp, Split, Texgen};
 use crate::pass::{Batch, UniformValue, Work};
 use crate::scene::Scene;
@@ -39,14 +38,15 @@ const SET_UPS: [(SetUp, &str); 4] =
     [(SetUp::Eye, "eye"), (SetUp::World, "world"), (SetUp::Light, "light"), (SetUp::Identity, "identity")];
 
 impl Matrices {
-    pub(super) fn new(scene: &Scene, planned: &[PlannedLight]) -> Self {
-        let lights = planned.iter().filter(|light| light.is_drawn).filter_map(|light| {
-            let source = scene.lights.get(light.term.index)?;
+    /// Matrices of the lights that have a term in `terms`.
+    pub(super) fn new<'t>(scene: &Scene, terms: impl Iterator<Item = &'t LightTerm>) -> Self {
+        let lights = terms.filter_map(|term| {
+            let source = scene.lights.get(term.index)?;
             Some(LightMatrices {
-                index: light.term.index,
+                index: term.index,
                 name: source.name.clone(),
                 kind: source.kind.name(),
-                coordinates: light.term.coordinates.clone(),
+                coordinates: term.coordinates.clone(),
             })
         });
         Self { eye_from_world: scene.camera.view_from_world(), moved: DVec3::ZERO, lights: lights.collect() }

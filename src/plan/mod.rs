@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::compositions;
 use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
-use crate::scene::{Scene, SettingsError};
+use crate::scene::Scene;
 pub use crate::views::View;
 
 /// A request for a frame.
@@ -107,8 +107,10 @@ pub struct Plan {
 /// Reason why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
+    #[error(
+        "light {light}: its [light.shadow] was not read by glumbra's techniques: load the scene with glumbra::load, or read the table with techniques::read"
+    )]
+    Unread { light: usize },
     #[error(transparent)]
     Composition(#[from] compositions::Error),
     #[error("--aov {view}: the scene has {count} light{}", if *.count == 1 { "" } else { "s" })]
@@ -133,8 +135,7 @@ pub enum Error {
 ///
 /// # Errors
 ///
-/// A technique's key with a wrong value, a view of a light or map that is not there, an image beyond the driver's
-/// limits.
+/// Lights that cannot be drawn together, a view of a light or map that is not there, an image beyond the driver's limits.
 pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let near = scene.brought_near();
     let mut plan = compose::compose(near.as_ref().unwrap_or(scene), request)?;

@@ -5,7 +5,7 @@ use glumbra::frame::Renderer;
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::report::measure::run::draw_shade;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::stress::{Judge, RowSettings, random};
 use glumbra::truth;
 
@@ -15,7 +15,7 @@ fn loaded(rest: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{camera}{rest}")).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// README's objects, under a spotlight.

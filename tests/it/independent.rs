@@ -8,7 +8,6 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::report::measure::run::draw_shade;
-use glumbra::scene;
 use glumbra::views::View;
 
 use crate::support::random::Random;
@@ -226,7 +225,7 @@ fn wrong(world: &World, shadow: &str, renderer: &mut Renderer) -> Option<(f64, b
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, world.to_toml(shadow)).unwrap();
-    let scene = scene::load(&path, &[]).unwrap().scene;
+    let scene = glumbra::load(&path, &[]).unwrap().scene;
     let request = Request { views: vec![ViewRequest { view: View::Shade, light: 0 }], ..Request::default() };
     let plan = renderer.plan(&scene, &request).ok()?;
     let shade = draw_shade(&scene, 0, renderer).unwrap();

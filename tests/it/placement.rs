@@ -10,7 +10,7 @@ use glumbra::fixed_function::FixedFunction;
 use glumbra::frame::Renderer;
 use glumbra::plan::Request;
 use glumbra::report::measure::run::draw_shade;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth::{self, Answer};
 
 /// Texels of all colours, 8 by 8; green tells a disc off centre from its surroundings.
@@ -37,7 +37,7 @@ fn scene(options: &str, scale: [f64; 2], offset: [f64; 2]) -> Scene {
                 [[object]]\nmesh = \"a.obj\"\n[[object]]\nmesh = \"quad\"\nscale = 4.0\n";
     let path = folder.path().join("scene.toml");
     fs::write(&path, text).unwrap();
-    let loaded = scene::load(&path, &[String::from("shading.lighting=per-vertex")]).unwrap();
+    let loaded = glumbra::load(&path, &[String::from("shading.lighting=per-vertex")]).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     loaded.scene
 }
