@@ -2,7 +2,7 @@
 //!
 //! A frame's way through the library:
 //!
-//! 1. [`scene::load`] resolves a file (TOML or OBJ) to a [`scene::Scene`]: plain values, no GL.
+//! 1. [`load`] resolves a file (TOML or OBJ) to a [`scene::Scene`]: plain values, no GL.
 //! 2. [`plan::make`] calls each light's technique ([`techniques::TABLE`]) to describe its passes,
 //! 3. adds the lit pass, and leaves out what this scene cannot show; a [`plan::Plan`] says what, and why.
 //! 4. Its [`pass::PassList`] is data: images, draw state, shader variants, draws. It can be printed and compared.
@@ -17,10 +17,10 @@
 //! Draws a scene and writes the picture:
 //!
 //! ```
-//! use glumbra::{context, frame::Renderer, output, scene};
+//! use glumbra::{context, frame::Renderer, output};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &[])?.scene;
+//! let scene = glumbra::load("data/cases/scenes/box.toml".as_ref(), &[])?.scene;
 //! let context = context::open(&Default::default())?;
 //! let mut renderer = Renderer::new(&context);
 //! let plan = renderer.plan(&scene, &Default::default())?;
@@ -36,11 +36,11 @@
 //! Tests a picture's shadow, pixel by pixel, against exact visibility:
 //!
 //! ```
-//! use glumbra::{context, device::Pixels, frame::Renderer, plan, scene, truth};
+//! use glumbra::{context, device::Pixels, frame::Renderer, plan, truth};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let size = ["light.shadow.size=1024".to_owned()];
-//! let scene = scene::load("data/cases/scenes/box.toml".as_ref(), &size)?.scene;
+//! let scene = glumbra::load("data/cases/scenes/box.toml".as_ref(), &size)?.scene;
 //! let context = context::open(&Default::default())?;
 //! let mut renderer = Renderer::new(&context);
 //!
@@ -116,3 +116,6 @@ pub mod truth;
 pub mod viewer;
 #[doc(hidden)]
 pub mod views;
+
+#[doc(inline)]
+pub use techniques::{load, load_embedded};

@@ -14,7 +14,7 @@ use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output::{self, Output};
 use crate::plan::Request;
-use crate::scene::{self, Embedded, Scene};
+use crate::scene::{Embedded, Scene};
 use crate::viewer::{self, Mode, Shown, State};
 
 /// A sample program.
@@ -127,11 +127,11 @@ pub fn run(sample: &Sample) -> ExitCode {
 fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     let file = arguments.output.as_ref().or(arguments.capture.as_ref());
     file.map(|path| output::check_path(path)).transpose()?;
-    let loaded = scene::load_embedded(&sample.scene, &arguments.overrides(sample))?;
+    let loaded = crate::techniques::load_embedded(&sample.scene, &arguments.overrides(sample))?;
     for warning in &loaded.warnings {
         super::say(format_args!("warning: {warning}"));
     }
-    // Errors are reported in every mode, and before there is a context: the scene's own keys, then the mode's frame.
+    // Errors are reported in every mode, and before there is a context: the frame with shadows, then the mode's.
     crate::plan::make(&loaded.scene, &Request { sampled_warnings: false, ..Request::default() })?;
     let mode = Mode::from(arguments.mode);
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);

@@ -54,7 +54,7 @@ impl SceneArgs {
     /// Loads the scene and prints its warnings.
     pub fn load(&self) -> Result<Loaded, Error> {
         self.changes.check(&self.scene)?;
-        let loaded = scene::load(&self.scene, &self.changes.overrides())?;
+        let loaded = crate::load(&self.scene, &self.changes.overrides())?;
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));
         }

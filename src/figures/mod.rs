@@ -80,7 +80,7 @@ impl Figure {
     /// An override that does not fit the scene.
     pub fn scene_of(&self, panel: &Panel) -> Result<Scene, Error> {
         let overrides: Vec<String> = panel.set.iter().map(|text| (*text).to_owned()).collect();
-        Ok(scene::load_embedded(&self.scene, &overrides)?.scene)
+        Ok(crate::techniques::load_embedded(&self.scene, &overrides)?.scene)
     }
 
     /// Draws the sheet; `tick` is called once a panel.

@@ -39,8 +39,8 @@ impl Unseen {
     /// Tests whether `item` and all that it can shadow lie outside the camera's frustum.
     pub fn shadow_of(&self, item: &Drawable) -> bool {
         let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
-        let Some(end) = self.end_of_shadow(&corners) else { return false };
-        let ends = corners.map(|corner| corner + end * self.way(corner));
+        let Some(end) = end_of_shadow(self.rays, &self.scene_bounds, &corners) else { return false };
+        let ends = corners.map(|corner| corner + end * way(self.rays, corner));
         self.camera_planes.iter().any(|plane| {
             corners.iter().chain(&ends).all(|point| {
                 let reach = self.reach_at(*point);
@@ -51,14 +51,6 @@ impl Unseen {
         })
     }
 
-    /// Vector along the ray through a point, of any length.
-    fn way(&self, point: DVec3) -> DVec3 {
-        match self.rays {
-            Rays::From { position, .. } => point - position,
-            Rays::Along(direction) => direction,
-        }
-    }
-
     fn reach_at(&self, point: DVec3) -> f64 {
         match self.rays {
             Rays::From { position, .. } => self.reach * point.distance(position),
@@ -66,27 +58,37 @@ impl Unseen {
         }
     }
 
-    /// Tests whether `item` is flat and nothing lies behind it: it cannot shadow itself.
+    /// As [`shadows_nothing`], for this light.
     pub fn shadows_nothing(&self, item: &Drawable) -> bool {
-        let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
-        let is_flat = item.bounds.flat_axis().is_some();
-        is_flat && self.end_of_shadow(&corners).is_some_and(|end| end <= 1e-9)
+        shadows_nothing(self.rays, &self.scene_bounds, item)
     }
+}
 
-    /// The least t by which all corners have crossed some face of the scene's bounds; `None` if there is none.
-    fn end_of_shadow(&self, corners: &[DVec3; 8]) -> Option<f64> {
-        let time = |corner: &DVec3, axis: usize, bound: f64, sign: f64| {
-            let speed = sign * self.way(*corner)[axis];
-            (speed > 0.0).then(|| (sign * (bound - corner[axis]) / speed).max(0.0))
-        };
-        let faces = (0..3)
-            .flat_map(|axis| [(axis, self.scene_bounds.max[axis], 1.0), (axis, self.scene_bounds.min[axis], -1.0)]);
-        let ends = faces.filter_map(|(axis, bound, sign)| {
-            corners
-                .iter()
-                .map(|corner| time(corner, axis, bound, sign))
-                .try_fold(0.0, |end: f64, t| t.map(|t| end.max(t)))
-        });
-        ends.min_by(f64::total_cmp).filter(|end| end.is_finite())
+/// Tests whether `item` is flat and nothing within the bounds of a scene, in world space, lies behind it: it cannot shadow
+/// itself.
+pub fn shadows_nothing(rays: Rays, scene_bounds: &Aabb, item: &Drawable) -> bool {
+    let corners = item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner));
+    let is_flat = item.bounds.flat_axis().is_some();
+    is_flat && end_of_shadow(rays, scene_bounds, &corners).is_some_and(|end| end <= 1e-9)
+}
+
+/// Vector along the ray through a point, of any length.
+fn way(rays: Rays, point: DVec3) -> DVec3 {
+    match rays {
+        Rays::From { position, .. } => point - position,
+        Rays::Along(direction) => direction,
     }
+}
+
+/// The least t by which all corners have crossed some face of the scene's bounds; `None` if there is none.
+fn end_of_shadow(rays: Rays, bounds: &Aabb, corners: &[DVec3; 8]) -> Option<f64> {
+    let time = |corner: &DVec3, axis: usize, bound: f64, sign: f64| {
+        let speed = sign * way(rays, *corner)[axis];
+        (speed > 0.0).then(|| (sign * (bound - corner[axis]) / speed).max(0.0))
+    };
+    let faces = (0..3).flat_map(|axis| [(axis, bounds.max[axis], 1.0), (axis, bounds.min[axis], -1.0)]);
+    let ends = faces.filter_map(|(axis, bound, sign)| {
+        corners.iter().map(|corner| time(corner, axis, bound, sign)).try_fold(0.0, |end: f64, t| t.map(|t| end.max(t)))
+    });
+    ends.min_by(f64::total_cmp).filter(|end| end.is_finite())
 }

@@ -12,7 +12,7 @@ use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
     IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 
 /// A range of triangles with one material and one transform.
 #[derive(Clone, Debug)]
@@ -34,12 +34,17 @@ pub struct Drawable {
     pub closed: bool,
 }
 
-/// The scene's items, in its order. Successive parts of a mesh with one material are one item. Parts that the alpha test
-/// would discard completely are left out. With `moved`, which keeps moved meshes, vertices that a wave moves are moved already.
+/// The scene's items: see [`items_of`].
 pub fn items(scene: &Scene, moved: Option<&Derived>) -> Vec<Drawable> {
+    items_of(&scene.objects, moved)
+}
+
+/// The objects' items, in their order. Successive parts of a mesh with one material are one item. Parts that the alpha test
+/// would discard completely are left out. With `moved`, which keeps moved meshes, vertices that a wave moves are moved already.
+pub fn items_of(objects: &[Object], moved: Option<&Derived>) -> Vec<Drawable> {
     let mut materials = Materials::default();
     let mut items: Vec<Drawable> = Vec::new();
-    for (index, object) in scene.objects.iter().enumerate() {
+    for (index, object) in objects.iter().enumerate() {
         let (mesh, wave) = match (object.wave, moved) {
             (Some(wave), Some(derived)) => (wave.moved_once(&object.mesh, derived), None),
             (wave, _) => (object.mesh.clone(), wave),

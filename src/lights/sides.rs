@@ -54,7 +54,6 @@ mod tests {
     use super::*;
     use crate::lights::drawable::items;
     use crate::math::spaces::view_from_world;
-    use crate::scene;
 
     #[test]
     fn normals_face_an_eye_on_their_side_alone() {
@@ -62,7 +61,7 @@ mod tests {
         let path = folder.path().join("scene.toml");
         let faces = |object: &str, eye: DVec3| {
             std::fs::write(&path, format!("[[object]]\n{object}\n")).unwrap();
-            let scene = scene::load(Path::new(&path), &[]).unwrap().scene;
+            let scene = crate::techniques::load(Path::new(&path), &[]).unwrap().scene;
             let item = &items(&scene, None)[0];
             let view = view_from_world(eye, DVec3::ZERO, DVec3::new(0.1, 0.7, 0.5));
             normals_face_eye(item, &(view * item.world_from_model))

@@ -14,11 +14,11 @@ use crate::math::frustum::{self, Overlap};
 use crate::pass::PassList;
 use crate::scene::{Light, Scene};
 use crate::surfaces;
-use crate::techniques::{self, LightShadow};
+use crate::techniques::LightShadow;
 
 /// The unpruned plan.
 pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Plan, Error> {
-    let shadows = techniques::read(scene)?;
+    let shadows = shadows(scene)?;
     let moved = shadows.iter().any(|shadow| shadow.technique.needs_vertices());
     let items = items(scene, moved.then_some(derived));
     let mut list = PassList::default();
@@ -39,8 +39,9 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         keep_all: request.keep_all,
         sampled_warnings: request.sampled_warnings,
     };
-    let terms = light_terms(&shadows, &view, request, &mut list, &mut notes)?;
-    let counts = terms.iter().filter_map(|light| light.term.counting.as_ref());
+    let lights = planned_lights(&shadows, &view, request, &mut list, &mut notes);
+    let terms = || lights.iter().filter_map(|light| light.term.as_ref());
+    let counts = terms().filter_map(|term| term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
     let kept = counts.flat_map(|counting| counting.casters.iter().copied()).collect();
     let passes = Passes {
@@ -57,29 +58,34 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     };
     let mut pictures = Pictures { passes, request };
     let buffers = match request.subject {
-        Subject::Camera => pictures.of_camera(&terms)?,
+        Subject::Camera => pictures.of_camera(&lights)?,
         Subject::Light(index) => pictures.of_light(index)?,
     };
     let mut views = Vec::new();
     for wanted in &request.views {
-        let image = pictures.view(wanted, &terms, buffers)?;
+        let image = pictures.view(wanted, &lights, buffers)?;
         views.push((*wanted, image));
     }
-    let maps = terms.iter().filter(|light| light.is_drawn).filter_map(|light| light.term.map_info).collect();
+    let maps = terms().filter_map(|term| term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    let matrices = Matrices::new(scene, &terms);
+    let matrices = Matrices::new(scene, terms());
     Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps, matrices })
 }
 
-/// Describes every light that reaches something visible or that a view shows. Every light's keys are read, so that
-/// errors do not depend on where the camera looks. `any`: the view of any light.
-fn light_terms(
-    shadows: &[LightShadow],
+/// The lights' shadow settings, in the scene's order.
+fn shadows(scene: &Scene) -> Result<Vec<&LightShadow>, Error> {
+    let lights = scene.lights.iter().enumerate();
+    lights.map(|(light, source)| LightShadow::of(&source.shadow).ok_or(Error::Unread { light })).collect()
+}
+
+/// Describes every light that reaches something visible or that a view shows, and no other. `any`: the view of any light.
+fn planned_lights(
+    shadows: &[&LightShadow],
     any: &LightView<'_>,
     request: &Request,
     list: &mut PassList,
     notes: &mut Notes,
-) -> Result<Vec<PlannedLight>, Error> {
+) -> Vec<PlannedLight> {
     let mut planned = Vec::new();
     for (index, shadow) in shadows.iter().enumerate() {
         let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
@@ -88,22 +94,18 @@ fn light_terms(
         // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
         let view = LightView { index, shown_whole, ..*any };
-        let absent = why_absent(&view).filter(|_| !view.keep_all);
-        let (mut spare_list, mut spare_notes) = (PassList::default(), Notes::default());
-        let mut term = if absent.is_none() || shown {
-            shadow.settings.describe(&view, list, notes)?
-        } else {
-            shadow.settings.describe(&view, &mut spare_list, &mut spare_notes)?
-        };
-        if view.keep_all && term.guard == Guard::Auto {
+        let keep_all = view.keep_all;
+        let absent = why_absent(&view).filter(|_| !keep_all);
+        let mut term = (absent.is_none() || shown).then(|| shadow.describe(&view, list, notes));
+        if let Some(term) = term.as_mut().filter(|term| keep_all && term.guard == Guard::Auto) {
             term.guard = Guard::Fragment;
         }
         if let Some(why) = absent {
             notes.left_out(format!("light {index}"), why);
         }
-        planned.push(PlannedLight { term, contributes: absent.is_none(), is_drawn: absent.is_none() || shown });
+        planned.push(PlannedLight { term, contributes: absent.is_none() });
     }
-    Ok(planned)
+    planned
 }
 
 /// Reason why a light adds nothing to the picture, if there is one.

@@ -6,9 +6,8 @@ use std::fmt::Write;
 use glam::{DMat4, DVec3, DVec4};
 
 use super::Plan;
-use super::pictures::PlannedLight;
 use crate::lights::projector::{Projector, face_frustum};
-use crate::lights::{Coordinates, MapShape};
+use crate::lights::{Coordinates, LightTerm, MapShape};
 use crate::math::texgen::{self, SetUp, Split, Texgen};
 use crate::pass::{Batch, CubeFace, UniformValue, Work};
 use crate::scene::{LightKind, Scene};
@@ -54,15 +53,16 @@ const SET_UPS: [(SetUp, &str); 4] =
     [(SetUp::Eye, "eye"), (SetUp::World, "world"), (SetUp::Light, "light"), (SetUp::Identity, "identity")];
 
 impl Matrices {
-    pub(super) fn new(scene: &Scene, planned: &[PlannedLight]) -> Self {
-        let lights = planned.iter().filter(|light| light.is_drawn).filter_map(|light| {
-            let source = scene.lights.get(light.term.index)?;
+    /// Matrices of the lights that have a term in `terms`.
+    pub(super) fn new<'t>(scene: &Scene, terms: impl Iterator<Item = &'t LightTerm>) -> Self {
+        let lights = terms.filter_map(|term| {
+            let source = scene.lights.get(term.index)?;
             Some(LightMatrices {
-                index: light.term.index,
+                index: term.index,
                 name: source.name.clone(),
                 kind: source.kind.name(),
-                coordinates: light.term.coordinates.clone(),
-                faces: light.term.map_info.map_or_else(Vec::new, |map| faces(&source.kind, map.shape)),
+                coordinates: term.coordinates.clone(),
+                faces: term.map_info.map_or_else(Vec::new, |map| faces(&source.kind, map.shape)),
             })
         });
         Self { eye_from_world: scene.camera.view_from_world(), moved: DVec3::ZERO, lights: lights.collect() }

@@ -16,7 +16,7 @@ use crate::compositions;
 use crate::geometry::Derived;
 use crate::lights::{Chosen, LeftOut, MapInfo};
 use crate::pass::{Format, ImageId, PassList};
-use crate::scene::{Scene, SettingsError};
+use crate::scene::Scene;
 pub use crate::views::View;
 
 /// A request for a frame.
@@ -115,9 +115,14 @@ pub struct Plan {
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
-    /// A key of a light or of the scene has a wrong value.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
+    /// A light's shadow settings are raw: the scene was loaded without techniques.
+    #[error(
+        "light {light}: its [light.shadow] was not read by glumbra's techniques: load the scene with glumbra::load, or read the table with techniques::read"
+    )]
+    Unread {
+        /// Index into the scene's lights.
+        light: usize,
+    },
     /// The lights cannot be joined into passes.
     #[error(transparent)]
     Composition(#[from] compositions::Error),
@@ -150,8 +155,7 @@ pub enum Error {
 ///
 /// # Errors
 ///
-/// A technique's key with a wrong value, a view of a light or map that is not there, an image beyond the driver's
-/// limits.
+/// Lights that cannot be drawn together, a view of a light or map that is not there, an image beyond the driver's limits.
 pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     make_with(scene, request, &Derived::default())
 }

@@ -14,10 +14,9 @@ use crate::views::{self, View, frustum_lines};
 
 /// A light's term, and whether the picture needs it.
 pub struct PlannedLight {
-    pub term: LightTerm,
+    /// `None`: neither the picture nor a view needs the light, which is not described then.
+    pub term: Option<LightTerm>,
     pub contributes: bool,
-    /// True if the picture or a view needs it.
-    pub is_drawn: bool,
 }
 
 /// The passes of a frame's pictures.
@@ -29,7 +28,7 @@ pub struct Pictures<'a> {
 impl Pictures<'_> {
     /// The picture from the camera: the surfaces in the light of all that contribute, then the frusta's lines over them.
     pub fn of_camera(&mut self, lights: &[PlannedLight]) -> Result<Buffers, Error> {
-        let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).map(|l| &l.term).collect();
+        let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).filter_map(|l| l.term.as_ref()).collect();
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = CameraProjection::for_counts(self.passes.scene, counts);
         let composition = compositions::chosen(&terms)?;
@@ -94,7 +93,8 @@ impl Pictures<'_> {
         if view == View::Depth {
             return Ok(picture.depth);
         }
-        let Some(PlannedLight { term, .. }) = lights.get(wanted.light) else {
+        // A light that a view shows is described.
+        let Some(term) = lights.get(wanted.light).and_then(|light| light.term.as_ref()) else {
             return Err(Error::NoSuchLight { view: format!("{name}@{}", wanted.light), count: lights.len() });
         };
         if view.needs_map() && term.map.is_none() {

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use super::{Plan, Request, ViewRequest, make};
 use crate::pass::{Blend, Compare, DepthFormat, DrawPass, Format, Work};
-use crate::scene;
+use crate::techniques;
 use crate::views::View;
 
 fn plan(scene: &str, set: &[&str]) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(scene);
     let set: Vec<String> = set.iter().map(|key| format!("light.shadow.{key}")).collect();
     let views = vec![ViewRequest { view: View::Shade, light: 0 }];
-    make(&scene::load(&path, &set).unwrap().scene, &Request { views, ..Request::default() }).unwrap()
+    make(&techniques::load(&path, &set).unwrap().scene, &Request { views, ..Request::default() }).unwrap()
 }
 
 /// The passes that draw, with their labels.

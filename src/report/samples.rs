@@ -87,11 +87,13 @@ fn keys(size: u32, filter: &str, factor: &str) -> Vec<(String, String)> {
 
 fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
     let has = |key: &str, text: &str| settings.iter().any(|(k, v)| k == key && v.contains(text));
-    let size = settings.iter().find(|(key, _)| key == "size").and_then(|(_, value)| value.parse().ok()).unwrap_or(0.0);
+    let size: f64 =
+        settings.iter().find(|(key, _)| key == "size").and_then(|(_, value)| value.parse().ok()).unwrap_or(0.0);
+    let map_size = (size > 0.0).then_some(size as u32);
     let (wrong, time) = match technique {
         "broken" => {
             let why = "framebuffer incomplete: 16384 > GL_MAX_TEXTURE_SIZE".to_owned();
-            return Row { index, technique: technique.to_owned(), settings, outcome: Outcome::Failed(why) };
+            return Row { index, technique: technique.to_owned(), settings, map_size, outcome: Outcome::Failed(why) };
         }
         "exact" => (0.0, 96.0),
         "unshadowed" => (24.1, 3.9),
@@ -122,7 +124,7 @@ fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
         }],
         warnings: if index == 0 { vec!["1 caster is cut by the near plane".to_owned()] } else { Vec::new() },
     };
-    Row { index, technique: technique.to_owned(), settings, outcome: Outcome::Measured(Box::new(measured)) }
+    Row { index, technique: technique.to_owned(), settings, map_size, outcome: Outcome::Measured(Box::new(measured)) }
 }
 
 fn pass(label: &str, ms: f64, has_gpu: bool) -> PassCost {

@@ -261,7 +261,8 @@ mod tests {
             model.set("translate", vector(bounds.center()));
             model.set("scale", vector(half));
         }
-        let scene = resolve::scene(&root, &mut Assets::default()).unwrap_or_else(|error| panic!("{error}"));
+        let scene = resolve::scene(&root, &mut Assets::default(), &crate::techniques::Techniques)
+            .unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(scene.lights.len(), 1);
         scene
     }

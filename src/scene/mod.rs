@@ -13,6 +13,7 @@ mod print;
 mod ranges;
 mod resolve;
 mod settings;
+mod shadow;
 mod sight;
 mod views;
 
@@ -25,6 +26,7 @@ pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Po
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;
 pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};
+pub use shadow::{ReadShadow, Shadow};
 pub use views::with_shadow;
 
 use crate::math::Aabb;
@@ -55,20 +57,29 @@ pub struct Embedded {
 }
 
 /// Loads a scene that is part of the program; otherwise as [`load`].
-pub fn load_embedded(embedded: &Embedded, overrides: &[String]) -> Result<Loaded, Error> {
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::with_pictures(embedded.pictures);
     let mut root = parse::document(Path::new(embedded.path), embedded.text)?;
     overrides::apply(&mut root, overrides)?;
-    let scene = resolve::scene(&root, &mut assets)?;
+    let scene = resolve::scene(&root, &mut assets, shadows)?;
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
 /// Loads a scene (.toml) or a model (.obj) with a scene supplied around it. `overrides` are the texts of `--set`,
-/// `a.b.c=value`, applied in order.
-pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, Error> {
+/// `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
+/// techniques read it.
+///
+/// # Errors
+///
+/// A file that cannot be read, or a key or value that is wrong, with file and line.
+pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::default();
     let root = settings_of(path, overrides, &mut assets)?;
-    let scene = resolve::scene(&root, &mut assets)?;
+    let scene = resolve::scene(&root, &mut assets, shadows)?;
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use super::Settings;
+use super::Shadow;
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
@@ -85,8 +85,8 @@ pub struct Light {
     pub specular: [f32; 3],
     /// Name as written, or `light 0` by its place in the file.
     pub name: String,
-    /// `[light.shadow]` as written; the technique that it names reads it. Empty: no shadow.
-    pub shadow: Settings,
+    /// `[light.shadow]`, as written and as its technique has read it.
+    pub shadow: Shadow,
 }
 
 /// Kind of a light, with the values that only this kind has.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DMat4, DVec3};
 
-use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Settings, Spot};
+use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Shadow, Spot};
 use crate::math::{Aabb, spaces};
 
 /// Ratio of distance from the world's origin to size from which a scene is moved.
@@ -151,10 +151,10 @@ impl Object {
 }
 
 /// `scene` with `[light.shadow]` of one light replaced.
-pub fn with_shadow(scene: &Scene, light: usize, settings: &Settings) -> Scene {
+pub fn with_shadow(scene: &Scene, light: usize, shadow: &Shadow) -> Scene {
     let mut scene = scene.clone();
     if let Some(light) = scene.lights.get_mut(light) {
-        light.shadow = settings.clone();
+        light.shadow = shadow.clone();
     }
     scene
 }

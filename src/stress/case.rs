@@ -98,7 +98,7 @@ impl Case {
     ///
     /// Reason why the scene is refused, or a file cannot be written, as a sentence.
     pub fn load(&self, folder: &Path) -> Result<Loaded, String> {
-        scene::load(&self.write(folder)?, &[]).map_err(|error| error.to_string())
+        crate::techniques::load(&self.write(folder)?, &[]).map_err(|error| error.to_string())
     }
 }
 

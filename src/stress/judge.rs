@@ -30,7 +30,8 @@ use crate::lights::map::Bias;
 use crate::lights::{MapInfo, MapShape};
 use crate::pass::{DepthFormat, Face};
 use crate::plan::{Plan, Request, ViewRequest};
-use crate::scene::{self, LightKind, LightShape, Scene, with_shadow};
+use crate::scene::{LightKind, LightShape, Scene, with_shadow};
+use crate::techniques;
 use crate::truth::{self, Answer, Around, Blocker, Hit, Nearer, Surroundings, Truth};
 use crate::views::View;
 
@@ -81,7 +82,7 @@ impl<'a> Judge<'a> {
 
     /// The truth that rows of these settings are compared with.
     pub fn truth_of(&self, settings: &RowSettings) -> &Truth {
-        if is_volume(settings) { &self.volume_truth } else { &self.truth }
+        if settings.is_exact() { &self.volume_truth } else { &self.truth }
     }
 
     /// Draws the light under `settings` and says how far from the truth it is.
@@ -139,16 +140,15 @@ impl<'a> Judge<'a> {
         renderer: &mut Renderer,
     ) -> Result<(Plan, ShadeImage), Failure> {
         let refused = |error: &dyn std::fmt::Display| Failure::Refused(error.to_string());
-        let shadow = scene::shadow_settings(&settings.to_inline()).map_err(|error| refused(&error))?;
-        let scene = with_shadow(scene, self.light, &shadow);
+        let scene = techniques::with_keys(scene, self.light, &settings.to_inline()).map_err(|error| refused(&error))?;
         let (plan, picture, shade) = self.frame(&scene, renderer)?;
         let mut seen = ShadeImage::of_view(scene.image.size, &shade);
         let channel = |texels: &[f32], channel: usize| -> Vec<f32> {
             texels.chunks_exact(4).map(|texel| texel[channel]).collect()
         };
         if settings.pictured {
-            let none = scene::shadow_settings("technique = \"none\"").map_err(|error| refused(&error))?;
-            let (_, unshadowed, _) = self.frame(&with_shadow(&scene, self.light, &none), renderer)?;
+            let bare = with_shadow(&scene, self.light, &techniques::unshadowed());
+            let (_, unshadowed, _) = self.frame(&bare, renderer)?;
             let seen_shade = |pair| seen_shade(pair).clamp(0.0, 1.0);
             seen.shade = channel(&picture, 0).into_iter().zip(channel(&unshadowed, 0)).map(seen_shade).collect();
         }
@@ -175,7 +175,7 @@ impl<'a> Judge<'a> {
     }
 
     fn compare(&mut self, settings: &RowSettings, plan: &Plan, shade: &ShadeImage) -> Counts {
-        let is_volume = is_volume(settings);
+        let is_exact = settings.is_exact();
         let map = plan.maps.iter().find(|map| map.light == self.light).copied();
         let mut counts = Counts::default();
         for index in 0..self.truth.pixels.len() {
@@ -204,7 +204,7 @@ impl<'a> Judge<'a> {
                 _ => continue,
             };
             let faces = pixel.hit.is_some_and(|hit| hit.faces_light());
-            if !(faces || is_volume) || shade.shade[index].is_nan() {
+            if !(faces || is_exact) || shade.shade[index].is_nan() {
                 continue;
             }
             counts.compared += 1;
@@ -212,7 +212,7 @@ impl<'a> Judge<'a> {
                 continue;
             }
             counts.wrong += 1;
-            let is_explained = !is_volume && map.is_some_and(|map| self.accounts_for(index, should_be_lit, &map));
+            let is_explained = !is_exact && map.is_some_and(|map| self.accounts_for(index, should_be_lit, &map));
             if !is_explained {
                 counts.beyond.push(index);
             }
@@ -267,11 +267,6 @@ impl<'a> Judge<'a> {
         let mut held = around.blockers.iter().filter(|blocker| holds(map, blocker)).peekable();
         held.peek().is_some() && held.all(|blocker| blocker.gap <= bias_reach(map, around, blocker))
     }
-}
-
-/// Counted in the stencil buffer, without texels to be wrong by.
-fn is_volume(settings: &RowSettings) -> bool {
-    settings.technique == "shadow-volume"
 }
 
 /// The scene in the light of one lamp alone: white, without ambient light, highlights, image or attenuation, on white

@@ -8,18 +8,33 @@
 //! 3. A case folder of the same name under `data/cases/`.
 //!
 //! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
+//!
+//! `[light.shadow]` is read once, when a scene is loaded: first [`CommonKeys`], which every light has, then the technique's
+//! own keys, into a type of its own that implements [`ShadowSettings`]. A wrong key, also of a light that is never drawn,
+//! is an error of loading, with file and line. A plan then describes the lights that it draws, which cannot fail.
 
+pub mod change;
 pub mod claims;
+mod common;
 mod midpoint;
 mod none;
+mod read;
 mod second_depth;
 mod shadow_map;
 mod shadow_volume;
+mod stencil_guard;
+pub mod vary;
 
+use self::change::Change;
 use self::claims::Claim;
+pub use self::common::CommonKeys;
+pub use self::read::{
+    LightShadow, Techniques, keys, load, load_embedded, map_size, read, read_text, unshadowed, with_keys,
+};
+pub use self::shadow_map::settings::{DEFAULT_SIZE as DEFAULT_MAP_SIZE, Settings as MapSettings};
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
-use crate::scene::{Light, LightKind, Reader, Scene, Settings, SettingsError, suggest};
+use crate::scene::{self, Entry, LightKind, Object, Reader, SettingsError};
 
 /// A way to find which points a light reaches.
 pub trait Technique: Sync {
@@ -39,6 +54,17 @@ pub trait Technique: Sync {
     /// The reason why not, as the end of a sentence that begins with the technique's name.
     fn serves(&self, kind: &LightKind) -> Result<(), &'static str>;
 
+    /// Tests whether it draws shadows at all.
+    fn draws_shadows(&self) -> bool {
+        true
+    }
+
+    /// Tests whether its shadows end where the light is hidden, but for rounding: it has no texels that explain a wrong
+    /// pixel.
+    fn is_exact(&self) -> bool {
+        false
+    }
+
     /// Tests whether it reads casters' vertices, which the vertex stage then must not move.
     fn needs_vertices(&self) -> bool {
         false
@@ -52,12 +78,23 @@ pub trait Technique: Sync {
         &[]
     }
 
+    /// Changes of its keys that a stress test draws, each alone, for a light of this `kind`.
+    fn changes(&self, _kind: &LightKind) -> Vec<Change> {
+        Vec::new()
+    }
+
+    /// Keys in TOML without which it refuses these `objects`; empty: it draws them by default.
+    fn needed_keys(&self, _objects: &[Object]) -> &'static str {
+        ""
+    }
+
     /// Claims of its documents, which a report measures on its scene.
     fn claims(&self) -> &'static [Claim] {
         &[]
     }
 
-    /// Reads the technique's keys of `[light.shadow]`, each with its default, and checks them one by one.
+    /// Reads the technique's own keys of `[light.shadow]`, each with its default, and checks them one by one. Keys of every
+    /// light are not among them: see [`CommonKeys`].
     ///
     /// # Errors
     ///
@@ -73,25 +110,30 @@ pub trait Technique: Sync {
 }
 
 /// A light's keys as its technique has read them.
-pub trait ShadowSettings {
+pub trait ShadowSettings: Send + Sync {
     /// Adds the passes that prepare the light to `list`, and returns the light's term for the lit pass. Notes in `notes` what
-    /// it leaves out.
+    /// it leaves out. It cannot fail: everything that can be wrong is found by [`Technique::read`] and
+    /// [`ShadowSettings::check`]. [`CommonKeys`] are applied to what it returns, and to its passes.
+    fn describe(&self, view: &LightView<'_>, list: &mut PassList, notes: &mut Notes) -> LightTerm;
+
+    /// Checks that the technique can draw the shadows of these `objects`, wherever the camera is.
     ///
     /// # Errors
     ///
-    /// A scene whose objects the technique cannot draw.
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        list: &mut PassList,
-        notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError>;
-}
+    /// The objects that it cannot draw, with the place of the key that chooses the technique.
+    fn check(&self, _kind: &LightKind, _objects: &[Object]) -> Result<(), SettingsError> {
+        Ok(())
+    }
 
-/// A light's technique, and the keys that it has read.
-pub struct LightShadow {
-    pub technique: &'static dyn Technique,
-    pub settings: Box<dyn ShadowSettings>,
+    /// Settings of its map; `None`: it draws none.
+    fn map(&self) -> Option<&MapSettings> {
+        None
+    }
+
+    /// The key and the value for which the shadow is counted in the stencil buffer, if it is.
+    fn counts_by(&self) -> Option<&'static str> {
+        self.map().and_then(MapSettings::counts_by)
+    }
 }
 
 /// A key of `[light.shadow]` that a report varies.
@@ -104,6 +146,19 @@ pub struct Axis {
     pub quick: &'static [&'static str],
 }
 
+impl Axis {
+    /// The entry that one of its values makes.
+    ///
+    /// # Errors
+    ///
+    /// A value that is no TOML.
+    pub fn entry(&self, value: &str) -> Result<Entry, scene::Error> {
+        let table = scene::shadow_settings(&format!("{} = {value}", self.key))?;
+        let missing = || SettingsError::new(&table.origin, format!("`{}` is missing", self.key));
+        Ok(table.get(self.key).cloned().ok_or_else(missing)?)
+    }
+}
+
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[
     &none::Unshadowed,
@@ -112,49 +167,3 @@ pub const TABLE: &[&dyn Technique] = &[
     &second_depth::SecondDepth,
     &shadow_volume::ShadowVolume,
 ];
-
-/// Reads `[light.shadow]` of every light, in the scene's order. An absent table means none.
-///
-/// # Errors
-///
-/// A name that no row of the table has, a technique that does not serve such lights, a key that no technique reads, a key
-/// with a wrong value.
-pub fn read(scene: &Scene) -> Result<Vec<LightShadow>, SettingsError> {
-    let one = |light: &Light| {
-        let mut keys = light.shadow.read();
-        let technique = chosen(&light.kind, &mut keys)?;
-        let settings = technique.read(&mut keys, &light.kind)?;
-        check_others(technique, &mut keys)?;
-        keys.finish()?;
-        Ok(LightShadow { technique, settings })
-    };
-    scene.lights.iter().map(one).collect()
-}
-
-/// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
-fn check_others(chosen: &dyn Technique, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
-    TABLE.iter().filter(|row| row.name() != chosen.name()).try_for_each(|row| row.check(keys))
-}
-
-/// The keys of `[light.shadow]` that a technique reads.
-pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
-    let empty = Settings::default();
-    let mut keys = empty.read();
-    // A key that is absent has no wrong value.
-    let _ = technique.check(&mut keys);
-    keys.known().to_vec()
-}
-
-/// The technique that `[light.shadow]` of a light of this `kind` names.
-fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
-    let name = settings.string("technique")?.unwrap_or("none");
-    let Some(technique) = TABLE.iter().find(|row| row.name() == name) else {
-        let names = TABLE.iter().map(|row| row.name());
-        return Err(settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names))));
-    };
-    technique.serves(kind).map_err(|why| {
-        let light = kind.name();
-        settings.error("technique", format_args!("cannot be \"{name}\" for a {light} light: it {why}"))
-    })?;
-    Ok(*technique)
-}

@@ -239,7 +239,6 @@ fn before_plane(beam: &Beam, point: DVec3, seen: &SeenPoint<'_>) -> f64 {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::scene;
 
     /// Objects under a sun straight above, seen in one pixel that shows `target` from `eye`.
     pub fn seen(objects: &str, eye: DVec3, target: DVec3) -> Scene {
@@ -252,7 +251,7 @@ pub(super) mod tests {
         );
         let light = "[[light]]\nkind = \"directional\"\ndirection = [0.0, -1.0, 0.0]\n";
         std::fs::write(&path, format!("{camera}{light}{objects}")).unwrap();
-        scene::load(&path, &[]).unwrap().scene
+        crate::techniques::load(&path, &[]).unwrap().scene
     }
 
     fn around(objects: &str, eye: DVec3, target: DVec3, reach: f64) -> Around {

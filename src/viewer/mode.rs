@@ -2,6 +2,7 @@
 
 use crate::plan::{Request, Subject};
 use crate::scene::Scene;
+use crate::techniques;
 
 /// Display modes of the sample program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,8 +49,7 @@ impl Mode {
         scene.image.size = size;
         let mut request = Request::default();
         match self {
-            // An empty table is one without a technique.
-            Self::Camera => scene.lights.iter_mut().for_each(|light| light.shadow.entries.clear()),
+            Self::Camera => scene.lights.iter_mut().for_each(|light| light.shadow = techniques::unshadowed()),
             Self::Shadowed => {}
             Self::Light => request.subject = Subject::Light(0),
         }

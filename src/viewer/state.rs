@@ -9,7 +9,8 @@ use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
 use crate::plan::Request;
-use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Value};
+use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Settings, SettingsError, Value};
+use crate::techniques;
 
 /// Reaction to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,8 @@ pub struct State {
     tweak: usize,
     size: [u32; 2],
     helps: bool,
+    /// Error of the last command, if it has changed nothing.
+    refused: Option<String>,
     techniques: &'static [&'static str],
 }
 
@@ -45,6 +48,7 @@ impl State {
             tweak: 0,
             size,
             helps: false,
+            refused: None,
             techniques: &[],
         }
     }
@@ -83,7 +87,8 @@ impl State {
         self.mode.frame(&self.scene, self.size)
     }
 
-    /// One line: mode, the technique where there is a choice, what the mouse holds, the current tweak.
+    /// One line: mode, the technique where there is a choice, what the mouse holds, the current tweak, and why the last
+    /// command changed nothing, if it did not.
     pub fn status(&self) -> String {
         let mode = self.mode.in_words();
         let held = match self.held {
@@ -91,12 +96,15 @@ impl State {
             Handle::Light => "light",
             Handle::Object => "object",
         };
-        let tweak = self.scene.lights.first().map_or(String::new(), |light| self.tweak().in_words(&light.shadow));
+        let tweak =
+            self.scene.lights.first().map_or(String::new(), |light| self.tweak().in_words(light.shadow.written()));
         let technique = if self.techniques.len() > 1 { format!(" | {}", self.technique()) } else { String::new() };
-        format!("{mode}{technique} | mouse: {held} | {tweak} | h: help")
+        let refused = self.refused.as_ref().map_or(String::new(), |error| format!(" | {error}"));
+        format!("{mode}{technique} | mouse: {held} | {tweak} | h: help{refused}")
     }
 
     pub fn apply(&mut self, command: Command) -> Reaction {
+        self.refused = None;
         match command {
             Command::NextMode => self.mode = self.mode.next(),
             Command::NextTechnique => self.next_technique(),
@@ -112,7 +120,7 @@ impl State {
             }
             Command::Step(steps) => {
                 let tweak = self.tweak();
-                self.scene.lights.iter_mut().for_each(|light| tweak.step(&mut light.shadow, steps));
+                self.change_shadows(|written| tweak.step(written, steps));
             }
             Command::Help => self.helps = !self.helps,
             Command::Quit => return Reaction::Quit,
@@ -122,7 +130,13 @@ impl State {
 
     /// The first light's.
     fn technique(&self) -> &str {
-        match self.scene.lights.first().and_then(|light| light.shadow.get("technique")).map(|entry| &entry.value) {
+        match self
+            .scene
+            .lights
+            .first()
+            .and_then(|light| light.shadow.written().get("technique"))
+            .map(|entry| &entry.value)
+        {
             Some(Value::String(name)) => name,
             _ => "none",
         }
@@ -132,9 +146,25 @@ impl State {
     fn next_technique(&mut self) {
         let place = self.techniques.iter().position(|name| *name == self.technique()).map_or(0, |place| place + 1);
         let Some(next) = self.techniques.get(place).or(self.techniques.first()) else { return };
-        for light in &mut self.scene.lights {
-            let value = Value::String((*next).to_owned());
-            light.shadow.set("technique", Entry { value, origin: Origin::BuiltIn });
+        let value = Value::String((*next).to_owned());
+        self.change_shadows(|written| {
+            written.set("technique", Entry { value: value.clone(), origin: Origin::BuiltIn });
+        });
+    }
+
+    /// Changes `[light.shadow]` of every light. Where one of them cannot be read then, all stay as they are.
+    fn change_shadows(&mut self, change: impl Fn(&mut Settings)) {
+        let objects = &self.scene.objects;
+        let read = |light: &Light| {
+            let mut written = light.shadow.written().clone();
+            change(&mut written);
+            techniques::read(written, &light.kind, objects)
+        };
+        match self.scene.lights.iter().map(read).collect::<Result<Vec<_>, SettingsError>>() {
+            Ok(shadows) => {
+                self.scene.lights.iter_mut().zip(shadows).for_each(|(light, shadow)| light.shadow = shadow);
+            }
+            Err(error) => self.refused = Some(error.to_string()),
         }
     }
 

@@ -9,7 +9,6 @@ use glumbra::frame::Renderer;
 use glumbra::output::{self, Output};
 use glumbra::pass::{Attribute, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::scene;
 use glumbra::views::View;
 use serde::{Deserialize, Serialize};
 
@@ -116,7 +115,7 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
     };
     let file = arguments.file.clone().unwrap_or_else(|| scene_file(scene));
     let sets: Vec<String> = [String::from(redraw)].into_iter().chain(arguments.set.iter().cloned()).collect();
-    let loaded = scene::load(&file, &sets)?;
+    let loaded = glumbra::load(&file, &sets)?;
     let context = context::open(&ContextRequest::default())?;
     let mut renderer = Renderer::new(&context);
     let keep_all = arguments.keep == Keep::All;

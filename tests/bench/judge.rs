@@ -7,7 +7,6 @@ use std::rc::Rc;
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene;
 use glumbra::truth::{self, Truth};
 
 use super::rounds::Bench;
@@ -28,7 +27,7 @@ pub struct Judge {
 impl Judge {
     pub fn new(bench: &Bench) -> Result<Self> {
         let file = bench.folder.join("scene.toml");
-        let truth = truth::trace(&scene::load(&file, &[])?.scene, 0, &truth::Options::default())?;
+        let truth = truth::trace(&glumbra::load(&file, &[])?.scene, 0, &truth::Options::default())?;
         let size = if bench.scene == Scene::S1 { 1024 } else { 2048 };
         let band = Band { texels: 2.0, map_size: [size; 2] };
         let context = context::open(&ContextRequest::default())?;
@@ -39,7 +38,7 @@ impl Judge {
 
     fn metrics(&self, sets: &[&str]) -> Result<Metrics> {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let scene = scene::load(&self.file, &sets)?.scene;
+        let scene = glumbra::load(&self.file, &sets)?.scene;
         let mut renderer = Renderer::new(&self.context);
         Ok(compare(&self.truth, &draw_shade(&scene, 0, &mut renderer)?, &self.band)?)
     }

@@ -8,7 +8,7 @@ use glumbra::device::Measure;
 use glumbra::frame::Renderer;
 use glumbra::pass::{Clear, DrawPass, DrawState, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::views::View;
 
 use super::picture::Picture;
@@ -91,7 +91,7 @@ fn draw_planned(
     wanted: Wanted,
     fresh: bool,
 ) -> Result<Drawn, String> {
-    let loaded = scene::load(scene, set).map_err(|error| error.to_string())?;
+    let loaded = glumbra::load(scene, set).map_err(|error| error.to_string())?;
     let views = match wanted {
         Wanted::View(view, light) => vec![ViewRequest { view, light }],
         Wanted::Picture | Wanted::FloatPicture => Vec::new(),

@@ -175,12 +175,12 @@ pub fn illumination(scene: &Scene, point: DVec3, known: &Formula) -> Result<DVec
 }
 
 fn dimming(light: &Light) -> f64 {
-    let mut keys = light.shadow.read();
+    let mut keys = light.shadow.written().read();
     keys.number("dimming", 0.0..=1.0).ok().flatten().unwrap_or(0.0)
 }
 
 /// The side of the light's map in texels.
 pub fn map_size(light: &Light) -> f64 {
-    let mut keys = light.shadow.read();
+    let mut keys = light.shadow.written().read();
     keys.integer("size", 1..=16384).ok().flatten().unwrap_or(1024) as f64
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, ShadeImage, draw_shade};
 use glumbra::report::measure::metrics::{Band, Errors, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth::{self, Hit, Truth};
 
 use crate::support::rims::Rims;
@@ -27,7 +28,7 @@ fn scene(scale: f64) -> Scene {
         format!("light.near={:?}", 0.5 * scale),
         format!("light.far={:?}", 20.0 * scale),
     ];
-    scene::load(&root.join("data/scenes/example.toml"), &keys).unwrap().scene
+    glumbra::load(&root.join("data/scenes/example.toml"), &keys).unwrap().scene
 }
 
 /// A scene and its truth.
@@ -47,7 +48,7 @@ impl Judge {
     /// themselves.
     fn acne(&self, rims: &mut Rims<'_>, size: u32, more: &str, renderer: &mut Renderer) -> (Errors, usize) {
         let keys = format!("technique = \"shadow-map\", size = {size}{more}");
-        let scene = with_shadow(&self.scene, 0, &scene::shadow_settings(&keys).unwrap());
+        let scene = techniques::with_keys(&self.scene, 0, &keys).unwrap();
         let shade = draw_shade(&scene, 0, renderer).unwrap();
         let errors = self.errors(&shade, size);
         if errors.false_shadow.outside > 50 {

@@ -215,7 +215,7 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
 fn load(folder: &Path, text: &[u8]) -> Result<scene::Loaded, String> {
     let path = folder.join("scene.toml");
     fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).map_err(|error| error.to_string())
+    glumbra::load(&path, &[]).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -255,7 +255,7 @@ fn files_that_are_no_scenes() {
         ("none.toml", "none.toml: cannot be read: "),
         ("none.obj", "none.obj: cannot be read: "),
     ] {
-        let error = scene::load(&at(name), &[]).unwrap_err().to_string();
+        let error = glumbra::load(&at(name), &[]).unwrap_err().to_string();
         assert!(error.contains(expected), "{name}: {error}");
     }
 }

@@ -6,13 +6,13 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::report::measure::claims;
 use glumbra::report::store::claimed::{ClaimVerdict, Claimed};
-use glumbra::{scene, truth};
+use glumbra::truth;
 
 fn measure(name: &str) -> Vec<Claimed> {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes").join(name);
-    let scene = scene::load(&path, &[]).unwrap().scene;
+    let scene = glumbra::load(&path, &[]).unwrap().scene;
     let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
     let claims = claims::measure(&scene, 0, &truth, 2.0, &mut renderer).unwrap();
     claims.iter().for_each(|claim| println!("{name}: {claim}"));

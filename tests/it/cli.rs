@@ -236,7 +236,7 @@ fn what_the_driver_cannot_hold_is_refused() {
         refusal(&done, 1, &format!("more than the driver's limit of {limit}")).unwrap();
         assert_eq!(names(folder.path()), [""; 0]);
     }
-    let scene = glumbra::scene::load(Path::new(&boxes()), &[]).unwrap().scene;
+    let scene = glumbra::load(Path::new(&boxes()), &[]).unwrap().scene;
     let limits = glumbra::plan::Limits { max_image_size: 255, ..Default::default() };
     let error = glumbra::plan::make(&scene, &glumbra::plan::Request { limits, ..Default::default() }).unwrap_err();
     assert_eq!(error.to_string(), "light 0 map is 256x256, more than the driver's limit of 255: choose a smaller one");

@@ -209,7 +209,7 @@ fn a_core_context_has_no_fixed_function_pipeline_and_says_so() {
 /// A scene with a shadow map, small.
 fn small_scene() -> glumbra::scene::Scene {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes/box.toml");
-    glumbra::scene::load(&path, &["image.size=[32, 32]".to_owned()]).unwrap().scene
+    glumbra::load(&path, &["image.size=[32, 32]".to_owned()]).unwrap().scene
 }
 
 #[test]

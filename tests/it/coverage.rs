@@ -10,7 +10,7 @@ use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::geometry::{self, Material};
 use glumbra::plan::Request;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth::{self, Answer, Reason, Truth};
 
 use crate::support::random::Random;
@@ -108,7 +108,7 @@ fn every_pixel_shows_what_a_ray_meets_or_a_warning_says_why_not() {
         let is_automatic = write_scene(&mut random, folder.path());
         let path = folder.path().join("a.toml");
         let text = || std::fs::read_to_string(&path).unwrap();
-        let loaded = scene::load(&path, &[]).unwrap_or_else(|error| panic!("{round}: {error}\n{}", text()));
+        let loaded = glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{round}: {error}\n{}", text()));
         let most_ambiguous = if is_automatic { 0.03 } else { 1.0 };
         let options = truth::Options { most_ambiguous, ..truth::Options::default() };
         let truth =

@@ -4,7 +4,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, compare};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::stress::{Judge, RowSettings, random};
 use glumbra::truth;
 
@@ -14,7 +14,7 @@ fn loaded(rest: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{camera}{rest}")).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// README's objects, under a spotlight.

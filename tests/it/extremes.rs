@@ -10,7 +10,8 @@ use std::rc::Rc;
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth;
 
 /// A box and a sphere on a floor, `scale` times as large and moved by `shift`.
@@ -74,7 +75,7 @@ impl Case {
         let folder = tempfile::tempdir().unwrap();
         let path: PathBuf = folder.path().join("case.toml");
         std::fs::write(&path, self.text()).unwrap();
-        scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{}", self.text())).scene
+        glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{}", self.text())).scene
     }
 }
 
@@ -170,9 +171,8 @@ fn set_ups_agree_however_stiff() {
     for (near, far) in [(0.5, 20.0), (1e-3, 1e3), (1e-6, 1e6)] {
         let mut shades = ["eye", "world", "light", "identity"].map(|set_up| {
             let case = Case { near, far, ..ORDINARY };
-            let mut scene = case.scene();
             let keys = format!("technique = \"shadow-map\", texgen = \"{set_up}\"");
-            scene.lights[0].shadow = scene::shadow_settings(&keys).unwrap();
+            let scene = techniques::with_keys(&case.scene(), 0, &keys).unwrap();
             draw_shade(&scene, 0, &mut renderer).unwrap()
         });
         let first = shades[0].clone();

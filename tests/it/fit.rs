@@ -6,7 +6,8 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{Plan, Request};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth;
 
 /// Boxes and spheres on a floor, wider than the camera sees.
@@ -23,7 +24,7 @@ fn field(eye: [f64; 3], target: [f64; 3], light: [f64; 3], cone: f64) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("field.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// Factor by which a pixel gets more texels, as the plan says.
@@ -54,7 +55,7 @@ fn fitted_maps_are_right_and_finer() {
             };
             let measured = ["none", "casters", "view"].map(|fit| {
                 let keys = format!("technique = \"shadow-map\", size = 512, fit = \"{fit}\"");
-                let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+                let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
                 let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
                 let found: Metrics = compare(&truth, &shade, &Band { texels: 2.0, map_size: [512; 2] }).unwrap();
                 let plan = renderer.plan(&scene, &Request::default()).unwrap();
@@ -94,13 +95,13 @@ fn casters_at_the_map_s_resolution_cast_the_same_shadow() {
         ("spot", keys.to_vec(), vec![256, 512, 1024]),
         ("point", [keys.to_vec(), vec![String::from(point)]].concat(), vec![512, 1024]),
     ] {
-        let scene = scene::load(format!("{root}scenes/example.toml").as_ref(), &keys).unwrap().scene;
+        let scene = glumbra::load(format!("{root}scenes/example.toml").as_ref(), &keys).unwrap().scene;
         let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
         for size in &sizes {
             let size = *size;
             let [full, texel] = ["full", "texel"].map(|casters| {
                 let keys = format!("technique = \"shadow-map\", size = {size}, casters = \"{casters}\"");
-                let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+                let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
                 let plan = renderer.plan(&scene, &Request::default()).unwrap();
                 let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
                 let found = compare(&truth, &shade, &Band { texels: 2.0, map_size: [size; 2] }).unwrap();

@@ -9,8 +9,9 @@ use glumbra::frame::{Renderer, draw_shade};
 use glumbra::pass::Work;
 use glumbra::plan::{Plan, Request};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
 use glumbra::stress;
+use glumbra::techniques;
 use glumbra::truth::{self, Answer};
 
 /// Reach of a filter of two texels, and one more for surfaces askew to the map.
@@ -84,7 +85,7 @@ fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
+    glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
 }
 
 /// Draws a scene under each of the keys in turn.
@@ -106,7 +107,7 @@ impl Judge {
         let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         let truth = truth::trace(&scene, 0, &options).unwrap();
         for keys in techniques {
-            let scene = with_shadow(&scene, 0, &scene::shadow_settings(keys).unwrap());
+            let scene = techniques::with_keys(&scene, 0, keys).unwrap();
             let plan = self.renderer.plan(&scene, &Request::default()).unwrap();
             let shade = draw_shade(&scene, 0, &mut self.renderer).unwrap();
             let band = Band { texels: BAND_TEXELS, map_size: [1024; 2] };
@@ -221,10 +222,10 @@ fn midpoint_maps_need_no_offset_whatever_casts_nothing_or_lies_beyond_far() {
 fn the_sample_program_has_no_acne_without_offset() {
     let mut judge = Judge::new();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/hw_shadowmaps_simple.toml");
-    let scene = scene::load(path.as_ref(), &[]).unwrap().scene;
+    let scene = glumbra::load(path.as_ref(), &[]).unwrap().scene;
     let truth = truth::trace(&scene, 0, &truth::Options::default()).unwrap();
     let keys = "technique = \"midpoint\", size = 1024, offset = { factor = 0.0 }";
-    let scene = with_shadow(&scene, 0, &scene::shadow_settings(keys).unwrap());
+    let scene = techniques::with_keys(&scene, 0, keys).unwrap();
     let shade = draw_shade(&scene, 0, &mut judge.renderer).unwrap();
     let found = compare(&truth, &shade, &Band { texels: BAND_TEXELS, map_size: [1024; 2] }).unwrap();
     // At the rims of the teapot's parts, where both layers meet; acne on the floor would be ten thousands.

@@ -8,7 +8,7 @@ use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
 use glumbra::pass::{Pass, Work};
 use glumbra::plan::{Plan, Request};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 
 const SCENE: &str = "data/cases/scenes/guards.toml";
 const GUARDS: [&str; 6] = ["auto", "spot-cutoff", "texture-1d", "cull", "clip-plane", "stencil"];
@@ -62,7 +62,7 @@ const VARIANTS: &[(&str, &[&str])] = &[
 
 fn load(set: &[&str]) -> Scene {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    scene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE), &set).unwrap().scene
+    glumbra::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(SCENE), &set).unwrap().scene
 }
 
 fn guarded(set: &[&str], guard: &str) -> Scene {

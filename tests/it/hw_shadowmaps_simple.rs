@@ -12,7 +12,7 @@ use glumbra::frame::Renderer;
 use glumbra::math::frustum;
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::viewer::Mode;
 use glumbra::views::View;
 
@@ -26,7 +26,7 @@ const LIT_FLOOR: DVec3 = dvec3(0.3, 0.0, 2.7);
 const FLOOR_PAST_THE_LIGHT: DVec3 = dvec3(2.0, 0.0, 2.8);
 
 fn load() -> Scene {
-    scene::load(Path::new(SCENE), &[]).unwrap().scene
+    glumbra::load(Path::new(SCENE), &[]).unwrap().scene
 }
 
 /// Point of the floor that the ray from the light through the middle of the teapot meets.

@@ -7,7 +7,6 @@ use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::scene;
 use glumbra::views::View;
 
 use crate::support::random::Random;
@@ -225,7 +224,7 @@ fn wrong(world: &World, shadow: &str, renderer: &mut Renderer) -> Option<(f64, b
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, world.to_toml(shadow)).unwrap();
-    let scene = scene::load(&path, &[]).unwrap().scene;
+    let scene = glumbra::load(&path, &[]).unwrap().scene;
     let request = Request { views: vec![ViewRequest { view: View::Shade, light: 0 }], ..Request::default() };
     let plan = renderer.plan(&scene, &request).ok()?;
     let shade = draw_shade(&scene, 0, renderer).unwrap();

@@ -6,7 +6,8 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 
 const SIZE: u32 = 32;
 const WIDTH: u32 = 256;
@@ -38,7 +39,7 @@ fn scene_under(light: &str, half: f64, edge: f64, fov_y: f64, keys: &str) -> Sce
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("edge.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// A row of pixels: the floor's x and z that it shows.
@@ -198,9 +199,8 @@ fn minified_maps_meet_the_level_of_their_pixels() {
     for size in [1024_u32, 4096] {
         let pixel = 2.0 * (0.5 * f64::to_radians(fov_y)).tan() * CAMERA / 16.0;
         let level = (pixel * f64::from(size) / (2.0 * LIGHT * half())).log2();
-        let mut scene = scene(edge, fov_y, "");
         let keys = format!("technique = \"shadow-map\", size = {size}, mipmaps = true");
-        scene.lights[0].shadow = scene::shadow_settings(&keys).unwrap();
+        let scene = techniques::with_keys(&scene(edge, fov_y, ""), 0, &keys).unwrap();
         let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
         let scaled = edge * f64::from(size) / f64::from(SIZE);
         let at = |x: f64, level: u32| {

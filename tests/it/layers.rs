@@ -9,7 +9,8 @@ use glumbra::frame::{Renderer, draw_shade};
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth::{self, Truth};
 use glumbra::views::View;
 
@@ -17,7 +18,7 @@ fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// The window depth of what lies `distance` before a light with these planes.
@@ -54,7 +55,7 @@ fn the_middle_of_two_layers_is_stored() {
                     "technique = \"midpoint\", size = 32, format = \"{format}\", average = \"{average}\", \
                      compare = \"{compare}\", transfer = \"{transfer}\""
                 );
-                let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+                let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
                 let views = vec![ViewRequest { view: View::LightDepth, light: 0 }];
                 let plan = renderer.plan(&scene, &Request { views, ..Request::default() }).unwrap();
                 renderer.draw(&plan).unwrap();
@@ -91,7 +92,7 @@ fn texels_that_no_two_layers_share_are_left_out() {
             ["", ", single = \"first\"", ", single = \"first+offset\"", ", compare = \"gequal\", cull = \"back\""]
         {
             let keys = format!("technique = \"midpoint\", size = 256{keys}");
-            let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+            let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
             let mut texels = |keep_all| {
                 let views = vec![ViewRequest { view: View::LightDepth, light: 0 }];
                 let plan = renderer.plan(&scene, &Request { views, keep_all, ..Request::default() }).unwrap();
@@ -138,7 +139,7 @@ impl Judge {
     }
 
     fn measure(&self, keys: &str, renderer: &mut Renderer) -> Metrics {
-        let scene = with_shadow(&self.scene, 0, &scene::shadow_settings(keys).unwrap());
+        let scene = techniques::with_keys(&self.scene, 0, keys).unwrap();
         let band = Band { texels: 2.0, map_size: [1024; 2] };
         let found = compare(&self.truth, &draw_shade(&scene, 0, renderer).unwrap(), &band).unwrap();
         println!(

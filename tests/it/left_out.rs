@@ -7,7 +7,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::views::View;
 
 /// A field of boxes and spheres on a floor, wider than the camera and the light see.
@@ -25,7 +25,7 @@ fn field(eye: [f64; 3], light: [f64; 3], cone: f64, shadow: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("field.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 fn unseen(plan: &Plan) -> usize {
@@ -102,7 +102,7 @@ fn an_unseen_second_layer_is_drawn() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("layers.toml");
         std::fs::write(&path, text).unwrap();
-        let scene = scene::load(&path, &[]).unwrap().scene;
+        let scene = glumbra::load(&path, &[]).unwrap().scene;
         let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
         renderer.draw(&plan).unwrap();
         (renderer.read(&plan).unwrap().picture, unseen(&plan))
@@ -139,7 +139,7 @@ fn what_is_left_out_of_our_scenes_changes_no_pixel() {
         for changes in [&[][..], &out_of_sight[..], &aside[..]] {
             let changes: Vec<String> =
                 changes.iter().copied().chain(lighting).chain(["image.size=[192, 128]"]).map(str::to_owned).collect();
-            let scene = scene::load(format!("{root}{name}").as_ref(), &changes).unwrap().scene;
+            let scene = glumbra::load(format!("{root}{name}").as_ref(), &changes).unwrap().scene;
             let mut picture = |keep_all| {
                 let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
                 for _ in 0..2 {
@@ -198,7 +198,7 @@ fn back_faces_of_closed_objects_are_left_out() {
             let folder = tempfile::tempdir().unwrap();
             let path = folder.path().join("closed.toml");
             std::fs::write(&path, text).unwrap();
-            let scene = scene::load(&path, &[]).unwrap().scene;
+            let scene = glumbra::load(&path, &[]).unwrap().scene;
             let mut picture = |closed| {
                 let mut scene = scene.clone();
                 scene.objects[1].closed = closed;
@@ -222,7 +222,7 @@ fn what_is_not_closed_cannot_be_declared_so() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("open.toml");
         std::fs::write(&path, format!("[[object]]\nmesh = \"{mesh}\"\nclosed = true\n")).unwrap();
-        let error = scene::load(&path, &[]).unwrap_err().to_string();
+        let error = glumbra::load(&path, &[]).unwrap_err().to_string();
         assert!(error.contains("open.toml:3") && error.contains(message), "{error}");
     }
 }

@@ -8,14 +8,15 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth;
 
 use crate::support::rims;
 
 fn load(name: &str, set: &[String]) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes").join(name);
-    scene::load(&path, set).unwrap().scene
+    glumbra::load(&path, set).unwrap().scene
 }
 
 /// Differences of the shade from the truth, within two texels of the map around edges and beyond.
@@ -206,10 +207,10 @@ fn faces_that_are_left_out_change_no_pixel() {
 #[test]
 fn faces_are_drawn_again_before_they_are_copied_again() {
     let context = context::open(&ContextRequest::default()).unwrap();
-    let settings = |keys: &str| scene::shadow_settings(&format!("technique = \"shadow-map\", {keys}")).unwrap();
     let room = load("room.toml", &[]);
-    let copied = with_shadow(&room, 0, &settings("size = 128, transfer = \"copy\""));
-    let unsized_map = with_shadow(&room, 0, &settings("size = 128, transfer = \"copy\", format = \"depth\""));
+    let by = |keys: &str| techniques::with_keys(&room, 0, &format!("technique = \"shadow-map\", {keys}")).unwrap();
+    let copied = by("size = 128, transfer = \"copy\"");
+    let unsized_map = by("size = 128, transfer = \"copy\", format = \"depth\"");
     let mut elsewhere = copied.clone();
     elsewhere.camera.target = DVec3::new(4.0, 0.0, 4.0);
     for (first, second) in

@@ -13,7 +13,6 @@ use glumbra::device::{Device, Measure, Pixels};
 use glumbra::fixed_function::{FixedFunction, listing};
 use glumbra::pass::{Draw, IndexOrder, PassList, Program, Stage, Storage, Work};
 use glumbra::plan::{self, Plan, Request};
-use glumbra::scene;
 use libloading::Library;
 
 use crate::support::gl_headers;
@@ -264,7 +263,7 @@ fn the_listing_draws_the_picture() {
     for (path, set, is_fixed) in DRAWN {
         let name = format!("{path} {set:?}");
         let set: Vec<String> = set.iter().map(|set| (*set).to_owned()).collect();
-        let scene = scene::load(&root.join(path), &set).unwrap().scene;
+        let scene = glumbra::load(&root.join(path), &set).unwrap().scene;
         let plan = plan::make(&scene, &Request::default()).unwrap();
         let context = open();
         let mut fixed = FixedFunction::new(&context).unwrap();

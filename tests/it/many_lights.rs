@@ -7,7 +7,8 @@ use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::pass::Work;
 use glumbra::plan::{self, Plan, Request};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 
 /// A ring of spotlights around a box, a sphere and a second box on the very place of the first; `shadow` by number.
 fn scene(lights: usize, shadow: impl Fn(usize) -> &'static str) -> Scene {
@@ -35,7 +36,7 @@ fn scene(lights: usize, shadow: impl Fn(usize) -> &'static str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = folder.path().join("scene.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// The same without other lights than `kept`, and without ambient light of the scene.
@@ -123,10 +124,7 @@ fn clipped_surfaces_and_groups_exclude_each_other() {
     few.lights.truncate(2);
     assert!(plan::make(&few, &Request::default()).is_ok());
     let mut many = scene;
-    many.lights
-        .iter_mut()
-        .skip(1)
-        .for_each(|light| light.shadow = scene::shadow_settings("technique = \"none\"").unwrap());
+    many.lights.iter_mut().skip(1).for_each(|light| light.shadow = techniques::unshadowed());
     let error = plan::make(&many, &Request::default()).unwrap_err().to_string();
     assert!(error.contains("guard = \"clip-plane\" (light 0) cannot be combined with 9 lights"), "{error}");
 }

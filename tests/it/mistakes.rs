@@ -6,7 +6,7 @@ use glumbra::frame::{Renderer, ShadeImage};
 use glumbra::pass::{UniformValue, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::report::measure::metrics::{Band, Metrics, compare};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth::{self, Truth};
 use glumbra::views::View;
 
@@ -14,7 +14,7 @@ fn scene(changes: &[&str]) -> Scene {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
     let mut all = vec![format!("object.1.mesh=\"{root}meshes/dense.obj\""), String::from("image.size=[256, 256]")];
     all.extend(changes.iter().map(|text| (*text).to_owned()));
-    scene::load(format!("{root}scenes/example.toml").as_ref(), &all).unwrap().scene
+    glumbra::load(format!("{root}scenes/example.toml").as_ref(), &all).unwrap().scene
 }
 
 fn plan(renderer: &mut Renderer, changes: &[&str]) -> Plan {

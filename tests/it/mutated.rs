@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use glumbra::plan::{self, Request};
-use glumbra::{scene, truth};
+use glumbra::truth;
 
 use crate::support::random::Random;
 
@@ -128,7 +128,7 @@ fn scenes_with_other_numbers_are_refused_or_traced() {
         let text = mutated(&mut random, &texts[base]);
         std::fs::write(&path, &text).unwrap();
         let start = Instant::now();
-        match scene::load(&path, &[format!("image.size={SIZE:?}")]) {
+        match glumbra::load(&path, &[format!("image.size={SIZE:?}")]) {
             Err(error) => {
                 refused += 1;
                 assert!(!error.to_string().is_empty());

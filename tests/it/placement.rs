@@ -9,7 +9,7 @@ use glumbra::device::Pixels;
 use glumbra::fixed_function::FixedFunction;
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::Request;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth::{self, Answer};
 
 /// Texels of all colours, 8 by 8; green tells a disc off centre from its surroundings.
@@ -36,7 +36,7 @@ fn scene(options: &str, scale: [f64; 2], offset: [f64; 2]) -> Scene {
                 [[object]]\nmesh = \"a.obj\"\n[[object]]\nmesh = \"quad\"\nscale = 4.0\n";
     let path = folder.path().join("scene.toml");
     fs::write(&path, text).unwrap();
-    let loaded = scene::load(&path, &[String::from("shading.lighting=per-vertex")]).unwrap();
+    let loaded = glumbra::load(&path, &[String::from("shading.lighting=per-vertex")]).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     loaded.scene
 }

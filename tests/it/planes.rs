@@ -3,7 +3,8 @@
 use glam::{DQuat, DVec3};
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth::{self, Answer};
 
 use crate::support::random::Random;
@@ -43,7 +44,7 @@ fn plane(random: &mut Random, unit: f64) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plane.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// The bias follows from the map's own axes: a normal offset by the angle of the light's ray in place of its axis darkens
@@ -67,7 +68,7 @@ fn no_bias_leaves_a_plane_dark_wherever_it_stands_and_however_large_it_is() {
         let truth = truth::trace(&scene, 0, &truth::Options { most_ambiguous: 1.0, ..Default::default() }).unwrap();
         for keys in &lookups {
             let keys = format!("{keys}, size = {}", if seed % 2 == 0 { 256 } else { 1024 });
-            let scene = with_shadow(&scene, 0, &scene::shadow_settings(&keys).unwrap());
+            let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
             let shade = draw_shade(&scene, 0, &mut renderer).unwrap();
             let is_lit =
                 |pixel: &truth::Pixel| pixel.answer == Answer::Lit && pixel.hit.is_some_and(|hit| hit.faces_light());

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::scene::{self, LightKind, Loaded, Object, Scene};
+use glumbra::scene::{LightKind, Loaded, Object, Scene};
 
 use crate::support::random::Random;
 
@@ -14,7 +14,7 @@ fn load(text: &str, overrides: &[&str]) -> Loaded {
     let path = folder.path().join("a.toml");
     std::fs::write(&path, text).unwrap();
     let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
-    scene::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    glumbra::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 /// A camera and a light over a floor of any size, with boxes; all `scale` times as large.
@@ -201,7 +201,7 @@ fn texgen_and_waves_go_by_the_files_own_coordinates() {
         wave = { direction = [0, 1, 0], amplitude = 0.1, axis = [1, 0, 1], wavelength = 0.7, phase = 0.2 }\n";
     let path = folder.path().join("a.toml");
     std::fs::write(&path, text).unwrap();
-    let scene = scene::load(&path, &[]).unwrap().scene;
+    let scene = glumbra::load(&path, &[]).unwrap().scene;
     let object = &scene.objects[0];
     assert_ne!(object.mesh.origin, DVec3::ZERO);
     let (texgen, wave) = (object.material.as_ref().unwrap().texgen.unwrap(), object.wave.unwrap());

@@ -4,13 +4,12 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::Request;
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 
 fn scene(shadow: &str) -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/teapot.toml");
-    let mut scene = scene::load(path.as_ref(), &[String::from("image.size=[160, 120]")]).unwrap().scene;
-    scene.lights[0].shadow = scene::shadow_settings(shadow).unwrap();
-    scene
+    let scene = glumbra::load(path.as_ref(), &[String::from("image.size=[160, 120]")]).unwrap().scene;
+    glumbra::techniques::with_keys(&scene, 0, shadow).unwrap()
 }
 
 /// GL may give a deleted image's number to the next one (Mesa 22.3 does not, other drivers do): a map of another scene must

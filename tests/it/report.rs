@@ -300,7 +300,7 @@ fn a_row_is_what_render_draws_from_its_toml() {
     for row in rows {
         let mut draw = |text: &str, overrides: &[String]| {
             std::fs::write(work.path("pasted.toml"), text).unwrap();
-            let scene = scene::load(&work.path("pasted.toml"), overrides).unwrap().scene;
+            let scene = glumbra::load(&work.path("pasted.toml"), overrides).unwrap().scene;
             draw_shade(&scene, 0, &mut renderer).unwrap()
         };
         let pasted = draw(&text.replace(shadow_table(&text), &row.to_toml()), &[]);
@@ -310,7 +310,7 @@ fn a_row_is_what_render_draws_from_its_toml() {
             index => settings[index - 1].entries.iter().map(set).collect(),
         };
         let overridden = draw(&text, &overrides);
-        let swept = draw_shade(&sweep.scene_of(row.index), 0, &mut renderer).unwrap();
+        let swept = draw_shade(&sweep.scene_of(row.index).unwrap(), 0, &mut renderer).unwrap();
         assert!(swept == pasted, "{}", row.to_toml());
         assert!(swept == overridden, "{overrides:?}");
     }

@@ -30,7 +30,7 @@ fn load(text: &str, overrides: &[&str]) -> Result<Loaded, Error> {
 
 fn load_file(path: &Path, overrides: &[&str]) -> Result<Loaded, Error> {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    scene::load(path, &overrides)
+    glumbra::load(path, &overrides)
 }
 
 fn scene_of(text: &str, overrides: &[&str]) -> Scene {
@@ -59,9 +59,10 @@ fn the_example_has_every_value_as_written() {
     assert_eq!((light.ambient, light.diffuse, light.specular), ([0.0; 3], [1.0; 3], [1.0; 3]));
     assert_eq!(spot.attenuation, [1.0, 0.0, 0.0]);
     assert!(spot.image.is_none());
-    assert_eq!(light.shadow.path, "light.shadow");
-    assert!(matches!(light.shadow.origin, Origin::File { line: 20, .. }), "{:?}", light.shadow.origin);
-    let keys: Vec<&str> = light.shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
+    let shadow = light.shadow.written();
+    assert_eq!(shadow.path, "light.shadow");
+    assert!(matches!(shadow.origin, Origin::File { line: 20, .. }), "{:?}", shadow.origin);
+    let keys: Vec<&str> = shadow.entries.iter().map(|(key, _)| key.as_str()).collect();
     assert_eq!(keys, ["technique", "size", "format", "transfer", "filter", "compare", "offset", "texgen"]);
 
     let [floor, model] = scene.objects.as_slice() else { panic!("two objects") };
@@ -79,7 +80,7 @@ fn overrides_reach_file_and_missing_tables() {
     let scene =
         scene_of(&example(), &["light.shadow.transfer=copy", "shading.lighting=per-vertex", "object.1.scale=-2"]);
     assert!(scene.shading.per_vertex);
-    let transfer = scene.lights[0].shadow.get("transfer").unwrap();
+    let transfer = scene.lights[0].shadow.written().get("transfer").unwrap();
     assert!(matches!(&transfer.value, Value::String(text) if text == "copy"));
     assert_eq!(transfer.origin.to_string(), "--set light.shadow.transfer=copy");
     assert_eq!(scene.objects[1].world_from_model, DMat4::from_scale(DVec3::splat(-2.0)));
@@ -132,7 +133,7 @@ fn colours_have_shorthands() {
     assert_eq!((light.diffuse, light.specular, light.name.as_str()), ([3.0, 2.0, 1.0], [0.0; 3], "key"));
     let spot = light.spot().unwrap();
     assert_eq!(spot.shape, LightShape::Frustum);
-    assert!(light.shadow.is_empty() && matches!(light.shadow.origin, Origin::File { line: 1, .. }));
+    assert!(light.shadow.written().is_empty() && matches!(light.shadow.written().origin, Origin::File { line: 1, .. }));
     // Straight down: up is -z, which keeps +x to the right.
     assert_eq!(spot.frustum.up, DVec3::NEG_Z);
     let right = spot.frustum.view_from_world().transform_vector3(DVec3::X);
@@ -190,7 +191,7 @@ fn a_bare_model_gets_floor_light_and_camera() {
     let overrides = ["light.shadow.size=2048", "camera.fov_y=50", "object.0.rotate={axis=[1,0,0],angle=90}"];
     let turned = load_file(&path, &overrides).unwrap().scene;
     assert!((turned.camera.fov_y_radians - 50.0_f64.to_radians()).abs() < 1e-12);
-    assert!(matches!(turned.lights[0].shadow.get("size").unwrap().value, Value::Integer(2048)));
+    assert!(matches!(turned.lights[0].shadow.written().get("size").unwrap().value, Value::Integer(2048)));
     // Turned, the model reaches down to -1, hence the floor.
     let floor = turned.objects[1].world_bounds().max.y;
     assert!((floor + 1.0).abs() < 1e-6, "{floor}");

@@ -10,7 +10,6 @@ use glumbra::context::{self, Context, ContextRequest, LoadedContext};
 use glumbra::device::{Device, Error, Measure};
 use glumbra::pass::{Batch, DrawPass, PassList, Program, Stage, Uniform, Work};
 use glumbra::plan::{self, Plan, Request, ViewRequest};
-use glumbra::scene;
 use glumbra::views::View;
 
 fn root() -> &'static Path {
@@ -19,7 +18,7 @@ fn root() -> &'static Path {
 
 fn planned(scene: &str, changes: &[&str], views: &[View]) -> Plan {
     let changes: Vec<String> = changes.iter().map(|text| (*text).to_owned()).collect();
-    let scene = scene::load(&root().join(scene), &changes).unwrap().scene;
+    let scene = glumbra::load(&root().join(scene), &changes).unwrap().scene;
     let views = views.iter().map(|view| ViewRequest { view: *view, light: 0 }).collect();
     plan::make(&scene, &Request { views, ..Request::default() }).unwrap()
 }
@@ -201,7 +200,7 @@ fn boxes(change: &str) -> (tempfile::TempDir, PathBuf) {
 
 fn boxes_plan(diffuse: &str) -> Plan {
     let (_folder, path) = boxes(diffuse);
-    plan::make(&scene::load(&path, &[]).unwrap().scene, &Request::default()).unwrap()
+    plan::make(&glumbra::load(&path, &[]).unwrap().scene, &Request::default()).unwrap()
 }
 
 /// The batches of the lit pass that draw a box.

@@ -3,7 +3,8 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::report::measure::metrics::{Band, Errors, compare};
-use glumbra::scene::{self, Scene, with_shadow};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth::{self, Truth};
 
 use crate::support::random::Random;
@@ -61,13 +62,13 @@ fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap().scene
+    glumbra::load(&path, &[]).unwrap().scene
 }
 
 /// The errors on surfaces that face the light; `None`: too few to count.
 fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> Option<Errors> {
     let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
-    let scene = with_shadow(scene, 0, &scene::shadow_settings(&keys).unwrap());
+    let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
     let shade = draw_shade(&scene, 0, renderer).unwrap();
     let errors = compare(truth, &shade, &Band { texels: 2.0, map_size: [1024; 2] }).unwrap().facing;
     (errors.compared > 500).then_some(errors)
@@ -75,7 +76,7 @@ fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> 
 
 fn warnings(scene: &Scene, keys: &str) -> Vec<String> {
     let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
-    let scene = with_shadow(scene, 0, &scene::shadow_settings(&keys).unwrap());
+    let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
     glumbra::plan::make(&scene, &glumbra::plan::Request::default()).unwrap().warnings
 }
 

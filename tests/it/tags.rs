@@ -8,13 +8,13 @@ use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::pass::Redraw;
 use glumbra::plan::{self, Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::views::View;
 
 /// A scene of `data/` with overrides.
 fn load(path: &str, set: &[&str]) -> Scene {
     let set: Vec<String> = [&["image.size=[160, 120]"], set].concat().iter().map(|text| (*text).to_owned()).collect();
-    scene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(path), &set).unwrap().scene
+    glumbra::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(path), &set).unwrap().scene
 }
 
 const DIRECTIONAL: &str =

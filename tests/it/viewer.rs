@@ -7,11 +7,11 @@ use glam::{DVec2, DVec3, dvec2};
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
-use glumbra::scene::{self, Frustum, Scene};
+use glumbra::scene::{Frustum, Scene};
 use glumbra::viewer::{Command, Handle, Mode, Reaction, State};
 
 fn load() -> Scene {
-    scene::load(Path::new("data/scenes/hw_shadowmaps_simple.toml"), &[]).unwrap().scene
+    glumbra::load(Path::new("data/scenes/hw_shadowmaps_simple.toml"), &[]).unwrap().scene
 }
 
 fn state() -> State {

@@ -11,7 +11,7 @@ use glumbra::frame::{Renderer, draw_shade};
 use glumbra::geometry::{Wave, primitive};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, compare};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth;
 
 use crate::support::rims;
@@ -19,7 +19,7 @@ use crate::support::rims;
 fn load(set: &[&str]) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/shadow-map/wave/scene.toml");
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-    scene::load(&path, &set).unwrap().scene
+    glumbra::load(&path, &set).unwrap().scene
 }
 
 const POINT: &str = "light.0={ kind = \"point\", position = [-2, 6, 2.5], near = 1, far = 14, shadow = { technique = \"shadow-map\", size = 512 } }";

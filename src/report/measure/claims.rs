@@ -3,15 +3,16 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::metrics::{self, Band, FEWEST_COMPARED, Metrics, ErrorSplit};
-use super::run::size_of;
-use super::tune::{self, TunedPoint, Search};
+use super::grid::to_inline;
+use super::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
+use super::tune::{self, Search, TunedPoint};
 use crate::frame::{Renderer, draw_shade};
+use crate::pass::DepthFormat;
 use crate::report::numbers::plain;
 use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
-use crate::scene::{Scene, Value, with_shadow};
-use crate::techniques::TABLE;
+use crate::scene::{self, Scene, Settings, with_shadow};
 use crate::techniques::claims::{Contender, Quantity, Relation};
+use crate::techniques::{self, LightShadow, TABLE, vary};
 use crate::truth::{Answer, Hit, Truth};
 
 /// Slope factors that are tried; a constant offset has none.
@@ -29,13 +30,15 @@ pub fn measure(
     band_texels: f64,
     renderer: &mut Renderer,
 ) -> Result<Vec<Claimed>, tune::Error> {
-    let size = size_of(&scene.lights[light].shadow);
+    let source = &scene.lights[light];
+    let as_tuned = techniques::read(vary::tunable(source.shadow.written()), &source.kind, &scene.objects)?;
+    let size = techniques::map_size(&as_tuned);
+    let format = LightShadow::of(&as_tuned).and_then(LightShadow::map).map_or(DepthFormat::Depth24, |map| map.format);
     let options =
         tune::TuneOptions { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
-    let mut contest = Contest { scene, truth, options, size, renderer, seen: Vec::new() };
-    let kind = &scene.lights[light].kind;
+    let mut contest = Contest { scene, truth, options, size, format, renderer, seen: Vec::new() };
     let mut claimed = Vec::new();
-    for technique in TABLE.iter().filter(|technique| technique.serves(kind).is_ok()) {
+    for technique in TABLE.iter().filter(|technique| technique.serves(&source.kind).is_ok()) {
         for claim in technique.claims() {
             let [first, second] = [claim.first, claim.second].map(|who| contest.measurement(who, claim.quantity));
             let (first, second) = (first?, second?);
@@ -84,6 +87,7 @@ struct Contest<'a> {
     truth: &'a Truth,
     options: tune::TuneOptions,
     size: u32,
+    format: DepthFormat,
     renderer: &'a mut Renderer,
     seen: Vec<(Contender, Seen)>,
 }
@@ -132,7 +136,13 @@ impl Contest<'_> {
                 self.tuned(&[0.0], &|point| point.false_shadow_with_band_percent <= most)?
             }
             Contender::Keys(keys) => {
-                Seen { settings: format!("{keys}, size = {}", self.size), point: None, metrics: self.errors(keys) }
+                let keys = scene::shadow_settings(keys)?;
+                let table = vary::beside_tuned(self.written(), self.size, &keys);
+                Seen {
+                    settings: format!("{}, size = {}", to_inline(&keys), self.size),
+                    point: None,
+                    metrics: self.errors(table),
+                }
             }
         };
         self.seen.push((who, seen.clone()));
@@ -145,20 +155,23 @@ impl Contest<'_> {
         let mut search = Search::new(self.scene, self.truth, &self.options, self.renderer, &mut tick);
         let Some(point) = search.best_of(self.size, factors, |point| point.leak_facing_percent, enough)? else {
             let metrics = Err(String::from("no such offset has as little false shadow"));
-            return Ok(Seen { settings: String::from("technique = \"shadow-map\""), point: None, metrics });
+            return Ok(Seen { settings: to_inline(&vary::tuned()), point: None, metrics });
         };
         let point = search.refined(point, enough)?;
-        let keys = format!(
-            "technique = \"shadow-map\", offset = {{ factor = {:?}, units = {:?} }}",
-            point.factor, point.units
-        );
-        let metrics = self.errors(&keys);
-        Ok(Seen { settings: format!("{keys}, size = {}", self.size), point: Some(point), metrics })
+        let table = vary::with_offset(self.written(), point.size, point.factor, point.units);
+        let settings = to_inline(&vary::offset_keys(point.size, point.factor, point.units));
+        Ok(Seen { settings, point: Some(point), metrics: self.errors(table) })
     }
 
-    fn errors(&mut self, keys: &str) -> Result<Metrics, String> {
+    /// The scene's own `[light.shadow]`.
+    fn written(&self) -> &Settings {
+        self.scene.lights[self.options.light].shadow.written()
+    }
+
+    fn errors(&mut self, table: Settings) -> Result<Metrics, String> {
         let light = self.options.light;
-        let shadow = tune::under(&self.scene.lights[light].shadow, self.size, keys).map_err(|e| e.to_string())?;
+        let shadow = techniques::read(table, &self.scene.lights[light].kind, &self.scene.objects);
+        let shadow = shadow.map_err(|e| e.to_string())?;
         let shade = draw_shade(&with_shadow(self.scene, light, &shadow), light, self.renderer);
         let band = Band { texels: self.options.band_texels, map_size: [self.size; 2] };
         metrics::compare(self.truth, &shade.map_err(|e| e.to_string())?, &band).map_err(|e| e.to_string())
@@ -168,9 +181,9 @@ impl Contest<'_> {
     /// without a frustum whose depth it could be measured in.
     fn median_offset(&self, point: &TunedPoint) -> Option<f64> {
         let window_from_world = window_from_world(self.scene, self.options.light, point.size)?;
-        let unit = match self.scene.lights[self.options.light].shadow.get("format").map(|entry| &entry.value) {
-            Some(Value::String(format)) if format == "depth16" => 1.0 / 65535.0,
-            _ => (-24.0_f64).exp2(),
+        let unit = match self.format {
+            DepthFormat::Depth16 => 1.0 / 65535.0,
+            DepthFormat::Depth24 | DepthFormat::Depth32 | DepthFormat::Depth32F => (-24.0_f64).exp2(),
         };
         let lit = self.truth.pixels.iter().filter(|pixel| pixel.answer == Answer::Lit).filter_map(|pixel| pixel.hit);
         let offset = |hit: Hit| point.factor * slope(&hit, &window_from_world) + point.units * unit;

@@ -76,12 +76,8 @@ type Values = (String, Vec<Entry>);
 
 fn values_of(axis: &Axis, quick: bool) -> Result<Values, scene::Error> {
     let values = if quick { axis.quick } else { axis.values };
-    let entries = values.iter().map(|value| {
-        let table = scene::shadow_settings(&format!("{} = {value}", axis.key))?;
-        Ok(table.entries.into_iter().map(|(_, entry)| entry))
-    });
-    let entries = entries.collect::<Result<Vec<_>, scene::Error>>()?;
-    Ok((axis.key.to_owned(), entries.into_iter().flatten().collect()))
+    let entries = values.iter().map(|value| axis.entry(value)).collect::<Result<Vec<_>, _>>()?;
+    Ok((axis.key.to_owned(), entries))
 }
 
 fn technique_entry(name: &str) -> Entry {

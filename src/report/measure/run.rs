@@ -17,8 +17,8 @@ use crate::report::store::fingerprint;
 use crate::report::store::results::{
     Cost, Machine, Measured, Outcome, Row, Saved, SceneReport, Spread, TruthSummary, bytes_of,
 };
-use crate::scene::{self, Loaded, Scene, Settings, Value, with_shadow};
-use crate::techniques::{self, TABLE, Technique};
+use crate::scene::{self, Loaded, Scene, Settings, SettingsError, Shadow, with_shadow};
+use crate::techniques::{self, LightShadow, vary};
 use crate::truth::{self, Answer, Truth};
 use crate::views::View;
 
@@ -59,7 +59,14 @@ pub struct Sweep {
     /// Notes on the grid, for the report.
     pub notes: Vec<String>,
     /// By index; row 0 is the scene as written.
-    rows: Vec<(Row, Settings)>,
+    rows: Vec<GridRow>,
+}
+
+/// A row that can be measured.
+struct GridRow {
+    row: Row,
+    /// The light's settings in this row; or why the scene's objects cannot be drawn with them.
+    shadow: Result<Shadow, SettingsError>,
 }
 
 /// Loads a scene, lays out its grid and traces its truth. Every row is resolved here, before any is drawn.
@@ -73,7 +80,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     if index == 0 || index > shards {
         return Err(Error::Shard { index, count: shards });
     }
-    let Loaded { scene, mut warnings } = scene::load(path, overrides)?;
+    let Loaded { scene, mut warnings } = techniques::load(path, overrides)?;
     let count = scene.lights.len();
     if options.light >= count {
         return Err(Error::NoLight { index: options.light, count });
@@ -86,7 +93,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     let report = SceneReport {
         path: path.to_owned(),
         path_bytes: bytes_of(path),
-        fingerprint: fingerprint::of_rows(&scene, rows.iter().map(|(row, _)| row), options),
+        fingerprint: fingerprint::of_rows(&scene, rows.iter().map(|row| &row.row), options),
         light: options.light,
         size: scene.image.size,
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),
@@ -101,7 +108,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
 
 /// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.
 struct Layout {
-    rows: Vec<(Row, Settings)>,
+    rows: Vec<GridRow>,
     left_out: Vec<String>,
 }
 
@@ -109,14 +116,19 @@ struct Layout {
 fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layout, Error> {
     let source = &scene.lights[light];
     let bare = Scene { objects: Vec::new(), ..scene.clone() };
-    let written = readable(&source.shadow);
-    let mut layout = Layout { rows: vec![(row_of(0, &written), written)], left_out: Vec::new() };
+    let first = row_of(0, &vary::readable(source.shadow.written()), &source.shadow);
+    let first = GridRow { row: first, shadow: Ok(source.shadow.clone()) };
+    let mut layout = Layout { rows: vec![first], left_out: Vec::new() };
     for setting in grid.settings(&source.kind)? {
-        let settings = over(&source.shadow, &setting);
+        let settings = vary::over(source.shadow.written(), &setting);
         match check_settings(&bare, light, &settings) {
-            Ok(()) => layout.rows.push((row_of(layout.rows.len(), &settings), settings)),
-            Err(error) => {
-                let (inline, reason) = (grid::to_inline(&setting), error.to_string());
+            Ok(shadow) => {
+                let row = row_of(layout.rows.len(), &settings, &shadow);
+                let shadow = techniques::read(settings, &source.kind, &scene.objects);
+                layout.rows.push(GridRow { row, shadow });
+            }
+            Err(reason) => {
+                let inline = grid::to_inline(&setting);
                 match grid {
                     Grid::Own(_) => return Err(Error::Row { scene: path.to_owned(), inline, reason }),
                     Grid::Standard { .. } => layout.left_out.push(format!(
@@ -131,66 +143,22 @@ fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layou
 }
 
 /// A row that is not measured yet.
-fn row_of(index: usize, settings: &Settings) -> Row {
+fn row_of(index: usize, settings: &Settings, shadow: &Shadow) -> Row {
     let keys = settings.entries.iter().filter(|(key, _)| key != "technique");
     let settings_text = keys.map(|(key, entry)| (key.clone(), entry.value.to_toml())).collect();
-    let technique = technique_of(settings).to_owned();
-    Row { index, technique, settings: settings_text, outcome: Outcome::Failed(String::new()) }
+    let technique = vary::technique_of(settings).to_owned();
+    let map_size = LightShadow::of(shadow).and_then(LightShadow::map).map(|map| map.size);
+    Row { index, technique, settings: settings_text, map_size, outcome: Outcome::Failed(String::new()) }
 }
 
-fn technique_of(settings: &Settings) -> &str {
-    match settings.get("technique").map(|entry| &entry.value) {
-        Some(Value::String(name)) => name,
-        _ => "none",
-    }
-}
-
-/// The side of a map by default, by which the edge band of techniques without one is measured.
-const DEFAULT_SIZE: u32 = 1024;
-
-/// The side of a light's map.
-pub(super) fn size_of(shadow: &Settings) -> u32 {
-    match shadow.get("size").map(|entry| &entry.value) {
-        Some(Value::Integer(size)) => u32::try_from(*size).unwrap_or(DEFAULT_SIZE),
-        _ => DEFAULT_SIZE,
-    }
-}
-
-/// A scene's `[light.shadow]` with the keys of `setting` in place of its own, as with `render --set`; without keys that the
-/// technique does not read. Written into the scene file it draws the same.
-pub fn over(written: &Settings, setting: &Settings) -> Settings {
-    let mut merged = setting.clone();
-    merged.path.clone_from(&written.path);
-    for (key, entry) in &written.entries {
-        if merged.get(key).is_none() {
-            merged.set(key, entry.clone());
-        }
-    }
-    readable(&merged)
-}
-
-/// Without the keys that only other techniques read.
-fn readable(settings: &Settings) -> Settings {
-    let name = technique_of(settings);
-    let (mine, others): (Vec<_>, Vec<_>) = TABLE.iter().partition(|technique| technique.name() == name);
-    let keys = |rows: Vec<&&'static dyn Technique>| -> Vec<&str> {
-        rows.into_iter().flat_map(|technique| techniques::keys(*technique)).collect()
-    };
-    let (mine, others) = (keys(mine), keys(others));
-    let mut kept = settings.clone();
-    kept.entries.retain(|(key, _)| {
-        let key = key.as_str();
-        key == "technique" || mine.contains(&key) || !others.contains(&key)
-    });
-    kept
-}
-
-/// Tests whether a scene without objects can be planned with `settings`: so every error of the settings alone is found
-/// here, as for a frame's plan.
-fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<(), plan::Error> {
+/// Reads `settings` for a scene without objects, and plans it: so every error of the settings alone is found here.
+fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<Shadow, String> {
+    let shadow = techniques::read(settings.clone(), &bare.lights[light].kind, &bare.objects);
+    let shadow = shadow.map_err(|error| error.to_string())?;
     let views = vec![ViewRequest { view: View::Shade, light }];
     let request = Request { views, sampled_warnings: false, ..Request::default() };
-    plan::make(&with_shadow(bare, light, settings), &request).map(|_| ())
+    plan::make(&with_shadow(bare, light, &shadow), &request).map_err(|error| error.to_string())?;
+    Ok(shadow)
 }
 
 fn summarise(truth: &Truth, trace_ms: f64) -> TruthSummary {
@@ -214,7 +182,7 @@ impl Sweep {
 
     /// Tests whether `row` is one of this sweep's, measured or not.
     pub fn has(&self, row: &Row) -> bool {
-        let known = self.rows.get(row.index).map(|(known, _)| known);
+        let known = self.rows.get(row.index).map(|known| &known.row);
         known.is_some_and(|known| known.technique == row.technique && known.settings == row.settings)
     }
 
@@ -236,14 +204,21 @@ impl Sweep {
     }
 
     fn row(&self, index: usize, options: &MeasureOptions, renderer: &mut Renderer) -> Row {
-        let (row, settings) = &self.rows[index];
-        let scene = with_shadow(&self.scene, options.light, settings);
-        let band = Band { texels: options.band_texels, map_size: [size_of(settings); 2] };
-        let outcome = match measure(&scene, &self.truth, &band, options, renderer) {
-            Ok(measured) => Outcome::Measured(Box::new(measured)),
-            Err(why) => Outcome::Failed(why),
+        let GridRow { row, shadow } = &self.rows[index];
+        let outcome = match shadow {
+            Ok(shadow) => self.outcome(shadow, options, renderer),
+            Err(error) => Outcome::Failed(error.to_string()),
         };
         Row { outcome, ..row.clone() }
+    }
+
+    fn outcome(&self, shadow: &Shadow, options: &MeasureOptions, renderer: &mut Renderer) -> Outcome {
+        let scene = with_shadow(&self.scene, options.light, shadow);
+        let band = Band { texels: options.band_texels, map_size: [techniques::map_size(shadow); 2] };
+        match measure(&scene, &self.truth, &band, options, renderer) {
+            Ok(measured) => Outcome::Measured(Box::new(measured)),
+            Err(why) => Outcome::Failed(why),
+        }
     }
 
     /// Draws the scene as written with and without the parts that its plan leaves out, and compares pixels, time and bytes.
@@ -273,12 +248,13 @@ impl Sweep {
 
     /// A row, not measured.
     pub fn row_of(&self, index: usize) -> &Row {
-        &self.rows[index].0
+        &self.rows[index].row
     }
 
-    /// The scene with a row's settings.
-    pub fn scene_of(&self, index: usize) -> Scene {
-        with_shadow(&self.scene, self.report.light, &self.rows[index].1)
+    /// The scene with a row's settings; `None`: they cannot draw its objects.
+    pub fn scene_of(&self, index: usize) -> Option<Scene> {
+        let shadow = self.rows.get(index)?.shadow.as_ref().ok()?;
+        Some(with_shadow(&self.scene, self.report.light, shadow))
     }
 }
 

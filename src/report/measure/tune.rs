@@ -5,10 +5,9 @@
 
 use super::grid;
 use super::metrics::{self, Band, FEWEST_COMPARED, Metrics};
-use super::run::{over, size_of};
 use crate::frame::{self, Renderer, draw_shade};
-use crate::scene::{self, Scene, Settings, with_shadow};
-use crate::techniques::{TABLE, Technique};
+use crate::scene::{self, Light, Scene, Settings, SettingsError, Shadow, with_shadow};
+use crate::techniques::{self, vary};
 use crate::truth::{self, Answer, Pixel, Truth};
 
 /// Reason why nothing can be tuned.
@@ -17,7 +16,10 @@ use crate::truth::{self, Answer, Pixel, Truth};
 pub enum Error {
     /// A setting of the search makes no valid scene.
     #[error(transparent)]
-    Scene(#[from] scene::Error),
+    Settings(#[from] SettingsError),
+    /// A value of a technique's table that is no TOML.
+    #[error(transparent)]
+    Table(#[from] scene::Error),
     /// The ray tracer has no answer for the scene.
     #[error(transparent)]
     Truth(#[from] truth::Error),
@@ -161,21 +163,22 @@ pub fn tune(
     }
     let within = best.iter().find(|point| point.leak_percent <= options.leak_percent).copied();
     let least = best.iter().min_by(|a, b| a.leak_percent.total_cmp(&b.leak_percent)).copied();
-    let rivals = search.rivals();
+    let rivals = search.rivals()?;
     let curve = search.curve;
     let (compared, compared_facing) = curve.first().map_or((0, 0), |point| (point.compared, point.compared_facing));
     check_count(options.light, compared, compared_facing)?;
     let chosen = within.or(least);
     let toml = |point: TunedPoint| {
-        let shadow = changed(&scene.lights[options.light].shadow, point.size, point.factor, point.units)?;
-        let lines = shadow.entries.iter().map(|(key, entry)| format!("{key} = {}\n", entry.value.to_toml()));
-        Ok::<_, scene::Error>(format!("[light.shadow]\n{}", lines.collect::<String>()))
+        let written = scene.lights[options.light].shadow.written();
+        let table = vary::with_offset(written, point.size, point.factor, point.units);
+        let lines = table.entries.iter().map(|(key, entry)| format!("{key} = {}\n", entry.value.to_toml()));
+        format!("[light.shadow]\n{}", lines.collect::<String>())
     };
     Ok(Tuned {
         curve,
         best,
         chosen,
-        chosen_toml: chosen.map(toml).transpose()?,
+        chosen_toml: chosen.map(toml),
         compared,
         compared_facing,
         compared_shadowed: truth.count(|answer| answer == Answer::Shadowed),
@@ -272,28 +275,31 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
-    /// Every technique of the table whose report varies something, but no offset.
-    fn rivals(&mut self) -> Vec<Rival> {
-        let has_offset = |technique: &&&dyn Technique| technique.axes().iter().any(|axis| axis.key == "offset");
-        let rows = TABLE.iter().filter(|technique| !technique.axes().is_empty() && !has_offset(technique));
-        let rivals = rows.map(|technique| {
-            let plain = scene::shadow_settings(&plainest(*technique));
-            let (settings, errors) = match plain {
-                Err(error) => (plainest(*technique), Err(error.to_string())),
-                Ok(plain) => {
-                    let settings = over(&self.scene.lights[self.options.light].shadow, &plain);
-                    (grid::to_inline(&settings), self.errors_of(&settings))
-                }
-            };
+    /// Every technique that draws shadows and has no offset to tune.
+    fn rivals(&mut self) -> Result<Vec<Rival>, Error> {
+        let rivals = vary::rivals()?.into_iter().map(|(technique, keys)| {
+            let table = vary::over(self.light().shadow.written(), &keys);
+            let settings = grid::to_inline(&table);
+            let errors = self.read(table).map_err(|error| error.to_string());
+            let errors = errors.and_then(|shadow| self.errors_of(&shadow));
             Rival { technique: technique.name(), settings, errors }
         });
-        rivals.collect()
+        Ok(rivals.collect())
     }
 
-    fn errors_of(&mut self, shadow: &Settings) -> Result<RivalErrors, String> {
+    fn light(&self) -> &'a Light {
+        &self.scene.lights[self.options.light]
+    }
+
+    /// The settings that a table has for the light.
+    fn read(&self, table: Settings) -> Result<Shadow, SettingsError> {
+        techniques::read(table, &self.light().kind, &self.scene.objects)
+    }
+
+    fn errors_of(&mut self, shadow: &Shadow) -> Result<RivalErrors, String> {
         let scene = with_shadow(self.scene, self.options.light, shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer).map_err(|error| error.to_string())?;
-        let band = Band { texels: self.options.band_texels, map_size: [size_of(shadow); 2] };
+        let band = Band { texels: self.options.band_texels, map_size: [techniques::map_size(shadow); 2] };
         let metrics = metrics::compare(self.truth, &shade, &band).map_err(|error| error.to_string())?;
         Ok(RivalErrors {
             false_shadow_percent: metrics.facing.false_shadow.outside_percent,
@@ -303,7 +309,7 @@ impl<'a> Search<'a> {
     }
 
     fn point(&mut self, size: u32, factor: f64, units: f64) -> Result<TunedPoint, Error> {
-        let shadow = changed(&self.scene.lights[self.options.light].shadow, size, factor, units)?;
+        let shadow = self.read(vary::with_offset(self.light().shadow.written(), size, factor, units))?;
         let scene = with_shadow(self.scene, self.options.light, &shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer)?;
         let band = Band { texels: self.options.band_texels, map_size: [size; 2] };
@@ -335,31 +341,9 @@ impl Search<'_> {
     }
 }
 
-/// A technique under the first value of each of its quick report's axes.
-fn plainest(technique: &dyn Technique) -> String {
-    let firsts = technique.axes().iter().filter_map(|axis| Some(format!(", {} = {}", axis.key, axis.quick.first()?)));
-    format!("technique = \"{}\"{}", technique.name(), firsts.collect::<String>())
-}
-
 /// See [`Search::spare`].
 const SPARE_PIXELS: f64 = 2.0;
 
 fn units_of(exponent: i32) -> f64 {
     if exponent < 0 { 0.0 } else { f64::from(exponent).exp2() }
-}
-
-/// `shadow` as a shadow map of another size and offset, without any other bias.
-fn changed(shadow: &Settings, size: u32, factor: f64, units: f64) -> Result<Settings, scene::Error> {
-    let offset = format!("offset = {{ factor = {factor:?}, units = {units:?} }}");
-    let mut written = shadow.clone();
-    written.entries.retain(|(key, _)| key != "bias");
-    Ok(over(&written, &scene::shadow_settings(&format!("technique = \"shadow-map\", size = {size}, {offset}"))?))
-}
-
-/// `shadow` with another technique, size and `keys`, which are not its own.
-pub(super) fn under(shadow: &Settings, size: u32, keys: &str) -> Result<Settings, scene::Error> {
-    let replaced = ["technique", "size", "offset", "closed", "single", "average"];
-    let kept = shadow.entries.iter().filter(|(key, _)| !replaced.contains(&key.as_str()));
-    let kept: Vec<String> = kept.map(|(key, entry)| format!(", {key} = {}", entry.value.to_toml())).collect();
-    scene::shadow_settings(&format!("{keys}, size = {size}{}", kept.concat()))
 }

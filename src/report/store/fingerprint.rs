@@ -8,7 +8,8 @@ use std::sync::Arc;
 use super::results::{Machine, Row, VERSION};
 use crate::geometry::{Material, Mesh, Texture};
 use crate::report::measure::options::MeasureOptions;
-use crate::scene::{LightKind, Scene, Settings};
+use crate::scene::{LightKind, Scene};
+use crate::techniques;
 
 /// Hashes everything that decides the rows, but not the machine. File names are not included: the same scene in another
 /// folder has the same fingerprint.
@@ -65,9 +66,9 @@ impl Mark {
         self.debug(&(&scene.image, &scene.camera, &scene.shading));
         for light in &scene.lights {
             let mut rest = light.clone();
-            self.bytes(rest.shadow.to_toml().as_bytes());
+            self.bytes(rest.shadow.written().to_toml().as_bytes());
             // Without the lines that it was written in.
-            rest.shadow = Settings::default();
+            rest.shadow = techniques::unshadowed();
             if let LightKind::Spot(spot) = &mut rest.kind {
                 let image = spot.image.take();
                 self.texture(image.as_ref());

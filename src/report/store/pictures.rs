@@ -32,7 +32,8 @@ pub enum Error {
 pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Renderer) -> Result<ScenePictures, Error> {
     let mut differences = Vec::new();
     for (row, caption) in rows_that_matter(report, goals) {
-        let shade = draw_shade(&sweep.scene_of(row.index), report.light, renderer)?;
+        let Some(scene) = sweep.scene_of(row.index) else { continue };
+        let shade = draw_shade(&scene, report.light, renderer)?;
         let png = difference::to_png(&difference_picture(&sweep.truth, &shade)?)?;
         differences.push(DifferencePicture { row: row.index, caption, png });
     }

@@ -26,7 +26,7 @@ pub struct Report {
 }
 
 /// The layout that this crate writes and reads.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Machine and driver that it was measured on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,6 +130,8 @@ pub struct Row {
     pub technique: String,
     /// `key = value` in TOML, without the technique: all keys of `[light.shadow]`, the scene's own among them.
     pub settings: Vec<(String, String)>,
+    /// Texels a side of its map; `None`: its technique draws none.
+    pub map_size: Option<u32>,
     /// Measurement, or the reason why there is none.
     pub outcome: Outcome,
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
+use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot, camera_framing};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
@@ -26,10 +26,15 @@ const KINDS: [(&str, KindKey); 3] =
 /// `[[light]]` as written; values that depend on the objects follow later.
 pub(super) struct LightKeys {
     settings: Settings,
-    /// The light; its planes are not known yet.
-    light: Light,
+    /// The planes of its frustum are not known yet.
+    kind: LightKind,
     near: Option<f64>,
     far: Option<f64>,
+    name: String,
+    ambient: [f32; 3],
+    diffuse: [f32; 3],
+    specular: [f32; 3],
+    shadow: Settings,
 }
 
 /// Reads the light at `index`, from 0, and checks it as far as that is possible without the objects.
@@ -38,7 +43,7 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let kind = reader.choice("kind", &KINDS)?.unwrap_or(KindKey::Spot);
     let [near, far] = reader.near_and_far()?;
     let image = reader.file("image")?;
-    let kind = match kind {
+    let mut kind = match kind {
         KindKey::Spot => LightKind::Spot(spot(&mut reader)?),
         KindKey::Point => LightKind::Point(point(&mut reader)?),
         KindKey::Directional => LightKind::Directional { direction: direction(&mut reader)? },
@@ -50,30 +55,34 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let specular = reader.colour("specular", BRIGHTEST)?.unwrap_or(color);
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
-    let mut light = Light { kind, ambient, diffuse, specular, name, shadow };
-    if let (LightKind::Spot(spot), Some((name, origin))) = (&mut light.kind, image) {
+    if let (LightKind::Spot(spot), Some((name, origin))) = (&mut kind, image) {
         spot.image = Some(assets.texture(name, origin)?);
     }
-    Ok(LightKeys { settings: table.clone(), light, near, far })
+    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, shadow })
 }
 
 impl LightKeys {
-    /// The light, its maps' range around `objects` if that is missing.
-    pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
-        let Self { settings, mut light, near: written_near, far: written_far } = self;
-        let (found, near, far) = match &mut light.kind {
+    /// The light, its maps' range around `objects` if that is missing, its shadow settings read by `shadows`.
+    pub fn complete(mut self, objects: &[Object], shadows: &dyn ReadShadow) -> Result<Light, SettingsError> {
+        self.find_planes(objects)?;
+        let Self { kind, name, ambient, diffuse, specular, shadow, .. } = self;
+        let shadow = shadows.read(shadow, &kind, objects)?;
+        Ok(Light { kind, ambient, diffuse, specular, name, shadow })
+    }
+
+    fn find_planes(&mut self, objects: &[Object]) -> Result<(), SettingsError> {
+        let (found, near, far) = match &mut self.kind {
             LightKind::Point(point) => {
                 (camera_framing::cube_range(point.position, objects), &mut point.near, &mut point.far)
             }
             LightKind::Spot(Spot { frustum, .. }) => {
                 (camera_framing::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
             }
-            LightKind::Directional { .. } => return Ok(light),
+            LightKind::Directional { .. } => return Ok(()),
         };
-        *near = written_near.unwrap_or_else(|| written_far.map_or(found[0], |far| found[0].min(far / 2.0)));
-        *far = written_far.unwrap_or_else(|| found[1].max(2.0 * *near));
-        settings.read().check_far(*near, *far)?;
-        Ok(light)
+        *near = self.near.unwrap_or_else(|| self.far.map_or(found[0], |far| found[0].min(far / 2.0)));
+        *far = self.far.unwrap_or_else(|| found[1].max(2.0 * *near));
+        self.settings.read().check_far(*near, *far)
     }
 }
 

@@ -7,7 +7,7 @@ pub(super) mod object;
 
 use super::assets::Assets;
 use super::settings::{Plain, Reader, Settings, SettingsError};
-use super::{Error, Image, Scene, Shading};
+use super::{Error, Image, ReadShadow, Scene, Shading};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_IMAGE_SIDE: i64 = 16384;
@@ -19,7 +19,7 @@ pub(super) const DEFAULT_BACKGROUND: [f32; 3] = [0.30, 0.40, 0.60];
 const DEFAULT_AMBIENT: [f32; 3] = [0.2; 3];
 
 /// Resolves a scene's root table. Cheap checks come first, so that a wrong key does not wait for a large mesh.
-pub(super) fn scene(root: &Settings, assets: &mut Assets) -> Result<Scene, Error> {
+pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShadow) -> Result<Scene, Error> {
     let mut reader = root.read();
     let image = image(reader.table("image")?)?;
     let shading = shading(reader.table("shading")?)?;
@@ -35,7 +35,8 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets) -> Result<Scene, Error
     if lights.is_empty() {
         assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
     }
-    let lights = lights.into_iter().map(|light| light.complete(&objects)).collect::<Result<Vec<_>, _>>()?;
+    let complete = |light: light::LightKeys| light.complete(&objects, shadows);
+    let lights = lights.into_iter().map(complete).collect::<Result<Vec<_>, _>>()?;
     let camera = camera.complete(&objects, &image, &mut assets.warnings)?;
     Ok(Scene { image, camera, shading, lights, objects })
 }

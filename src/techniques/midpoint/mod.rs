@@ -23,11 +23,12 @@ mod single;
 
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};
+use super::change::Change;
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::shadow_map::casters::is_before_near;
 use super::shadow_map::depth::{self, DepthEnding, DepthLayer};
 use super::shadow_map::settings::{Fit, Mipmaps, Offset, Order, Settings as Map};
-use super::shadow_map::{self, bias};
+use super::shadow_map::{self, bias, term};
 use super::{Axis, ShadowSettings, Technique};
 use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::pass::{
@@ -88,6 +89,10 @@ impl Technique for Midpoint {
         settings::AXES
     }
 
+    fn changes(&self, _kind: &LightKind) -> Vec<Change> {
+        settings::CHANGES.to_vec()
+    }
+
     fn claims(&self) -> &'static [Claim] {
         CLAIMS
     }
@@ -105,22 +110,17 @@ impl Technique for Midpoint {
 }
 
 impl ShadowSettings for Settings {
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        list: &mut PassList,
-        notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError> {
+    fn describe(&self, view: &LightView<'_>, list: &mut PassList, notes: &mut Notes) -> LightTerm {
         let settings = self;
         let Some(view) = &shadow_map::one_view(view, &settings.map, notes) else {
-            return Ok(shadow_map::without_casters(view, &settings.map, notes));
+            return shadow_map::without_casters(view, notes);
         };
         let mut layers = second::layers(view, notes);
         if !view.shown_whole && !view.keep_all {
             layers.casters = second::needed(view, layers.casters, &settings.map, notes);
         }
         if layers.casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, &settings.map, notes));
+            return shadow_map::without_casters(view, notes);
         }
         let single = settings.single.unwrap_or(Single::Far);
         let shared = second::shared_texels(view, &layers, &settings.map);
@@ -166,9 +166,13 @@ impl ShadowSettings for Settings {
             }
         };
         forecast::warn(view, &forecast_of(view, settings, single, &layers.casters), notes);
-        let mut term = shadow_map::looked_up(view, map, &settings.map, 0.0, notes);
+        let mut term = term::term(view, map, &settings.map, 0.0);
         term.map_info = term.map_info.map(|info| MapInfo { middle: true, ..info });
-        Ok(term)
+        term
+    }
+
+    fn map(&self) -> Option<&Map> {
+        Some(&self.map)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
+use crate::techniques::change::{Change, of_shade};
 use crate::techniques::shadow_map::settings::{self as map, Settings as Map};
 
 /// Mean of two layers.
@@ -46,6 +47,15 @@ pub const AXES: &[Axis] = &[
     Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
     Axis { key: "average", values: &["\"window\"", "\"eye-linear\""], quick: &["\"window\""] },
 ];
+
+pub const CHANGES: &[Change] = &of_shade([
+    "average = \"eye-linear\"",
+    "peel = \"compare\"",
+    "filter = \"nearest\"",
+    "kernel = \"3x3\"",
+    "compare = \"gequal\"",
+    "format = \"depth32f\"",
+]);
 
 /// Reads the keys, each with its default.
 ///

@@ -9,7 +9,7 @@ use crate::geometry::{Mesh, primitive};
 use crate::lights::FrustumView;
 use crate::pass::{
     Attribute, Batch, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId,
-    IndexOrder, Input, MeshRef, Pass, PassList, Primitive, Program, Sampler, Storage, Target, Work, Wrap, glsl,
+    IndexOrder, Input, MeshRef, Pass, PassList, Primitive, Program, Redraw, Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
@@ -47,7 +47,7 @@ pub fn fill(
     };
     list.passes.push(Pass {
         label: format!("light {}: single layer", view.index),
-        redraw: settings.redraw,
+        redraw: Redraw::WhenChanged,
         work: Work::Draw(DrawPass {
             target: Target { color: None, depth: Some(map), level: 0, face: None },
             viewport: [settings.size; 2],

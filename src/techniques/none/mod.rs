@@ -24,6 +24,10 @@ impl Technique for Unshadowed {
         Ok(())
     }
 
+    fn draws_shadows(&self) -> bool {
+        false
+    }
+
     fn axes(&self) -> &'static [Axis] {
         &[]
     }
@@ -38,12 +42,7 @@ impl Technique for Unshadowed {
 }
 
 impl ShadowSettings for Unshadowed {
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        _list: &mut PassList,
-        _notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError> {
-        Ok(LightTerm::unshadowed(view.scene, view.index))
+    fn describe(&self, view: &LightView<'_>, _list: &mut PassList, _notes: &mut Notes) -> LightTerm {
+        LightTerm::unshadowed(view.scene, view.index)
     }
 }

@@ -8,15 +8,20 @@
 
 use std::sync::Arc;
 
+use super::change::{Change, of_shade};
 use super::claims::{Claim, Contender, Quantity, Relation};
-use super::shadow_map::casters::casters;
+use super::shadow_map::casters::{casters, may_meet};
 use super::shadow_map::depth::{self, DepthLayer};
 use super::shadow_map::settings::{self as map, Settings};
-use super::shadow_map::{self, fit};
+use super::shadow_map::{self, fit, parallel, term};
 use super::{Axis, ShadowSettings, Technique};
+use crate::lights::caster_culling::shadows_nothing;
+use crate::lights::drawable::items_of;
+use crate::lights::projector::Projector;
 use crate::lights::{Drawable, LightTerm, LightView, Notes};
+use crate::math::Aabb;
 use crate::pass::{Face, PassList, PolygonOffset};
-use crate::scene::{LightKind, Place, Reader, SettingsError};
+use crate::scene::{LightKind, Object, Place, Reader, SettingsError};
 use crate::techniques::shadow_map::forecast::{self, Stored};
 
 pub struct SecondDepth;
@@ -48,6 +53,8 @@ const AXES: &[Axis] = &[
     Axis { key: "closed", values: &["\"assume\""], quick: &["\"assume\""] },
 ];
 
+const CHANGES: &[Change] = &of_shade(["filter = \"nearest\"", "kernel = \"3x3\"", "fit = \"view\""]);
+
 impl Technique for SecondDepth {
     fn name(&self) -> &'static str {
         "second-depth"
@@ -67,6 +74,18 @@ impl Technique for SecondDepth {
 
     fn axes(&self) -> &'static [Axis] {
         AXES
+    }
+
+    fn changes(&self, _kind: &LightKind) -> Vec<Change> {
+        CHANGES.to_vec()
+    }
+
+    /// A scene with an open caster needs the user's word for it.
+    fn needed_keys(&self, objects: &[Object]) -> &'static str {
+        let mut casters = objects.iter().filter(|object| object.casts_shadow);
+        let is_closed =
+            |object: &Object| object.wave.is_none() && object.mesh.is_closed() && object.mesh.signed_volume() > 0.0;
+        if casters.all(is_closed) { "" } else { "closed = \"assume\"" }
     }
 
     fn claims(&self) -> &'static [Claim] {
@@ -94,24 +113,16 @@ struct SecondDepthSettings {
 }
 
 impl ShadowSettings for SecondDepthSettings {
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        list: &mut PassList,
-        notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError> {
+    fn describe(&self, view: &LightView<'_>, list: &mut PassList, notes: &mut Notes) -> LightTerm {
         let settings = &self.map;
         let Some(mut view) = shadow_map::one_view(view, settings, notes) else {
-            return Ok(shadow_map::without_casters(view, settings, notes));
+            return shadow_map::without_casters(view, notes);
         };
         let mut casters = casters(&view, settings, notes);
         view.projector.crop = fit::crop(&view, &mut casters, settings, notes);
         let view = &view;
-        if !self.is_assumed {
-            refuse_open(&casters, &mut closed_test(), &self.place)?;
-        }
         if casters.is_empty() && !view.keep_all {
-            return Ok(shadow_map::without_casters(view, settings, notes));
+            return shadow_map::without_casters(view, notes);
         }
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = DepthLayer::plain("second depth", "map", offset, &casters);
@@ -125,7 +136,55 @@ impl ShadowSettings for SecondDepthSettings {
             projectors: vec![view.projector.clone()],
         };
         forecast::warn(view, &forecast, notes);
-        Ok(shadow_map::looked_up(view, map, settings, 0.0, notes))
+        term::term(view, map, settings, 0.0)
+    }
+
+    /// Refuses casters without a far side, and names each. A caster that shadows nothing need not be closed.
+    fn check(&self, kind: &LightKind, objects: &[Object]) -> Result<(), SettingsError> {
+        if self.is_assumed {
+            return Ok(());
+        }
+        let items = items_of(objects, None);
+        let mut is_closed = closed_test();
+        let mut open: Vec<&str> = Vec::new();
+        for item in self.casters(&items, kind) {
+            if !is_closed(item) && !open.contains(&item.label.as_str()) {
+                open.push(&item.label);
+            }
+        }
+        if open.is_empty() {
+            return Ok(());
+        }
+        let message = format!(
+            "= \"second-depth\" needs closed casters whose faces look outwards; open: {}. Give them casts_shadow = false, \
+             or draw their back faces alone with closed = \"assume\" (--set light.shadow.closed=assume)",
+            open.join(", ")
+        );
+        Err(self.place.error(message))
+    }
+
+    fn map(&self) -> Option<&Settings> {
+        Some(&self.map)
+    }
+}
+
+impl SecondDepthSettings {
+    /// Items that may cast a shadow in the light's map, for any camera.
+    fn casters<'a>(&self, items: &'a [Drawable], kind: &LightKind) -> Vec<&'a Drawable> {
+        let projector = match kind {
+            LightKind::Spot(spot) => Some(Projector::of_frustum(&spot.frustum)),
+            LightKind::Directional { direction } => {
+                parallel::around(items, *direction, &self.map).map(|(projector, _)| projector)
+            }
+            LightKind::Point(_) => None,
+        };
+        let Some(projector) = projector else { return Vec::new() };
+        let world = |item: &Drawable| item.bounds.transformed(&item.world_from_model);
+        let bounds = items.iter().map(world).fold(Aabb::EMPTY, Aabb::union);
+        let casts = |item: &&Drawable| {
+            item.casts_shadow && may_meet(&projector, item) && !shadows_nothing(projector.rays, &bounds, item)
+        };
+        items.iter().filter(casts).collect()
     }
 }
 
@@ -150,27 +209,4 @@ fn closed_test() -> impl FnMut(&Drawable) -> bool {
         known.push((mesh, is_closed));
         is_closed
     }
-}
-
-/// Refuses casters without a far side, and names each.
-fn refuse_open(
-    casters: &[&Drawable],
-    is_closed: &mut dyn FnMut(&Drawable) -> bool,
-    place: &Place,
-) -> Result<(), SettingsError> {
-    let mut open: Vec<&str> = Vec::new();
-    for item in casters {
-        if !is_closed(item) && !open.contains(&item.label.as_str()) {
-            open.push(&item.label);
-        }
-    }
-    if open.is_empty() {
-        return Ok(());
-    }
-    let message = format!(
-        "= \"second-depth\" needs closed casters whose faces look outwards; open: {}. Give them casts_shadow = false, \
-         or draw their back faces alone with closed = \"assume\" (--set light.shadow.closed=assume)",
-        open.join(", ")
-    );
-    Err(place.error(message))
 }

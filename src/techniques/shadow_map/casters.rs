@@ -3,7 +3,7 @@
 use super::bias;
 use super::settings::{Bias, Mipmaps, Settings};
 use crate::lights::caster_culling::Unseen;
-use crate::lights::projector::Rays;
+use crate::lights::projector::{Projector, Rays};
 use crate::lights::{Drawable, FrustumView, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 
@@ -51,14 +51,23 @@ pub fn in_frustum<'a>(view: &FrustumView<'a>, notes: &mut Notes) -> Vec<&'a Draw
 
 /// Tests whether some of the item may lie in the light's frustum, or between it and the light.
 pub fn may_cast(view: &FrustumView<'_>, item: &Drawable) -> bool {
-    let clip_from_model = view.clip_from_world() * item.world_from_model;
-    frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_before_near(view, item)
+    may_meet(&view.projector, item)
+}
+
+/// As [`may_cast`], for a map's projection.
+pub fn may_meet(projector: &Projector, item: &Drawable) -> bool {
+    let clip_from_model = projector.clip_from_world() * item.world_from_model;
+    frustum::overlap(&clip_from_model, &item.bounds) != Overlap::Outside || is_nearer(projector, item)
 }
 
 /// Tests whether some of the item may lie between the light and its near plane. Parallel light has no near plane.
 pub fn is_before_near(view: &FrustumView<'_>, item: &Drawable) -> bool {
-    let Rays::From { .. } = view.projector.rays else { return false };
-    frustum::may_be_before_near(&(view.clip_from_world() * item.world_from_model), &item.bounds)
+    is_nearer(&view.projector, item)
+}
+
+fn is_nearer(projector: &Projector, item: &Drawable) -> bool {
+    let Rays::From { .. } = projector.rays else { return false };
+    frustum::may_be_before_near(&(projector.clip_from_world() * item.world_from_model), &item.bounds)
 }
 
 pub fn in_the_map(item: &Drawable, view: &LightView<'_>) -> String {

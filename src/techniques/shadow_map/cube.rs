@@ -14,14 +14,13 @@ use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings, Transfer};
 use super::term::{sampler, texture_from_light_clip};
 use super::{bias, simplified_casters, tag};
 use crate::lights::caster_culling::Unseen;
-use crate::lights::guard::Guard;
 use crate::lights::light::ShadeSource;
 use crate::lights::projector::{Projector, Rays, face_frustum};
 use crate::lights::{Coordinates, Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Clear, Cube, CubeFace, Define, DrawPass, Filter, ImageId, Input, Pass, PassList, Shade, Storage, Target, Uniform,
-    Work, glsl,
+    Clear, Cube, CubeFace, Define, DrawPass, Filter, ImageId, Input, Pass, PassList, Redraw, Shade, Storage, Target,
+    Uniform, Work, glsl,
 };
 use crate::scene::{Frustum, Point, Reader, SettingsError};
 
@@ -39,7 +38,6 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
         (settings.bias != Bias::Offset, "bias", "reckons with the texels of a square map"),
         (settings.mipmaps != Mipmaps::None, "mipmaps", "are of square maps"),
         (settings.fit != Fit::None, "fit", "moves the texels of a square map"),
-        (settings.guard != Guard::Auto, "guard", "keeps a spotlight from lighting what lies behind it"),
         (settings.addressing != Addressing::OpenGl, "addressing", "of Direct3D is of square maps"),
     ];
     match refused.iter().find(|(is_set, ..)| *is_set) {
@@ -60,7 +58,7 @@ pub fn describe(
     let faces: Vec<(CubeFace, FrustumView<'_>, Vec<&Drawable>)> =
         CubeFace::ALL.into_iter().filter_map(|face| needed(view, point, face, &casters, settings, notes)).collect();
     if faces.is_empty() {
-        return super::without_casters(view, settings, notes);
+        return super::without_casters(view, notes);
     }
     let map = draw(view, &faces, settings, list, notes);
     let forecast = forecast::Map {
@@ -175,7 +173,7 @@ fn draw(
         };
         list.passes.push(Pass {
             label: label.clone(),
-            redraw: settings.redraw,
+            redraw: Redraw::WhenChanged,
             work: Work::Draw(DrawPass {
                 target,
                 viewport: [settings.size; 2],
@@ -187,7 +185,7 @@ fn draw(
         if let Some(from) = buffer {
             list.passes.push(Pass {
                 label: format!("{label}, copied"),
-                redraw: settings.redraw,
+                redraw: Redraw::WhenChanged,
                 work: Work::CopyDepth { from, to: map, face: Some(*face) },
             });
         }
@@ -226,7 +224,6 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
         let seam = (1.0 - (2.0 * reach + 0.01) / f64::from(settings.size)).max(0.0);
         term.shade.uniforms.push(Uniform::of_light("seam", index, seam as f32));
     }
-    term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
     let offset = bias::offset(settings);

@@ -12,7 +12,7 @@ use crate::lights::projector::Rays;
 use crate::lights::{Chosen, Drawable, FrustumView, LightView, Notes};
 use crate::pass::{
     Batch, Chunk, Clear, Compare, Define, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Input,
-    Pass, PassList, PolygonOffset, Storage, Target, Uniform, Work,
+    Pass, PassList, PolygonOffset, Redraw, Storage, Target, Uniform, Work,
 };
 
 /// One pass of depth over the casters.
@@ -110,7 +110,7 @@ pub fn draw(
     for level in 0..levels {
         list.passes.push(Pass {
             label: if level == 0 { label.clone() } else { format!("{label}, level {level}") },
-            redraw: settings.redraw,
+            redraw: Redraw::WhenChanged,
             work: Work::Draw(DrawPass {
                 target: Target { color: None, depth: Some(drawn), level, face: None },
                 viewport: [(settings.size >> level).max(1); 2],
@@ -124,7 +124,7 @@ pub fn draw(
         let label = format!("{label}, copied");
         list.passes.push(Pass {
             label,
-            redraw: settings.redraw,
+            redraw: Redraw::WhenChanged,
             work: Work::CopyDepth { from: drawn, to: map, face: None },
         });
     }

@@ -3,15 +3,15 @@
 
 pub(super) mod bias;
 pub(super) mod casters;
+mod changes;
 mod cube;
 pub(super) mod depth;
 pub(super) mod fit;
 pub(super) mod forecast;
 mod map;
-mod parallel;
+pub(super) mod parallel;
 pub(super) mod settings;
 mod simplified_casters;
-mod stencil_guard;
 mod tag;
 pub(super) mod term;
 
@@ -19,11 +19,12 @@ use self::casters::casters;
 use self::depth::DepthLayer;
 use self::forecast::Stored;
 use self::settings::Settings;
+use super::change::Change;
 use super::claims::{Claim, Contender, Quantity, Relation};
 use super::{Axis, ShadowSettings, Technique};
 use crate::lights::projector::Projector;
 use crate::lights::{Drawable, FrustumView, LightTerm, LightView, MapInfo, Notes};
-use crate::pass::{ImageId, PassList};
+use crate::pass::PassList;
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowMap;
@@ -84,6 +85,10 @@ impl Technique for ShadowMap {
         }
     }
 
+    fn changes(&self, kind: &LightKind) -> Vec<Change> {
+        changes::changes(kind)
+    }
+
     fn claims(&self) -> &'static [Claim] {
         CLAIMS
     }
@@ -100,19 +105,18 @@ impl Technique for ShadowMap {
 }
 
 impl ShadowSettings for Settings {
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        list: &mut PassList,
-        notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError> {
+    fn describe(&self, view: &LightView<'_>, list: &mut PassList, notes: &mut Notes) -> LightTerm {
         if let LightKind::Point(point) = &view.light().kind {
-            return Ok(cube::describe(view, point, self, list, notes));
+            return cube::describe(view, point, self, list, notes);
         }
-        Ok(match one_view(view, self, notes) {
+        match one_view(view, self, notes) {
             Some(view) => one_map(view, self, list, notes),
-            None => without_casters(view, self, notes),
-        })
+            None => without_casters(view, notes),
+        }
+    }
+
+    fn map(&self) -> Option<&Settings> {
+        Some(self)
     }
 }
 
@@ -131,7 +135,7 @@ fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, 
     view.projector.crop = fit::crop(&view, &mut casters, settings, notes);
     let view = &view;
     if casters.is_empty() && !view.keep_all {
-        return without_casters(view, settings, notes);
+        return without_casters(view, notes);
     }
     let offset = bias::offset(settings);
     let forecast = forecast::Map {
@@ -148,21 +152,8 @@ fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, 
     let casters = if settings.simplified { &fewer } else { &casters };
     let layer = DepthLayer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, settings, list, notes);
-    let mut term = looked_up(view, map, settings, offset.texels, notes);
+    let mut term = term::term(view, map, settings, offset.texels);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
-    term
-}
-
-/// The term of a light with a square map, guarded as its keys say.
-pub(super) fn looked_up(
-    view: &FrustumView<'_>,
-    map: ImageId,
-    settings: &Settings,
-    texels: f64,
-    notes: &mut Notes,
-) -> LightTerm {
-    let mut term = term::term(view, map, settings, texels);
-    stencil_guard::guard(view, settings, &mut term, notes);
     term
 }
 
@@ -186,11 +177,8 @@ pub(super) fn one_view<'a>(view: &LightView<'a>, settings: &Settings, notes: &mu
 }
 
 /// Term of a light in whose frustum nothing casts a visible shadow.
-pub(super) fn without_casters(view: &LightView<'_>, settings: &Settings, notes: &mut Notes) -> LightTerm {
+pub(super) fn without_casters(view: &LightView<'_>, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
-    let mut term = LightTerm::unshadowed(view.scene, view.index);
-    term.dimming = settings.dimming;
-    stencil_guard::guard(view, settings, &mut term, notes);
-    term
+    LightTerm::unshadowed(view.scene, view.index)
 }

@@ -13,7 +13,6 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
-use crate::lights::guard::Guard;
 use crate::lights::projector::{Projector, Rays};
 use crate::lights::{Crop, Drawable, LightView, Notes};
 use crate::math::frustum::{clip_polygon, faces};
@@ -36,10 +35,6 @@ pub fn refuse(settings: &Settings, keys: &Reader<'_>) -> Result<(), SettingsErro
              across it; \"8-tap\" does",
         ));
     }
-    if settings.guard != Guard::Auto {
-        let why = "keeps a spotlight from lighting what lies behind it; behind a directional light lies nothing";
-        return Err(keys.error("guard", why));
-    }
     let least = 4 * rim(settings);
     if settings.size < least {
         return Err(
@@ -54,25 +49,30 @@ fn rim(settings: &Settings) -> u32 {
     rim_texels(settings).ceil() as u32 + 1
 }
 
-/// The box; `None` where nothing casts a shadow on anything.
+/// The box around what `view` shows; `None` where nothing casts a shadow on anything.
 pub fn projector(view: &LightView<'_>, direction: DVec3, settings: &Settings, notes: &mut Notes) -> Option<Projector> {
-    let up = if direction.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z };
-    let light_from_world = spaces::view_from_world(DVec3::ZERO, direction, up);
-    let boxes: Vec<Aabb> =
-        view.items.iter().map(|item| item.bounds.transformed(&(light_from_world * item.world_from_model))).collect();
-    let needed = needed(view.items, &boxes)?;
-    let (min, max) = match shallow(view.items, &light_from_world, &needed, settings) {
-        Some(sides) => sides,
-        None => whole_texels(&needed, settings),
-    };
-    let size = max - min;
+    let (projector, size) = around(view.items, direction, settings)?;
     notes.chosen(
         format!("the map of light {}", view.index),
         format!("a box of {:.4} x {:.4} x {:.4}", size.x, size.y, size.z),
         "around what casts, as far as something lies behind it",
     );
+    Some(projector)
+}
+
+/// The box around `items`, and its size; `None` where nothing casts a shadow on anything.
+pub fn around(items: &[Drawable], direction: DVec3, settings: &Settings) -> Option<(Projector, DVec3)> {
+    let up = if direction.y.abs() < 0.99 { DVec3::Y } else { DVec3::Z };
+    let light_from_world = spaces::view_from_world(DVec3::ZERO, direction, up);
+    let boxes: Vec<Aabb> =
+        items.iter().map(|item| item.bounds.transformed(&(light_from_world * item.world_from_model))).collect();
+    let needed = needed(items, &boxes)?;
+    let (min, max) = match shallow(items, &light_from_world, &needed, settings) {
+        Some(sides) => sides,
+        None => whole_texels(&needed, settings),
+    };
     let clip_from_light = spaces::orthographic(min, max);
-    Some(Projector { clip_from_light, light_from_world, rays: Rays::Along(direction), crop: Crop::WHOLE })
+    Some((Projector { clip_from_light, light_from_world, rays: Rays::Along(direction), crop: Crop::WHOLE }, max - min))
 }
 
 /// Bounds, in light space, of every caster as far as other items, or itself if it is not flat, reach behind it. In z,
@@ -168,13 +168,13 @@ mod tests {
             "[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n[light.shadow]\ntechnique = \"shadow-map\"\n{shadow}\n"
         );
         std::fs::write(&path, light + objects).unwrap();
-        scene::load(&path, &[]).unwrap().scene
+        crate::techniques::load(&path, &[]).unwrap().scene
     }
 
     fn box_of(objects: &str, shadow: &str) -> Option<Aabb> {
         let scene = scene_of(objects, shadow);
         let items = items(&scene, None);
-        let settings = super::super::settings::read(&mut scene.lights[0].shadow.read()).unwrap();
+        let settings = super::super::settings::read(&mut scene.lights[0].shadow.written().read()).unwrap();
         let (shown_whole, keep_all, sampled_warnings) = (false, false, false);
         let camera = CameraView::new(&scene, &items);
         let derived = Derived::default();

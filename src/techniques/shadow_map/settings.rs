@@ -1,9 +1,8 @@
 //! The keys of `[light.shadow]` that shadow maps read.
 
-use crate::lights::guard::Guard;
 pub use crate::lights::map::Bias;
 use crate::math::texgen::{SetUp, Split};
-use crate::pass::{DepthFormat, Face, Filter, PolygonOffset, Redraw};
+use crate::pass::{DepthFormat, Face, Filter, PolygonOffset};
 use crate::scene::{Reader, SettingsError, Value};
 use crate::techniques::Axis;
 
@@ -83,6 +82,9 @@ pub enum Outcome {
     Tag,
 }
 
+/// Texels a side of a map whose `size` is not written.
+pub const DEFAULT_SIZE: u32 = 1024;
+
 /// Settings of a map: how it is drawn and compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -113,10 +115,14 @@ pub struct Settings {
     pub addressing: Addressing,
     /// Added to r after the projection: in [0, 1] depth for OpenGL addressing, in the map's codes for Direct3D's.
     pub matrix_bias: f64,
-    pub dimming: f32,
-    pub redraw: Redraw,
     pub into: Outcome,
-    pub guard: Guard,
+}
+
+impl Settings {
+    /// The key and the value for which the shadow is counted in the stencil buffer, if it is.
+    pub fn counts_by(&self) -> Option<&'static str> {
+        (self.into == Outcome::Tag).then_some("into = \"stencil\"")
+    }
 }
 
 /// Keys that decide the error: resolution, bits, filter, offset.
@@ -210,7 +216,7 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     let (r_scale, r_bias) = read_r(keys)?;
     let (format, is_unsized) = keys.choice("format", &formats)?.unwrap_or((DepthFormat::Depth24, false));
     let settings = Settings {
-        size: keys.integer("size", 1..=16384)?.map_or(1024, |size| size as u32),
+        size: keys.integer("size", 1..=16384)?.map_or(DEFAULT_SIZE, |size| size as u32),
         format,
         is_unsized,
         transfer: keys
@@ -237,19 +243,9 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         r_bias,
         addressing: keys.choice("addressing", &addressings)?.unwrap_or(Addressing::OpenGl),
         matrix_bias: keys.number("matrix_bias", -1e10..=1e10)?.unwrap_or(0.0),
-        dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
-        redraw: keys
-            .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
-            .unwrap_or(Redraw::WhenChanged),
         into: keys.choice("into", &[("shader", Outcome::Shade), ("stencil", Outcome::Tag)])?.unwrap_or(Outcome::Shade),
-        guard: Guard::read(keys)?,
     };
     check_mipmaps(&settings, keys)?;
-    if settings.guard == Guard::Stencil && settings.into == Outcome::Tag {
-        return Err(
-            keys.error("guard", "= \"stencil\" does not go with into = \"stencil\": both tag in the one buffer")
-        );
-    }
     Ok(settings)
 }
 

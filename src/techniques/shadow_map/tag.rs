@@ -6,7 +6,7 @@
 use super::settings::{Outcome, Settings};
 use crate::lights::LightView;
 use crate::lights::light::{CountPass, Counted, Lighting, StencilCount, VolumeDepths};
-use crate::pass::{Compare, DrawState, Stencil, StencilOp, StencilOps};
+use crate::pass::{Compare, DrawState, Redraw, Stencil, StencilOp, StencilOps};
 
 /// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<StencilCount> {
@@ -25,7 +25,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<StencilCoun
     };
     Some(StencilCount {
         passes: vec![pass],
-        redraw: settings.redraw,
+        redraw: Redraw::WhenChanged,
         of_all: false,
         infinite: false,
         clamped: false,

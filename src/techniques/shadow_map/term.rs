@@ -46,7 +46,6 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
     if let Rays::From { .. } = view.projector.rays {
         term.frustum_from_map = frustum_from_map(view.projector.crop, settings);
     }
-    term.dimming = settings.dimming;
     term.counting = tag::counting(view, settings);
     term.map = Some(map);
     term.map_info = Some(map_info(view, settings, texels));

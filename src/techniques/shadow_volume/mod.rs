@@ -14,11 +14,12 @@ use self::casters::{CastingObject, casting_objects};
 use self::choice::CountMethod;
 use self::settings::Settings;
 use self::shapes::Shape;
+use super::change::Change;
 use super::{Axis, ShadowSettings, Technique};
 use crate::geometry::volume::{LightSource, SurfaceKind};
 use crate::lights::light::StencilCount;
 use crate::lights::{LightTerm, LightView, Notes};
-use crate::pass::PassList;
+use crate::pass::{PassList, Redraw};
 use crate::scene::{LightKind, Reader, SettingsError};
 
 pub struct ShadowVolume;
@@ -48,6 +49,14 @@ impl Technique for ShadowVolume {
         settings::AXES
     }
 
+    fn is_exact(&self) -> bool {
+        true
+    }
+
+    fn changes(&self, _kind: &LightKind) -> Vec<Change> {
+        [settings::SHADE_CHANGES, settings::PICTURE_CHANGES].concat()
+    }
+
     fn check(&self, keys: &mut Reader<'_>) -> Result<(), SettingsError> {
         settings::read(keys).map(|_| ())
     }
@@ -58,27 +67,25 @@ impl Technique for ShadowVolume {
 }
 
 impl ShadowSettings for Settings {
-    fn describe(
-        &self,
-        view: &LightView<'_>,
-        _list: &mut PassList,
-        notes: &mut Notes,
-    ) -> Result<LightTerm, SettingsError> {
+    fn describe(&self, view: &LightView<'_>, _list: &mut PassList, notes: &mut Notes) -> LightTerm {
         let mut term = LightTerm::unshadowed(view.scene, view.index);
-        term.dimming = self.dimming;
         let casting = casting_objects(view.items, view.derived);
         explain(view, &casting, notes);
         let ways = choice::ways(view, &casting, self, notes);
         let shapes = shapes::shapes(view, &casting, &ways, source(view), self, notes);
         if shapes.is_empty() {
             notes.left_out(format!("the count of light {}", view.index), "no caster shadows what is seen");
-            return Ok(term);
+            return term;
         }
         if view.sampled_warnings {
             doubt::warn(view, &casting, &ways, self, notes);
         }
         term.counting = Some(counting(view, &shapes, self));
-        Ok(term)
+        term
+    }
+
+    fn counts_by(&self) -> Option<&'static str> {
+        Some("technique = \"shadow-volume\"")
     }
 }
 
@@ -86,7 +93,7 @@ fn counting(view: &LightView<'_>, shapes: &[Shape], settings: &Settings) -> Sten
     let has = |wanted: CountMethod| shapes.iter().any(|shape| shape.way == wanted);
     StencilCount {
         passes: counts::passes(view, shapes, settings),
-        redraw: settings.redraw,
+        redraw: Redraw::WhenChanged,
         of_all: false,
         // The end of a truncated volume may lie beyond the camera's far plane too.
         infinite: has(CountMethod::ZFail) || has(CountMethod::ZFailTruncated),

@@ -2,9 +2,9 @@
 
 use crate::lights::light::{LedgeDepths, Lighting};
 use crate::math::ledge::GUARD_CODES;
-use crate::pass::Redraw;
 use crate::scene::{Reader, SettingsError};
 use crate::techniques::Axis;
+use crate::techniques::change::{Change, of_picture, of_shade};
 
 /// Method by which volumes are counted [GDC, "Review: Stenciled Shadow Volumes"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +55,6 @@ pub struct Settings {
     pub ledge: LedgeDepths,
     /// Passes in which the light joins the picture.
     pub lighting: Lighting,
-    pub dimming: f32,
-    pub redraw: Redraw,
 }
 
 pub const AXES: &[Axis] = &[Axis {
@@ -74,6 +72,20 @@ pub const AXES: &[Axis] = &[Axis {
     quick: &["\"auto\"", "\"z-fail\""],
 }];
 
+pub const SHADE_CHANGES: &[Change] = &of_shade([
+    "method = \"parity\"",
+    "method = \"z-pass\"",
+    "method = \"z-pass-two-sided\"",
+    "method = \"z-pass-capped\"",
+    "method = \"z-pass-capped\", ledge = [0.05, 0.1, 1.0]",
+    "method = \"z-fail\"",
+    "method = \"z-fail-clamped\"",
+    "method = \"z-fail-truncated\"",
+    "count = \"saturate\"",
+]);
+
+pub const PICTURE_CHANGES: &[Change] = &of_picture(["passes = \"lit-unlit\""]);
+
 /// Reads the settings; data/scenes/README.md has the defaults.
 pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
     Ok(Settings {
@@ -84,10 +96,6 @@ pub fn read(keys: &mut Reader<'_>) -> Result<Settings, SettingsError> {
         lighting: keys
             .choice("passes", &[("added", Lighting::Added), ("lit-unlit", Lighting::LitAndUnlit)])?
             .unwrap_or(Lighting::Added),
-        dimming: keys.number("dimming", 0.0..=1.0)?.unwrap_or(0.0) as f32,
-        redraw: keys
-            .choice("redraw", &[("once", Redraw::WhenChanged), ("always", Redraw::Always)])?
-            .unwrap_or(Redraw::WhenChanged),
     })
 }
 

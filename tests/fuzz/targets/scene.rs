@@ -11,7 +11,7 @@ fuzz_target!(|bytes: &[u8]| {
     if let Ok(settings) = glumbra::scene::settings(&path, &overrides) {
         let _ = settings.to_toml();
     }
-    if let Ok(loaded) = glumbra::scene::load(&path, &overrides) {
+    if let Ok(loaded) = glumbra::load(&path, &overrides) {
         let request = Request { sampled_warnings: false, ..Request::default() };
         if let Ok(plan) = plan::make(&loaded.scene, &request) {
             let _ = plan.summary().to_string();

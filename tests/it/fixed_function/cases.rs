@@ -27,9 +27,9 @@ fn scenes_and_cases_agree_per_vertex_or_say_why_not() {
     let mut pipelines = Pipelines::open();
     let (mut drawn, mut shadowed, mut refused) = (0, 0, 0);
     for (path, set) in cases() {
-        let Ok(loaded) = scene::load(&path, &set) else { continue };
+        let Ok(loaded) = glumbra::load(&path, &set) else { continue };
         let of_maps = |light: &scene::Light| {
-            let technique = light.shadow.get("technique").map(|entry| format!("{:?}", entry.value));
+            let technique = light.shadow.written().get("technique").map(|entry| format!("{:?}", entry.value));
             technique.is_none_or(|name| name.contains("\"shadow-map\"") || name.contains("\"none\""))
         };
         let plans = Renderer::plan(&mut pipelines.renderer, &loaded.scene, &Request::default()).is_ok();

@@ -8,7 +8,7 @@ use glumbra::fixed_function::{Error, FixedFunction, Inexpressible};
 use glumbra::frame::Renderer;
 use glumbra::pass::PassList;
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::views::View;
 
 /// One code of 8 bits: decals and spot images are filtered with weights of 8 bits, so that coordinates which differ in
@@ -109,7 +109,7 @@ pub fn reached_and_shadowed(shade: &[f32]) -> (usize, usize) {
 
 pub fn load(path: &Path, set: &[&str]) -> Scene {
     let set: Vec<String> = set.iter().map(|set| (*set).to_owned()).collect();
-    scene::load(path, &set).unwrap_or_else(|error| panic!("{error}")).scene
+    glumbra::load(path, &set).unwrap_or_else(|error| panic!("{error}")).scene
 }
 
 /// The picture in floats, so that nothing is rounded before it is compared, and each light's shade.

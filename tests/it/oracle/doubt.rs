@@ -1,14 +1,14 @@
 //! Doubt belongs to the pixel: what the scene reaches elsewhere makes no pixel ambiguous, and walls along the light make
 //! no scene unusable.
 
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
 use glumbra::truth::{self, Answer, Options, Reason};
 
 fn load(text: &str) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.toml");
     std::fs::write(&path, text).unwrap();
-    scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
+    glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
 }
 
 const CAMERA: &str =

@@ -6,9 +6,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
-use glumbra::scene::{
-    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Origin, Point, Scene, Settings, Shading, Spot,
-};
+use glumbra::scene::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
 use glumbra::truth::{Answer, Options, Pixel, Truth, trace};
 
 pub const SIZE: u32 = 192;
@@ -126,7 +124,7 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         diffuse: [1.0; 3],
         specular: [1.0; 3],
         name: String::from("light"),
-        shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
+        shadow: glumbra::techniques::unshadowed(),
     }
 }
 

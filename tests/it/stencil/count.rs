@@ -4,7 +4,8 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::scene::{self, Scene};
+use glumbra::scene::Scene;
+use glumbra::techniques;
 use glumbra::truth::{Count, Options, VolumeCounts, volume_count};
 use glumbra::views::View;
 
@@ -40,9 +41,8 @@ impl Bench {
 
     /// The stencil count by `settings`, the inside of `[light.shadow]` but for its technique.
     pub fn count(&mut self, scene: &Scene, settings: &str) -> Vec<u8> {
-        let mut scene = scene.clone();
         let inside = format!("technique = \"shadow-volume\", {settings}");
-        scene.lights[0].shadow = scene::shadow_settings(&inside).unwrap();
+        let scene = techniques::with_keys(scene, 0, &inside).unwrap();
         let views = vec![ViewRequest { view: View::StencilCount, light: 0 }];
         let plan = match self.renderer.plan(&scene, &Request { views, ..Request::default() }) {
             Ok(plan) => plan,

@@ -5,7 +5,8 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
 use glumbra::plan::{Plan, Request};
-use glumbra::scene::{self, Light, Scene};
+use glumbra::scene::{Light, Scene};
+use glumbra::techniques;
 
 use crate::oracle::scenes::{floor, frustum_of, light, mesh, object, scene, square, sun};
 
@@ -21,7 +22,7 @@ fn lit_by(lights: Vec<Light>) -> Scene {
     scene.lights = lights;
     for light in &mut scene.lights {
         (light.ambient, light.specular, light.diffuse) = ([0.0; 3], [0.0; 3], [0.25; 3]);
-        light.shadow = scene::shadow_settings("technique = \"shadow-volume\"").unwrap();
+        light.shadow = techniques::read_text("technique = \"shadow-volume\"", &light.kind, &scene.objects).unwrap();
     }
     scene
 }

@@ -68,8 +68,7 @@ impl<'a> Points<'a> {
                 all.techniques.push(name);
                 all.techniques.len() - 1
             });
-            let size = row.settings.iter().find(|(key, _)| key == "size").and_then(|(_, value)| value.parse().ok());
-            let size = size.filter(|size: &f64| size.is_finite() && *size > 0.0);
+            let size = row.map_size.map(f64::from);
             let (milliseconds, wrong_percent) = (all.times.of_row(measured), measured.wrong_percent());
             let bar = [measured.frame_redrawn.least, measured.frame_redrawn.greatest];
             all.points.push(Point { row, milliseconds, bar, wrong_percent, size, technique });

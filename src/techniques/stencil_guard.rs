@@ -4,7 +4,6 @@
 
 use std::sync::Arc;
 
-use super::settings::Settings;
 use crate::geometry::Mesh;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::light::{CountPass, Counted, Lighting, StencilCount, VolumeDepths, VolumeDraw, VolumeSpace};
@@ -12,10 +11,10 @@ use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::{Compare, DrawState, MeshRef, Primitive, Redraw, Stencil, StencilOp, StencilOps};
 use crate::scene::Frustum;
 
-/// Gives `term` the guard that the light's keys choose. Nothing is counted if no visible item needs it.
-pub fn guard(view: &LightView<'_>, settings: &Settings, term: &mut LightTerm, notes: &mut Notes) {
-    term.guard = settings.guard;
-    let (Guard::Stencil, Some(frustum)) = (settings.guard, view.light().frustum()) else { return };
+/// Gives `term` the `guard` that the light's keys choose. Nothing is counted if no visible item needs it.
+pub fn guard(view: &LightView<'_>, guard: Guard, term: &mut LightTerm, notes: &mut Notes) {
+    term.guard = guard;
+    let (Guard::Stencil, Some(frustum)) = (guard, view.light().frustum()) else { return };
     if !view.keep_all && !anything_behind(view, term) {
         let why = "nothing that is seen lies behind the light, or across its plane";
         notes.left_out(format!("tags behind light {}", view.index), why);
