@@ -52,10 +52,10 @@ impl<'a> CameraView<'a> {
         let bounds = self.seen_bounds;
         // Its pyramid, from the light to beyond all that is seen.
         let depth = bounds.corners().map(|corner| corner.distance(frustum.position)).into_iter().fold(0.0, f64::max);
-        let side = depth * (0.5 * frustum.cone_radians).tan();
+        let side = depth * frustum.tangents();
         let world_from_light = frustum.view_from_world().inverse();
         let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-            .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side * x, side * y, -depth)));
+            .map(|(x, y)| world_from_light.transform_point3(DVec3::new(side.x * x, side.y * y, -depth)));
         let points: Vec<DVec3> = base.into_iter().chain([frustum.position]).collect();
         // No pixel: the light contributes nothing, and the plan has left it out already.
         volume::scissor(&points, &self.clip_from_world, size).filter(|scissor| *scissor != [0, 0, size[0], size[1]])

@@ -65,9 +65,7 @@ const MOST_TRIANGLES: u32 = 1 << 16;
 fn ordinary_for_camera(scene: &Scene) -> f64 {
     let allowed = scene.lights.iter().filter_map(|light| {
         let (position, near, tangent) = match &light.kind {
-            LightKind::Spot(spot) => {
-                (spot.frustum.position, spot.frustum.near, (0.5 * spot.frustum.cone_radians).tan())
-            }
+            LightKind::Spot(spot) => (spot.frustum.position, spot.frustum.near, spot.frustum.tangents().min_element()),
             LightKind::Point(point) => (point.position, point.near, 1.0),
             LightKind::Directional { .. } => return None,
         };

@@ -65,5 +65,5 @@ pub fn face_frustum(point: &Point, face: CubeFace) -> Frustum {
     let Point { position, near, far, .. } = *point;
     // A target so far away that its coordinates may round, but stay on the axis.
     let target = position + direction * position.abs().max_element().max(1.0);
-    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, near, far }
+    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, aspect: 1.0, near, far }
 }

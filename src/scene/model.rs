@@ -112,8 +112,11 @@ pub struct Spot {
     pub shape: LightShape,
     /// GL's constant, linear and quadratic attenuation; (1, 0, 0): none.
     pub attenuation: [f32; 3],
-    /// The spot image, projected through the frustum; modulates diffuse and specular.
+    /// The spot image, projected through the frustum; modulates diffuse and specular. Its first row lies towards
+    /// [`Frustum::up`].
     pub image: Option<Arc<Texture>>,
+    /// Filter of `image`.
+    pub image_filter: ImageFilter,
     /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
 }
@@ -132,7 +135,7 @@ pub struct Point {
     pub attenuation: [f32; 3],
 }
 
-/// A symmetric, square frustum.
+/// A symmetric frustum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frustum {
     /// Apex, in world space.
@@ -141,8 +144,10 @@ pub struct Frustum {
     pub target: DVec3,
     /// Unit vector, not parallel to the way from position to target.
     pub up: DVec3,
-    /// Full angle between opposite sides, in (0, pi).
+    /// Full angle between its lower and upper side, in (0, pi).
     pub cone_radians: f64,
+    /// Width over height of its cross-section, in [1e-3, 1e3]; 1: square.
+    pub aspect: f64,
     /// Distance of the near plane along the axis; 0 < near < far.
     pub near: f64,
     /// Distance of the far plane along the axis.
@@ -154,8 +159,19 @@ pub struct Frustum {
 pub enum LightShape {
     /// At the circular cone inscribed in the frustum (GL_SPOT_CUTOFF).
     Cone,
-    /// At the square frustum's sides, as in the sample programs.
+    /// At the frustum's sides, as in the sample programs.
     Frustum,
+}
+
+/// Filter of a light's image. None reads a texel beyond the image's border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImageFilter {
+    /// The texel at the point.
+    Nearest,
+    /// The four texels around it.
+    Linear,
+    /// Between and within mipmap levels, by the image's own footprint in the picture.
+    Trilinear,
 }
 
 /// A mesh placed in the world.

@@ -55,8 +55,7 @@ impl Pyramid {
     }
 
     pub fn of_frustum(frustum: &Frustum) -> Self {
-        let tan = (0.5 * frustum.cone_radians).tan();
-        Self { view_from_world: frustum.view_from_world(), tan: DVec2::splat(tan) }
+        Self { view_from_world: frustum.view_from_world(), tan: frustum.tangents() }
     }
 
     /// The six of a cube around `position`, which together hold everything.

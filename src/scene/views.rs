@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Shadow, Spot};
 use crate::math::{Aabb, spaces};
@@ -116,7 +116,13 @@ impl Frustum {
 
     /// Perspective of the light's square image.
     pub fn clip_from_view(&self) -> DMat4 {
-        spaces::perspective(self.cone_radians, 1.0, self.near, self.far)
+        spaces::perspective(self.cone_radians, self.aspect, self.near, self.far)
+    }
+
+    /// Half its width and half its height at distance 1.
+    pub fn tangents(&self) -> DVec2 {
+        let tan = (0.5 * self.cone_radians).tan();
+        DVec2::new(tan * self.aspect, tan)
     }
 
     /// The same pyramid from its apex to far beyond its far plane: the region that the light can reach.

@@ -14,7 +14,7 @@ use crate::math::texgen;
 use crate::pass::{
     Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
-use crate::scene::{Light, LightKind, LightShape, Scene, Spot};
+use crate::scene::{ImageFilter, Light, LightKind, LightShape, Scene, Spot};
 
 /// Parts of one light in every variant.
 pub struct LightParts {
@@ -100,8 +100,16 @@ impl<'a> Variants<'a> {
     }
 }
 
-const SPOT_IMAGE_SAMPLER: Sampler =
-    Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+/// Sampler of a light's image. Nothing beyond the image's border is read: outside of it there is no light, by the test of
+/// reach, at every mipmap level.
+fn image_sampler(filter: ImageFilter) -> Sampler {
+    let filter = match filter {
+        ImageFilter::Nearest => Filter::Nearest,
+        ImageFilter::Linear => Filter::Linear,
+        ImageFilter::Trilinear => Filter::Trilinear,
+    };
+    Sampler { filter, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None }
+}
 
 fn light_parts(
     source: &Light,
@@ -263,9 +271,12 @@ fn add_lighting(
         parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
+    if let Some((spot, image)) = spot.and_then(|spot| Some((spot, spot.image.as_ref()?))) {
         parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
-        parts.inputs.push(upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
+        if spot.image_filter == ImageFilter::Trilinear {
+            parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
+        }
+        parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
     }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
 }

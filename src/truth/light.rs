@@ -26,7 +26,8 @@ enum Origin {
 /// Region that the light reaches, and the layout of a map of it.
 enum Shape {
     /// `axes`: ahead, right, up; of unit length and square to each other.
-    Spot { axes: [DVec3; 3], ends: LightShape, half_angle_radians: f64, near: f64, far: f64 },
+    /// `aspect`: width over height of the frustum, which `half_angle_radians` is the half of the upright angle of.
+    Spot { axes: [DVec3; 3], ends: LightShape, half_angle_radians: f64, aspect: f64, near: f64, far: f64 },
     /// Every way, between near and far along the nearest coordinate axis.
     Cube { near: f64, far: f64 },
     /// Everywhere. A map would be the square around the ball that holds all the scene, as the light sees it.
@@ -38,12 +39,13 @@ impl Lamp {
     pub fn new(light: &Light, center: DVec3, radius: f64) -> Self {
         match &light.kind {
             LightKind::Spot(spot) => {
-                let Frustum { position, target, up, cone_radians, near, far } = spot.frustum;
+                let Frustum { position, target, up, cone_radians, aspect, near, far } = spot.frustum;
                 let ahead = (target - position).normalize();
                 let right = ahead.cross(up).normalize();
                 let axes = [ahead, right, right.cross(ahead)];
                 let (ends, half_angle_radians) = (spot.shape, 0.5 * cone_radians);
-                Self { source: Origin::At(position), shape: Shape::Spot { axes, ends, half_angle_radians, near, far } }
+                let shape = Shape::Spot { axes, ends, half_angle_radians, aspect, near, far };
+                Self { source: Origin::At(position), shape }
             }
             LightKind::Point(point) => {
                 let (near, far) = (point.near, point.far);
@@ -64,8 +66,8 @@ impl Lamp {
         let (Origin::At(vector) | Origin::Along { travel: vector, .. }) = self.source;
         vector.is_finite()
             && match &self.shape {
-                Shape::Spot { axes, half_angle_radians, .. } => {
-                    axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0
+                Shape::Spot { axes, half_angle_radians, aspect, .. } => {
+                    axes.iter().all(|axis| axis.is_finite()) && *half_angle_radians > 0.0 && *aspect > 0.0
                 }
                 Shape::Cube { near, far } => 0.0 < *near && near < far,
                 Shape::Square { center, radius, .. } => center.is_finite() && radius.is_finite(),
@@ -167,12 +169,12 @@ impl Lamp {
     /// [`crate::truth::Hit::in_map`]).
     pub fn in_map(&self, point: DVec3) -> DVec3 {
         match &self.shape {
-            Shape::Spot { axes, half_angle_radians, .. } => {
+            Shape::Spot { axes, half_angle_radians, aspect, .. } => {
                 let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
                 if depth <= 0.0 {
                     return DVec3::INFINITY;
                 }
-                (DVec2::new(right, up) / (depth * half_angle_radians.tan())).extend(0.0)
+                (DVec2::new(right / aspect, up) / (depth * half_angle_radians.tan())).extend(0.0)
             }
             Shape::Cube { .. } => -self.towards(point) / self.depth(point),
             Shape::Square { right, up, center, radius } => {
@@ -217,14 +219,17 @@ impl Lamp {
 
     /// Distance to the cone's or the frustum's surface, positive inside. Never steeper than 1, as are the next two.
     fn inside_sides(&self, point: DVec3) -> f64 {
-        let Shape::Spot { axes, ends, half_angle_radians, .. } = &self.shape else { return UNBOUNDED };
+        let Shape::Spot { axes, ends, half_angle_radians, aspect, .. } = &self.shape else { return UNBOUNDED };
         let [depth, right, up] = axes.map(|axis| -axis.dot(self.towards(point)));
-        let beside = match ends {
-            LightShape::Cone => right.hypot(up),
-            LightShape::Frustum => right.abs().max(up.abs()),
-        };
         let (sin, cos) = half_angle_radians.sin_cos();
-        depth * sin - beside * cos
+        match ends {
+            LightShape::Cone => depth * sin - right.hypot(up) * cos,
+            LightShape::Frustum if *aspect == 1.0 => depth * sin - right.abs().max(up.abs()) * cos,
+            LightShape::Frustum => {
+                let (sin_right, cos_right) = (aspect * half_angle_radians.tan()).atan().sin_cos();
+                (depth * sin - up.abs() * cos).min(depth * sin_right - right.abs() * cos_right)
+            }
+        }
     }
 
     fn beyond_near(&self, point: DVec3) -> f64 {

@@ -39,6 +39,7 @@ mod oracle;
 mod placement;
 mod plan_listings;
 mod planes;
+mod projected;
 mod ranges;
 mod redraw;
 mod report;

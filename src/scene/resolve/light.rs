@@ -5,12 +5,20 @@ use glam::DVec3;
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot, camera_framing};
+use crate::scene::{
+    Error, Frustum, ImageFilter, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot, camera_framing,
+};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
 
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
+
+/// Least and greatest width over height of a frustum.
+const ASPECTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+const FILTERS: [(&str, ImageFilter); 3] =
+    [("nearest", ImageFilter::Nearest), ("linear", ImageFilter::Linear), ("trilinear", ImageFilter::Trilinear)];
 
 /// The value of `kind`.
 #[derive(Clone, Copy)]
@@ -92,24 +100,39 @@ fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
         .angle_between("cone", 1.0, 179.0)?
         .ok_or_else(|| reader.missing("cone", "the full angle of the light's frustum, in degrees"))?;
     let shape = reader.choice("shape", &SHAPES)?.unwrap_or(LightShape::Cone);
+    let aspect = aspect(reader, shape)?;
     let position = position(reader)?;
     let target = reader.vector("target")?.ok_or_else(|| reader.missing("target", "what the light points at"))?;
     let up = reader.up(["position", "target"], position, target)?;
-    let frustum = Frustum { position, target, up, cone_radians, near: 0.0, far: 0.0 };
+    let frustum = Frustum { position, target, up, cone_radians, aspect, near: 0.0, far: 0.0 };
     let attenuation = attenuation(reader)?;
     let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
-    Ok(Spot { frustum, shape, attenuation, image: None, frustum_shown })
+    let image_filter = reader.choice("filter", &FILTERS)?;
+    if image_filter.is_some() && reader.string("image")?.is_none() {
+        return Err(reader.error("filter", "is of the light's `image`, which is missing"));
+    }
+    let image_filter = image_filter.unwrap_or(ImageFilter::Linear);
+    Ok(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown })
+}
+
+/// Width over height of a light's frustum; only of one that ends at its sides.
+fn aspect(reader: &mut Reader<'_>, shape: LightShape) -> Result<f64, SettingsError> {
+    let Some(aspect) = reader.number("aspect", ASPECTS)? else { return Ok(1.0) };
+    if shape == LightShape::Cone && aspect != 1.0 {
+        return Err(reader.error("aspect", "is of a light with shape = \"frustum\": a cone is round"));
+    }
+    Ok(aspect)
 }
 
 fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
-    let others = ["cone", "shape", "target", "up", "image", "frustum", "direction"];
+    let others = ["cone", "shape", "aspect", "target", "up", "image", "filter", "frustum", "direction"];
     reader.refuse(&others, "is no key of a point light, which shines every way alike")?;
     Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
 }
 
 /// `direction`, or the direction from `position` to `target`.
 fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
-    let others = ["cone", "shape", "up", "near", "far", "image", "frustum", "attenuation"];
+    let others = ["cone", "shape", "aspect", "up", "near", "far", "image", "filter", "frustum", "attenuation"];
     reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;
     let (position, target) = (reader.vector("position")?, reader.vector("target")?);
     if let Some(direction) = reader.vector("direction")? {
