@@ -8,6 +8,7 @@
 //!
 //! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
+pub mod dust;
 mod groups;
 pub mod passes;
 pub mod projection;
@@ -93,6 +94,10 @@ pub enum Error {
         "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
     )]
     TwoLedges { first: usize, second: usize },
+    #[error(
+        "[light.dust] of light {light} needs a shade that can be found anywhere in the air: shadow volumes count at surfaces only. Choose a technique with a map, or \"none\""
+    )]
+    DustCounted { light: usize },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

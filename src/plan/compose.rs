@@ -77,6 +77,8 @@ fn light_terms(
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
         // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
+        // Shadows are seen in the air, too.
+        let shown_whole = shown_whole || scene.lights[index].dust.is_some();
         let keep_all = request.keep_all;
         let sampled_warnings = request.sampled_warnings;
         let view = LightView { scene, items, camera, index, shown_whole, keep_all, sampled_warnings };
@@ -114,6 +116,9 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
+    }
+    if source.dust.is_some() {
+        return None; // the air between is seen
     }
     let touched =
         |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;

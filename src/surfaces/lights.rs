@@ -162,8 +162,10 @@ fn light_parts(
     if term.addition == Addition::Clamped {
         parts.defines.push(Define::flag("ADDED"));
     }
-    if let Ending::Lit = ending {
-        add_lighting(&mut parts, source, spot, viewer, term, list);
+    match ending {
+        Ending::Lit => add_lighting(&mut parts, source, spot, viewer, term, list),
+        Ending::Slice { .. } => add_beam(&mut parts, source, spot, viewer, list),
+        Ending::View { .. } => {}
     }
     Some(parts)
 }
@@ -233,6 +235,26 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     }
 }
 
+/// Adds the light's colour, image and attenuation, without a surface that they fall on.
+fn add_beam(parts: &mut LightParts, source: &Light, spot: Option<&Spot>, viewer: &Viewer, list: &mut PassList) {
+    let index = parts.index;
+    parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
+    add_image(parts, spot, list);
+    if parts.has_attenuation {
+        parts.defines.push(Define::flag("ATTENUATION").of_light(index));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
+        parts.uniforms.push(Uniform::of_light("light_position", index, eye_position(source, viewer).truncate()));
+    }
+}
+
+/// Adds the image that is projected through the light's frustum, if there is one.
+fn add_image(parts: &mut LightParts, spot: Option<&Spot>, list: &mut PassList) {
+    if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
+        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(parts.index));
+        parts.inputs.push(upload(format!("spot_image_{}", parts.index), image, SPOT_IMAGE_SAMPLER, list));
+    }
+}
+
 fn add_lighting(
     parts: &mut LightParts,
     source: &Light,
@@ -262,9 +284,6 @@ fn add_lighting(
         parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some(image) = spot.and_then(|spot| spot.image.as_ref()) {
-        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
-        parts.inputs.push(upload(format!("spot_image_{index}"), image, SPOT_IMAGE_SAMPLER, list));
-    }
+    add_image(parts, spot, list);
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
 }
