@@ -25,10 +25,10 @@ void main()
     derive_shade_@();
 #endif
     // A ray at an angle phi to the view axis is 1 / cos phi as long in the layer as the axis.
-#ifdef NO_SECANT
-    float optical = thickness;
-#else
+#ifdef SECANT
     float optical = thickness * sqrt(1.0 + dot(ray, ray));
+#else
+    float optical = thickness;
 #endif
     if (!in_reach_@())
         discard;

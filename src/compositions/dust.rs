@@ -14,13 +14,12 @@ use super::Error;
 use super::passes::{Buffers, Onto, Passes};
 use super::projection::CameraProjection;
 use crate::geometry::{Material, Mesh, Part, primitive};
-use crate::lights::light::StencilCount;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::math::{Aabb, frustum};
 use crate::pass::{
     Attribute, Batch, Blend, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, Format,
-    ImageDesc, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw, Sampler, Storage, Target, Uniform, Wrap,
-    glsl,
+    ImageDesc, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw, Sampler, Storage, Target, Uniform,
+    Wrap, glsl,
 };
 use crate::scene::{Dust, DustBlend, Scene, Spot};
 
@@ -43,8 +42,8 @@ impl Passes<'_> {
         for term in terms {
             let light = &self.scene.lights[term.index];
             let (Some(dust), Some(spot)) = (light.dust, light.spot()) else { continue };
-            if term.counting.as_ref().is_some_and(|counting| !StencilCount::tags(counting)) {
-                return Err(Error::DustCounted { light: term.index });
+            if let Some(why) = why_not_in_air(term) {
+                return Err(Error::DustUnshadowed { light: term.index, why });
             }
             let what = format!("dust of light {}", term.index);
             if dust.density == 0.0 {
@@ -143,6 +142,15 @@ impl Passes<'_> {
     }
 }
 
+/// Reason why the light's shade is not found between surfaces, if there is one.
+fn why_not_in_air(term: &LightTerm) -> Option<&'static str> {
+    if term.counting.as_ref().is_some_and(|counting| !counting.tags()) {
+        return Some("shadow volumes are counted at surfaces only");
+    }
+    let is_middle = term.map_info.is_some_and(|info| info.middle);
+    is_middle.then_some("a midpoint map has shadows begin halfway between a caster and what lies behind it")
+}
+
 /// Cuts the beam into `count` slices of the same thickness, between its nearest and its farthest point.
 fn slices(scene: &Scene, spot: &Spot, count: u32) -> Slices {
     let eye_from_world = scene.camera.view_from_world();
@@ -194,7 +202,8 @@ fn drawable(slices: &Slices, light: usize, world_from_eye: &glam::DMat4) -> Draw
     }
     mesh.bounds = Aabb::from_points(slices.polygons.iter().flatten().copied());
     let indices = 0..mesh.indices.len() as u32;
-    mesh.parts = vec![Part { name: String::from("slices"), indices: indices.clone(), material: None, bounds: mesh.bounds }];
+    mesh.parts =
+        vec![Part { name: String::from("slices"), indices: indices.clone(), material: None, bounds: mesh.bounds }];
     Drawable {
         label: mesh.name.clone(),
         object: usize::MAX,
@@ -226,6 +235,9 @@ fn set_slices(
     batch.uniforms.push(Uniform::new("ray_from_pixel", ray.as_vec4()));
     batch.uniforms.push(Uniform::new("thickness", (dust.density * spacing) as f32));
     let defines = &mut batch.program.defines;
+    if dust.thickness_along_ray {
+        defines.push(Define::flag("SECANT"));
+    }
     if dust.blend == DustBlend::Over {
         defines.push(Define::flag("OVER"));
         if dust.hides_in_shadow {

@@ -95,9 +95,9 @@ pub enum Error {
     )]
     TwoLedges { first: usize, second: usize },
     #[error(
-        "[light.dust] of light {light} needs a shade that can be found anywhere in the air: shadow volumes count at surfaces only. Choose a technique with a map, or \"none\""
+        "[light.dust] of light {light} needs shadows in the air, and {why}. Choose technique = \"shadow-map\", \"second-depth\" or \"none\""
     )]
-    DustCounted { light: usize },
+    DustUnshadowed { light: usize, why: &'static str },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

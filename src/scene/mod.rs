@@ -21,7 +21,9 @@ use std::path::Path;
 
 pub use default_scene::{Floor, framing};
 pub use error::Error;
-pub use model::{Camera, Dust, DustBlend, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
+pub use model::{
+    Camera, Dust, DustBlend, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot,
+};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;
 pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};

@@ -87,6 +87,9 @@ pub struct Dust {
     pub blend: DustBlend,
     /// True if dust that no light reaches hides what lies behind it, too.
     pub hides_in_shadow: bool,
+    /// True if a slice counts as thick as the pixel's ray goes through it; `false`: as it is along the view axis, which makes
+    /// dust too thin towards the picture's corners.
+    pub thickness_along_ray: bool,
     /// True if each pixel's slices are moved by a share of their distance: noise in place of bands.
     pub jitter: bool,
 }

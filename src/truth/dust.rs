@@ -69,7 +69,8 @@ fn march(
     let of = |index: u32| {
         let (x, y) = (index % width, index / width);
         let direction = tracer.eye.direction(x, y);
-        let end = tracer.look(x, y).0.map_or(tracer.eye.far, |seen| tracer.eye.depth_of(seen.position - tracer.eye.position));
+        let end =
+            tracer.look(x, y).0.map_or(tracer.eye.far, |seen| tracer.eye.depth_of(seen.position - tracer.eye.position));
         let whole = [tracer.eye.near, end];
         let span = tracer.lamp.span(tracer.eye.position, direction, whole).filter(|[start, end]| start < end);
         span.map_or(CLEAR, |span| tracer.sum(source, &dust, direction, span, layers(span)))
@@ -108,7 +109,8 @@ impl Tracer<'_> {
         let segment = Segment { origin: point, direction: place - point, start: 0.0, end: 1.0 };
         let mut is_clear = true;
         let look = |triangle: &super::Triangle<'_>| {
-            let met = crossing(segment.origin, segment.direction, &triangle.corners).filter(|t| (0.0..=1.0).contains(t));
+            let met =
+                crossing(segment.origin, segment.direction, &triangle.corners).filter(|t| (0.0..=1.0).contains(t));
             let blocks = met.is_some_and(|t| {
                 triangle.placed.casts_shadow
                     && triangle.alpha(segment.origin + t * segment.direction, &[]).passes_test()

@@ -192,10 +192,7 @@ impl Lamp {
         // Each is at least 0 within: a constant, and a slope along the ray.
         let sides = [ahead * tangent - right, ahead * tangent + right, ahead * tangent - up, ahead * tangent + up]
             .map(|normal| [normal.dot(from), normal.dot(direction)]);
-        let planes = [
-            [ahead.dot(from) - near, ahead.dot(direction)],
-            [far - ahead.dot(from), -ahead.dot(direction)],
-        ];
+        let planes = [[ahead.dot(from) - near, ahead.dot(direction)], [far - ahead.dot(from), -ahead.dot(direction)]];
         let mut span = span;
         for [constant, slope] in sides.into_iter().chain(planes) {
             let at = -constant / slope;

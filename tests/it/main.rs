@@ -12,6 +12,7 @@ mod contexts;
 mod coverage;
 mod documents;
 mod doubt;
+mod dust;
 mod extremes;
 #[cfg(unix)]
 mod faults;

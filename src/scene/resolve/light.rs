@@ -5,7 +5,9 @@ use glam::DVec3;
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Dust, DustBlend, Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
+use crate::scene::{
+    Dust, DustBlend, Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing,
+};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
@@ -138,7 +140,8 @@ const MOST_SLICES: i64 = 4096;
 fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, SettingsError> {
     let Some(table) = reader.table("dust")? else { return Ok(None) };
     if !matches!(kind, LightKind::Spot(_)) {
-        let message = format_args!("needs a spotlight, whose beam slices can fill, and this is a {} light", kind.name());
+        let message =
+            format_args!("needs a spotlight, whose beam slices can fill, and this is a {} light", kind.name());
         return Err(reader.error("dust", message));
     }
     let mut keys = table.read();
@@ -148,9 +151,10 @@ fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, Setti
     let slices = keys.integer("slices", 1..=MOST_SLICES)?.unwrap_or(64) as u32;
     let blend = keys.choice("blend", &[("over", DustBlend::Over), ("add", DustBlend::Add)])?.unwrap_or(DustBlend::Over);
     let hides_in_shadow = keys.choice("extinct", &[("lit", false), ("all", true)])?.unwrap_or(true);
+    let thickness_along_ray = keys.choice("thickness", &[("ray", true), ("axis", false)])?.unwrap_or(true);
     let jitter = keys.boolean("jitter")?.unwrap_or(false);
     keys.finish()?;
-    Ok(Some(Dust { density, slices, blend, hides_in_shadow, jitter }))
+    Ok(Some(Dust { density, slices, blend, hides_in_shadow, thickness_along_ray, jitter }))
 }
 
 /// `[light.shadow]` as written; empty, at the light's place, where it is absent.
