@@ -8,6 +8,7 @@
 //!
 //! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
+pub mod dust;
 mod groups;
 pub mod passes;
 pub mod projection;
@@ -93,6 +94,16 @@ pub enum Error {
         "ledge of light {second} differs from that of light {first}: the picture has one depth buffer; give both the same depths"
     )]
     TwoLedges { first: usize, second: usize },
+    /// A dusty light's technique finds no shade between surfaces.
+    #[error(
+        "[light.dust] of light {light} needs shadows in the air, and {why}. Choose technique = \"shadow-map\", \"second-depth\" or \"none\""
+    )]
+    DustUnshadowed {
+        /// Index into the scene's lights.
+        light: usize,
+        /// What the light's technique does instead.
+        why: &'static str,
+    },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

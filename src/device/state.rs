@@ -73,10 +73,15 @@ fn set_blend(gl: &glow::Context, blend: Option<Blend>) {
         None => return,
         Some(Blend::Add) => (glow::ONE, glow::ONE),
         Some(Blend::Over) => (glow::SRC_ALPHA, glow::ONE_MINUS_SRC_ALPHA),
+        Some(Blend::OverPremultiplied) => (glow::ONE, glow::ONE_MINUS_SRC_ALPHA),
+    };
+    let alpha = match blend {
+        Some(Blend::OverPremultiplied) => (source, destination),
+        _ => (glow::ZERO, glow::ONE),
     };
     unsafe {
         gl.blend_equation(glow::FUNC_ADD);
-        gl.blend_func_separate(source, destination, glow::ZERO, glow::ONE);
+        gl.blend_func_separate(source, destination, alpha.0, alpha.1);
     }
 }
 

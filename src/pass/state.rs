@@ -101,6 +101,8 @@ pub enum Blend {
     Add,
     /// Blends by the fragment's alpha over the stored colour; alpha stays as it is.
     Over,
+    /// GL_ONE, GL_ONE_MINUS_SRC_ALPHA, of all four components: the fragment's colour has its alpha as a factor already.
+    OverPremultiplied,
 }
 
 /// All per-fragment and raster state that a pass can set.

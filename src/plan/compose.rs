@@ -93,6 +93,8 @@ fn planned_lights(
         let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
         // Things outside the camera's view may be in another viewer's.
         let shown_whole = shown_whole || request.subject != Subject::Camera;
+        // Shadows are seen in the air, too.
+        let shown_whole = shown_whole || any.scene.lights[index].dust.is_some();
         let view = LightView { index, shown_whole, ..*any };
         let keep_all = view.keep_all;
         let absent = why_absent(&view).filter(|_| !keep_all);
@@ -124,6 +126,9 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
     if !frustum::may_meet(&light_clip, &corners(&light_clip), &camera_clip, &corners(&camera_clip)) {
         return Some("its cone and the camera's frustum do not meet");
+    }
+    if source.dust.is_some() {
+        return None; // the air between is seen
     }
     let touched =
         |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;

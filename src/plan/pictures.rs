@@ -46,6 +46,7 @@ impl Pictures<'_> {
         let buffers = self.buffers(composition.needs_stencil(self.passes.scene, &terms));
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;
+        self.passes.dust(buffers, &lens, &terms)?;
         if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {
             let state = lens.of_surfaces(frustum_lines::STATE);
             let (viewport, clear) = (self.passes.scene.image.size, Clear::default());

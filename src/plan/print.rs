@@ -198,6 +198,7 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
     words.extend(stencil.iter().flat_map(stencil_words));
     match blend {
         Some(Blend::Add) => words.push(String::from("blend ONE ONE")),
+        Some(Blend::OverPremultiplied) => words.push(String::from("blend ONE ONE_MINUS_SRC_ALPHA")),
         Some(Blend::Over) => words.push(String::from("blend SRC_ALPHA ONE_MINUS_SRC_ALPHA")),
         None => {}
     }

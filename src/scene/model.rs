@@ -85,8 +85,37 @@ pub struct Light {
     pub specular: [f32; 3],
     /// Name as written, or `light 0` by its place in the file.
     pub name: String,
+    /// Dust in the light's way; `None`: clear air.
+    pub dust: Option<Dust>,
     /// `[light.shadow]`, as written and as its technique has read it.
     pub shadow: Shadow,
+}
+
+/// Dusty air that shows a spotlight's beam between its near and far planes [LEC, "Combining Shadows with Atmospherics"].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dust {
+    /// Extinction per world unit, >= 0: air of length l leaves exp(-density l) of what lies behind it.
+    pub density: f64,
+    /// Number of slices that the beam is drawn in, in 1..=4096.
+    pub slices: u32,
+    /// How slices are summed.
+    pub blend: DustBlend,
+    /// True if dust that no light reaches hides what lies behind it, too.
+    pub hides_in_shadow: bool,
+    /// True if a slice counts as thick as the pixel's ray goes through it; `false`: as it is along the view axis, which makes
+    /// dust too thin towards the picture's corners.
+    pub thickness_along_ray: bool,
+    /// True if each pixel's slices are moved by a share of their distance: noise in place of bands.
+    pub jitter: bool,
+}
+
+/// Sum of a beam's slices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DustBlend {
+    /// Slices lie over each other, from back to front: each hides a part of what lies behind it.
+    Over,
+    /// Slices are added up, and hide nothing.
+    Add,
 }
 
 /// Kind of a light, with the values that only this kind has.

@@ -171,8 +171,10 @@ fn light_parts(
     if term.addition == Addition::Clamped {
         parts.defines.push(Define::flag("ADDED"));
     }
-    if let Ending::Lit = ending {
-        add_lighting(&mut parts, source, spot, viewer, term, list);
+    match ending {
+        Ending::Lit => add_lighting(&mut parts, source, spot, viewer, term, list),
+        Ending::Slice { .. } => add_beam(&mut parts, source, spot, viewer, list),
+        Ending::View { .. } => {}
     }
     Some(parts)
 }
@@ -242,6 +244,30 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     }
 }
 
+/// Adds the light's colour, image and attenuation, without a surface that they fall on.
+fn add_beam(parts: &mut LightParts, source: &Light, spot: Option<&Spot>, viewer: &Viewer, list: &mut PassList) {
+    let index = parts.index;
+    parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
+    add_image(parts, spot, list);
+    if parts.has_attenuation {
+        parts.defines.push(Define::flag("ATTENUATION").of_light(index));
+        parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
+        parts.uniforms.push(Uniform::of_light("light_position", index, eye_position(source, viewer).truncate()));
+    }
+}
+
+/// Adds the image that is projected through the light's frustum, if there is one.
+fn add_image(parts: &mut LightParts, spot: Option<&Spot>, list: &mut PassList) {
+    let index = parts.index;
+    if let Some((spot, image)) = spot.and_then(|spot| Some((spot, spot.image.as_ref()?))) {
+        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
+        if spot.image_filter == ImageFilter::Trilinear {
+            parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
+        }
+        parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
+    }
+}
+
 fn add_lighting(
     parts: &mut LightParts,
     source: &Light,
@@ -271,12 +297,6 @@ fn add_lighting(
         parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some((spot, image)) = spot.and_then(|spot| Some((spot, spot.image.as_ref()?))) {
-        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
-        if spot.image_filter == ImageFilter::Trilinear {
-            parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
-        }
-        parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
-    }
+    add_image(parts, spot, list);
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
 }

@@ -134,6 +134,7 @@ fn meaning(
             let FixedFunctionLight { projection, shade, .. } = light.meaning.clone();
             FixedFunctionDesc::Sampled(Box::new(ShadeView { clip_from_eye, texturing, projection, shade }))
         }
+        (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
         (Ending::View { .. }, None) => FixedFunctionDesc::Shader("a view of no light"),
     }
 }
@@ -222,10 +223,17 @@ fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -
 
 fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = cut.fragment.clone();
-    if let Ending::View { chunk, shade } = ending {
+    let of_one_light = match ending {
+        Ending::Lit => None,
+        Ending::View { chunk, shade } => Some((chunk, *shade, None)),
+        Ending::Slice { chunk, place } => Some((chunk, true, place.as_ref())),
+    };
+    if let Some((chunk, has_shade, place)) = of_one_light {
         for light in lights {
-            chunks.extend(reach(light));
-            if *shade {
+            chunks.extend(coordinates(light));
+            chunks.extend(place.map(|place| place.for_light(light.index)));
+            chunks.push(light.reach.clone());
+            if has_shade {
                 chunks.extend(light.shade.iter().cloned());
             }
             chunks.push(chunk.for_light(light.index));
@@ -234,7 +242,8 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
     }
     chunks.push(glsl!("surfaces/material.glsl"));
     for light in lights {
-        chunks.extend(reach(light));
+        chunks.extend(coordinates(light));
+        chunks.push(light.reach.clone());
         chunks.extend(light.shade.iter().cloned());
         chunks.push(if needs.per_vertex {
             glsl!("surfaces/per_vertex.frag").for_light(light.index)
@@ -248,8 +257,7 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
     chunks
 }
 
-/// The light's texture coordinates, where it has any, and its reach.
-fn reach(light: &LightParts) -> impl Iterator<Item = Chunk> {
-    let coordinates = light.has_coordinates.then(|| glsl!("surfaces/texgen.frag").for_light(light.index));
-    coordinates.into_iter().chain([light.reach.clone()])
+/// The light's texture coordinates, where it has any.
+fn coordinates(light: &LightParts) -> Option<Chunk> {
+    light.has_coordinates.then(|| glsl!("surfaces/texgen.frag").for_light(light.index))
 }

@@ -184,6 +184,31 @@ impl Lamp {
         }
     }
 
+    /// Part of `span` of a ray, by its parameter, in which the light's frustum may hold it: between the near and far planes
+    /// and the four sides. `None`: the light has no frustum, or the ray misses it.
+    pub fn span(&self, origin: DVec3, direction: DVec3, span: [f64; 2]) -> Option<[f64; 2]> {
+        let Shape::Spot { axes, half_angle_radians, aspect, near, far, .. } = &self.shape else { return None };
+        let from = self.place().map(|place| origin - place)?;
+        let tangent = half_angle_radians.tan();
+        let [ahead, right, up] = *axes;
+        // Each is at least 0 within: a constant, and a slope along the ray.
+        let beside = ahead * tangent * *aspect;
+        let sides = [beside - right, beside + right, ahead * tangent - up, ahead * tangent + up]
+            .map(|normal| [normal.dot(from), normal.dot(direction)]);
+        let planes = [[ahead.dot(from) - near, ahead.dot(direction)], [far - ahead.dot(from), -ahead.dot(direction)]];
+        let mut span = span;
+        for [constant, slope] in sides.into_iter().chain(planes) {
+            let at = -constant / slope;
+            match slope {
+                _ if slope == 0.0 && constant < 0.0 => return None,
+                _ if slope > 0.0 => span[0] = span[0].max(at),
+                _ if slope < 0.0 => span[1] = span[1].min(at),
+                _ => {}
+            }
+        }
+        (span[0] < span[1]).then_some(span)
+    }
+
     /// `Ok(true)`: all of `point ± spread` is lit by the light's shape; `Ok(false)`: none of it.
     ///
     /// Distance to the sides is concave, and so or convex are the distances to the planes; over a parallelogram neither

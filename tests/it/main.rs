@@ -13,6 +13,7 @@ mod coverage;
 mod doc_comments;
 mod documents;
 mod doubt;
+mod dust;
 mod extremes;
 #[cfg(unix)]
 mod faults;

@@ -111,7 +111,9 @@ fn set_blend(out: &mut Text, blend: Option<Blend>) {
         None => return,
         Some(Blend::Add) => "GL_ONE, GL_ONE",
         Some(Blend::Over) => "GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA",
+        Some(Blend::OverPremultiplied) => "GL_ONE, GL_ONE_MINUS_SRC_ALPHA",
     };
+    let alpha = if blend == Some(Blend::OverPremultiplied) { factors } else { "GL_ZERO, GL_ONE" };
     out.call("glBlendEquation(GL_FUNC_ADD)");
-    out.call(&format!("glBlendFuncSeparate({factors}, GL_ZERO, GL_ONE)"));
+    out.call(&format!("glBlendFuncSeparate({factors}, {alpha})"));
 }

@@ -6,7 +6,8 @@ use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
 use crate::scene::{
-    Error, Frustum, ImageFilter, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot, camera_framing,
+    Dust, DustBlend, Error, Frustum, ImageFilter, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot,
+    camera_framing,
 };
 
 /// Greatest colour component of a light.
@@ -42,6 +43,7 @@ pub(super) struct LightKeys {
     ambient: [f32; 3],
     diffuse: [f32; 3],
     specular: [f32; 3],
+    dust: Option<Dust>,
     shadow: Settings,
 }
 
@@ -61,21 +63,22 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let ambient = reader.colour("ambient", BRIGHTEST)?.unwrap_or([0.0; 3]);
     let diffuse = reader.colour("diffuse", BRIGHTEST)?.unwrap_or(color);
     let specular = reader.colour("specular", BRIGHTEST)?.unwrap_or(color);
+    let dust = dust(&mut reader, &kind)?;
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
     if let (LightKind::Spot(spot), Some((name, origin))) = (&mut kind, image) {
         spot.image = Some(assets.texture(name, origin)?);
     }
-    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, shadow })
+    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, dust, shadow })
 }
 
 impl LightKeys {
     /// The light, its maps' range around `objects` if that is missing, its shadow settings read by `shadows`.
     pub fn complete(mut self, objects: &[Object], shadows: &dyn ReadShadow) -> Result<Light, SettingsError> {
         self.find_planes(objects)?;
-        let Self { kind, name, ambient, diffuse, specular, shadow, .. } = self;
+        let Self { kind, name, ambient, diffuse, specular, dust, shadow, .. } = self;
         let shadow = shadows.read(shadow, &kind, objects)?;
-        Ok(Light { kind, ambient, diffuse, specular, name, shadow })
+        Ok(Light { kind, ambient, diffuse, specular, name, dust, shadow })
     }
 
     fn find_planes(&mut self, objects: &[Object]) -> Result<(), SettingsError> {
@@ -160,6 +163,30 @@ fn attenuation(reader: &mut Reader<'_>) -> Result<[f32; 3], SettingsError> {
         return Err(reader.error("attenuation", "must not be all zero: light is divided by it"));
     }
     Ok(factors)
+}
+
+/// Greatest number of slices of a beam.
+const MOST_SLICES: i64 = 4096;
+
+/// `[light.dust]`.
+fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, SettingsError> {
+    let Some(table) = reader.table("dust")? else { return Ok(None) };
+    if !matches!(kind, LightKind::Spot(_)) {
+        let message =
+            format_args!("needs a spotlight, whose beam slices can fill, and this is a {} light", kind.name());
+        return Err(reader.error("dust", message));
+    }
+    let mut keys = table.read();
+    let density = keys
+        .number("density", 0.0..=LARGEST)?
+        .ok_or_else(|| keys.missing("density", "the share of light that dust takes in a world unit, as an exponent"))?;
+    let slices = keys.integer("slices", 1..=MOST_SLICES)?.unwrap_or(64) as u32;
+    let blend = keys.choice("blend", &[("over", DustBlend::Over), ("add", DustBlend::Add)])?.unwrap_or(DustBlend::Over);
+    let hides_in_shadow = keys.choice("extinct", &[("lit", false), ("all", true)])?.unwrap_or(true);
+    let thickness_along_ray = keys.choice("thickness", &[("ray", true), ("axis", false)])?.unwrap_or(true);
+    let jitter = keys.boolean("jitter")?.unwrap_or(false);
+    keys.finish()?;
+    Ok(Some(Dust { density, slices, blend, hides_in_shadow, thickness_along_ray, jitter }))
 }
 
 /// `[light.shadow]` as written; empty, at the light's place, where it is absent.

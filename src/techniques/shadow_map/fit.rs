@@ -18,6 +18,13 @@ use crate::math::frustum::{self, clip_polygon};
 /// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
 /// covers.
 pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Settings, notes: &mut Notes) -> Crop {
+    if view.light().dust.is_some() {
+        if settings.fit != Fit::None {
+            let why = "the light's beam is seen in the air, all of it";
+            notes.chosen(format!("map of light {}", view.index), "of the whole frustum", why);
+        }
+        return Crop::WHOLE;
+    }
     let is_parallel = matches!(view.projector.rays, Rays::Along(_));
     // A map of one side's faces needs closed casters; a caster that shadows nothing need not be closed.
     if settings.fit == Fit::None && !is_parallel && settings.cull.is_none() {

@@ -126,6 +126,7 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         diffuse: [1.0; 3],
         specular: [1.0; 3],
         name: String::from("light"),
+        dust: None,
         shadow: glumbra::techniques::unshadowed(),
     }
 }
