@@ -253,6 +253,7 @@ fn set_slices(
         defines.push(Define::flag("JITTER"));
         batch.uniforms.push(Uniform::of_light("coord_of_eye", term.index, of_eye));
         batch.uniforms.push(Uniform::new("spacing", spacing as f32));
+        batch.uniforms.push(Uniform::new("depth_of_distance", lens.depth_of_distance().as_vec2()));
     }
     Ok(())
 }

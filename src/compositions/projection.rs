@@ -2,6 +2,8 @@
 //! Polygons Correctly"], or a ledge before the near plane [GDC, "Building a "Ledge" at the Front of the Depth Buffer"].
 //! Surfaces and volumes share what is chosen here, so that their depths are comparable.
 
+use glam::DVec2;
+
 use crate::lights::Viewer;
 use crate::lights::light::{LedgeDepths, StencilCount, VolumeDepths};
 use crate::math::ledge::Ledge;
@@ -66,6 +68,14 @@ impl CameraProjection {
             clip_distances: u8::from(self.clamped),
             ..state
         }
+    }
+
+    /// `x` and `y` of the surfaces' window depth `x + y / h` at the distance h along the view axis.
+    pub fn depth_of_distance(&self) -> DVec2 {
+        let [near, far] = self.depth_range.map(f64::from);
+        let clip = &self.camera.clip_from_eye;
+        let half = 0.5 * (far - near);
+        DVec2::new(near + half * (1.0 - clip.z_axis.z), half * clip.w_axis.z)
     }
 
     /// Tests whether the scene's far plane does not clip, so that fragments beyond it must be discarded.

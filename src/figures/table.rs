@@ -21,6 +21,7 @@ const WORKSHOP: Embedded = embedded!("workshop.toml");
 const LAMP: Embedded = embedded!("lamp.toml");
 const BOXES: Embedded = embedded!("boxes.toml");
 const NESTED: Embedded = embedded!("nested.toml");
+const DUSTY_ROOM: Embedded = embedded!("dusty_room.toml");
 
 const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
     Panel { title, set, view, counts: None }
@@ -286,6 +287,28 @@ pub const FIGURES: &[Figure] = &[
         caption: "All 300 ways in are counted before all ways out. Counts that stop at 255 lose 45 of them for good: where the \
                   eye's ray has left all volumes but a few, too little is left and the far rim of the shadow is lit. Wrapping \
                   counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
+    },
+    Figure {
+        name: "lec-dusty-room",
+        title: "A beam of light in dusty air, sliced",
+        source: "lecture, Combining Shadows with Atmospherics",
+        scene: DUSTY_ROOM,
+        columns: 3,
+        panels: &[
+            panel("8 slices: bands", &["light.dust.slices=8"], None),
+            panel(
+                "8 slices, moved from pixel to pixel: noise",
+                &["light.dust.slices=8", "light.dust.jitter=true"],
+                None,
+            ),
+            panel("32 slices", &["light.dust.slices=32"], None),
+            panel("128 slices", &[], None),
+            panel("without the shadow test", &["light.shadow.technique=none"], None),
+            panel("without 1 / cos of the ray's angle: too thin", &["light.dust.thickness=axis"], None),
+        ],
+        caption: "Planes across the view, from back to front, each with the light's shadow: the sum is the light that dust sends \
+                  to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
+                  through walls and chair. A slice must count as thick as the ray goes through it, or corners are too dim.",
     },
 ];
 

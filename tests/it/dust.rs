@@ -116,7 +116,7 @@ fn random_scene(random: &mut Random, technique: &str, slices: u32) -> Scene {
         vector(random, 0.5),
         random.within(30.0, 80.0)
     );
-    let blend = random.pick(&["blend = \"over\"", "blend = \"over\", extinct = \"lit\"", "blend = \"add\""]);
+    let blend = random.pick(&["blend = \"over\"", "blend = \"over\", extinct = \"all\"", "blend = \"add\""]);
     text += &format!(
         "[[light]]\nkind = \"spot\"\nshape = \"{}\"\nposition = {}\ntarget = {}\ncone = {:?}\nnear = 0.4\nfar = 9.0\n\
          color = [0.9, 0.8, 0.7]\nattenuation = [{:?}, {:?}, 0.02]\ndust = {{ density = {:?}, slices = {slices}, {blend} }}\nshadow = {{ {technique} }}\n",

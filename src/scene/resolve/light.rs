@@ -182,7 +182,7 @@ fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, Setti
         .ok_or_else(|| keys.missing("density", "the share of light that dust takes in a world unit, as an exponent"))?;
     let slices = keys.integer("slices", 1..=MOST_SLICES)?.unwrap_or(64) as u32;
     let blend = keys.choice("blend", &[("over", DustBlend::Over), ("add", DustBlend::Add)])?.unwrap_or(DustBlend::Over);
-    let hides_in_shadow = keys.choice("extinct", &[("lit", false), ("all", true)])?.unwrap_or(true);
+    let hides_in_shadow = keys.choice("extinct", &[("lit", false), ("all", true)])?.unwrap_or(false);
     let thickness_along_ray = keys.choice("thickness", &[("ray", true), ("axis", false)])?.unwrap_or(true);
     let jitter = keys.boolean("jitter")?.unwrap_or(false);
     keys.finish()?;

@@ -58,8 +58,9 @@ const SHARED_NAMES: &[(&str, &str)] = &[
     ("Settings", "each technique has its own, as each has its own `Technique`"),
 ];
 
-/// Folders of `glsl/` that belong to no row: what rows share, what surfaces and views are made of.
-const SHARED_SHADERS: &[&str] = &["common", "surfaces", "views"];
+/// Folders of `glsl/` that belong to no row: what rows share, what surfaces and views are made of, and dust, which lies over
+/// the picture of any composition.
+const SHARED_SHADERS: &[&str] = &["common", "surfaces", "views", "dust"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
