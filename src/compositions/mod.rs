@@ -101,7 +101,7 @@ pub enum Error {
     DustUnshadowed {
         /// Index into the scene's lights.
         light: usize,
-        /// Reason, as the end of a sentence.
+        /// Reason: what the light's technique does instead.
         why: &'static str,
     },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]

@@ -21,7 +21,7 @@ pub type Surfaces =
 pub struct Passes<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
-    /// Meshes that earlier plans derived from the scene's.
+    /// Facts that earlier plans found from meshes.
     pub derived: &'a Derived,
     /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
     pub kept: Vec<usize>,

@@ -24,7 +24,7 @@ pub struct LightView<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
     pub camera: &'a CameraView<'a>,
-    /// Meshes that earlier plans derived from the scene's.
+    /// Facts that earlier plans found from meshes.
     pub derived: &'a Derived,
     /// Into [`Scene::lights`].
     pub index: usize,
