@@ -1,6 +1,4 @@
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
 }

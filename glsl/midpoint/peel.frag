@@ -18,9 +18,7 @@ void main()
     // Depth is interpolated as z0 + x dz/dx + y dz/dy from a corner of the map, in f32: beside the sum the products are
     // rounded, and two triangles in one plane differ by that too.
     float apart = margin * (1.0 + fwidth(own) * float(textureSize(nearest, 0).x));
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
 #ifdef CLAMPED
     // The depth test, which comes later, clamps alike [GL 4.6, 17.3.4].
     own = clamp(own, 0.0, 1.0);

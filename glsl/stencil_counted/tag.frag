@@ -2,9 +2,7 @@
 // Mapping with other Techniques"]. The mark is one bit: a filtered shade of one half or more is lit.
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif

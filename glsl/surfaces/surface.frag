@@ -40,9 +40,7 @@ Surface surface_here()
 
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
     EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
 #ifdef ANY_LIGHT
     Surface surface = surface_here();

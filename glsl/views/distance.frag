@@ -3,9 +3,7 @@ out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
     bool reached = in_reach_@();
     fragment = reached ? vec4(vec3(light_coord_@.z / light_coord_@.w), 1.0) : vec4(0.0);
 }

@@ -5,9 +5,7 @@ out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
     bool reached = in_reach_@();
     fragment = reached ? vec4(vec3(textureProj(depth_map_@, light_coord_@.xyw).r), 1.0) : vec4(0.0);
 }

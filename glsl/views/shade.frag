@@ -3,9 +3,7 @@ out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif

@@ -35,9 +35,7 @@ float texels_@()
 void main()
 {
     float area = texels_@();
-#ifdef ALPHA_TEST
     alpha_test();
-#endif
     bool reached = in_reach_@();
     fragment = reached ? vec4(vec3(sqrt(area)), 1.0) : vec4(0.0);
 }

@@ -32,7 +32,7 @@ pub struct PlanArgs {
     shaders: Option<String>,
 
     /// Prints each light's matrices with their numbers: S, P_light, L^-1, V, and the texgen planes E_po and E_e of each
-    /// set-up, with the modelview under which they are loaded
+    /// set-up, with the modelview under which they are loaded; for a cube map those of its six faces
     #[arg(long, group = "listing")]
     matrices: bool,
 

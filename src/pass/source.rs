@@ -61,6 +61,12 @@ const HEAD: &str = "#version 330 core
 #endif
 ";
 
+/// Surfaces without holes have no alpha test, and what draws them calls it all the same.
+const AFTER_DEFINES: &str = "#ifndef ALPHA_TEST
+#define alpha_test()
+#endif
+";
+
 impl Program {
     /// The finished GLSL of a stage: `#version`, the defines, then each chunk under a `#line` of its own.
     pub fn source(&self, stage: Stage) -> Source {
@@ -68,6 +74,7 @@ impl Program {
             Source { text: String::new(), lines: 0, files: vec![(String::from("#version and defines"), 1)] };
         source.append(HEAD);
         self.defines.iter().for_each(|define| source.append(&format!("{define}\n")));
+        source.append(AFTER_DEFINES);
         self.chunks(stage).iter().for_each(|chunk| source.push(chunk));
         source
     }
@@ -158,18 +165,18 @@ mod tests {
     #[test]
     fn every_line_is_found_in_its_file() {
         let source = program().source(Stage::Fragment);
-        let expected = "#define B 2\n// file 1: one\n#line 1 1\na\nb\n// file 2: two\n#line 1 2\nc\n\nd\n// file 3: three\n#line 1 3\ne\n";
+        let expected = "#define B 2\n#ifndef ALPHA_TEST\n#define alpha_test()\n#endif\n// file 1: one\n#line 1 1\na\nb\n// file 2: two\n#line 1 2\nc\n\nd\n// file 3: three\n#line 1 3\ne\n";
         assert!(source.text.ends_with(expected), "{}", source.text);
         let found = |line| source.place(line).map(|place| (place.file, place.line, place.text));
         let head = "#version and defines";
         assert_eq!(found(0), None);
         assert_eq!(found(1), Some((head, 1, "#version 330 core")));
         assert_eq!(found(9), Some((head, 9, "#define B 2")));
-        assert_eq!((found(12), found(13)), (Some(("one", 1, "a")), Some(("one", 2, "b"))));
-        assert_eq!((found(16), found(18)), (Some(("two", 1, "c")), Some(("two", 3, "d"))));
-        assert_eq!((found(21), found(22)), (Some(("three", 1, "e")), None));
+        assert_eq!((found(15), found(16)), (Some(("one", 1, "a")), Some(("one", 2, "b"))));
+        assert_eq!((found(19), found(21)), (Some(("two", 1, "c")), Some(("two", 3, "d"))));
+        assert_eq!((found(24), found(25)), (Some(("three", 1, "e")), None));
         let plain = source.without_line_marks();
-        assert_eq!((plain.lines().count(), plain.contains("#line")), (21, false));
+        assert_eq!((plain.lines().count(), plain.contains("#line")), (24, false));
         assert!(plain.ends_with("// file 3: three\n//\ne\n"), "{plain}");
     }
 }

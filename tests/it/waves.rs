@@ -8,7 +8,7 @@ use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::geometry::{Wave, primitive};
+use glumbra::geometry::{Derived, Wave, primitive};
 use glumbra::plan::{self, Request};
 use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::scene::Scene;
@@ -110,7 +110,9 @@ fn normals_follow_the_slopes() {
         (DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.6, 0.0, 0.0), 0.05), // folds over
     ] {
         let wave = Wave { reach, vector: wave_vector, phase: 0.3 };
-        let mesh = wave.moved(&rest);
+        let derived = Derived::default();
+        let mesh = wave.moved_once(&rest, &derived);
+        assert!(Arc::ptr_eq(&mesh, &wave.moved_once(&rest, &derived)), "kept as long as the mesh at rest");
         let inside = |index: &u32| {
             let [grown, place] = [wave.bounds(rest.bounds), mesh.bounds];
             grown.min.cmple(place.min).all() && grown.max.cmpge(place.max).all() && *index < mesh.positions.len() as u32

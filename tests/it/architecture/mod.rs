@@ -182,6 +182,30 @@ fn a_doubled_name_that_is_planted_is_found() {
     assert_eq!(found("pub enum Side {}", "", "pub enum Side {}"), Vec::<String>::new(), "far apart");
 }
 
+/// Types that a static changes in: what is kept from frame to frame belongs to a renderer.
+const CHANGING: &[&str] = &["Mutex<", "RwLock<", "RefCell<", "Cell<"];
+
+#[test]
+fn nothing_is_kept_in_globals() {
+    let mut files = vec![root().join("src")];
+    while let Some(path) = files.pop() {
+        if path.is_dir() {
+            files.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+            continue;
+        }
+        // Signals and crash messages are the process's own; a window system's events are the thread's.
+        let inside = path.strip_prefix(root().join("src")).unwrap().to_owned();
+        if inside.starts_with("process") || inside == Path::new("context/window.rs") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let code = text.split("#[cfg(test)]\nmod ").next().unwrap();
+        for line in code.lines().filter(|line| line.trim_start().trim_start_matches("pub ").starts_with("static ")) {
+            assert!(!CHANGING.iter().any(|kind| line.contains(kind)), "src/{}: {line}", inside.display());
+        }
+    }
+}
+
 /// Reads a library of a few files.
 fn planted(files: &[(&str, &str)]) -> Code {
     let folder = tempfile::tempdir().unwrap();

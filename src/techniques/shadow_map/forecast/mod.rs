@@ -17,7 +17,7 @@ use glam::DVec3;
 
 use self::lookup::Receiver;
 use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
-use self::raster::{Raster, Spot};
+use self::raster::{Raster, Sighting};
 use self::texels::Texels;
 pub use self::texels::{Alone, Stored};
 use super::bias;
@@ -147,7 +147,7 @@ impl<'a> Forecast<'a> {
     fn new(view: &'a LightView<'a>, map: &'a Map<'a>, items: &'a Items<'a>) -> Self {
         let texels = |projector: &Projector| Texels::new(items, map, projector.clone());
         let texels = map.projectors.iter().map(texels).collect();
-        let raster = items.raster(|point| picture_spot(view, point));
+        let raster = items.raster(|point| sighting(view, point));
         Self { view, map, items, texels, raster, step: 1, reached: 0, wrong: Vec::new() }
     }
 
@@ -170,7 +170,7 @@ impl<'a> Forecast<'a> {
         let middles = |size: u32| (step / 2..size).step_by(step as usize);
         for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
             let [near, far] = ray(x, y);
-            let at = self.raster.at_both([near, far], |point| picture_spot(self.view, point));
+            let at = self.raster.at_both([near, far], |point| sighting(self.view, point));
             let Some(point) = seen(self.items, at, self.view.scene.camera.eye, near, far - near) else { continue };
             // Points where the rays of the neighbouring pixels meet the same plane.
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
@@ -339,9 +339,9 @@ impl<'a> Forecast<'a> {
 }
 
 /// Place of a point in the picture.
-fn picture_spot(view: &LightView<'_>, point: DVec3) -> Spot {
+fn sighting(view: &LightView<'_>, point: DVec3) -> Sighting {
     let size = point.abs().max_element() + view.scene.camera.eye.abs().max_element();
-    Spot::new(view.camera.clip_from_world * point.extend(1.0), size)
+    Sighting::new(view.camera.clip_from_world * point.extend(1.0), size)
 }
 
 /// A point as a map sees it; `beside`: where the rays of the pixels beside meet its plane.

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
-use super::raster::{At, Raster, Spot};
+use super::raster::{At, Raster, Sighting};
 use crate::geometry::rays::{Boxes, Ray};
 use crate::geometry::sampled::{Crossing, SampledMesh};
 use crate::lights::projector::Rays;
@@ -74,12 +74,12 @@ impl<'a> Items<'a> {
         }
     }
 
-    /// The items by their places, which `spot` finds for points in world space.
-    pub fn raster(&self, spot: impl Fn(DVec3) -> Spot) -> Raster {
+    /// The items by their places, which `see` finds for points in world space.
+    pub fn raster(&self, see: impl Fn(DVec3) -> Sighting) -> Raster {
         let corners = |placed: &Placed<'_>| {
             placed.item.bounds.corners().map(|corner| placed.item.world_from_model.transform_point3(corner))
         };
-        Raster::new(self.placed.iter().map(corners), spot)
+        Raster::new(self.placed.iter().map(corners), see)
     }
 }
 

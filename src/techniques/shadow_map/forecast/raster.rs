@@ -31,14 +31,14 @@ struct Covering {
 }
 
 /// Place of a point in [0, 1]², its depth before the eye, and the greatest coordinate that these were found from.
-pub struct Spot {
+pub struct Sighting {
     pub place: DVec2,
     pub depth: f64,
     pub size: f64,
 }
 
-impl Spot {
-    /// The spot at a point of clip space.
+impl Sighting {
+    /// The sighting of a point of clip space.
     pub fn new(clip: DVec4, size: f64) -> Self {
         Self { place: 0.5 + 0.5 * clip.truncate().truncate() / clip.w, depth: clip.w, size }
     }
@@ -57,13 +57,13 @@ pub struct At<'r> {
 }
 
 impl Raster {
-    /// Sorts boxes, each by its corners, by where `spot` sees their corners.
-    pub fn new(boxes: impl ExactSizeIterator<Item = [DVec3; 8]>, spot: impl Fn(DVec3) -> Spot) -> Self {
+    /// Sorts boxes, each by its corners, by where `see` finds their corners.
+    pub fn new(boxes: impl ExactSizeIterator<Item = [DVec3; 8]>, see: impl Fn(DVec3) -> Sighting) -> Self {
         let side = (2.0 * (boxes.len() as f64).sqrt()).ceil().clamp(1.0, MOST_CELLS as f64) as usize;
         let mut raster = Self { side, cells: vec![Vec::new(); side * side], everywhere: Vec::new() };
         for (index, corners) in boxes.enumerate() {
             let index = index as u32;
-            let Some((min, max)) = rectangle(&corners, &spot) else {
+            let Some((min, max)) = rectangle(&corners, &see) else {
                 raster.everywhere.push(index);
                 continue;
             };
@@ -80,14 +80,14 @@ impl Raster {
         raster
     }
 
-    /// The place of the ray through a spot. `None`: rounding may move it.
-    pub fn at(&self, spot: &Spot) -> Option<At<'_>> {
-        spot.is_sure().then_some(At { raster: self, place: spot.place })
+    /// The place of the ray through a point. `None`: rounding may move it.
+    pub fn at(&self, sighting: &Sighting) -> Option<At<'_>> {
+        sighting.is_sure().then_some(At { raster: self, place: sighting.place })
     }
 
     /// The same for a ray through two points. `None`: rounding may move them, or has moved them apart.
-    pub fn at_both(&self, ends: [DVec3; 2], spot: impl Fn(DVec3) -> Spot) -> Option<At<'_>> {
-        let [near, far] = ends.map(spot);
+    pub fn at_both(&self, ends: [DVec3; 2], see: impl Fn(DVec3) -> Sighting) -> Option<At<'_>> {
+        let [near, far] = ends.map(see);
         let apart = (near.place - far.place).abs().max_element();
         self.at(&near).filter(|_| far.is_sure() && apart < 0.25 * RIM)
     }
@@ -111,14 +111,14 @@ impl Raster {
 }
 
 /// Rectangle that holds the places of a box; `None` if a corner lies behind the eye, or so near it that rounding decides.
-fn rectangle(corners: &[DVec3; 8], spot: &impl Fn(DVec3) -> Spot) -> Option<(DVec2, DVec2)> {
+fn rectangle(corners: &[DVec3; 8], see: &impl Fn(DVec3) -> Sighting) -> Option<(DVec2, DVec2)> {
     let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for corner in corners {
-        let spot = spot(*corner);
-        if !spot.is_sure() {
+        let seen = see(*corner);
+        if !seen.is_sure() {
             return None;
         }
-        (min, max) = (min.min(spot.place), max.max(spot.place));
+        (min, max) = (min.min(seen.place), max.max(seen.place));
     }
     Some((min - RIM, max + RIM))
 }
@@ -144,11 +144,11 @@ mod tests {
                 Aabb { min: center - half, max: center + half }
             })
             .collect();
-        let spot = |point: DVec3| {
+        let see = |point: DVec3| {
             let clip = clip_from_view * point.extend(1.0);
-            Spot::new(clip, point.abs().max_element())
+            Sighting::new(clip, point.abs().max_element())
         };
-        let raster = Raster::new(boxes.iter().map(Aabb::corners), spot);
+        let raster = Raster::new(boxes.iter().map(Aabb::corners), see);
         let exact = Boxes::new(boxes.iter().map(|bounds| [bounds.min, bounds.max]));
         let (mut met, mut looked_at) = (0, 0);
         for _ in 0..5000 {

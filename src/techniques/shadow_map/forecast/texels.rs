@@ -7,7 +7,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 use super::Map;
 use super::points::{Items, Placed};
-use super::raster::{At, Raster, Spot};
+use super::raster::{At, Raster, Sighting};
 use crate::geometry::rays::Ray;
 use crate::lights::Drawable;
 use crate::lights::projector::{Projector, Rays};
@@ -82,7 +82,7 @@ impl<'a> Texels<'a> {
             projector,
             known: HashMap::new(),
         };
-        texels.raster = items.raster(|point| texels.spot(point));
+        texels.raster = items.raster(|point| texels.sighting(point));
         texels
     }
 
@@ -112,12 +112,12 @@ impl<'a> Texels<'a> {
 
     /// The place among the items of the light's ray through a point in world space.
     pub fn at(&self, point: DVec3) -> Option<At<'_>> {
-        self.raster.at(&self.spot(point))
+        self.raster.at(&self.sighting(point))
     }
 
-    fn spot(&self, point: DVec3) -> Spot {
+    fn sighting(&self, point: DVec3) -> Sighting {
         let light = self.projector.light_from_world.transform_point3(point);
-        Spot::new(self.map_from_light * light.extend(1.0), light.abs().max_element() + point.abs().max_element())
+        Sighting::new(self.map_from_light * light.extend(1.0), light.abs().max_element() + point.abs().max_element())
     }
 
     /// The depth that a texel holds.
