@@ -3,7 +3,8 @@
 //! A frame's way through the library:
 //!
 //! 1. [`load`] resolves a file (TOML or OBJ) to a [`scene::Scene`]: plain values, no GL.
-//! 2. [`plan::make`] calls each light's technique ([`techniques::TABLE`]) to describe its passes,
+//! 2. [`plan::make`] calls each light's technique ([`techniques::TABLE`]), whose keys were read with the scene, to describe its
+//!    passes,
 //! 3. adds the lit pass, and leaves out what this scene cannot show; a [`plan::Plan`] says what, and why.
 //! 4. Its [`pass::PassList`] is data: images, draw state, shader variants, draws. It can be printed and compared.
 //! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.

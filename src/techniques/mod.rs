@@ -2,8 +2,9 @@
 //!
 //! # How to add a technique
 //!
-//! 1. A folder here with a type that implements [`Technique`]; its shaders in a folder of the same name under `glsl/`,
-//!    whose README says what a shade must define and what it may read.
+//! 1. A folder here with a type that implements [`Technique`], and one that holds its keys and implements
+//!    [`ShadowSettings`]; its shaders in a folder of the same name under `glsl/`, whose README says what a shade must define
+//!    and what it may read.
 //! 2. Its row in [`TABLE`].
 //! 3. A case folder of the same name under `data/cases/`.
 //!

@@ -48,6 +48,7 @@ mod scenes;
 #[cfg(unix)]
 mod setup;
 mod shaders;
+mod shadow_settings;
 mod stencil;
 mod stress;
 mod suns;

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use glumbra::plan::{self, Request};
+use glumbra::plan::{self, Error, Request};
 use glumbra::truth;
 
 use crate::support::random::Random;
@@ -134,7 +134,12 @@ fn scenes_with_other_numbers_are_refused_or_traced() {
                 assert!(!error.to_string().is_empty());
             }
             Ok(loaded) => {
-                let _ = plan::make(&loaded.scene, &Request::default()).map(|plan| plan.summary().to_string());
+                // Of a scene that loads only lights that exclude each other cannot be planned, or what no driver draws.
+                match plan::make(&loaded.scene, &Request::default()) {
+                    Ok(plan) => drop(plan.summary().to_string()),
+                    Err(Error::Composition(_) | Error::TooManyCuts { .. } | Error::TooLarge { .. }) => {}
+                    Err(error) => panic!("{error}\n{text}"),
+                }
                 for light in 0..loaded.scene.lights.len() {
                     if let Ok(truth) = truth::trace(&loaded.scene, light, &truth::Options::default()) {
                         assert_eq!([truth.width, truth.height], SIZE, "{text}");
