@@ -1,5 +1,5 @@
 //! Tables `[light.shadow]` made from others: a scene's own with other keys in it, for reports, which vary keys and compare
-//! techniques. Values only, no text that would have to be parsed; [`super::read`] checks them.
+//! techniques. Values only, no text that would have to be parsed; `read.rs` checks them.
 
 use super::read::keys;
 use super::{TABLE, Technique};

@@ -97,7 +97,7 @@ pub struct Settings {
     pub transfer: Transfer,
     pub filter: Filter,
     pub order: Order,
-    /// The offset as written; `None`: the default of [`super::bias`].
+    /// The offset as written; `None`: the default of `bias.rs`.
     pub offset: Option<Offset>,
     pub bias: Bias,
     /// Comparisons a side, 1..=7.
