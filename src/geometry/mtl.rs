@@ -1,9 +1,8 @@
-//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d. The text is checked and rewritten, then parsed by tobj. Other
-//! statements are ignored, with a warning if that changes the picture. Format: Wavefront's "MTL material format", version
-//! 4.2.
+//! MTL files: Ka, Kd, Ks, Ns, d, Tr, map_Kd, map_d, read here and not by tobj, which names no line, takes each colour for
+//! three numbers and knows no Tr. Other statements are ignored, with a warning if that changes the picture. Format:
+//! Wavefront's "MTL material format", version 4.2.
 
 use std::collections::HashMap;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,13 +14,35 @@ use super::{Error, Material, Placement, Texture, Warning, text, texture};
 /// The materials of one or more library files.
 #[derive(Debug, Default)]
 pub(super) struct Library {
-    /// All files as one text that tobj can read.
-    text: String,
-    names: Vec<String>,
-    /// One for each material.
-    opacities: Vec<Option<Opacity>>,
+    /// In the order of the files.
+    statements: Vec<Statements>,
     maps: Vec<Map>,
     oddities: WarningTally,
+}
+
+/// Statements of one material; `None`: it has none of that kind.
+#[derive(Debug, Default)]
+struct Statements {
+    name: String,
+    /// Ka, Kd and Ks, as [`Color`] numbers them.
+    colors: [Option<[f32; 3]>; 3],
+    /// Ns.
+    shininess: Option<f32>,
+    opacity: Option<Opacity>,
+}
+
+/// A colour of a material.
+#[derive(Clone, Copy)]
+enum Color {
+    Ambient,
+    Diffuse,
+    Specular,
+}
+
+impl Color {
+    fn name(self) -> &'static str {
+        ["Ka", "Kd", "Ks"][self as usize]
+    }
 }
 
 /// Opacity by d or Tr.
@@ -97,18 +118,18 @@ pub(super) fn find_libraries(obj: &Path, written: &str) -> Vec<Result<PathBuf, S
 
 impl Library {
     pub(super) fn is_empty(&self) -> bool {
-        self.names.is_empty()
+        self.statements.is_empty()
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
-        self.names.iter().any(|known| known == name)
+        self.statements.iter().any(|known| known.name == name)
     }
 
     /// Adds the materials of the file at `path`; errors name their line.
     pub(super) fn read(&mut self, path: &Path) -> Result<(), Error> {
         let bytes = text::read(path)?;
         let decoded = text::decode(&bytes, path)?;
-        let first = self.names.len();
+        let first = self.statements.len();
         for line in text::logical_lines(&decoded) {
             self.read_line(&line.text, Place { path, line: line.number }, first)
                 .map_err(|what| Error::malformed(path, line.number, what))?;
@@ -123,28 +144,28 @@ impl Library {
         let value = line[keyword.len()..].trim();
         let lower = keyword.to_ascii_lowercase();
         let known = matches!(lower.as_str(), "ka" | "kd" | "ks" | "ns" | "d" | "tr" | "map_kd" | "map_d");
-        if known && self.names.len() == first {
+        if known && self.statements.len() == first {
             return Err(format!("{keyword} stands before the first newmtl"));
         }
         match lower.as_str() {
             "newmtl" => {
                 let name = if value.is_empty() { "unnamed" } else { value };
-                self.names.push(name.to_owned());
-                self.opacities.push(None);
-                self.write(format_args!("newmtl {name}"));
+                self.statements.push(Statements { name: name.to_owned(), ..Statements::default() });
             }
-            "ka" => self.write_color("Ka", value, place)?,
-            "kd" => self.write_color("Kd", value, place)?,
-            "ks" => self.write_color("Ks", value, place)?,
+            "ka" => self.read_color(Color::Ambient, value, place)?,
+            "kd" => self.read_color(Color::Diffuse, value, place)?,
+            "ks" => self.read_color(Color::Specular, value, place)?,
             "ns" => {
                 let exponent = read_number("Ns", first_word(value))?;
                 let exponent = self.clamped("Ns", exponent, 1000.0, place);
-                self.write(format_args!("Ns {exponent}"));
+                if let Some(material) = self.statements.last_mut() {
+                    material.shininess = Some(exponent);
+                }
             }
             "d" | "tr" => self.read_opacity(lower == "d", value, place)?,
             "map_kd" => self.add_map(Statement::Decal, value, place)?,
             "map_d" => self.add_map(Statement::Alpha, value, place)?,
-            "map_ka" if self.names.len() > first => self.add_map(Statement::Ambient, value, place)?,
+            "map_ka" if self.statements.len() > first => self.add_map(Statement::Ambient, value, place)?,
             _ => self.leave_out(keyword, &lower, value, place),
         }
         Ok(())
@@ -199,13 +220,9 @@ impl Library {
         clamped
     }
 
-    fn write(&mut self, line: std::fmt::Arguments<'_>) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(self.text, "{line}");
-    }
-
-    /// Writes a colour. One number means all three channels; spectral curves are ignored.
-    fn write_color(&mut self, statement: &str, value: &str, place: Place<'_>) -> Result<(), String> {
+    /// Reads a colour. One number means all three channels; spectral curves are ignored.
+    fn read_color(&mut self, color: Color, value: &str, place: Place<'_>) -> Result<(), String> {
+        let statement = color.name();
         let words: Vec<_> = value.split_ascii_whitespace().take(4).collect();
         if words.first() == Some(&"spectral") {
             self.note("spectral", place, || {
@@ -224,8 +241,10 @@ impl Library {
             _ => return Err(format!("{statement} has {} of 3 numbers", words.len())),
         };
         let mut read = |word| read_number(statement, word).map(|value| self.clamped(statement, value, 1.0, place));
-        let (r, g, b) = (read(r)?, read(g)?, read(b)?);
-        self.write(format_args!("{statement} {r} {g} {b}"));
+        let channels = [read(r)?, read(g)?, read(b)?];
+        if let Some(material) = self.statements.last_mut() {
+            material.colors[color as usize] = Some(channels);
+        }
         Ok(())
     }
 
@@ -242,7 +261,8 @@ impl Library {
         let statement = format!("{name} {number}");
         let origin = format!("{}:{}: {statement}", place.path.display(), place.line);
         let new = Opacity { value, by_d, statement, origin };
-        let Some(known) = self.opacities.last_mut() else { return Ok(()) };
+        let Some(material) = self.statements.last_mut() else { return Ok(()) };
+        let known = &mut material.opacity;
         let said = known.clone().filter(|known| known.by_d != by_d && (known.value - value).abs() > 1e-3);
         if by_d || known.as_ref().is_none_or(|known| !known.by_d) {
             *known = Some(new.clone());
@@ -268,7 +288,7 @@ impl Library {
             let kind = format!("{} {option}", statement.name());
             self.note(&kind, place, || format!("{kind} is left out"));
         }
-        let material = self.names.len().saturating_sub(1);
+        let material = self.statements.len().saturating_sub(1);
         // A material's last statement of a kind is the one that counts.
         self.maps.retain(|map| map.material != material || map.statement != statement);
         self.maps.push(Map {
@@ -283,21 +303,17 @@ impl Library {
         Ok(())
     }
 
-    /// The materials as tobj reads them.
-    pub(super) fn parse(&self) -> tobj::MTLLoadResult {
-        tobj::load_mtl_buf(&mut self.text.as_bytes())
+    /// The materials' names and numbers, as tobj wants them. Of several of one name the last counts.
+    pub(super) fn for_tobj(&self) -> tobj::MTLLoadResult {
+        let named = |known: &Statements| tobj::Material { name: known.name.clone(), ..tobj::Material::default() };
+        let numbers = self.statements.iter().enumerate().map(|(index, known)| (known.name.clone(), index)).collect();
+        Ok((self.statements.iter().map(named).collect(), numbers))
     }
 
     /// The materials, in the order of the files, with their textures; a file used twice is loaded once. Oddities are added
     /// to `warnings`.
     pub(super) fn load_materials(mut self, warnings: &mut Vec<Warning>) -> Vec<Material> {
-        let parsed = self.parse().map(|(materials, _)| materials).unwrap_or_default();
-        let mut materials: Vec<_> = parsed.into_iter().map(convert).collect();
-        for (material, opacity) in materials.iter_mut().zip(&self.opacities) {
-            if let Some(Opacity { value, origin, .. }) = opacity {
-                (material.opacity, material.opacity_origin) = (*value, origin.clone());
-            }
-        }
+        let mut materials: Vec<Material> = std::mem::take(&mut self.statements).into_iter().map(material_of).collect();
         let mut loaded = Loaded::default();
         for map in std::mem::take(&mut self.maps).iter() {
             let place = Place { path: &map.path, line: map.line };
@@ -363,17 +379,22 @@ impl Map {
     }
 }
 
-/// Converts a material. If Ka is missing, Kd is used, as with GL_AMBIENT_AND_DIFFUSE.
-fn convert(material: tobj::Material) -> Material {
+/// Makes a material of its statements. If Ka is missing, Kd is used, as with GL_AMBIENT_AND_DIFFUSE.
+fn material_of(statements: Statements) -> Material {
     let default = Material::default();
-    let diffuse = material.diffuse.unwrap_or(default.diffuse);
+    let [ambient, diffuse, specular] = statements.colors;
+    let diffuse = diffuse.unwrap_or(default.diffuse);
+    let (opacity, opacity_origin) =
+        statements.opacity.map_or((default.opacity, default.opacity_origin), |opacity| (opacity.value, opacity.origin));
     Material {
-        name: material.name,
-        ambient: material.ambient.unwrap_or(diffuse),
+        name: statements.name,
+        ambient: ambient.unwrap_or(diffuse),
         diffuse,
-        specular: material.specular.unwrap_or(default.specular),
-        shininess: material.shininess.unwrap_or(default.shininess),
-        ..default
+        specular: specular.unwrap_or(default.specular),
+        shininess: statements.shininess.unwrap_or(default.shininess),
+        opacity,
+        opacity_origin,
+        ..Material::default()
     }
 }
 

@@ -1,5 +1,5 @@
-//! OBJ files: the text is scanned for mistakes ([`scan`]), moved to its vertices ([`place`]), rewritten where tobj would
-//! misread it ([`rewrite`]), parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks
+//! OBJ files: the text is scanned for mistakes, which tobj reports without a line ([`scan`]), moved to its vertices
+//! ([`place`]), rewritten in the rare files that tobj would misread ([`rewrite`]), parsed by tobj, cut into triangles ([`polygon`]) and given the normals that it lacks
 //! ([`super::normals`]). Format: Wavefront's "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual; polygons
 //! only.
 
@@ -93,7 +93,7 @@ fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>,
     // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
-        false => library.parse(),
+        false => library.for_tobj(),
         true => tobj::load_mtl_buf(&mut &b""[..]),
     };
     tobj::load_obj_buf(&mut reader, &options, materials).map(|(models, _)| models)
