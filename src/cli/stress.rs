@@ -37,6 +37,10 @@ pub struct StressArgs {
     #[arg(long, value_name = "NAME", value_parser = parse_technique)]
     technique: Option<String>,
 
+    /// One in N of each technique's changed settings, others in each case; its defaults always
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=100))]
+    one_in: u16,
+
     /// Cases drawn at once; one a core where absent
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
@@ -111,6 +115,7 @@ fn stress(arguments: &StressArgs) -> Result<bool, Error> {
     let options = StressOptions {
         jobs: arguments.jobs.map_or(cores, usize::from),
         technique: arguments.technique.clone(),
+        one_in: arguments.one_in.into(),
         pictures: arguments.output.is_some(),
         context: arguments.context.request(Profile::Core33),
     };

@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::case::Case;
 use super::judge::{Judge, Judged};
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
-use super::rows::{row_of, rows};
+use super::rows::{RowSettings, row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
 use crate::report::measure::difference;
@@ -21,6 +21,9 @@ pub struct StressOptions {
     pub jobs: usize,
     /// Only rows of this technique; `None`: of all.
     pub technique: Option<String>,
+    /// Share of the rows, as one in so many: those with a technique's default settings and, of the others, every one of so
+    /// many, beginning at another place in each case. 1: all. Rows that a case names itself are all drawn.
+    pub one_in: usize,
     /// True if pictures of wrong rows are kept.
     pub pictures: bool,
     /// Contexts that the cases are drawn on.
@@ -83,7 +86,8 @@ fn draw_rows(
             true => rows(&scene, &source.kind, light > 0),
             false => case.rows.iter().map(|inside| row_of(inside)).collect(),
         };
-        for settings in rows.iter().filter(|row| options.technique.as_ref().is_none_or(|name| *name == row.technique)) {
+        let one_in = if case.rows.is_empty() { options.one_in } else { 1 };
+        for settings in chosen(&rows, &case.name, one_in, options.technique.as_deref()) {
             let mut judged = judge.row(settings, renderer);
             judged.row.add_warnings(&loaded.warnings);
             if options.pictures {
@@ -94,6 +98,17 @@ fn draw_rows(
     }
     result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     Ok(())
+}
+
+/// One of `one_in` of the rows, and all with default settings; of `technique` alone, if there is one.
+fn chosen<'r>(rows: &'r [RowSettings], case: &str, one_in: usize, technique: Option<&str>) -> Vec<&'r RowSettings> {
+    let step = one_in.max(1);
+    // Any number that differs from case to case, and is the same in every run.
+    let first = case.bytes().fold(0, |sum: usize, byte| sum.wrapping_mul(31).wrapping_add(byte.into())) % step;
+    let is_in = |index: usize, row: &RowSettings| {
+        (row.is_default() || index % step == first) && technique.is_none_or(|name| name == row.technique)
+    };
+    rows.iter().enumerate().filter(|(index, row)| is_in(*index, row)).map(|(_, row)| row).collect()
 }
 
 /// Keeps the pictures of a row that will be `result`'s next, if it is the technique's worst so far.

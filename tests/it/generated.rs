@@ -339,6 +339,7 @@ fn assert_nothing_silently_wrong(technique: &str, named: &[&str]) {
     let options = stress::StressOptions {
         jobs: 2,
         technique: Some(technique.to_owned()),
+        one_in: 1,
         pictures: false,
         context: ContextRequest::default(),
     };

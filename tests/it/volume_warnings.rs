@@ -7,7 +7,7 @@ use glumbra::stress::{Case, CaseResult, StressOptions, Verdict, draw_case, named
 
 fn draw(cases: impl IntoIterator<Item = Case>) -> Vec<CaseResult> {
     let technique = Some(String::from("shadow-volume"));
-    let options = StressOptions { jobs: 1, technique, pictures: false, context: Default::default() };
+    let options = StressOptions { jobs: 1, technique, one_in: 1, pictures: false, context: Default::default() };
     let context = context::open(&options.context).unwrap();
     let mut renderer = Renderer::new(&context);
     cases.into_iter().map(|case| draw_case(&case, &options, &mut renderer)).collect()
