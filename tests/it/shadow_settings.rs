@@ -9,7 +9,7 @@ use glumbra::lights::{LightTerm, LightView, Notes};
 use glumbra::pass::{self, PassList, Redraw};
 use glumbra::plan::{self, Plan, Request, ViewRequest};
 use glumbra::report::measure::grid::Grid;
-use glumbra::report::measure::options::Options;
+use glumbra::report::measure::options::MeasureOptions;
 use glumbra::report::measure::run;
 use glumbra::report::store::results::Outcome;
 use glumbra::scene::{LightKind, Scene};
@@ -273,7 +273,7 @@ fn a_row_that_its_objects_refuse_fails_alone() {
     let keys = ["technique = \"second-depth\"", "technique = \"second-depth\", closed = \"assume\", size = 64"];
     let grid = Grid::Own(keys.map(|keys| glumbra::scene::shadow_settings(keys).unwrap()).to_vec());
     let context = ContextRequest::default();
-    let options = Options { light: 0, runs: 1, jobs: 1, shard: (1, 1), band_texels: 2.0, context };
+    let options = MeasureOptions { light: 0, runs: 1, jobs: 1, shard: (1, 1), band_texels: 2.0, context };
     let sweep = run::prepare(&work.path(), &[], &grid, &options).unwrap();
     assert!(sweep.scene_of(1).is_none() && sweep.scene_of(2).is_some());
     assert_eq!([1, 2].map(|index| sweep.row_of(index).map_size), [Some(1024), Some(64)]);
