@@ -73,8 +73,9 @@ impl Triangles {
     /// Calls `found` with each triangle that the ray crosses, and its t, in no particular order. An edge that two
     /// triangles share is crossed in one of them.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(u32, f64)) {
+        let axes = axes(ray.way);
         self.boxes.met(ray, |triangle| {
-            if let Some(t) = crossing(ray, &self.corners[triangle as usize])
+            if let Some(t) = crossing(ray, axes, &self.corners[triangle as usize])
                 && (ray.start..=ray.end).contains(&t)
             {
                 found(triangle, t);
@@ -116,10 +117,7 @@ impl Slab {
 /// Crossing of the ray's line with a triangle. Corners are sheared so that the ray is the third axis [Woop 2013]. An edge's
 /// sign comes from its own two corners. An edge that the line meets counts as slightly beside the line, the same way for
 /// both its triangles.
-fn crossing(ray: &Ray, corners: &[DVec3; 3]) -> Option<f64> {
-    let size = ray.way.abs();
-    let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };
-    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+fn crossing(ray: &Ray, [x, y, z]: [usize; 3], corners: &[DVec3; 3]) -> Option<f64> {
     let [a, b, c] = corners.map(|corner| {
         let local = corner - ray.origin;
         let along = local[z] / ray.way[z];
@@ -130,10 +128,21 @@ fn crossing(ray: &Ray, corners: &[DVec3; 3]) -> Option<f64> {
         let tie = if q[1] == p[1] { p[0] - q[0] } else { q[1] - p[1] };
         (value, if value == 0.0 { tie } else { value })
     };
-    let sides = [edge(b, c), edge(c, a), edge(a, b)];
-    let is_inside = sides.iter().all(|(_, side)| *side > 0.0) || sides.iter().all(|(_, side)| *side < 0.0);
-    let area: f64 = sides.iter().map(|(value, _)| value).sum();
-    (is_inside && area != 0.0).then(|| (sides[0].0 * a[2] + sides[1].0 * b[2] + sides[2].0 * c[2]) / area)
+    let sides = [edge(b, c), edge(c, a)];
+    let agree = |side: f64, other: f64| (side > 0.0 && other > 0.0) || (side < 0.0 && other < 0.0);
+    if !agree(sides[0].1, sides[1].1) {
+        return None; // most triangles end here
+    }
+    let last = edge(a, b);
+    let area = sides[0].0 + sides[1].0 + last.0;
+    (agree(sides[0].1, last.1) && area != 0.0).then(|| (sides[0].0 * a[2] + sides[1].0 * b[2] + last.0 * c[2]) / area)
+}
+
+/// The axes of a ray's shear: two across, and the one that it runs along most.
+fn axes(way: DVec3) -> [usize; 3] {
+    let size = way.abs();
+    let z = if size.x >= size.y && size.x >= size.z { 0 } else { usize::from(size.z > size.y) + 1 };
+    [(z + 1) % 3, (z + 2) % 3, z]
 }
 
 #[cfg(test)]
