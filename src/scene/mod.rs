@@ -11,6 +11,7 @@ mod overrides;
 mod parse;
 mod print;
 mod ranges;
+mod read_shadow;
 mod resolve;
 mod settings;
 mod shadow;
@@ -27,9 +28,10 @@ pub use model::{
     Spot,
 };
 pub use ranges::{LARGEST, SMALLEST};
+pub use read_shadow::ReadShadow;
 pub use resolve::MAX_IMAGE_SIDE;
 pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};
-pub use shadow::{ReadShadow, Shadow};
+pub use shadow::Shadow;
 pub use views::with_shadow;
 
 use crate::math::Aabb;

@@ -5,7 +5,7 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
-use super::{LightKind, Object, Settings, SettingsError};
+use super::Settings;
 
 /// Shadow settings of a light. Clones share what was read.
 #[derive(Clone)]
@@ -36,15 +36,4 @@ impl fmt::Debug for Shadow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Shadow").field(&self.written).finish()
     }
-}
-
-/// Reads `[light.shadow]` while a scene is loaded.
-pub trait ReadShadow {
-    /// Reads the table `written` of a light of this `kind` in a scene with these `objects`.
-    ///
-    /// # Errors
-    ///
-    /// A key that is unknown or has a wrong value, keys that exclude each other, a light or objects that the technique
-    /// cannot draw; each with its place in the scene file.
-    fn read(&self, written: Settings, kind: &LightKind, objects: &[Object]) -> Result<Shadow, SettingsError>;
 }
