@@ -152,7 +152,7 @@ fn damaged_files_are_refused_by_name() {
         ("cut", text[..text.len() / 2].to_owned(), "cut off"),
         ("empty", String::new(), "cut off"),
         ("other", "{\"a\": 1}".to_owned(), "no `version`"),
-        ("newer", text.replacen("\"version\":1", "\"version\":99", 1), "layout 99"),
+        ("newer", text.replacen("\"version\":2", "\"version\":99", 1), "layout 99"),
         ("type", text.replacen("\"cores\":2", "\"cores\":\"two\"", 1), "no report"),
         ("twice", serde_json::to_string(&twice).unwrap(), "row 3 stands twice"),
         ("outside", text.replacen("\"grid_rows\":94", "\"grid_rows\":9", 1), "outside its grid"),
