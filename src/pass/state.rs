@@ -74,6 +74,32 @@ pub enum Blend {
     Add,
     /// Blends by the fragment's alpha over the stored colour; alpha stays as it is.
     Over,
+    /// GL_DST_ALPHA, GL_ONE: the fragment's colour is weighed by the stored alpha and added; alpha stays as it is.
+    AddByStoredAlpha,
+    /// GL_DST_COLOR, GL_ZERO: the product of both; alpha stays as it is.
+    Multiply,
+}
+
+/// Channels of the colour buffer that fragments are written to (glColorMask). Clears write all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channels {
+    None,
+    Rgb,
+    Alpha,
+    All,
+}
+
+impl Channels {
+    /// Tests whether anything is written.
+    pub fn any(self) -> bool {
+        self != Self::None
+    }
+
+    /// Arguments of glColorMask: red, green, blue, alpha.
+    pub fn mask(self) -> [bool; 4] {
+        let rgb = matches!(self, Self::Rgb | Self::All);
+        [rgb, rgb, rgb, matches!(self, Self::Alpha | Self::All)]
+    }
 }
 
 /// All per-fragment and raster state that a pass can set.
@@ -82,7 +108,7 @@ pub struct DrawState {
     /// `None`: the depth test, and with it depth writing, is off.
     pub depth_test: Option<Compare>,
     pub depth_write: bool,
-    pub color_write: bool,
+    pub color_write: Channels,
     /// The faces that are not drawn.
     pub cull: Option<Face>,
     pub polygon_offset: Option<PolygonOffset>,
@@ -109,7 +135,7 @@ impl DrawState {
     pub const DEPTH_ONLY: Self = Self {
         depth_test: Some(Compare::Less),
         depth_write: true,
-        color_write: false,
+        color_write: Channels::None,
         cull: None,
         polygon_offset: None,
         depth_range: [0.0, 1.0],
@@ -121,7 +147,7 @@ impl DrawState {
     };
 
     /// Colour and depth: LESS.
-    pub const OPAQUE: Self = Self { color_write: true, ..Self::DEPTH_ONLY };
+    pub const OPAQUE: Self = Self { color_write: Channels::All, ..Self::DEPTH_ONLY };
 
     /// Colour only where the stored depth equals the draw's: EQUAL, no depth writes. Exact only with the same position
     /// arithmetic as the pass that wrote it [GL 4.6 compatibility, A.3].

@@ -42,6 +42,7 @@ pub fn compose(scene: &Scene, request: &Request) -> Result<Plan, Error> {
         surface: surfaces::batches,
         frames: request.frames,
         keep_all: request.keep_all,
+        clamps: !request.float_picture,
     };
     let mut pictures = Pictures { passes, request };
     let buffers = match request.subject {

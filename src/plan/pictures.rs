@@ -32,12 +32,12 @@ impl Pictures<'_> {
         let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).map(|l| &l.term).collect();
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = CameraProjection::for_counts(self.passes.scene, counts);
-        let composition = compositions::chosen(&terms)?;
+        let composition = compositions::chosen(self.passes.scene, &terms)?;
         check_cuts(&terms)?;
         composition.check(self.passes.scene, &terms)?;
         let items = self.passes.cut_items(&lens);
         surfaces::explain_guards(self.passes.scene, &items, &lens.camera, &terms, self.passes.notes);
-        let buffers = self.buffers(composition.needs_stencil(self.passes.scene, &terms));
+        let buffers = self.buffers(composition.needs_stencil(&self.passes, &terms));
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;
         if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {
@@ -112,7 +112,8 @@ impl Pictures<'_> {
             return self.light_view(&label, wanted.light);
         }
         if view.depends_on_shade()
-            && let Some(image) = compositions::chosen(&[term])?.view(&mut self.passes, view, &label, term)?
+            && let Some(image) =
+                compositions::chosen(self.passes.scene, &[term])?.view(&mut self.passes, view, &label, term)?
         {
             return Ok(image);
         }

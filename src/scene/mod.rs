@@ -21,7 +21,10 @@ use std::path::Path;
 
 pub use default_scene::{Floor, framing};
 pub use error::Error;
-pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
+pub use model::{
+    Background, Camera, Frustum, Image, Law, Light, LightKind, LightShape, Object, PicturePasses, Point, Scene,
+    Shading, Spot,
+};
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;
 pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};

@@ -19,7 +19,7 @@ mod shadow_volume;
 use self::claims::Claim;
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
-use crate::scene::{Light, LightKind, Reader, Scene, Settings, SettingsError, suggest};
+use crate::scene::{Law, Light, LightKind, Reader, Scene, Settings, SettingsError, suggest};
 
 /// A way to find which points a light reaches.
 pub trait Technique: Sync {
@@ -104,6 +104,9 @@ pub struct Axis {
     pub quick: &'static [&'static str],
 }
 
+/// The technique of a light without `[light.shadow]`.
+const NONE: &str = "none";
+
 /// Every technique.
 pub const TABLE: &[&dyn Technique] = &[
     &none::Unshadowed,
@@ -123,12 +126,25 @@ pub fn read(scene: &Scene) -> Result<Vec<LightShadow>, SettingsError> {
     let one = |light: &Light| {
         let mut keys = light.shadow.read();
         let technique = chosen(&light.kind, &mut keys)?;
+        check_law(light, technique, &keys)?;
         let settings = technique.read(&mut keys, &light.kind)?;
         check_others(technique, &mut keys)?;
         keys.finish()?;
         Ok(LightShadow { technique, settings })
     };
     scene.lights.iter().map(one).collect()
+}
+
+/// Refuses a shadow of a light that nothing occludes.
+fn check_law(light: &Light, technique: &dyn Technique, keys: &Reader<'_>) -> Result<(), SettingsError> {
+    if light.law == Law::Lit || technique.name() == NONE {
+        return Ok(());
+    }
+    let name = technique.name();
+    let message = format!(
+        "cannot be \"{name}\" for a light of law = \"slide\", which passes through everything: choose \"{NONE}\", or law = \"lit\""
+    );
+    Err(keys.error("technique", message))
 }
 
 /// Checks the keys that only other techniques read: they may be present, so that only `technique` needs to be changed.
@@ -147,7 +163,7 @@ pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
 
 /// The technique that `[light.shadow]` of a light of this `kind` names.
 fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
-    let name = settings.string("technique")?.unwrap_or("none");
+    let name = settings.string("technique")?.unwrap_or(NONE);
     let Some(technique) = TABLE.iter().find(|row| row.name() == name) else {
         let names = TABLE.iter().map(|row| row.name());
         return Err(settings.error("technique", format_args!("cannot be \"{name}\": {}", suggest(name, names))));

@@ -3,6 +3,8 @@
 //! others runs the command in a process of its own.
 
 mod acne;
+mod after_pass;
+mod alpha_shadows;
 mod architecture;
 mod bad_scenes;
 mod check;
@@ -44,6 +46,7 @@ mod scenes;
 #[cfg(unix)]
 mod setup;
 mod shaders;
+mod slides;
 mod stencil;
 mod stress;
 mod suns;

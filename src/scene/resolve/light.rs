@@ -5,10 +5,12 @@ use glam::DVec3;
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
+use crate::scene::{Error, Frustum, Law, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
+
+const LAWS: [(&str, Law); 2] = [("lit", Law::Lit), ("slide", Law::Slide)];
 
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
 
@@ -48,9 +50,11 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let ambient = reader.colour("ambient", BRIGHTEST)?.unwrap_or([0.0; 3]);
     let diffuse = reader.colour("diffuse", BRIGHTEST)?.unwrap_or(color);
     let specular = reader.colour("specular", BRIGHTEST)?.unwrap_or(color);
+    let law = law(&mut reader, &kind)?;
+    let specular = if law == Law::Slide { [0.0; 3] } else { specular };
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
-    let mut light = Light { kind, ambient, diffuse, specular, name, shadow };
+    let mut light = Light { kind, ambient, diffuse, specular, law, name, shadow };
     if let (LightKind::Spot(spot), Some((name, origin))) = (&mut light.kind, image) {
         spot.image = Some(assets.texture(name, origin)?);
     }
@@ -128,6 +132,22 @@ fn attenuation(reader: &mut Reader<'_>) -> Result<[f32; 3], SettingsError> {
         return Err(reader.error("attenuation", "must not be all zero: light is divided by it"));
     }
     Ok(factors)
+}
+
+/// `law`: a projector is a spotlight, and all of its light is in its image.
+fn law(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Law, SettingsError> {
+    let law = reader.choice("law", &LAWS)?.unwrap_or_default();
+    if law == Law::Slide {
+        if !matches!(kind, LightKind::Spot(_)) {
+            let kind = kind.name();
+            return Err(
+                reader.error("law", format_args!("= \"slide\" is no law of a {kind} light: choose kind = \"spot\""))
+            );
+        }
+        let why = "has no meaning beside law = \"slide\": a projector has one colour, `color`, and [shading] has the ambient light";
+        reader.refuse(&["ambient", "specular"], why)?;
+    }
+    Ok(law)
 }
 
 /// `[light.shadow]` as written; empty, at the light's place, where it is absent.

@@ -7,7 +7,8 @@ use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
 use glumbra::scene::{
-    Camera, Frustum, Image, Light, LightKind, LightShape, Object, Origin, Point, Scene, Settings, Shading, Spot,
+    Background, Camera, Frustum, Image, Law, Light, LightKind, LightShape, Object, Origin, PicturePasses, Point, Scene,
+    Settings, Shading, Spot,
 };
 use glumbra::truth::{Answer, Options, Pixel, Truth, trace};
 
@@ -126,6 +127,7 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         diffuse: [1.0; 3],
         specular: [1.0; 3],
         name: String::from("light"),
+        law: Law::Lit,
         shadow: Settings { path: String::new(), origin: Origin::BuiltIn, entries: Vec::new() },
     }
 }
@@ -174,7 +176,12 @@ pub fn scene(objects: Vec<Object>, light: Light) -> Scene {
             near: 0.1,
             far: 60.0,
         },
-        shading: Shading { ambient: [0.2; 3], per_vertex: false },
+        shading: Shading {
+            ambient: [0.2; 3],
+            per_vertex: false,
+            passes: PicturePasses::One,
+            background: Background::Scene,
+        },
         lights: vec![light],
         objects,
     }
