@@ -1,6 +1,8 @@
 //! Surfaces that coincide are lit once, by a stencil test in each pass that blends; and a proof that a picture has none, for
 //! which the test is left out.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::passes::Passes;
@@ -31,12 +33,12 @@ const STEPS: f64 = 16.0;
 /// Distances below this share of an item's size count as none: far above what f64 rounds.
 const LEAST: f64 = 1e-9;
 
-/// Whether passes with depth EQUAL may meet two surfaces in a pixel.
+/// Need of a test that draws each pixel once: true where passes with depth EQUAL may meet two surfaces in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Once(pub bool);
 
 impl Once {
-    /// Looks at the items in view. Holds back only where each of them is one convex layer and their boxes are apart.
+    /// Finds it from the items in view: false only where each of them is one convex layer and their boxes are apart.
     pub fn find(passes: &Passes<'_>, lens: &CameraProjection) -> Self {
         let clip_from_world = lens.camera.clip_from_world();
         let in_view = |item: &&Drawable| {
@@ -51,7 +53,10 @@ impl Once {
             is_flat_quad(item)
                 || (shows_no_back_face(item, &(clip_from_world * item.world_from_model)) && is_convex(item))
         };
-        let proved = seen.len() <= MOST_ITEMS && seen.iter().all(is_single) && boxes.iter().enumerate().all(is_apart);
+        // Pieces of a cut surface may overlap by a rounding along the cut.
+        let is_cut = matches!(passes.cut_items(lens), Cow::Owned(_));
+        let proved =
+            !is_cut && seen.len() <= MOST_ITEMS && seen.iter().all(is_single) && boxes.iter().enumerate().all(is_apart);
         Self(passes.keep_all || !proved)
     }
 

@@ -255,7 +255,7 @@ pub const FIGURES: &[Figure] = &[
                 None,
             ),
         ],
-        caption: "A light's shade needs no more than one channel that is there already. Alpha is written anew for each light, so \
+        caption: "A light's shade needs no more than one channel that is there already. Each light overwrites alpha, so \
                   that any number of coloured lights may follow; where both shadows meet, ambient light is left.",
     },
     Figure {

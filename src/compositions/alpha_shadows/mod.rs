@@ -1,5 +1,5 @@
 //! Shadows in three passes [Segal 1992, 3.3]: ambient light; for each light its shade into destination alpha, where depth is
-//! EQUAL; then its colour, added by DST_ALPHA, ONE. Lights of any number and colour; each writes alpha anew.
+//! EQUAL; then its colour, added by DST_ALPHA, ONE. Lights of any number and colour; each overwrites alpha.
 
 use super::once::Once;
 use super::parts::{left_by_shadow, unshadowed};
@@ -57,7 +57,7 @@ impl Composition for AlphaShadows {
     }
 }
 
-/// What shadows leave of the lights.
+/// Parts of the lights that shadows leave.
 fn first_parts(scene: &Scene, terms: &[&LightTerm]) -> Vec<LightTerm> {
     terms.iter().filter_map(|term| left_by_shadow(scene, term, term.dimming)).collect()
 }
