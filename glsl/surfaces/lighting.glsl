@@ -37,7 +37,7 @@ Lit lighting_@(Surface surface)
 #else
     lit.ambient = vec3(0.0);
 #endif
-#ifdef UNLIT
+#if defined(UNLIT) || defined(NO_COSINE_@)
     lit.diffuse = strength * light_diffuse_@ * material_diffuse;
     lit.specular = vec3(0.0);
 #else

@@ -3,7 +3,9 @@ uniform vec3 scene_ambient; // the scene's ambient light times the material's
 #ifdef MATERIAL_AMBIENT
 uniform vec3 material_ambient;
 #endif
-#ifdef ANY_LIGHT
+#ifdef COLORLESS
+const vec3 material_diffuse = vec3(1.0); // the surface's own colour is another factor
+#elif defined(ANY_LIGHT)
 uniform vec3 material_diffuse;
 #endif
 #ifdef SPECULAR

@@ -39,6 +39,11 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
+    /// Draws the picture as it stands after this pass: its number in `glumbra plan`, or its name. After a pass that writes
+    /// alpha alone, the alpha is shown as gray
+    #[arg(long, value_name = "PASS", conflicts_with = "aov")]
+    after_pass: Option<String>,
+
     /// Pipeline that draws the passes
     #[arg(long, value_enum, default_value_t)]
     pipeline: Pipeline,
@@ -68,6 +73,7 @@ Examples:
   glumbra render scene.toml -o out.exr --aov shade --aov light-depth
   glumbra render scene.toml --set light.shadow.filter=nearest --set light.shadow.size=256
   glumbra render data/scenes/hw_shadowmaps_simple.toml --pipeline fixed-function -o by-the-driver.png
+  glumbra render scene.toml --set shading.passes=shadow --after-pass \"shade of light 0\" -o shade.png
   glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
 
 /// Output of `--json`.
@@ -123,6 +129,9 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     };
     // A scene that cannot be planned needs no context to be refused.
     let mut plan = crate::plan::make(&loaded.scene, &request)?;
+    if let Some(pass) = &arguments.after_pass {
+        plan = plan.after_pass(pass)?;
+    }
     let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(&context);
     renderer.accept(&mut plan)?;
@@ -133,7 +142,10 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let (frames, passes) = (arguments.frames, arguments.json);
     let drawn = arguments.pipeline.draw(&context, &mut renderer, &plan, frames, passes, || progress.inc(1));
     progress.finish_and_clear();
-    let (times, frame) = drawn?;
+    let (times, mut frame) = drawn?;
+    if plan.ends_in_alpha() {
+        frame.picture = frame.picture.alpha_as_gray();
+    }
     let views = views.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
     let pictures = [(&frame.picture, None)].into_iter().chain(views);
     let outputs: Vec<Output<'_>> =

@@ -270,6 +270,7 @@ fn whole_picture() -> Draw {
         bounds: mesh.bounds,
         mesh: MeshRef(mesh),
         clip_from_model,
+        eye_from_model: None,
         mirrored: false,
         uniforms: Vec::new(),
     }

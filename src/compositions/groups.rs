@@ -2,11 +2,12 @@
 //! it, with depth EQUAL [LEC, "Advice for Shadowed Illumination Model"].
 
 use super::Error;
+use super::once::ONCE;
 use super::passes::{Onto, Passes};
 use crate::lights::guard::Guard;
 use crate::lights::light::Addition;
 use crate::lights::{Ending, LightTerm};
-use crate::pass::{Blend, Clear, Compare, DrawState, Stencil, StencilOp, StencilOps};
+use crate::pass::{Blend, Clear, DrawState};
 use crate::scene::Scene;
 
 /// Greatest number of lights in one pass: each has four components of texture coordinates, of the 60 that every driver
@@ -16,16 +17,6 @@ const MOST_LIGHTS: usize = 8;
 /// Greatest number of textures of the lights in one pass: a fragment shader has at least 16 [GL 3.3, table 6.43], of which
 /// the surface takes up to two.
 const MOST_TEXTURES: usize = 14;
-
-/// Stencil state that draws each pixel once: surfaces that coincide are lit once.
-const ONCE: Stencil = Stencil {
-    test: Compare::Equal,
-    reference: 0,
-    read_mask: 0xFF,
-    write_mask: 0xFF,
-    front: StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP },
-    back: StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP },
-};
 
 /// Number of textures that a light takes in the lit pass.
 fn textures(scene: &Scene, term: &LightTerm) -> usize {

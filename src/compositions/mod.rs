@@ -8,11 +8,15 @@
 //!
 //! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
+mod alpha_shadows;
 pub mod dust;
 mod groups;
+mod once;
+mod parts;
 pub mod passes;
 pub mod projection;
 mod single_pass;
+mod slide_projector;
 mod stencil_counted;
 
 use self::passes::Passes;
@@ -28,10 +32,10 @@ pub trait Composition: Sync {
     fn name(&self) -> &'static str;
 
     /// Tests whether it draws pictures in which these lights meet.
-    fn serves(&self, terms: &[&LightTerm]) -> bool;
+    fn serves(&self, scene: &Scene, terms: &[&LightTerm]) -> bool;
 
     /// Tests whether its picture of these lights has a stencil buffer.
-    fn needs_stencil(&self, scene: &Scene, terms: &[&LightTerm]) -> bool;
+    fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool;
 
     /// Checks that it can draw these lights together.
     ///
@@ -71,7 +75,12 @@ pub trait Composition: Sync {
 }
 
 /// Every composition.
-pub const TABLE: &[&dyn Composition] = &[&single_pass::SinglePass, &stencil_counted::StencilCounted];
+pub const TABLE: &[&dyn Composition] = &[
+    &single_pass::SinglePass,
+    &stencil_counted::StencilCounted,
+    &slide_projector::SlideProjector,
+    &alpha_shadows::AlphaShadows,
+];
 
 /// Reason why lights cannot be drawn together.
 #[derive(Debug, thiserror::Error)]
@@ -104,16 +113,31 @@ pub enum Error {
         /// Reason: what the light's technique does instead.
         why: &'static str,
     },
+    /// A light of the slide projector's passes has the law of lit surfaces.
+    #[error(
+        "passes = \"slide\" projects images and lights nothing: light {light} (\"{name}\") has law = \"lit\". Give it law = \"slide\" and no shadow, or choose passes = \"one\"."
+    )]
+    NoSlide { light: usize, name: String },
+    /// A light of the passes with destination alpha keeps its shade in the stencil buffer.
+    #[error(
+        "passes = \"shadow\" keeps a light's shade in alpha: light {light} counts or tags its shadow in the stencil buffer. Choose a shadow map that is looked up by the shader (into = \"shader\", another guard than \"stencil\"), or passes = \"one\"."
+    )]
+    CountedShade { light: usize },
+    /// A clip plane cuts surfaces that passes with depth test EQUAL draw again.
+    #[error(
+        "guard = \"clip-plane\" (light {light}) cannot be combined with passes = \"shadow\": clipping changes depth values, and lights are added with depth EQUAL. Choose another guard."
+    )]
+    CutShade { light: usize },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }
 
-/// The composition that draws these lights.
+/// The composition that draws these lights of `scene`.
 ///
 /// # Errors
 ///
 /// Lights that no row of the table serves.
-pub fn chosen(terms: &[&LightTerm]) -> Result<&'static dyn Composition, Error> {
-    let found = TABLE.iter().find(|row| row.serves(terms));
+pub fn chosen(scene: &Scene, terms: &[&LightTerm]) -> Result<&'static dyn Composition, Error> {
+    let found = TABLE.iter().find(|row| row.serves(scene, terms));
     found.copied().ok_or_else(|| Error::Unserved { lights: terms.iter().map(|term| term.index).collect() })
 }

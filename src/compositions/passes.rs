@@ -35,6 +35,8 @@ pub struct Passes<'a> {
     pub frames: u32,
     /// True if things that no picture can show are drawn, too.
     pub keep_all: bool,
+    /// True if the picture's format clamps colours to [0, 1] after each pass.
+    pub clamps: bool,
 }
 
 /// The images of a picture.

@@ -39,6 +39,22 @@ pub enum Pixels {
 }
 
 impl Pixels {
+    /// The same size with alpha as gray and alpha 1; depths and counts as they are.
+    #[must_use]
+    pub fn alpha_as_gray(self) -> Self {
+        match self {
+            Self::Rgba8 { size, data } => {
+                let data = data.chunks_exact(4).flat_map(|p| [p[3], p[3], p[3], u8::MAX]).collect();
+                Self::Rgba8 { size, data }
+            }
+            Self::RgbaF32 { size, data } => {
+                let data = data.chunks_exact(4).flat_map(|p| [p[3], p[3], p[3], 1.0]).collect();
+                Self::RgbaF32 { size, data }
+            }
+            other => other,
+        }
+    }
+
     /// Width and height.
     pub fn size(&self) -> [u32; 2] {
         match self {

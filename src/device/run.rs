@@ -261,12 +261,15 @@ impl Device {
         Ok(())
     }
 
-    /// Clears the whole target, colour and depth through the pass's write masks, which must be open for what is cleared.
+    /// Clears the whole target: every channel of its colour; depth through the pass's write mask, which must be open.
     fn clear(&self, pass: &DrawPass) {
         unsafe {
             self.gl.disable(glow::SCISSOR_TEST);
             if let Some(color) = pass.clear.color {
+                self.gl.color_mask(true, true, true, true);
                 self.gl.clear_buffer_f32_slice(glow::COLOR, 0, &color);
+                let [red, green, blue, alpha] = pass.state.color_write.mask();
+                self.gl.color_mask(red, green, blue, alpha);
             }
             if let Some(depth) = pass.clear.depth {
                 self.gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[depth]);

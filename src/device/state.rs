@@ -18,7 +18,8 @@ pub fn apply(gl: &glow::Context, state: &DrawState, known: &mut Option<Applied>)
     }
     unsafe {
         set_depth(gl, state);
-        gl.color_mask(state.color_write, state.color_write, state.color_write, state.color_write);
+        let [red, green, blue, alpha] = state.color_write.mask();
+        gl.color_mask(red, green, blue, alpha);
         match state.cull {
             Some(face) => {
                 gl.enable(glow::CULL_FACE);
@@ -74,6 +75,8 @@ fn set_blend(gl: &glow::Context, blend: Option<Blend>) {
         Some(Blend::Add) => (glow::ONE, glow::ONE),
         Some(Blend::Over) => (glow::SRC_ALPHA, glow::ONE_MINUS_SRC_ALPHA),
         Some(Blend::OverPremultiplied) => (glow::ONE, glow::ONE_MINUS_SRC_ALPHA),
+        Some(Blend::AddByStoredAlpha) => (glow::DST_ALPHA, glow::ONE),
+        Some(Blend::Multiply) => (glow::DST_COLOR, glow::ZERO),
     };
     let alpha = match blend {
         Some(Blend::OverPremultiplied) => (source, destination),

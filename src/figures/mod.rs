@@ -40,6 +40,17 @@ pub struct Panel {
     /// Unit of the legend, in words, if the panel has the light's view of the eye instead of the eye's view of the light.
     /// Points that the eye does not see are then dark.
     pub counts: Option<&'static str>,
+    /// Something else than the finished picture.
+    pub stage: Option<Stage>,
+}
+
+/// Part of how a picture comes about.
+#[derive(Clone, Copy, Debug)]
+pub enum Stage {
+    /// The picture as it stands after the pass of this label.
+    After(&'static str),
+    /// The image of the first light.
+    Image,
 }
 
 /// Reason why a figure could not be drawn.
@@ -101,9 +112,17 @@ impl Figure {
 fn draw(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas, Error> {
     let shade = panel.counts.map(|_| View::Shade);
     let views = panel.view.into_iter().chain(shade).map(|view| ViewRequest { view, light: 0 }).collect();
-    let plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
+    let mut plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
+    match panel.stage {
+        Some(Stage::After(pass)) => plan = plan.after_pass(pass).map_err(frame::Error::from)?,
+        Some(Stage::Image) => return Ok(output::to_canvas(&image_of(scene), None)),
+        None => {}
+    }
     renderer.draw(&plan)?;
-    let frame = renderer.read(&plan)?;
+    let mut frame = renderer.read(&plan)?;
+    if plan.ends_in_alpha() {
+        frame.picture = frame.picture.alpha_as_gray();
+    }
     let shown = frame.views.first().unwrap_or(&frame.picture);
     match (panel.counts, shown, frame.views.get(1)) {
         (Some(one), Pixels::RgbaF32 { size, data }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
@@ -111,6 +130,14 @@ fn draw(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas,
         }
         _ => Ok(output::to_canvas(shown, panel.view)),
     }
+}
+
+/// The image of the first light, rows from the top down; of no size if it has none.
+fn image_of(scene: &Scene) -> Pixels {
+    let image = scene.lights.first().and_then(|light| light.spot()?.image.as_deref());
+    let (size, rgba) = image.map_or(([0; 2], &[][..]), |image| ([image.width, image.height], &image.rgba));
+    let rows = rgba.chunks_exact(4 * size[0].max(1) as usize).rev();
+    Pixels::Rgba8 { size, data: rows.flatten().copied().collect() }
 }
 
 /// `view` with nothing where the light does not reach.

@@ -1,6 +1,6 @@
 //! Every figure. Captions say what can be seen; the test figures checks that against pixels.
 
-use super::{Figure, Panel};
+use super::{Figure, Panel, Stage};
 use crate::scene::Embedded;
 use crate::views::View;
 
@@ -12,6 +12,7 @@ macro_rules! embedded {
             pictures: &[
                 ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
                 ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
+                ("../textures/slide.png", include_bytes!("../../data/textures/slide.png")),
             ],
         }
     };
@@ -22,9 +23,16 @@ const LAMP: Embedded = embedded!("lamp.toml");
 const BOXES: Embedded = embedded!("boxes.toml");
 const NESTED: Embedded = embedded!("nested.toml");
 const DUSTY_ROOM: Embedded = embedded!("dusty_room.toml");
+const SLIDE: Embedded = embedded!("slide.toml");
+const SPOTLIGHT: Embedded = embedded!("spotlight.toml");
 
 const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
-    Panel { title, set, view, counts: None }
+    Panel { title, set, view, counts: None, stage: None }
+}
+
+/// A panel that shows a part of how the picture comes about.
+const fn stage(title: &'static str, set: &'static [&'static str], stage: Stage) -> Panel {
+    Panel { title, set, view: None, counts: None, stage: Some(stage) }
 }
 
 /// A close view of the teapot's shadow on the floor.
@@ -52,6 +60,7 @@ macro_rules! from_the_light {
             ],
             view: Some(View::TexelsPerPixel),
             counts: Some("1 pixel a texel"),
+            stage: None,
         }
     };
 }
@@ -190,6 +199,67 @@ pub const FIGURES: &[Figure] = &[
                   needs: the left wall is drawn without the lamp, the floor below it with a test per fragment.",
     },
     Figure {
+        name: "segal-3-slide",
+        title: "A slide projector, and its three passes",
+        source: "Segal 1992, 3.1 and Figure 3",
+        scene: SLIDE,
+        columns: 3,
+        panels: &[
+            stage("the slide", &[], Stage::Image),
+            panel("the scene in ambient light and the slide's", &[], None),
+            panel(
+                "two projectors, red and cyan",
+                &["light.0.color=[1.0, 0.30, 0.25]", "light.1.color=[0.25, 0.80, 1.0]"],
+                None,
+            ),
+            stage("pass 1: depth; ambient light", &[], Stage::After("depth and ambient light")),
+            stage("pass 2: the slide, added", &[], Stage::After("slide of light 0")),
+            stage("pass 3: times the surfaces' colours", &[], Stage::After("surfaces' colours")),
+        ],
+        caption: "Projecting is texturing with another divisor: s/q and t/q of the projector find the texel. The light knows no \
+                  angle and no occlusion: it falls through the box onto the floor and the wall behind it. Sums \
+                  are made before the surfaces' colours are multiplied in; each further projector repeats pass 2.",
+    },
+    Figure {
+        name: "segal-4-spotlight",
+        title: "Spotlight and shadow together",
+        source: "Segal 1992, 3.3 and Figure 4; lecture, \"Combine with Projective Texturing for Spotlight Shadows\"",
+        scene: SPOTLIGHT,
+        columns: 3,
+        panels: &[
+            panel("the shadow map", &[], Some(View::LightDepth)),
+            stage("the intensity map", &[], Stage::Image),
+            panel("both", &[], None),
+            panel("the shadow alone", &[WITHOUT_IMAGE], None),
+            panel("the intensity map alone", &["light.0.shadow.technique=none"], None),
+            stage("the shade in destination alpha", &["shading.passes=shadow"], Stage::After("shade of light 0")),
+        ],
+        caption: "One light looks up two textures by the same coordinates: a depth, which is compared, and an intensity, which is \
+                  a factor. Where both apply (c) is the product of (d) and (e). In three passes the comparison comes first, into \
+                  alpha (f).",
+    },
+    Figure {
+        name: "segal-three-passes",
+        title: "Shadows in three passes, the last two for each light",
+        source: "Segal 1992, 3.3",
+        scene: SPOTLIGHT,
+        columns: 3,
+        panels: &[
+            stage("pass 1: ambient light", &TWO_COLORS, Stage::After("ambient light")),
+            stage("pass 2: the first light's shade, in alpha", &TWO_COLORS, Stage::After("shade of light 0")),
+            stage("pass 3: its colour, by DST_ALPHA, ONE", &TWO_COLORS, Stage::After("light 0")),
+            stage("pass 2 again: the second light's shade", &TWO_COLORS, Stage::After("shade of light 1")),
+            stage("pass 3 again: the picture", &TWO_COLORS, Stage::After("light 1")),
+            panel(
+                "the same in one pass",
+                &[TWO_COLORS[1], TWO_COLORS[2], TWO_COLORS[3], TWO_COLORS[4], TWO_COLORS[5]],
+                None,
+            ),
+        ],
+        caption: "A light's shade needs no more than one channel that is there already. Each light overwrites alpha, so \
+                  that any number of coloured lights may follow; where both shadows meet, ambient light is left.",
+    },
+    Figure {
         name: "gdc-volumes",
         title: "Stencil shadow volumes",
         source: "GDC 2001, \"Visualizing Shadow Volumes\", \"Visualizing Stenciled Shadow Volume Tagging\"",
@@ -310,6 +380,19 @@ pub const FIGURES: &[Figure] = &[
                   to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
                   through walls and chair. A slice must count as thick as the ray goes through it, or corners are too dim.",
     },
+];
+
+/// The spotlight without its image.
+const WITHOUT_IMAGE: &str = "light.0={ position = [-2.4, 3.6, 2.6], target = [0.1, 0.35, 0.0], cone = 46.0, near = 1.0, far = 12.0, shape = \"cone\", diffuse = [0.85, 0.85, 0.85], specular = [0.0, 0.0, 0.0], shadow = { technique = \"shadow-map\", size = 1024 } }";
+
+/// Two coloured lights in place of the white one, by the passes of shadows in alpha.
+const TWO_COLORS: [&str; 6] = [
+    "shading.passes=shadow",
+    "light.0.diffuse=[0.62, 0.38, 0.18]",
+    "light.1.diffuse=[0.15, 0.32, 0.55]",
+    "light.shape=frustum",
+    "light.cone=70",
+    "camera.eye=[3.6, 3.3, 4.6]",
 ];
 
 /// A light that is hardly higher than the left box.

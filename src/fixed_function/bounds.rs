@@ -3,7 +3,7 @@
 
 use glam::{DMat4, Mat4};
 
-use crate::pass::{Batch, Draw, Projection, UniformValue};
+use crate::pass::{Batch, Draw, Projection};
 
 /// Cases that may occur in a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,9 +50,6 @@ fn extend(reach: &mut CoordinateRange, coordinates_from_model: &DMat4, draw: &Dr
 ///
 /// A draw that does not say it.
 pub fn eye_from_model(draw: &Draw) -> Result<Mat4, String> {
-    let uniform = draw.uniforms.iter().find(|uniform| uniform.name == "eye_from_model");
-    match uniform.map(|uniform| &uniform.value) {
-        Some(UniformValue::Mat4(matrix)) => Ok(*matrix),
-        _ => Err(format!("the draw of {} has no modelview matrix", draw.label)),
-    }
+    let matrix = draw.eye_from_model.map(|matrix| matrix.as_mat4());
+    matrix.ok_or_else(|| format!("the draw of {} has no modelview matrix", draw.label))
 }

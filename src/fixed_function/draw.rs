@@ -2,12 +2,12 @@
 
 use glow::HasContext;
 
-use super::layer::{Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
+use super::layer::{AlphaSource, Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
 use super::units::{self, Bound};
 use super::{Error, FixedFunction, bounds, lighting};
 use crate::context::compatibility::raw;
 use crate::device::compare_code;
-use crate::pass::{Attribute, Batch, Compare, Draw, DrawPass, DrawState, FixedFunctionDesc, PassList, Primitive};
+use crate::pass::{Attribute, Batch, Draw, DrawPass, DrawState, PassList, Primitive};
 
 impl FixedFunction {
     /// Draws one pass, and restores the state that passes with shaders need.
@@ -23,9 +23,10 @@ impl FixedFunction {
         }
         for batch in &pass.batches {
             // The list was checked before.
-            for layer in self.layers(batch).unwrap_or_default() {
+            for (number, layer) in self.layers(pass, batch).unwrap_or_default().into_iter().enumerate() {
                 self.set_up(batch, &layer)?;
-                let drawn = batch.draws.iter().try_for_each(|draw| self.draw_one(label, pass, batch, &layer, draw));
+                let state = layer.state(number, &batch.state(&pass.state));
+                let drawn = batch.draws.iter().try_for_each(|draw| self.draw_one(label, &state, batch, &layer, draw));
                 self.take_down(&layer);
                 drawn?;
             }
@@ -45,11 +46,11 @@ impl FixedFunction {
         for unit in &layer.units {
             textures.push(match unit.image {
                 UnitImage::Mask(mask) => {
-                    Some(Bound { texture: self.masks.get(mask)?, sampler: None, red_as_alpha: false })
+                    Some(Bound { texture: self.masks.get(mask)?, sampler: None, alpha: AlphaSource::Own })
                 }
-                UnitImage::Input { index, red_as_alpha } => batch.inputs.get(index).and_then(|input| {
+                UnitImage::Input { index, alpha } => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.texture(input.image)?;
-                    Some(Bound { texture, sampler: Some(input.sampler), red_as_alpha })
+                    Some(Bound { texture, sampler: Some(input.sampler), alpha })
                 }),
             });
         }
@@ -85,13 +86,12 @@ impl FixedFunction {
     fn draw_one(
         &mut self,
         label: &str,
-        pass: &DrawPass,
+        state: &DrawState,
         batch: &Batch,
         layer: &Layer,
         draw: &Draw,
     ) -> Result<(), Error> {
-        let state = batch.state(&pass.state);
-        self.set_state(&state, layer, draw.mirrored);
+        self.set_state(state, layer, draw.mirrored);
         self.set_matrices(batch, draw);
         let attributes = attributes(layer);
         let buffers = self.device.buffers(label, draw, &attributes)?;
@@ -133,38 +133,30 @@ impl FixedFunction {
         Ok(())
     }
 
-    /// The pass's raster state as the layer changes it.
+    /// Raster state of a layer, and its blending.
     fn set_state(&mut self, state: &DrawState, layer: &Layer, mirrored: bool) {
-        let mut state = *state;
-        if !layer.first {
-            state.depth_test = state.depth_test.map(|_| Compare::Equal);
-            state.depth_write = false;
-        }
-        self.device.set_state(&state, mirrored);
+        self.device.set_state(state, mirrored);
         // SAFETY: as above.
         unsafe {
-            let color = state.color_write;
-            self.gl.color_mask(color, color, color, color && layer.alpha_write);
-            let factor = match layer.blend {
+            let [red, green, blue, alpha] = state.color_write.mask();
+            self.gl.color_mask(red, green, blue, alpha && layer.alpha_write);
+            let (source, stored) = match layer.blend {
                 LayerBlend::Replace => return,
-                LayerBlend::Add => glow::ONE,
-                LayerBlend::Erase => glow::ZERO,
+                LayerBlend::Add => (glow::ONE, glow::ONE),
+                LayerBlend::Erase => (glow::ZERO, glow::ZERO),
+                LayerBlend::AddByStoredAlpha => (glow::DST_ALPHA, glow::ONE),
+                LayerBlend::Multiply => (glow::DST_COLOR, glow::ZERO),
             };
             self.gl.enable(glow::BLEND);
             self.gl.blend_equation(glow::FUNC_ADD);
-            self.gl.blend_func(factor, factor);
+            self.gl.blend_func(source, stored);
         }
     }
 
     /// Projection and modelview, the same for all layers of a batch, so that depth EQUAL agrees to the bit. A draw without
     /// an eye space has everything in the projection.
     fn set_matrices(&self, batch: &Batch, draw: &Draw) {
-        let eye = match &batch.meaning {
-            FixedFunctionDesc::Lit(lit) => Some(lit.clip_from_eye),
-            FixedFunctionDesc::Sampled(view) => Some(view.clip_from_eye),
-            FixedFunctionDesc::Depth(_) | FixedFunctionDesc::Constant(_) | FixedFunctionDesc::Shader(_) => None,
-        };
-        let (projection, modelview) = match (eye, bounds::eye_from_model(draw)) {
+        let (projection, modelview) = match (batch.meaning.clip_from_eye(), bounds::eye_from_model(draw)) {
             (Some(clip_from_eye), Ok(eye_from_model)) => (clip_from_eye, eye_from_model),
             _ => (draw.clip_from_model, glam::Mat4::IDENTITY),
         };

@@ -1,12 +1,12 @@
 //! A pass list with the driver's own arithmetic: what the driver would compute in 32 bits for fixed function is computed by
 //! it and put into the shaders' uniforms. If both pipelines still differ, it is not by how planes and matrices round.
 
-use glam::{DMat4, Mat4, Vec4};
+use glam::{Mat4, Vec4};
 use glow::HasContext;
 
 use super::{FixedFunction, bounds, units};
 use crate::context::compatibility::raw;
-use crate::pass::{Batch, FixedFunctionDesc, PassList, Projection, UniformValue, Work};
+use crate::pass::{Batch, PassList, Projection, UniformValue, Work};
 
 impl FixedFunction {
     /// `list`, where eye planes are those that glTexGen keeps for the scene's set-up (read by glGetTexGen), and
@@ -21,14 +21,8 @@ impl FixedFunction {
     }
 
     fn take_over(&self, batch: &mut Batch) {
-        let (clip_from_eye, projections): (DMat4, Vec<&Projection>) = match &batch.meaning {
-            FixedFunctionDesc::Lit(lit) => {
-                (lit.clip_from_eye, lit.lights.iter().filter_map(|light| light.projection.as_ref()).collect())
-            }
-            FixedFunctionDesc::Sampled(view) => (view.clip_from_eye, view.projection.iter().collect()),
-            FixedFunctionDesc::Depth(_) | FixedFunctionDesc::Constant(_) | FixedFunctionDesc::Shader(_) => return,
-        };
-        for projection in projections {
+        let Some(clip_from_eye) = batch.meaning.clip_from_eye() else { return };
+        for projection in batch.meaning.projections() {
             let name = format!("eye_planes_{}", projection.light);
             if let Some(uniform) = batch.uniforms.iter_mut().find(|uniform| uniform.name == name) {
                 uniform.value = UniformValue::Vec4Array(self.eye_planes(projection));

@@ -4,7 +4,7 @@
 use glam::DMat4;
 
 use crate::geometry::{ObjectLinear, Placement};
-use crate::pass::Compare;
+use crate::pass::{Compare, DrawState};
 
 /// One drawing of all the draws of a batch.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,25 @@ pub struct Layer {
     pub alpha_write: bool,
 }
 
+impl Layer {
+    /// State of a pass as layer `number` of a batch, from 0, changes it. A stencil test that draws each pixel once lets
+    /// each layer pass where the layer before it did.
+    pub fn state(&self, number: usize, pass: &DrawState) -> DrawState {
+        let mut state = *pass;
+        if !self.first {
+            state.depth_test = state.depth_test.map(|_| Compare::Equal);
+            state.depth_write = false;
+        }
+        if let Some(stencil) = &mut state.stencil {
+            stencil.reference = number as u8;
+        }
+        if self.blend != LayerBlend::Replace {
+            state.blend = None; // its own, which the state has no word for
+        }
+        state
+    }
+}
+
 /// Blending of a fragment with the stored colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerBlend {
@@ -30,6 +49,10 @@ pub enum LayerBlend {
     Add,
     /// ZERO, ZERO: what passes the tests becomes 0.
     Erase,
+    /// DST_ALPHA, ONE.
+    AddByStoredAlpha,
+    /// DST_COLOR, ZERO.
+    Multiply,
 }
 
 /// The colour before texturing.
@@ -84,10 +107,20 @@ pub enum UnitImage {
     /// A texture of the batch's inputs.
     Input {
         index: usize,
-        /// True if its red channel is read as alpha (GL_TEXTURE_SWIZZLE_A).
-        red_as_alpha: bool,
+        alpha: AlphaSource,
     },
     Mask(Mask),
+}
+
+/// Value that a unit reads as its texture's alpha.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlphaSource {
+    /// Its own; 1 of a depth texture.
+    Own,
+    /// Its red channel (GL_TEXTURE_SWIZZLE_A).
+    Red,
+    /// The comparison's result (GL_DEPTH_TEXTURE_MODE GL_INTENSITY).
+    Comparison,
 }
 
 /// Small textures of our own, which say where a light reaches.

@@ -30,7 +30,7 @@ use crate::context::Context;
 pub use crate::context::compatibility::BindingError;
 use crate::context::compatibility::{Binding, raw};
 use crate::device::{Device, Pixels};
-use crate::pass::{Batch, Compare, DrawState, FixedFunctionDesc, ImageId, PassList, Work};
+use crate::pass::{Batch, Compare, DrawPass, DrawState, ImageId, PassList, Stencil, StencilOp, StencilOps, Work};
 
 /// The fixed-function pipeline of one compatibility context.
 pub struct FixedFunction {
@@ -68,7 +68,7 @@ impl FixedFunction {
         for pass in &list.passes {
             let Work::Draw(draw) = &pass.work else { continue };
             for batch in &draw.batches {
-                if let Err(why) = check_state(&draw.state, batch).and_then(|()| self.layers(batch)) {
+                if let Err(why) = check_state(list, draw, batch).and_then(|()| self.layers(draw, batch)) {
                     found.push(Inexpressible { pass: pass.label.clone(), what: names(batch), why });
                 }
             }
@@ -113,8 +113,8 @@ impl FixedFunction {
     }
 
     /// A batch's layers, within the driver's limits.
-    fn layers(&self, batch: &Batch) -> Result<Vec<layer::Layer>, String> {
-        let layers = reading::layers(batch)?;
+    fn layers(&self, pass: &DrawPass, batch: &Batch) -> Result<Vec<layer::Layer>, String> {
+        let layers = reading::layers(batch, pass.state.blend)?;
         for layer in &layers {
             let (units, most) = (layer.units.len(), self.most_units);
             if units > most {
@@ -131,26 +131,60 @@ impl FixedFunction {
     }
 }
 
-/// A lit surface takes several layers, which blend and share positions only with one another.
-fn check_state(state: &DrawState, batch: &Batch) -> Result<(), String> {
-    let layered = matches!(batch.meaning, FixedFunctionDesc::Lit(_) | FixedFunctionDesc::Sampled(_));
-    let why = match state {
-        DrawState { depth_test: Some(Compare::Equal), stencil: Some(_), .. } => {
+/// A lit surface takes several layers, which share positions with one another, and with another pass only where both go
+/// through eye space.
+fn check_state(list: &PassList, pass: &DrawPass, batch: &Batch) -> Result<(), String> {
+    let layered = batch.meaning.clip_from_eye().is_some();
+    let repeats = pass.state.depth_test == Some(Compare::Equal);
+    let shares = repeats && is_placed(batch) && writes_placed_depths(list, pass);
+    let why = match &pass.state {
+        DrawState { stencil: Some(_), .. } if repeats && !(shares && draws_once(pass)) => {
             "a count or tag in the stencil buffer at depth EQUAL to another pass, whose positions fixed function may \
              compute otherwise"
         }
-        DrawState { depth_test: Some(Compare::Equal), .. } => {
-            "depth EQUAL to another pass, whose positions fixed function may compute otherwise"
-        }
-        DrawState { stencil: Some(_), .. } => {
+        _ if repeats && !shares => "depth EQUAL to another pass, whose positions fixed function may compute otherwise",
+        DrawState { stencil: Some(_), .. } if !repeats => {
             "a count in the stencil buffer: volumes have no modelview of their own, by which fixed function would put their \
              caps where it puts the surfaces"
         }
+        DrawState { stencil: Some(_), .. } if !has_equal_layers(pass) => {
+            "surfaces that are drawn once by a stencil test, of several numbers of layers, which cannot be told apart"
+        }
         _ if batch.clip_planes > 0 => "a clip plane of the vertex stage's own",
-        DrawState { blend: Some(_), .. } if layered => "a pass that blends, as its own layers do",
+        DrawState { blend: Some(_), .. } if layered && !shares => "a pass that blends, as its own layers do",
         _ => return Ok(()),
     };
     Err(String::from(why))
+}
+
+/// Tests whether projection and modelview are two matrices.
+fn is_placed(batch: &Batch) -> bool {
+    batch.meaning.clip_from_eye().is_some() && batch.draws.iter().all(|draw| draw.eye_from_model.is_some())
+}
+
+/// Tests whether all depths that the pass may meet are those of such batches.
+fn writes_placed_depths(list: &PassList, pass: &DrawPass) -> bool {
+    let draws = list.passes.iter().filter_map(|other| match &other.work {
+        Work::Draw(draw) => Some(draw),
+        Work::CopyDepth { .. } => None,
+    });
+    let mut writing = draws.filter(|other| other.target.depth == pass.target.depth && other.state.depth_write);
+    writing.all(|other| other.batches.iter().all(is_placed))
+}
+
+/// Tests whether a stencil test lets each pixel of a pass through once.
+fn draws_once(pass: &DrawPass) -> bool {
+    let once = StencilOps { pass: StencilOp::Increment, ..StencilOps::KEEP };
+    let counts = |stencil: Stencil| stencil.test == Compare::Equal && [stencil.front, stencil.back] == [once; 2];
+    pass.clear.stencil == Some(0) && pass.state.stencil.is_some_and(counts)
+}
+
+/// Tests whether all batches of a pass take equally many layers: then no layer of one passes where another has drawn.
+fn has_equal_layers(pass: &DrawPass) -> bool {
+    let mut numbers =
+        pass.batches.iter().filter_map(|batch| Some(reading::layers(batch, pass.state.blend).ok()?.len()));
+    let first = numbers.next();
+    numbers.all(|number| Some(number) == first)
 }
 
 /// The names of what a batch draws, each once.

@@ -10,19 +10,24 @@ use super::bounds::{self, CoordinateRange};
 use super::layer::{Layer, LayerBlend, LayerLighting, PointLight, Primary};
 use super::stack::{Stack, Weight};
 use crate::pass::{
-    Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
+    self, Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
 };
 
-/// The layers of a batch, in the order in which they are drawn.
+/// The layers of a batch, in the order in which they are drawn; `blend` is its pass's.
 ///
 /// # Errors
 ///
 /// Reason why fixed function cannot draw it.
-pub fn layers(batch: &Batch) -> Result<Vec<Layer>, String> {
+pub fn layers(batch: &Batch, blend: Option<pass::Blend>) -> Result<Vec<Layer>, String> {
     match &batch.meaning {
         FixedFunctionDesc::Depth(texturing) => Ok(vec![cut_out("depth", batch, texturing)?]),
         FixedFunctionDesc::Constant(color) => Ok(vec![Layer::first("colour", Primary::Color(*color))]),
-        FixedFunctionDesc::Lit(lit) => lit_layers(batch, lit),
+        FixedFunctionDesc::Lit(lit) => match blend {
+            None if lit.added => Err(String::from("light beside ambient light that is elsewhere")),
+            None => lit_layers(batch, lit),
+            Some(blend) => blended_layers(batch, lit, blend),
+        },
+        FixedFunctionDesc::Alpha(view) => alpha_layers(batch, view),
         FixedFunctionDesc::Sampled(view) => view_layers(batch, view),
         FixedFunctionDesc::Shader(what) => Err((*what).to_owned()),
     }
@@ -74,16 +79,38 @@ fn view_layers(batch: &Batch, view: &ShadeView) -> Result<Vec<Layer>, String> {
     }
     layers.push(shown);
     if let Some(projection) = projection.filter(|projection| projection.cone) {
-        let mut stack = Stack::new(batch);
-        stack.cone(projection);
-        let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
-        outside.units = stack.finish();
-        outside.alpha_test = Some((Compare::LessEqual, 0.0));
-        outside.blend = LayerBlend::Erase;
-        outside.first = false;
-        layers.push(outside);
+        layers.push(outside_cone(batch, projection));
     }
     Ok(layers)
+}
+
+/// Erases what lies outside a light's cone.
+fn outside_cone(batch: &Batch, projection: &Projection) -> Layer {
+    let mut stack = Stack::new(batch);
+    stack.cone(projection);
+    let mut outside = Layer::first("outside the cone", Primary::Color([0.0, 0.0, 0.0, 1.0]));
+    outside.units = stack.finish();
+    outside.alpha_test = Some((Compare::LessEqual, 0.0));
+    outside.blend = LayerBlend::Erase;
+    outside.first = false;
+    outside
+}
+
+/// The shade as alpha. Holes need no test: at depth EQUAL nothing is met in them.
+fn alpha_layers(batch: &Batch, view: &ShadeView) -> Result<Vec<Layer>, String> {
+    let projection = view.projection.as_ref();
+    let reach = reach(batch, projection)?;
+    check_reference(batch, &view.shade, reach)?;
+    let most = if view.shade == Shade::Dark { 0.0 } else { 1.0 };
+    let mut shown = Layer::first("shade", Primary::Color([0.0, 0.0, 0.0, most]));
+    let mut stack = Stack::new(batch);
+    stack.shade_in_alpha(&view.shade, projection)?;
+    if let Some(projection) = projection {
+        stack.reach(projection, reach.behind, true);
+    }
+    shown.units = stack.finish();
+    let outside = projection.filter(|projection| projection.cone).map(|projection| outside_cone(batch, projection));
+    Ok([shown].into_iter().chain(outside).collect())
 }
 
 /// Cases that may occur in a batch; none if a light has no coordinates.
@@ -127,9 +154,32 @@ fn lit_layers(batch: &Batch, lit: &Lit) -> Result<Vec<Layer>, String> {
     Ok(layers)
 }
 
+/// Layers of a pass that blends: each blends with what is there as the pass does. Nothing blends by an ambient layer that
+/// is black, or that the picture has already.
+fn blended_layers(batch: &Batch, lit: &Lit, blend: pass::Blend) -> Result<Vec<Layer>, String> {
+    check_lighting(lit)?;
+    let blend = match blend {
+        pass::Blend::Add => LayerBlend::Add,
+        pass::Blend::AddByStoredAlpha => LayerBlend::AddByStoredAlpha,
+        pass::Blend::Multiply if lit.lights.is_empty() => LayerBlend::Multiply,
+        _ => return Err(String::from("a pass that blends otherwise than its own layers can")),
+    };
+    let lights = lit.lights.iter().map(|light| light_layers(batch, lit, light)).collect::<Result<Vec<_>, _>>()?;
+    let base = ambient_layer(batch, lit)?;
+    let is_dark = matches!(base.primary, Primary::Color([0.0, 0.0, 0.0, _]));
+    let base = (!lit.added && (blend == LayerBlend::Multiply || !is_dark)).then_some(base);
+    let layers = base.into_iter().chain(lights.into_iter().flatten());
+    Ok(layers.map(|layer| Layer { blend, alpha_write: false, ..layer }).collect())
+}
+
+/// Tests whether the angle between a light and the surface's normal counts.
+fn is_lit(lit: &Lit, light: &FixedFunctionLight) -> bool {
+    lit.lit && light.cosine
+}
+
 fn check_lighting(lit: &Lit) -> Result<(), String> {
-    let attenuated = lit.lights.iter().any(|light| light.attenuation != [1.0, 0.0, 0.0]);
-    if !lit.per_vertex && !lit.lights.is_empty() && (lit.lit || attenuated) {
+    let by_vertex = |light: &FixedFunctionLight| is_lit(lit, light) || is_attenuated(light);
+    if !lit.per_vertex && lit.lights.iter().any(by_vertex) {
         return Err(String::from(
             "its lighting is found for each fragment, fixed function's for each vertex: choose lighting = \"per-vertex\"",
         ));
@@ -200,10 +250,10 @@ fn light_layers(batch: &Batch, lit: &Lit, light: &FixedFunctionLight) -> Result<
     let reach = reach(batch, light.projection.as_ref())?;
     check_reference(batch, &light.shade, reach)?;
     let has_diffuse = product(light.diffuse, lit.diffuse) != Vec3::ZERO;
-    let has_specular = lit.lit && product(light.specular, lit.specular) != Vec3::ZERO;
+    let has_specular = is_lit(lit, light) && product(light.specular, lit.specular) != Vec3::ZERO;
     let dimmed = if light.dimming > 0.0 { Weight::Dimmed(light.dimming) } else { Weight::Shade };
     let mut parts = Vec::new();
-    if has_diffuse && has_specular && !lit.texturing.decal {
+    if has_diffuse && has_specular && !lit.texturing.decal && light.diffuse_weight == 1.0 {
         // Both saturate together: what a dimmed shadow leaves of the diffuse light alone is added to it.
         parts.push(Parts { diffuse: true, specular: true, weight: Weight::Shade });
         if light.dimming > 0.0 && light.shade != Shade::Lit {
@@ -251,6 +301,9 @@ fn light_layer(
         }
         stack.reach(projection, reach.behind, false);
     }
+    if parts.diffuse && light.diffuse_weight < 1.0 {
+        stack.weigh(light.diffuse_weight);
+    }
     if parts.diffuse {
         stack.surface(&lit.texturing, lit.texturing.decal, false)?;
     }
@@ -272,7 +325,8 @@ fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Prima
     let strength = if light.attenuation[0] > 0.0 { 1.0 / light.attenuation[0] } else { f32::INFINITY };
     let diffuse = product(light.diffuse, lit.diffuse);
     let specular = product(light.specular, lit.specular);
-    if !lit.lit && !is_attenuated(light) {
+    let has_normal = is_lit(lit, light);
+    if !has_normal && !is_attenuated(light) {
         let room = if lit.per_vertex { (Vec3::ONE - ambient).max(Vec3::ZERO) } else { Vec3::INFINITY };
         let color = diffuse.min(room);
         if color.max_element() > 1.0 {
@@ -280,7 +334,7 @@ fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Prima
         }
         return Ok((Primary::Color(color.extend(1.0).to_array()), None));
     }
-    let sum = ambient + strength * (diffuse + if lit.lit { specular } else { Vec3::ZERO });
+    let sum = ambient + strength * (diffuse + if has_normal { specular } else { Vec3::ZERO });
     let relevant = if parts.specular { sum } else { ambient + strength * diffuse };
     let saturates = relevant.max_element() > 1.0 && ambient != Vec3::ZERO;
     if !parts.diffuse && sum.max_element() > 1.0 {
@@ -295,7 +349,7 @@ fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Prima
     }
     let mut source = unlit_source(light);
     let mut lighting = LayerLighting { opacity: 1.0, shininess: lit.shininess, ..LayerLighting::default() };
-    if !lit.lit {
+    if !has_normal {
         // Ambient light needs no normal.
         (source.ambient, lighting.ambient) = (light.diffuse, lit.diffuse);
     } else if parts.diffuse {

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec4};
 
-use super::layer::{Combine, EyeLinear, Mask, Operand, Unit, UnitCoordinates, UnitImage};
+use super::layer::{AlphaSource, Combine, EyeLinear, Mask, Operand, Unit, UnitCoordinates, UnitImage};
 use crate::geometry::Placement;
 use crate::pass::{Batch, Projection, Shade, Texturing};
 
@@ -56,7 +56,7 @@ impl<'a> Stack<'a> {
     fn input(&self, name: &str) -> Result<UnitImage, String> {
         let index = self.batch.inputs.iter().position(|input| input.name == name);
         let index = index.ok_or_else(|| format!("what its program means names an input `{name}` that it lacks"))?;
-        Ok(UnitImage::Input { index, red_as_alpha: false })
+        Ok(UnitImage::Input { index, alpha: AlphaSource::Own })
     }
 
     /// The surface's own textures: the decal's RGB where `decal` says so, and alpha for the alpha test.
@@ -72,7 +72,8 @@ impl<'a> Stack<'a> {
             self.place(texturing.decal_placement);
         }
         if let (Some(test), Ok(UnitImage::Input { index, .. })) = (test, self.input("alpha_map")) {
-            let image = UnitImage::Input { index, red_as_alpha: test.map_in_red };
+            let alpha = if test.map_in_red { AlphaSource::Red } else { AlphaSource::Own };
+            let image = UnitImage::Input { index, alpha };
             self.push(image, coordinates, KEPT, BY_TEXTURE);
             self.place(texturing.alpha_placement);
         }
@@ -125,6 +126,26 @@ impl<'a> Stack<'a> {
         self.constant(constant);
         let by_primary = Combine::Modulate(Operand::Previous, Operand::Primary);
         self.pass_on(by_primary, KEPT);
+        Ok(())
+    }
+
+    /// Modulates by a constant.
+    pub fn weigh(&mut self, weight: f32) {
+        self.pass_on(Combine::Modulate(Operand::Previous, Operand::Constant), KEPT);
+        self.constant([weight, weight, weight, 1.0]);
+    }
+
+    /// Modulates alpha by the light's shade.
+    pub fn shade_in_alpha(&mut self, shade: &Shade, projection: Option<&Projection>) -> Result<(), String> {
+        let name = match shade {
+            Shade::Lit | Shade::Dark => return Ok(()), // the primary colour has it
+            Shade::Shader(what) => return Err((*what).to_owned()),
+            Shade::Texture { input, .. } => input,
+        };
+        let projection = projection.ok_or("a shade texture of a light without texture coordinates")?;
+        let UnitImage::Input { index, .. } = self.input(name)? else { return Ok(()) };
+        let image = UnitImage::Input { index, alpha: AlphaSource::Comparison };
+        self.push(image, map_coordinates(projection), KEPT, BY_TEXTURE);
         Ok(())
     }
 

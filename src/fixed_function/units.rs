@@ -4,7 +4,7 @@
 use glam::DMat4;
 use glow::HasContext;
 
-use super::layer::{Combine, Operand, Unit, UnitCoordinates};
+use super::layer::{AlphaSource, Combine, Operand, Unit, UnitCoordinates};
 use crate::context::compatibility::{Binding, raw};
 use crate::device::{compare_code, filter_codes, wrap_code};
 use crate::geometry::Placement;
@@ -24,7 +24,7 @@ pub struct Bound {
     pub texture: glow::Texture,
     /// `None`: as the texture's own parameters say.
     pub sampler: Option<Sampler>,
-    pub red_as_alpha: bool,
+    pub alpha: AlphaSource,
 }
 
 /// Switches unit `index` on.
@@ -38,7 +38,7 @@ pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, boun
         gl.enable(glow::TEXTURE_2D);
     }
     if let Some(sampler) = bound.sampler {
-        set_sampler(gl, sampler, bound.red_as_alpha);
+        set_sampler(gl, sampler, bound.alpha);
     }
     set_coordinates(gl, fixed, &unit.coordinates, &unit.placement);
     set_combiners(fixed, unit);
@@ -57,8 +57,9 @@ pub fn disable(gl: &glow::Context, fixed: &Binding, index: u32) {
     }
 }
 
-/// Sets the texture's own parameters as the device sets sampler objects; a comparison's result goes to luminance.
-fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
+/// Sets the texture's own parameters as the device sets sampler objects; a comparison's result goes to RGB, and to alpha
+/// where that is wanted.
+fn set_sampler(gl: &glow::Context, sampler: Sampler, alpha: AlphaSource) {
     let ([min, mag], wrap) = (filter_codes(sampler.filter), wrap_code(sampler.wrap));
     let (mode, function) = match sampler.compare {
         Some(compare) => (glow::COMPARE_REF_TO_TEXTURE, compare_code(compare)),
@@ -71,8 +72,8 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, red_as_alpha: bool) {
         (glow::TEXTURE_WRAP_T, wrap),
         (glow::TEXTURE_COMPARE_MODE, mode),
         (glow::TEXTURE_COMPARE_FUNC, function),
-        (raw::DEPTH_TEXTURE_MODE, raw::LUMINANCE),
-        (glow::TEXTURE_SWIZZLE_A, if red_as_alpha { glow::RED } else { glow::ALPHA }),
+        (raw::DEPTH_TEXTURE_MODE, if alpha == AlphaSource::Comparison { raw::INTENSITY } else { raw::LUMINANCE }),
+        (glow::TEXTURE_SWIZZLE_A, if alpha == AlphaSource::Red { glow::RED } else { glow::ALPHA }),
     ];
     for (name, value) in parameters {
         // SAFETY: as above.

@@ -139,6 +139,7 @@ impl Drawable {
             order: IndexOrder::File,
             bounds: self.bounds,
             clip_from_model: *clip_from_world * self.world_from_model,
+            eye_from_model: None,
             mirrored: mirrors(&(*clip_from_world * self.world_from_model)),
             uniforms,
         }

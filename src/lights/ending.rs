@@ -7,9 +7,31 @@ use crate::pass::Chunk;
 pub enum Ending {
     /// The illumination formula.
     Lit,
+    /// Factors of the colour, for passes that multiply them by blending.
+    Factors(Factors),
+    /// The shade of one light in alpha: its chunk has `main`, which calls `shade_@`.
+    Alpha(Chunk),
     /// A view of one light: its chunk has `main`, and `shade` says whether it calls `shade_@`.
     View { chunk: Chunk, shade: bool },
     /// A slice of one light's beam: `chunk` has `main`, and reads the light's shade, colour, image and attenuation. `place`
     /// has what moves the light's texture coordinates before all that.
     Slice { chunk: Chunk, place: Option<Chunk> },
+}
+
+/// Factors of `color (ambient + light)`. The lights' part is there where a pass has lights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factors {
+    /// Chunk with `main`.
+    pub chunk: Chunk,
+    /// True if the scene's ambient light is added to the lights.
+    pub ambient: bool,
+    /// True if the surface's own colour, diffuse colour times decal, is a factor.
+    pub color: bool,
+}
+
+impl Ending {
+    /// Tests whether it shows light on surfaces; other endings show facts of one light, also where it does not reach.
+    pub fn shows_light(&self) -> bool {
+        matches!(self, Self::Lit | Self::Factors(_))
+    }
 }

@@ -78,6 +78,8 @@ pub struct LightTerm {
     pub frustum_from_map: Option<Vec4>,
     /// Part of each of the light's colours that is drawn.
     pub gain: Gain,
+    /// Factor of the diffuse light behind all else, also behind the clamp of lighting per vertex; in [0, 1].
+    pub diffuse_weight: f32,
     /// Light that the picture has already, before this light is added.
     pub addition: Addition,
     /// Guard against back projection.
@@ -288,6 +290,7 @@ impl VolumeDraw {
             // Volumes have no bounds; the technique has chosen those that can be seen.
             bounds: Aabb::EVERYTHING,
             clip_from_model,
+            eye_from_model: None,
             mirrored: drawable::mirrors(&clip_from_model) != self.reversed,
             uniforms: Vec::new(),
         }
@@ -317,6 +320,7 @@ impl LightTerm {
             dimming: 0.0,
             frustum_from_map: None,
             gain: Gain::ALL,
+            diffuse_weight: 1.0,
             addition: Addition::None,
             guard: Guard::Auto,
             map: None,

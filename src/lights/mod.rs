@@ -21,7 +21,7 @@ pub use camera_visibility::CameraView;
 pub use coordinates::Coordinates;
 pub use crop::Crop;
 pub use drawable::Drawable;
-pub use ending::Ending;
+pub use ending::{Ending, Factors};
 pub use light::{FrustumView, LightTerm, LightView};
 pub use map::{MapInfo, MapShape};
 pub use notes::{Chosen, LeftOut, Notes};

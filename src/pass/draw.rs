@@ -78,6 +78,8 @@ pub struct Draw {
     pub bounds: Aabb,
     /// `clip_from_model`: every program of ours has this uniform, and the plan culls by it.
     pub clip_from_model: DMat4,
+    /// Modelview matrix of a surface, for readers that transform in two steps; `None`: there is no eye space.
+    pub eye_from_model: Option<DMat4>,
     /// True if the transform mirrors, so that front faces wind clockwise.
     pub mirrored: bool,
     /// Uniforms in addition to `clip_from_model`.

@@ -23,6 +23,8 @@ pub enum FixedFunctionDesc {
     Lit(Box<Lit>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
     Sampled(Box<ShadeView>),
+    /// The same value as alpha, without a colour [Segal 1992, 3.3].
+    Alpha(Box<ShadeView>),
     /// Something that fixed function cannot express, in words.
     Shader(&'static str),
 }
@@ -62,6 +64,8 @@ pub struct Lit {
     pub per_vertex: bool,
     /// True if normals count; `false`: the diffuse colour as it is.
     pub lit: bool,
+    /// True if ambient light is in the picture already, and only bounds what each vertex adds beside it.
+    pub added: bool,
     /// The scene's ambient light times the material's.
     pub scene_ambient: [f32; 3],
     /// Ambient reflectance of the material; black if no light needs it.
@@ -78,11 +82,33 @@ pub struct Lit {
     pub lights: Vec<FixedFunctionLight>,
 }
 
+impl FixedFunctionDesc {
+    /// Projection of surfaces that are drawn through eye space; others have all of their transform in one matrix.
+    pub fn clip_from_eye(&self) -> Option<DMat4> {
+        match self {
+            Self::Lit(lit) => Some(lit.clip_from_eye),
+            Self::Sampled(view) | Self::Alpha(view) => Some(view.clip_from_eye),
+            Self::Depth(_) | Self::Constant(_) | Self::Shader(_) => None,
+        }
+    }
+
+    /// Texture coordinates of the lights.
+    pub fn projections(&self) -> Vec<&Projection> {
+        match self {
+            Self::Lit(lit) => lit.lights.iter().filter_map(|light| light.projection.as_ref()).collect(),
+            Self::Sampled(view) | Self::Alpha(view) => view.projection.iter().collect(),
+            Self::Depth(_) | Self::Constant(_) | Self::Shader(_) => Vec::new(),
+        }
+    }
+}
+
 /// One light of [`Lit`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixedFunctionLight {
     /// Index into the scene's lights.
     pub index: usize,
+    /// True if the angle to the normal counts; `false`: the light of a projector, which has no highlights either.
+    pub cosine: bool,
     /// Position in eye space, homogeneous like GL_POSITION: w = 0 for parallel light, whose direction is towards it.
     pub position: [f32; 4],
     /// Ambient colour of the light.
@@ -97,13 +123,15 @@ pub struct FixedFunctionLight {
     pub beam: Option<Cow<'static, str>>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
+    /// Factor of the diffuse light behind all else, in [0, 1].
+    pub diffuse_weight: f32,
     /// Texture coordinates of the light; `None`: it reaches everywhere, and no lookup needs them.
     pub projection: Option<Projection>,
     /// Shade of the light at each point.
     pub shade: Shade,
 }
 
-/// The view that shows a light's shade.
+/// A light's shade on the surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadeView {
     /// Projection of the camera.

@@ -19,7 +19,7 @@ pub use image::{
 };
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use source::{Source, SourceLine, Stage};
-pub use state::{Blend, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
+pub use state::{Blend, Channels, Compare, DrawState, Face, PolygonOffset, Stencil, StencilOp, StencilOps};
 
 pub(crate) use program::glsl;
 
@@ -154,7 +154,7 @@ impl Pass {
         match &self.work {
             Work::Draw(draw) => {
                 let state = &draw.state;
-                let color = draw.target.color.filter(|_| state.color_write || draw.clear.color.is_some());
+                let color = draw.target.color.filter(|_| state.color_write.any() || draw.clear.color.is_some());
                 let counts = state.stencil.is_some_and(|stencil| stencil.write_mask != 0);
                 let clears = draw.clear.depth.is_some() || draw.clear.stencil.is_some();
                 let depth = draw.target.depth.filter(|_| state.depth_write || counts || clears);

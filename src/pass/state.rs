@@ -103,6 +103,36 @@ pub enum Blend {
     Over,
     /// GL_ONE, GL_ONE_MINUS_SRC_ALPHA, of all four components: the fragment's colour has its alpha as a factor already.
     OverPremultiplied,
+    /// GL_DST_ALPHA, GL_ONE: the fragment's colour is weighed by the stored alpha and added; alpha stays as it is.
+    AddByStoredAlpha,
+    /// GL_DST_COLOR, GL_ZERO: the product of both; alpha stays as it is.
+    Multiply,
+}
+
+/// Channels of the colour buffer that fragments are written to (glColorMask). Clears write all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channels {
+    /// None of them.
+    None,
+    /// Red, green and blue.
+    Rgb,
+    /// Alpha alone.
+    Alpha,
+    /// All four.
+    All,
+}
+
+impl Channels {
+    /// Tests whether anything is written.
+    pub fn any(self) -> bool {
+        self != Self::None
+    }
+
+    /// Arguments of glColorMask: red, green, blue, alpha.
+    pub fn mask(self) -> [bool; 4] {
+        let rgb = matches!(self, Self::Rgb | Self::All);
+        [rgb, rgb, rgb, matches!(self, Self::Alpha | Self::All)]
+    }
 }
 
 /// All per-fragment and raster state that a pass can set.
@@ -112,8 +142,8 @@ pub struct DrawState {
     pub depth_test: Option<Compare>,
     /// True if depth is written where the tests pass.
     pub depth_write: bool,
-    /// True if all four channels are written.
-    pub color_write: bool,
+    /// Channels of the colour that are written.
+    pub color_write: Channels,
     /// The faces that are not drawn.
     pub cull: Option<Face>,
     /// Offset of the depth of filled polygons; `None`: off.
@@ -141,7 +171,7 @@ impl DrawState {
     pub const DEPTH_ONLY: Self = Self {
         depth_test: Some(Compare::Less),
         depth_write: true,
-        color_write: false,
+        color_write: Channels::None,
         cull: None,
         polygon_offset: None,
         depth_range: [0.0, 1.0],
@@ -153,7 +183,7 @@ impl DrawState {
     };
 
     /// Colour and depth: LESS.
-    pub const OPAQUE: Self = Self { color_write: true, ..Self::DEPTH_ONLY };
+    pub const OPAQUE: Self = Self { color_write: Channels::All, ..Self::DEPTH_ONLY };
 
     /// Colour only where the stored depth equals the draw's: EQUAL, no depth writes. Exact only with the same position
     /// arithmetic as the pass that wrote it [GL 4.6 compatibility, A.3].

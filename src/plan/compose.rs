@@ -55,6 +55,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         surface: surfaces::batches,
         frames: request.frames,
         keep_all: request.keep_all,
+        clamps: !request.float_picture,
     };
     let mut pictures = Pictures { passes, request };
     let buffers = match request.subject {

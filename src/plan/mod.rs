@@ -1,5 +1,6 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
+mod after_pass;
 mod compose;
 pub mod matrices;
 mod pictures;
@@ -146,6 +147,14 @@ pub enum Error {
         "guard = \"clip-plane\" (lights {lights:?}): at most {most} lights can have it, because surfaces across all their planes are drawn once for each combination of sides. Choose another guard for the others."
     )]
     TooManyCuts { lights: Vec<usize>, most: usize },
+    /// `--after-pass` names no pass of the plan.
+    #[error("--after-pass {wanted}: the plan has no such pass; it has {names}")]
+    NoPassAfter { wanted: String, names: String },
+    /// `--after-pass` names a pass before the first of the picture.
+    #[error(
+        "--after-pass {number}: \"{label}\" comes before the picture has anything in it; passes that draw into it are {names}"
+    )]
+    BeforePicture { number: usize, label: String, names: String },
     /// A request names a pass that the plan does not have.
     #[error("--shaders {wanted}: no pass has that in its name; the passes are {names}")]
     NoSuchPass { wanted: String, names: String },

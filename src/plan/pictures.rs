@@ -31,7 +31,7 @@ impl Pictures<'_> {
         let terms: Vec<&LightTerm> = lights.iter().filter(|l| l.contributes).filter_map(|l| l.term.as_ref()).collect();
         let counts = terms.iter().filter_map(|term| term.counting.as_ref());
         let lens = CameraProjection::for_counts(self.passes.scene, counts);
-        let composition = compositions::chosen(&terms)?;
+        let composition = compositions::chosen(self.passes.scene, &terms)?;
         check_cuts(&terms)?;
         composition.check(self.passes.scene, &terms)?;
         let items = self.passes.cut_items(&lens);
@@ -43,7 +43,7 @@ impl Pictures<'_> {
             self.passes.derived,
             self.passes.notes,
         );
-        let buffers = self.buffers(composition.needs_stencil(self.passes.scene, &terms));
+        let buffers = self.buffers(composition.needs_stencil(&self.passes, &terms));
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;
         self.passes.dust(buffers, &lens, &terms)?;
@@ -120,7 +120,8 @@ impl Pictures<'_> {
             return self.light_view(&label, wanted.light);
         }
         if view.depends_on_shade()
-            && let Some(image) = compositions::chosen(&[term])?.view(&mut self.passes, view, &label, term)?
+            && let Some(image) =
+                compositions::chosen(self.passes.scene, &[term])?.view(&mut self.passes, view, &label, term)?
         {
             return Ok(image);
         }

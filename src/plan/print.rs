@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
 use crate::pass::{
-    Blend, Compare, CubeFace, Define, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw, Stencil,
-    StencilOp, StencilOps, Work,
+    Blend, Channels, Compare, CubeFace, Define, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw,
+    Stencil, StencilOp, StencilOps, Work,
 };
 
 impl Plan {
@@ -174,10 +174,14 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
     words.push(format!(
         "write {}",
         match (color_write, depth_write) {
-            (true, true) => "colour and depth",
-            (true, false) => "colour",
-            (false, true) => "depth",
-            (false, false) => "nothing",
+            (Channels::None, true) => "depth",
+            (Channels::None, false) => "nothing",
+            (Channels::Rgb, true) => "RGB and depth",
+            (Channels::Rgb, false) => "RGB",
+            (Channels::Alpha, true) => "alpha and depth",
+            (Channels::Alpha, false) => "alpha",
+            (Channels::All, true) => "colour and depth",
+            (Channels::All, false) => "colour",
         }
     ));
     if let Some(face) = cull {
@@ -200,6 +204,8 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
         Some(Blend::Add) => words.push(String::from("blend ONE ONE")),
         Some(Blend::OverPremultiplied) => words.push(String::from("blend ONE ONE_MINUS_SRC_ALPHA")),
         Some(Blend::Over) => words.push(String::from("blend SRC_ALPHA ONE_MINUS_SRC_ALPHA")),
+        Some(Blend::AddByStoredAlpha) => words.push(String::from("blend DST_ALPHA ONE")),
+        Some(Blend::Multiply) => words.push(String::from("blend DST_COLOR ZERO")),
         None => {}
     }
     words.extend(scissor.map(scissor_words));

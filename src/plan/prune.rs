@@ -7,7 +7,8 @@ use super::{Plan, Request};
 use crate::lights::LeftOut;
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage, Target, Work,
+    Channels, DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage,
+    Target, Work,
 };
 
 /// Prunes in place.
@@ -36,7 +37,7 @@ fn keep_all(plan: &mut Plan) {
             });
             draw.target.color = Some(ImageId(images.len() - 1));
             draw.clear.color = Some([0.0; 4]);
-            draw.state.color_write = true;
+            draw.state.color_write = Channels::All;
         }
     }
     plan.left_out.clear();
@@ -52,7 +53,7 @@ fn cull_draws(plan: &mut Plan) {
         let has_no_ends = draw_pass.state.depth_clamp && draw_pass.state.clip_distances == 0;
         for batch in &mut draw_pass.batches {
             // Depth passes leave faces out by a key of the scene.
-            let culls = batch.cull.is_some() && draw_pass.state.color_write;
+            let culls = batch.cull.is_some() && draw_pass.state.color_write.any();
             batch.draws.retain(|draw| {
                 let seen = match has_no_ends {
                     true => frustum::may_show_clamped(&draw.clip_from_model, &draw.bounds),
@@ -97,7 +98,7 @@ fn drop_unread_passes(plan: &mut Plan) {
 }
 
 /// Removes images that no pass uses, and renumbers the rest.
-fn drop_unused_images(plan: &mut Plan) {
+pub(super) fn drop_unused_images(plan: &mut Plan) {
     let mut used: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
     used.insert(plan.picture);
     used.extend(plan.list.passes.iter().flat_map(|pass| pass.reads().into_iter().chain(pass.writes())));

@@ -24,8 +24,8 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Camera, Dust, DustBlend, Frustum, Image, ImageFilter, Light, LightKind, LightShape, Object, Point, Scene, Shading,
-    Spot,
+    Background, Camera, Dust, DustBlend, Frustum, Image, ImageFilter, Law, Light, LightKind, LightShape, Object,
+    PicturePasses, Point, Scene, Shading, Spot,
 };
 pub use ranges::{LARGEST, SMALLEST};
 pub use read_shadow::ReadShadow;

@@ -70,6 +70,32 @@ pub struct Shading {
     pub ambient: [f32; 3],
     /// Fixed-function lighting per vertex, or Phong per fragment.
     pub per_vertex: bool,
+    /// Passes that make the picture.
+    pub passes: PicturePasses,
+    /// Content of pixels without a surface, where projectors' light is multiplied in.
+    pub background: Background,
+}
+
+/// Passes in which light becomes a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PicturePasses {
+    /// As few as the lights allow.
+    #[default]
+    One,
+    /// Those of the slide projector: depth, each projector's light, the surfaces' colour [Segal 1992, 3.1].
+    Slide,
+    /// Those of shadows in destination alpha: ambient light; for each light its shade, then its colour [Segal 1992, 3.3].
+    Shadow,
+}
+
+/// Content of pixels without a surface in the passes of the slide projector.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// The scene's background.
+    #[default]
+    Scene,
+    /// The ambient light that every pixel is cleared to [Segal 1992, 3.1].
+    Ambient,
 }
 
 /// A light.
@@ -83,6 +109,8 @@ pub struct Light {
     pub diffuse: [f32; 3],
     /// Specular colour, RGB.
     pub specular: [f32; 3],
+    /// Law by which it lights surfaces.
+    pub law: Law,
     /// Name as written, or `light 0` by its place in the file.
     pub name: String,
     /// Dust in the light's way; `None`: clear air.
@@ -116,6 +144,16 @@ pub enum DustBlend {
     Over,
     /// Slices are added up, and hide nothing.
     Add,
+}
+
+/// Law by which a light lights surfaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Law {
+    /// Diffuse light by the angle to the normal, and specular light.
+    #[default]
+    Lit,
+    /// A slide projector's: the image as it is, whatever the angle; nothing occludes it [Segal 1992, 3.1]. Spotlights only.
+    Slide,
 }
 
 /// Kind of a light, with the values that only this kind has.

@@ -77,7 +77,7 @@ fn under(
 ) -> Vec<Piece> {
     let Some(plane) = plane.filter(|_| term.guard != Guard::None) else { return vec![piece.with(Reach::Free)] };
     // A view shows one light, also where it does not reach: nothing is left out.
-    if *ending != Ending::Lit {
+    if !ending.shows_light() {
         return vec![piece.with(Reach::Fragment)];
     }
     let side = plane.side(&piece.item, viewer);

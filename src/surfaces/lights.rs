@@ -14,7 +14,10 @@ use crate::math::texgen;
 use crate::pass::{
     Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
-use crate::scene::{ImageFilter, Light, LightKind, LightShape, Scene, Spot};
+use crate::scene::{ImageFilter, Law, Light, LightKind, LightShape, Scene, Spot};
+
+/// The picture has the ambient light already.
+pub const ADDED: Define = Define::flag("ADDED");
 
 /// Parts of one light in every variant.
 pub struct LightParts {
@@ -32,6 +35,8 @@ pub struct LightParts {
     pub meaning: FixedFunctionLight,
     pub has_specular: bool,
     pub has_ambient: bool,
+    /// True if the angle to the surface's normal counts.
+    pub has_cosine: bool,
     /// True if its direction differs from point to point.
     pub has_position: bool,
     pub has_attenuation: bool,
@@ -151,6 +156,7 @@ fn light_parts(
         has_attenuation: source.attenuation() != [1.0, 0.0, 0.0],
         has_specular: source.specular != [0.0; 3],
         has_ambient: source.ambient != [0.0; 3],
+        has_cosine: source.law == Law::Lit,
     };
     if let Some(projection) = &projection {
         add_texgen(&mut parts, &projection.texgen);
@@ -169,12 +175,12 @@ fn light_parts(
         parts.uniforms.push(Uniform::of_light("frustum_from_map", index, frustum_from_map));
     }
     if term.addition == Addition::Clamped {
-        parts.defines.push(Define::flag("ADDED"));
+        parts.defines.push(ADDED);
     }
-    match ending {
-        Ending::Lit => add_lighting(&mut parts, source, spot, viewer, term, list),
-        Ending::Slice { .. } => add_beam(&mut parts, source, spot, viewer, list),
-        Ending::View { .. } => {}
+    if ending.shows_light() {
+        add_lighting(&mut parts, source, spot, viewer, term, list);
+    } else if let Ending::Slice { .. } = ending {
+        add_beam(&mut parts, source, spot, viewer, list);
     }
     Some(parts)
 }
@@ -210,6 +216,7 @@ fn meaning(
     let has_image = spot.is_some_and(|spot| spot.image.is_some());
     FixedFunctionLight {
         index: term.index,
+        cosine: source.law == Law::Lit,
         position: eye_position(source, viewer).to_array(),
         ambient: source.ambient,
         diffuse: source.diffuse,
@@ -217,6 +224,7 @@ fn meaning(
         attenuation: source.attenuation(),
         beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
         dimming: term.dimming,
+        diffuse_weight: term.diffuse_weight,
         projection,
         shade: term.shade.meaning.clone(),
     }
@@ -293,9 +301,16 @@ fn add_lighting(
         parts.defines.push(Define::flag("ATTENUATION").of_light(index));
         parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
     }
+    if !parts.has_cosine {
+        parts.defines.push(Define::flag("NO_COSINE").of_light(index));
+    }
     if term.dimming > 0.0 {
         parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
+    }
+    if term.diffuse_weight < 1.0 {
+        parts.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(index));
+        parts.uniforms.push(Uniform::of_light("diffuse_weight", index, term.diffuse_weight));
     }
     add_image(parts, spot, list);
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));

@@ -54,7 +54,8 @@ pub fn batches(
         let clip_planes = piece.clip_planes.len() as u8;
         let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
         let cull = culls.then_some(Face::Back);
-        let draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
+        let mut draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
+        draw.eye_from_model = Some(viewer.eye_from_world * item.world_from_model);
         let joins =
             |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
         match batches.iter_mut().find(joins) {

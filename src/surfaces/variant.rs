@@ -2,10 +2,10 @@
 
 use glam::{Vec3, Vec4};
 
-use super::lights::LightParts;
+use super::lights::{ADDED, LightParts};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
-use crate::lights::{Drawable, Ending, Viewer};
+use crate::lights::{Drawable, Ending, Factors, Viewer};
 use crate::pass::{
     Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, ShadeView, Uniform,
     glsl,
@@ -64,17 +64,22 @@ pub fn of(
     list: &mut PassList,
 ) -> Variant {
     let lit = *ending == Ending::Lit;
-    let cut = if lit || item.needs_alpha_test() { cutout(item, lit, list) } else { Cutout::default() };
+    let shows_light = ending.shows_light();
+    let decal = shows_decal(ending);
+    let cut = if decal || item.needs_alpha_test() { cutout(item, decal, list) } else { Cutout::default() };
     let specular = lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
-    let normals = lit && item.lit && !lights.is_empty();
+    let has_cosine = |light: &LightParts| item.lit && light.has_cosine;
+    let normals = lit && lights.iter().any(|light| has_cosine(light));
     let per_vertex = lit && scene.shading.per_vertex && !lights.is_empty();
-    let lit_from_near = |light: &LightParts| light.has_position && (item.lit || light.has_attenuation);
+    let lit_from_near = |light: &LightParts| light.has_position && (has_cosine(light) || light.has_attenuation);
     let two_sided = normals && !one_sided;
     let needs = Needs {
         specular,
         normals,
         per_vertex,
-        position: lit && !per_vertex && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
+        position: shows_light
+            && !per_vertex
+            && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
         one_sided,
         scene_ambient: if has_ambient { scene.shading.ambient } else { [0.0; 3] },
@@ -85,8 +90,10 @@ pub fn of(
         inputs.extend(light.inputs.iter().cloned());
         uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
     }
-    if lit {
-        uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()));
+    match ending {
+        Ending::Lit => uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty())),
+        Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, &item.material, factors)),
+        Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => {}
     }
     let mut attributes = vec![Attribute::Position];
     if needs.normals {
@@ -122,6 +129,7 @@ fn meaning(
             clip_from_eye,
             per_vertex: scene.shading.per_vertex,
             lit: item.lit,
+            added: lights.iter().any(|light| light.defines.contains(&ADDED)),
             scene_ambient: scene_ambient(needs, material).to_array(),
             ambient: if needs.ambient { material.ambient } else { [0.0; 3] },
             diffuse: if lights.is_empty() { [0.0; 3] } else { material.diffuse },
@@ -130,12 +138,36 @@ fn meaning(
             texturing,
             lights: lights.iter().map(|light| light.meaning.clone()).collect(),
         })),
-        (Ending::View { .. }, Some(light)) => {
+        (Ending::Factors(factors), _) => {
+            // A factor that a pass lacks is 1, and its light 0.
+            let own = if factors.color { Vec3::from(material.diffuse) } else { Vec3::ONE };
+            let alone = !factors.ambient && lights.is_empty();
+            let ambient = if factors.ambient { Vec3::from(scene.shading.ambient) } else { Vec3::splat(alone.into()) };
+            FixedFunctionDesc::Lit(Box::new(Lit {
+                clip_from_eye,
+                per_vertex: false,
+                lit: false,
+                added: false,
+                scene_ambient: (ambient * own).to_array(),
+                ambient: [0.0; 3],
+                diffuse: own.to_array(),
+                specular: [0.0; 3],
+                shininess: 0.0,
+                texturing,
+                lights: lights.iter().map(|light| light.meaning.clone()).collect(),
+            }))
+        }
+        (Ending::View { .. } | Ending::Alpha(_), Some(light)) => {
             let FixedFunctionLight { projection, shade, .. } = light.meaning.clone();
-            FixedFunctionDesc::Sampled(Box::new(ShadeView { clip_from_eye, texturing, projection, shade }))
+            let shown = Box::new(ShadeView { clip_from_eye, texturing, projection, shade });
+            if let Ending::Alpha(_) = ending {
+                FixedFunctionDesc::Alpha(shown)
+            } else {
+                FixedFunctionDesc::Sampled(shown)
+            }
         }
         (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
-        (Ending::View { .. }, None) => FixedFunctionDesc::Shader("a view of no light"),
+        (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
     }
 }
 
@@ -163,19 +195,39 @@ fn material_uniforms(material: &Material, needs: Needs, any_light: bool) -> Vec<
     uniforms
 }
 
+fn factor_uniforms(scene: &Scene, material: &Material, factors: &Factors) -> Vec<Uniform> {
+    let ambient = factors.ambient.then(|| Uniform::new("scene_ambient", Vec3::from(scene.shading.ambient)));
+    let color = factors.color.then(|| Uniform::new("own_color", Vec3::from(material.diffuse)));
+    ambient.into_iter().chain(color).collect()
+}
+
+/// Tests whether the decal's colour is shown.
+fn shows_decal(ending: &Ending) -> bool {
+    match ending {
+        Ending::Lit => true,
+        Ending::Factors(factors) => factors.color,
+        Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
+    }
+}
+
 fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
-    let lit = *ending == Ending::Lit;
-    let decal = lit && item.decal().is_some();
+    let (lit, shows_light) = (*ending == Ending::Lit, ending.shows_light());
+    let decal = shows_decal(ending) && item.decal().is_some();
+    let unlit = !item.lit || (!lights.is_empty() && !needs.normals);
+    let factors = if let Ending::Factors(factors) = ending { Some(factors) } else { None };
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
         (Define::flag("WAVE"), item.wave.is_some()),
-        (Define::flag("ANY_LIGHT"), lit && !lights.is_empty()),
+        (Define::flag("ANY_LIGHT"), shows_light && !lights.is_empty()),
         (EYE_SPACE, needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
         (Define::flag("EYE_POSITION"), needs.position),
         (Define::flag("NORMALS"), needs.normals),
         (Define::flag("EYE_NORMAL"), per_fragment),
         (Define::flag("TWO_SIDED"), per_fragment && !needs.one_sided),
-        (Define::flag("UNLIT"), lit && !item.lit),
+        (Define::flag("UNLIT"), lit && unlit),
+        (Define::flag("COLORLESS"), factors.is_some()),
+        (Define::flag("AMBIENT_FACTOR"), factors.is_some_and(|factors| factors.ambient)),
+        (Define::flag("OWN_COLOR"), factors.is_some_and(|factors| factors.color)),
         (Define::flag("SPECULAR"), needs.specular),
         (Define::flag("PER_VERTEX"), needs.per_vertex),
         (Define::flag("MATERIAL_AMBIENT"), needs.ambient),
@@ -195,7 +247,7 @@ fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Need
     if needs.per_vertex {
         defines.push(Define::calls("LIGHT_VERTEX", "surface", calls("light_vertex_@(surface);")));
     }
-    if lit {
+    if shows_light {
         defines.push(Define::calls("ILLUMINATE", "surface, lit", calls("illuminate_@(surface, lit);")));
     }
     defines
@@ -224,8 +276,9 @@ fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -
 fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = cut.fragment.clone();
     let of_one_light = match ending {
-        Ending::Lit => None,
+        Ending::Lit | Ending::Factors(_) => None,
         Ending::View { chunk, shade } => Some((chunk, *shade, None)),
+        Ending::Alpha(chunk) => Some((chunk, true, None)),
         Ending::Slice { chunk, place } => Some((chunk, true, place.as_ref())),
     };
     if let Some((chunk, has_shade, place)) = of_one_light {
@@ -253,7 +306,10 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
         chunks.extend(light.side.iter().map(|[_, fragment]| fragment.clone()));
         chunks.push(glsl!("surfaces/illuminate.frag").for_light(light.index));
     }
-    chunks.push(glsl!("surfaces/surface.frag"));
+    chunks.push(match ending {
+        Ending::Factors(factors) => factors.chunk.clone(),
+        _ => glsl!("surfaces/surface.frag"),
+    });
     chunks
 }
 

@@ -60,6 +60,7 @@ fn frustum_draw(light: &str, seen: &Frustum, viewer: &Viewer) -> Draw {
         bounds: mesh.bounds,
         mesh: MeshRef(Arc::new(mesh)),
         clip_from_model,
+        eye_from_model: None,
         mirrored: false,
         uniforms: Vec::new(),
     }

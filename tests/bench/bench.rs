@@ -5,6 +5,7 @@ mod child;
 mod floor;
 mod floor_gl;
 mod floor_maps;
+mod floor_passes;
 mod judge;
 mod kinds;
 mod numbers;

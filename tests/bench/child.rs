@@ -7,7 +7,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::Renderer;
 use glumbra::output::{self, Output};
-use glumbra::pass::{Attribute, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
+use glumbra::pass::{Attribute, Channels, DrawPass, Format, ImageDesc, ImageId, PassList, Storage, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
 use glumbra::views::View;
 use serde::{Deserialize, Serialize};
@@ -173,7 +173,7 @@ fn keep(plan: &mut Plan, keep: Keep) {
                 images.push(ImageDesc { label, size, format: Format::Rgba8, storage: Storage::Renderbuffer });
                 pass.target.color = Some(ImageId(images.len() - 1));
                 pass.clear.color = Some([0.0; 4]);
-                pass.state.color_write = true;
+                pass.state.color_write = Channels::All;
             }
             Keep::Normals => read_normals(pass),
             Keep::Nothing | Keep::Casters | Keep::All => {}

@@ -12,6 +12,7 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use super::floor_gl::{self, Program};
 use super::floor_maps::{self, MapPass};
+use super::floor_passes::{self, PicturePass};
 use super::kinds::{self, Kind};
 use super::numbers::{Numbers, numbers};
 use super::{Result, Scene};
@@ -24,6 +25,8 @@ pub struct Floor {
     kind: Kind,
     lit: Program,
     maps: Vec<MapPass>,
+    /// Passes of the picture, where it takes several.
+    passes: Vec<PicturePass>,
     picture_target: glow::Framebuffer,
     size: i32,
     /// Indices of the model; those of the quad follow.
@@ -63,7 +66,9 @@ impl Floor {
         let maps = floor_maps::make(&gl, kind, &numbers)?;
         let picture_target = floor_gl::picture(&gl, numbers.size)?;
         floor_gl::upload(&gl, bytemuck::cast_slice(&vertices), bytemuck::cast_slice(&indices))?;
-        set_uniforms(&gl, kind, &numbers, &lit);
+        let passes = floor_passes::make(&gl, kind)?;
+        let programs = [&lit].into_iter().chain(passes.iter().map(|pass| &pass.program));
+        programs.for_each(|program| set_uniforms(&gl, kind, &numbers, program));
         unsafe {
             gl.enable(glow::DEPTH_TEST);
             gl.polygon_offset(1.1, 4.0);
@@ -73,7 +78,7 @@ impl Floor {
         }
         let pixels = vec![0; 4 * (numbers.size * numbers.size) as usize];
         let Numbers { size, models, .. } = numbers;
-        Ok(Self { gl, kind, lit, maps, picture_target, size, model_indices, models, pixels })
+        Ok(Self { gl, kind, lit, maps, passes, picture_target, size, model_indices, models, pixels })
     }
 
     /// Draws the maps.
@@ -108,9 +113,17 @@ impl Floor {
             let [r, g, b, a] = BACKGROUND;
             gl.clear_color(r, g, b, a);
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
-            gl.use_program(Some(self.lit.name));
-            self.draw(&self.lit);
+            if self.passes.is_empty() {
+                gl.use_program(Some(self.lit.name));
+                self.draw(&self.lit);
+                return;
+            }
+            for (index, pass) in self.passes.iter().enumerate() {
+                pass.begin(gl, index == 0);
+                self.draw(&pass.program);
+            }
         }
+        floor_passes::end(gl);
     }
 
     unsafe fn draw(&self, program: &Program) {

@@ -53,6 +53,7 @@ pub fn make(gl: &glow::Context, kind: Kind, numbers: &Numbers) -> Result<Vec<Map
             let peel = include_str!("peel.frag");
             Ok(vec![pass(first, size, clip_from_world, plain)?, pass(second, size, clip_from_world, peel)?])
         }
+        Kind::Slide => Ok(Vec::new()),
         _ => {
             let levels = if kind == Kind::EightTaps { 2 } else { 1 };
             let map = texture(gl, glow::TEXTURE_2D, size, levels, true)?;

@@ -24,6 +24,10 @@ pub enum Kind {
     /// The one face that a light above the middle needs.
     Face,
     Parallel,
+    /// A slide projector's three passes, of a plain square.
+    Slide,
+    /// The shade in destination alpha.
+    AlphaShadow,
 }
 
 /// The shader that finds the shade, glumbra's own where it is more than one lookup: the floor is of calls.
@@ -54,7 +58,9 @@ pub fn shade(kind: Kind) -> (&'static str, String) {
         ),
         Kind::Cube | Kind::Face => ("#define CUBE\n", String::new()),
         Kind::Parallel => ("#define PARALLEL\n", String::new()),
-        Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth => ("", String::new()),
+        Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth | Kind::Slide | Kind::AlphaShadow => {
+            ("", String::new())
+        }
     }
 }
 

@@ -34,6 +34,10 @@ const fn by_light(name: &'static str, floor: Kind, sets: &'static [&'static str]
     Way { scene: Some(Scene::S1), ..way(name, floor, sets) }
 }
 
+/// The light as a projector, with white light: the sum saturates, so that the passes are not one.
+const SLIDE_S1: &str = "light.0={ position = [2.0, 4.0, 3.0], target = [0.0, 0.5, 0.0], cone = 60.0, near = 0.5, far = 20.0, shape = \"frustum\", law = \"slide\", shadow = { technique = \"none\" } }";
+const SLIDE_S2: &str = "light.0={ position = [8.0, 26.0, 12.0], target = [0.0, 0.0, 0.0], cone = 70.0, near = 5.0, far = 70.0, shape = \"frustum\", law = \"slide\", shadow = { technique = \"none\" } }";
+
 const VOLUMES: &str = "light.shadow.technique=shadow-volume";
 
 /// A light in the place of the first scene's own, with the same map.
@@ -77,6 +81,19 @@ const WAYS: &[Way] = &[
     by_light("cube, light aside: three faces needed", Kind::Cube, &[POINT_ASIDE]),
     by_light("cube, light above: one face needed", Kind::Face, &[POINT_ABOVE]),
     by_light("directional", Kind::Parallel, &[PARALLEL]),
+    Way {
+        expected: [Some(0.8); 2],
+        ..way("shadow-map, its shade in alpha", Kind::AlphaShadow, &["shading.passes=shadow"])
+    },
+    Way {
+        expected: [Some(0.8), None],
+        ..by_light("slide projector", Kind::Slide, &[SLIDE_S1, "shading.passes=slide"])
+    },
+    Way {
+        scene: Some(Scene::S2),
+        expected: [None, Some(0.8)],
+        ..way("slide projector", Kind::Slide, &[SLIDE_S2, "shading.passes=slide"])
+    },
     Way { expected: [Some(1.0), None], ..way("shadow-volume, auto", Kind::Map, &[VOLUMES]) },
     Way { redraw: Redraw::Once, ..way("shadow-volume, auto, counted once", Kind::Map, &[VOLUMES]) },
     way("shadow-volume, z-pass", Kind::Map, &[VOLUMES, "light.shadow.method=z-pass"]),

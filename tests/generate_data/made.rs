@@ -2,6 +2,7 @@
 //! roots only.
 
 mod noise;
+mod slide;
 mod statue;
 mod tetrahedra;
 mod textures;
@@ -22,6 +23,7 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     std::fs::write(folder.join("meshes/dense.obj"), obj_text(&positions, &triangles))?;
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
+    slide::slide().save(folder.join("textures/slide.png"))?;
     Ok(())
 }
 

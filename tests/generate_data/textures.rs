@@ -10,23 +10,24 @@ const SPOT_SIZE: u32 = 256;
 
 /// Four large tiles, each framed by strips of dark stone, with a star of two marbles in it; tiles without a seam.
 pub fn floor() -> RgbImage {
-    draw(FLOOR_SIZE, floor_color)
+    draw([FLOOR_SIZE; 2], floor_color)
 }
 
 /// White in the middle and exactly black at the border, with the faint rings of a lamp's lens.
 pub fn spot() -> RgbImage {
-    draw(SPOT_SIZE, spot_color)
+    draw([SPOT_SIZE; 2], spot_color)
 }
 
 /// `color` at each texel, the mean of 4×4 samples; places in [0, 1).
-fn draw(size: u32, color: fn(DVec2) -> DVec3) -> RgbImage {
+pub(super) fn draw([width, height]: [u32; 2], color: fn(DVec2) -> DVec3) -> RgbImage {
     const SAMPLES: u32 = 4;
-    RgbImage::from_fn(size, size, |x, y| {
+    let size = dvec2(f64::from(width), f64::from(height));
+    RgbImage::from_fn(width, height, |x, y| {
         let mut sum = DVec3::ZERO;
         for sample in 0..SAMPLES * SAMPLES {
             let inner =
                 dvec2(f64::from(sample % SAMPLES) + 0.5, f64::from(sample / SAMPLES) + 0.5) / f64::from(SAMPLES);
-            sum += color((dvec2(f64::from(x), f64::from(y)) + inner) / f64::from(size));
+            sum += color((dvec2(f64::from(x), f64::from(y)) + inner) / size);
         }
         let mean = sum / f64::from(SAMPLES * SAMPLES);
         Rgb(mean.to_array().map(|value| (255.0 * value.clamp(0.0, 1.0) + 0.5).floor() as u8))
@@ -131,7 +132,7 @@ fn spot_color(place: DVec2) -> DVec3 {
     color * (disc * falloff * rings * (1.0 + filament))
 }
 
-fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
+pub(super) fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }

@@ -1,6 +1,7 @@
 //! Captions of `glumbra figures`, checked against pixels of the panels; and the command itself.
 
 use std::process::Command;
+use std::sync::Arc;
 
 use glam::DVec3;
 use glumbra::context::{self, ContextRequest};
@@ -8,7 +9,7 @@ use glumbra::device::Pixels;
 use glumbra::figures::{FIGURES, Figure};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::scene::Scene;
+use glumbra::scene::{PicturePasses, Scene};
 use glumbra::truth::{self, Answer};
 use glumbra::views::View;
 
@@ -85,6 +86,45 @@ fn captions_are_true_of_points() {
     let unguarded = scene("lec-back-projection", 1);
     let reached = walls.map(|wall| at(&unguarded, View::Shade, wall, &mut renderer)[1]);
     assert_eq!(reached, [1.0, 1.0], "without a guard q < 0 is reached too");
+}
+
+/// [Segal 1992, Figure 4]: on surfaces that are white and unlit, shadow and image together are the product of both.
+#[test]
+fn a_spotlight_s_picture_is_its_shadow_times_its_image() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    let mut picture = |panel: usize, passes: PicturePasses| {
+        let mut scene = scene("segal-4-spotlight", panel);
+        (scene.shading.ambient, scene.shading.passes, scene.lights[0].diffuse) = ([0.0; 3], passes, [1.0; 3]);
+        for object in &mut scene.objects {
+            let mut material = object.material.as_deref().unwrap().clone();
+            (material.diffuse, object.lit) = ([1.0; 3], false);
+            object.material = Some(Arc::new(material));
+        }
+        scene.image.background = [0.0; 3];
+        let plan = renderer.plan(&scene, &Request::default()).unwrap();
+        renderer.draw(&plan).unwrap();
+        let Pixels::Rgba8 { data, .. } = renderer.read(&plan).unwrap().picture else { panic!() };
+        data.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).map(f64::from).collect::<Vec<f64>>()
+    };
+    let one = PicturePasses::One;
+    let [both, shadow, image] = [2, 3, 4].map(|panel| picture(panel, one));
+    let three = picture(2, PicturePasses::Shadow);
+    let count = |of: &[f64], low: f64, high: f64| of.iter().filter(|value| (low..=high).contains(*value)).count();
+    assert!(
+        count(&shadow, 0.0, 0.0) > 20_000 && count(&image, 20.0, 230.0) > 20_000 && count(&both, 200.0, 255.0) > 20_000
+    );
+    for (name, picture) in [("one pass", &both), ("three passes", &three)] {
+        let off = picture
+            .iter()
+            .zip(&shadow)
+            .zip(&image)
+            .map(|((both, shadow), image)| (both - shadow * image / 255.0).abs());
+        let worst = off.fold(0.0, f64::max);
+        println!("{name}: {worst:.2} codes");
+        // Both factors are rounded to codes.
+        assert!(worst <= 1.01, "{name}: {worst}");
+    }
 }
 
 #[test]
@@ -221,6 +261,9 @@ const HEADINGS: &[&str] = &[
     "For Shadow Volumes With Intersecting Polygons",
     "Shadow Volume Near Plane Clipping Artifacts",
     "Alternative to Near Plane Capping: Carmack's Reverse",
+    "Combine with Projective Texturing for Spotlight Shadows",
+    "Segal 1992, 3.1 and Figure 3",
+    "Segal 1992, 3.3",
 ];
 
 #[test]

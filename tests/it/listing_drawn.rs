@@ -255,6 +255,10 @@ const DRAWN: &[(&str, &[&str], bool)] = &[
     ("data/cases/shadow-map/alpha-test/scene.toml", &[], false),
     ("data/cases/shadow-map/alpha-test/scene.toml", &["shading.lighting=\"per-vertex\""], true),
     ("data/scenes/hw_shadowmaps_simple.toml", &["shading.lighting=\"per-vertex\""], true),
+    ("data/cases/slide-projector/room/scene.toml", &[], true),
+    ("data/cases/slide-projector/room/scene.toml", &["shading.background=\"ambient\""], true),
+    ("data/cases/scenes/two_lights.toml", &["shading.passes=\"shadow\"", "shading.lighting=\"per-vertex\""], true),
+    ("data/cases/scenes/two_lights.toml", &["shading.passes=\"shadow\""], false),
 ];
 
 #[test]

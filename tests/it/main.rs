@@ -3,6 +3,8 @@
 //! others runs the command in a process of its own.
 
 mod acne;
+mod after_pass;
+mod alpha_shadows;
 mod architecture;
 mod bad_scenes;
 mod check;
@@ -49,6 +51,7 @@ mod scenes;
 mod setup;
 mod shaders;
 mod shadow_settings;
+mod slides;
 mod stencil;
 mod stress;
 mod suns;

@@ -7,7 +7,7 @@ use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::LightTerm;
 use crate::pass::Target;
-use crate::scene::Scene;
+use crate::scene::{PicturePasses, Scene};
 
 pub struct SinglePass;
 
@@ -16,12 +16,12 @@ impl Composition for SinglePass {
         "single-pass"
     }
 
-    fn serves(&self, terms: &[&LightTerm]) -> bool {
-        terms.iter().all(|term| term.counting.is_none())
+    fn serves(&self, scene: &Scene, terms: &[&LightTerm]) -> bool {
+        scene.shading.passes == PicturePasses::One && terms.iter().all(|term| term.counting.is_none())
     }
 
-    fn needs_stencil(&self, scene: &Scene, terms: &[&LightTerm]) -> bool {
-        groups::sizes(scene, terms.iter().copied()).len() > 1
+    fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
+        groups::sizes(passes.scene, terms.iter().copied()).len() > 1
     }
 
     fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
@@ -35,7 +35,7 @@ impl Composition for SinglePass {
         lens: &CameraProjection,
         terms: &[&LightTerm],
     ) -> Result<(), Error> {
-        let has_stencil = self.needs_stencil(passes.scene, terms);
+        let has_stencil = self.needs_stencil(passes, terms);
         if !has_stencil {
             passes.notes.left_out("stencil buffer", "no technique of this scene counts in it");
         }

@@ -6,6 +6,7 @@
 
 mod views;
 
+use super::parts::left_by_shadow;
 use super::passes::{Onto, Passes};
 use super::projection::CameraProjection;
 use super::{Composition, Error};
@@ -15,10 +16,10 @@ use crate::lights::light::{Addition, Counted, Gain, Lighting, ShadeSource, Stenc
 use crate::lights::sides::shows_no_back_face;
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::pass::{
-    Blend, Clear, Compare, Define, DrawPass, DrawState, Face, FixedFunctionDesc, ImageId, Redraw, Shade, Stencil,
-    StencilOp, StencilOps, Target, Texturing, Uniform, glsl,
+    Blend, Clear, Compare, DrawPass, DrawState, Face, FixedFunctionDesc, ImageId, Redraw, Shade, Stencil, StencilOp,
+    StencilOps, Target, Texturing, glsl,
 };
-use crate::scene::Scene;
+use crate::scene::{PicturePasses, Scene};
 use crate::views::View;
 
 /// Stencil state that passes where the count is 0, and keeps it.
@@ -47,11 +48,11 @@ impl Composition for StencilCounted {
         "stencil-counted"
     }
 
-    fn serves(&self, terms: &[&LightTerm]) -> bool {
-        terms.iter().any(|term| term.counting.is_some())
+    fn serves(&self, scene: &Scene, terms: &[&LightTerm]) -> bool {
+        scene.shading.passes == PicturePasses::One && terms.iter().any(|term| term.counting.is_some())
     }
 
-    fn needs_stencil(&self, _scene: &Scene, _terms: &[&LightTerm]) -> bool {
+    fn needs_stencil(&self, _passes: &Passes<'_>, _terms: &[&LightTerm]) -> bool {
         true
     }
 
@@ -267,7 +268,7 @@ impl Passes<'_> {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             lit.addition = Addition::Clamped;
             let left = term.dimming - lit.dimming;
-            weigh(&mut lit, 1.0 - left);
+            lit.diffuse_weight = 1.0 - left;
         } else {
             lit.addition = Addition::Light;
             lit.gain = Gain { ambient: 0.0, diffuse: 1.0 - term.dimming + dimming, specular: 1.0 };
@@ -281,21 +282,8 @@ impl Passes<'_> {
         if term.counting.is_none() {
             return Some(term.clone());
         }
-        let per_vertex = self.scene.shading.per_vertex;
         let left = if of_all(term) { 0.0 } else { term.dimming };
-        // Lighting per vertex is clamped before it is weighed.
-        let diffuse = if per_vertex && left > 0.0 { 1.0 } else { left };
-        let source = &self.scene.lights[term.index];
-        let gives = |color: [f32; 3]| color != [0.0; 3];
-        if !(gives(source.ambient) || (diffuse > 0.0 && gives(source.diffuse))) {
-            return None;
-        }
-        let gain = Gain { ambient: 1.0, diffuse, specular: 0.0 };
-        let mut part = LightTerm { dimming: 0.0, gain, ..term.under(self.scene, ShadeSource::lit()) };
-        if per_vertex {
-            weigh(&mut part, term.dimming);
-        }
-        Some(part)
+        left_by_shadow(self.scene, term, left)
     }
 }
 
@@ -313,12 +301,4 @@ fn of_all(term: &LightTerm) -> bool {
 fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(StencilCount::tags);
     if tagged { term.under(scene, ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
-}
-
-/// Weights the light's diffuse colour.
-fn weigh(term: &mut LightTerm, weight: f32) {
-    if weight < 1.0 {
-        term.shade.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(term.index));
-        term.shade.uniforms.push(Uniform::of_light("diffuse_weight", term.index, weight));
-    }
 }

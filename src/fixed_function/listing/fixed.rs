@@ -3,23 +3,23 @@
 use glam::{DMat4, Mat4};
 
 use super::super::layer::{
-    Combine, Layer, LayerBlend, LayerLighting, Operand, Primary, Unit, UnitCoordinates, UnitImage,
+    AlphaSource, Combine, Layer, LayerBlend, LayerLighting, Operand, Primary, Unit, UnitCoordinates, UnitImage,
 };
 use super::super::{bounds, reading};
 use super::c::{self, float, floats, vector};
 use super::state::ListingState;
 use super::{Listing, names};
 use crate::geometry::Placement;
-use crate::pass::{Batch, Compare, Draw, DrawPass, DrawState, FixedFunctionDesc, Sampler, Wrap};
+use crate::pass::{Batch, Channels, Draw, DrawPass, DrawState, Sampler, Wrap};
 
 const COORDINATES: [&str; 4] = ["S", "T", "R", "Q"];
 
 impl<'a> Listing<'a> {
     pub(super) fn fixed_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut ListingState) {
         // The list was checked before.
-        for layer in reading::layers(batch).unwrap_or_default() {
+        for (number, layer) in reading::layers(batch, pass.state.blend).unwrap_or_default().into_iter().enumerate() {
             self.title(&format!("{}: {}", names(batch), layer.name));
-            self.set_layer(batch.state(&pass.state), &layer, now);
+            self.set_layer(layer.state(number, &batch.state(&pass.state)), &layer, now);
             self.body.load_matrix("GL_MODELVIEW", &DMat4::IDENTITY);
             for (index, unit) in layer.units.iter().enumerate() {
                 self.unit(index, unit, batch);
@@ -39,24 +39,22 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Raster state of a layer: later layers meet the first one's depth.
-    fn set_layer(&mut self, mut state: DrawState, layer: &Layer, now: &mut ListingState) {
-        if !layer.first {
-            state.depth_test = state.depth_test.map(|_| Compare::Equal);
-            state.depth_write = false;
-        }
+    /// Raster state of a layer, and its blending.
+    fn set_layer(&mut self, state: DrawState, layer: &Layer, now: &mut ListingState) {
         self.change(now, ListingState::of(state));
-        if state.color_write && !layer.alpha_write {
+        if keeps_alpha(&state, layer) {
             self.body.call("glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE)");
         }
-        let factor = match layer.blend {
+        let factors = match layer.blend {
             LayerBlend::Replace => return,
-            LayerBlend::Add => "GL_ONE",
-            LayerBlend::Erase => "GL_ZERO",
+            LayerBlend::Add => "GL_ONE, GL_ONE",
+            LayerBlend::Erase => "GL_ZERO, GL_ZERO",
+            LayerBlend::AddByStoredAlpha => "GL_DST_ALPHA, GL_ONE",
+            LayerBlend::Multiply => "GL_DST_COLOR, GL_ZERO",
         };
         self.body.call("glEnable(GL_BLEND)");
         self.body.call("glBlendEquation(GL_FUNC_ADD)");
-        self.body.call(&format!("glBlendFunc({factor}, {factor})"));
+        self.body.call(&format!("glBlendFunc({factors})"));
     }
 
     fn take_down(&mut self, layer: &Layer, now: &ListingState) {
@@ -74,31 +72,31 @@ impl<'a> Listing<'a> {
         if layer.blend != LayerBlend::Replace {
             self.body.call("glDisable(GL_BLEND)");
         }
-        if now.state.color_write && !layer.alpha_write {
+        if keeps_alpha(&now.state, layer) {
             self.body.call("glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE)");
         }
     }
 
     fn unit(&mut self, index: usize, unit: &Unit, batch: &Batch) {
-        let (name, sampler, red_as_alpha) = match unit.image {
-            UnitImage::Mask(mask) => (format!("masks[{}]", self.objects.mask(mask)), None, false),
-            UnitImage::Input { index, red_as_alpha } => {
+        let (name, sampler, alpha) = match unit.image {
+            UnitImage::Mask(mask) => (format!("masks[{}]", self.objects.mask(mask)), None, AlphaSource::Own),
+            UnitImage::Input { index, alpha } => {
                 let Some(input) = batch.inputs.get(index) else { return };
-                (format!("images[{}]", input.image.0), Some(input.sampler), red_as_alpha)
+                (format!("images[{}]", input.image.0), Some(input.sampler), alpha)
             }
         };
         self.body.call(&format!("glActiveTexture(GL_TEXTURE{index})"));
         self.body.call(&format!("glBindTexture(GL_TEXTURE_2D, {name})"));
         self.body.call("glEnable(GL_TEXTURE_2D)");
         if let Some(sampler) = sampler {
-            self.sampling(sampler, red_as_alpha);
+            self.sampling(sampler, alpha);
         }
         self.coordinates(&unit.coordinates, &unit.placement);
         self.combiners(unit);
     }
 
-    /// By the texture's own parameters. A comparison's result becomes the luminance.
-    fn sampling(&mut self, sampler: Sampler, red_as_alpha: bool) {
+    /// By the texture's own parameters. A comparison's result becomes RGB, and alpha where that is wanted.
+    fn sampling(&mut self, sampler: Sampler, alpha: AlphaSource) {
         let [min, mag] = c::filters(sampler.filter);
         let mut set = |name: &str, value: &str| {
             self.body.call(&format!("glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_{name}, {value})"));
@@ -111,11 +109,12 @@ impl<'a> Listing<'a> {
             Some(compare) => {
                 set("COMPARE_MODE", "GL_COMPARE_REF_TO_TEXTURE");
                 set("COMPARE_FUNC", c::compare(compare));
-                self.body.call("glTexParameteri(GL_TEXTURE_2D, GL_DEPTH_TEXTURE_MODE, GL_LUMINANCE)");
+                let mode = if alpha == AlphaSource::Comparison { "GL_INTENSITY" } else { "GL_LUMINANCE" };
+                self.body.call(&format!("glTexParameteri(GL_TEXTURE_2D, GL_DEPTH_TEXTURE_MODE, {mode})"));
             }
             None => set("COMPARE_MODE", "GL_NONE"),
         }
-        if red_as_alpha {
+        if alpha == AlphaSource::Red {
             self.body.call("glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_A, GL_RED)");
         }
         if let Wrap::ClampToBorder(border) = sampler.wrap {
@@ -215,18 +214,18 @@ impl<'a> Listing<'a> {
 
     /// A draw without eye space has all of its transform in the projection.
     fn matrices(&mut self, batch: &Batch, draw: &Draw) {
-        let eye = match &batch.meaning {
-            FixedFunctionDesc::Lit(lit) => Some(lit.clip_from_eye),
-            FixedFunctionDesc::Sampled(view) => Some(view.clip_from_eye),
-            FixedFunctionDesc::Depth(_) | FixedFunctionDesc::Constant(_) | FixedFunctionDesc::Shader(_) => None,
-        };
-        let (projection, modelview) = match (eye, bounds::eye_from_model(draw)) {
+        let (projection, modelview) = match (batch.meaning.clip_from_eye(), bounds::eye_from_model(draw)) {
             (Some(clip_from_eye), Ok(eye_from_model)) => (clip_from_eye, eye_from_model),
             _ => (draw.clip_from_model, Mat4::IDENTITY),
         };
         self.body.load_matrix("GL_PROJECTION", &projection);
         self.body.load_matrix("GL_MODELVIEW", &modelview.as_dmat4());
     }
+}
+
+/// Tests whether a layer leaves alpha alone that its pass would write.
+fn keeps_alpha(state: &DrawState, layer: &Layer) -> bool {
+    state.color_write == Channels::All && !layer.alpha_write
 }
 
 fn operand_name(operand: Operand) -> &'static str {

@@ -67,7 +67,7 @@ fn refusals(list: &PassList) -> Vec<String> {
     for pass in &list.passes {
         let Work::Draw(draw) = &pass.work else { continue };
         for batch in &draw.batches {
-            let layers = check_state(&draw.state, batch).and_then(|()| reading::layers(batch));
+            let layers = check_state(list, draw, batch).and_then(|()| reading::layers(batch, draw.state.blend));
             let text = layers.err().map(|why| format!("\"{}\", {}: {why}", pass.label, names(batch)));
             found.extend(text.filter(|text| !found.contains(text)));
         }

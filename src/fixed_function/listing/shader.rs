@@ -3,7 +3,7 @@
 use super::c::{self, columns, float, vector};
 use super::state::ListingState;
 use super::{Listing, names};
-use crate::pass::{Batch, DrawPass, FixedFunctionDesc, Projection, Uniform, UniformValue};
+use crate::pass::{Batch, DrawPass, Projection, Uniform, UniformValue};
 
 impl<'a> Listing<'a> {
     pub(super) fn shader_batch(&mut self, pass: &DrawPass, batch: &'a Batch, now: &mut ListingState) {
@@ -74,9 +74,5 @@ fn location(program: usize, name: &str) -> String {
 fn projection_of<'a>(batch: &'a Batch, uniform: &Uniform) -> Option<&'a Projection> {
     let light: usize = uniform.name.strip_prefix("eye_planes_")?.parse().ok()?;
     let is_of_light = |projection: &&Projection| projection.light == light;
-    match &batch.meaning {
-        FixedFunctionDesc::Lit(lit) => lit.lights.iter().filter_map(|each| each.projection.as_ref()).find(is_of_light),
-        FixedFunctionDesc::Sampled(view) => view.projection.as_ref().filter(is_of_light),
-        FixedFunctionDesc::Depth(_) | FixedFunctionDesc::Constant(_) | FixedFunctionDesc::Shader(_) => None,
-    }
+    batch.meaning.projections().into_iter().find(is_of_light)
 }

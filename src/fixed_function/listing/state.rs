@@ -52,8 +52,8 @@ pub fn set(out: &mut Text, last: Option<&DrawState>, next: &DrawState) {
         out.call(&format!("glDepthMask({})", boolean(next.depth_write)));
     }
     if changed(&|last| last.color_write != next.color_write) {
-        let on = boolean(next.color_write);
-        out.call(&format!("glColorMask({on}, {on}, {on}, {on})"));
+        let [red, green, blue, alpha] = next.color_write.mask().map(boolean);
+        out.call(&format!("glColorMask({red}, {green}, {blue}, {alpha})"));
     }
     if changed(&|last| last.cull != next.cull) {
         out.enable("GL_CULL_FACE", next.cull.is_some());
@@ -110,6 +110,8 @@ fn set_blend(out: &mut Text, blend: Option<Blend>) {
     let factors = match blend {
         None => return,
         Some(Blend::Add) => "GL_ONE, GL_ONE",
+        Some(Blend::AddByStoredAlpha) => "GL_DST_ALPHA, GL_ONE",
+        Some(Blend::Multiply) => "GL_DST_COLOR, GL_ZERO",
         Some(Blend::Over) => "GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA",
         Some(Blend::OverPremultiplied) => "GL_ONE, GL_ONE_MINUS_SRC_ALPHA",
     };

@@ -6,12 +6,14 @@ use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
 use crate::scene::{
-    Dust, DustBlend, Error, Frustum, ImageFilter, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot,
+    Dust, DustBlend, Error, Frustum, ImageFilter, Law, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot,
     camera_framing,
 };
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
+
+const LAWS: [(&str, Law); 2] = [("lit", Law::Lit), ("slide", Law::Slide)];
 
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
 
@@ -44,6 +46,7 @@ pub(super) struct LightKeys {
     diffuse: [f32; 3],
     specular: [f32; 3],
     dust: Option<Dust>,
+    law: Law,
     shadow: Settings,
 }
 
@@ -64,21 +67,24 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let diffuse = reader.colour("diffuse", BRIGHTEST)?.unwrap_or(color);
     let specular = reader.colour("specular", BRIGHTEST)?.unwrap_or(color);
     let dust = dust(&mut reader, &kind)?;
+    let law = law(&mut reader, &kind)?;
+    let specular = if law == Law::Slide { [0.0; 3] } else { specular };
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
     if let (LightKind::Spot(spot), Some((name, origin))) = (&mut kind, image) {
         spot.image = Some(assets.texture(name, origin)?);
     }
-    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, dust, shadow })
+    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, dust, law, shadow })
 }
 
 impl LightKeys {
     /// The light, its maps' range around `objects` if that is missing, its shadow settings read by `shadows`.
     pub fn complete(mut self, objects: &[Object], shadows: &dyn ReadShadow) -> Result<Light, SettingsError> {
         self.find_planes(objects)?;
-        let Self { kind, name, ambient, diffuse, specular, dust, shadow, .. } = self;
+        let Self { kind, name, ambient, diffuse, specular, dust, law, shadow, .. } = self;
+        check_law(law, &shadow)?;
         let shadow = shadows.read(shadow, &kind, objects)?;
-        Ok(Light { kind, ambient, diffuse, specular, name, dust, shadow })
+        Ok(Light { kind, ambient, diffuse, specular, name, dust, law, shadow })
     }
 
     fn find_planes(&mut self, objects: &[Object]) -> Result<(), SettingsError> {
@@ -187,6 +193,36 @@ fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, Setti
     let jitter = keys.boolean("jitter")?.unwrap_or(false);
     keys.finish()?;
     Ok(Some(Dust { density, slices, blend, hides_in_shadow, thickness_along_ray, jitter }))
+}
+
+/// Refuses a shadow of a light that nothing occludes.
+fn check_law(law: Law, shadow: &Settings) -> Result<(), SettingsError> {
+    const NONE: &str = "none";
+    let mut keys = shadow.read();
+    let name = keys.string("technique")?.unwrap_or(NONE);
+    if law == Law::Lit || name == NONE {
+        return Ok(());
+    }
+    let message = format!(
+        "cannot be \"{name}\" for a light of law = \"slide\", which passes through everything: choose \"{NONE}\", or law = \"lit\""
+    );
+    Err(keys.error("technique", message))
+}
+
+/// `law`: a projector is a spotlight, and all of its light is in its image.
+fn law(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Law, SettingsError> {
+    let law = reader.choice("law", &LAWS)?.unwrap_or_default();
+    if law == Law::Slide {
+        if !matches!(kind, LightKind::Spot(_)) {
+            let kind = kind.name();
+            return Err(
+                reader.error("law", format_args!("= \"slide\" is no law of a {kind} light: choose kind = \"spot\""))
+            );
+        }
+        let why = "has no meaning beside law = \"slide\": a projector has one colour, `color`, and [shading] has the ambient light";
+        reader.refuse(&["ambient", "specular"], why)?;
+    }
+    Ok(law)
 }
 
 /// `[light.shadow]` as written; empty, at the light's place, where it is absent.

@@ -7,7 +7,7 @@ pub(super) mod object;
 
 use super::assets::Assets;
 use super::settings::{Plain, Reader, Settings, SettingsError};
-use super::{Error, Image, ReadShadow, Scene, Shading};
+use super::{Background, Error, Image, PicturePasses, ReadShadow, Scene, Shading};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_IMAGE_SIDE: i64 = 16384;
@@ -17,6 +17,11 @@ pub(super) const DEFAULT_BACKGROUND: [f32; 3] = [0.30, 0.40, 0.60];
 
 /// GL_LIGHT_MODEL_AMBIENT's initial value.
 const DEFAULT_AMBIENT: [f32; 3] = [0.2; 3];
+
+const PASSES: [(&str, PicturePasses); 3] =
+    [("one", PicturePasses::One), ("slide", PicturePasses::Slide), ("shadow", PicturePasses::Shadow)];
+
+const BACKGROUNDS: [(&str, Background); 2] = [("scene", Background::Scene), ("ambient", Background::Ambient)];
 
 /// Resolves a scene's root table. Cheap checks come first, so that a wrong key does not wait for a large mesh.
 pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShadow) -> Result<Scene, Error> {
@@ -72,7 +77,8 @@ fn size(reader: &mut Reader<'_>) -> Result<Option<[u32; 2]>, SettingsError> {
 }
 
 fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
-    let mut shading = Shading { ambient: DEFAULT_AMBIENT, per_vertex: false };
+    let (passes, background) = Default::default();
+    let mut shading = Shading { ambient: DEFAULT_AMBIENT, per_vertex: false, passes, background };
     let Some(table) = table else {
         return Ok(shading);
     };
@@ -83,6 +89,8 @@ fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
     if let Some(per_vertex) = reader.choice("lighting", &[("per-fragment", false), ("per-vertex", true)])? {
         shading.per_vertex = per_vertex;
     }
+    shading.passes = reader.choice("passes", &PASSES)?.unwrap_or_default();
+    shading.background = reader.choice("background", &BACKGROUNDS)?.unwrap_or_default();
     reader.finish()?;
     Ok(shading)
 }

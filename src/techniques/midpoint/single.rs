@@ -73,6 +73,7 @@ fn whole_target() -> Draw {
         bounds: mesh.bounds,
         mesh: MeshRef(mesh),
         clip_from_model,
+        eye_from_model: None,
         mirrored: false,
         uniforms: Vec::new(),
     }

@@ -6,7 +6,7 @@
 use super::settings::{Outcome, Settings};
 use crate::lights::LightView;
 use crate::lights::light::{CountPass, Counted, Lighting, StencilCount, VolumeDepths};
-use crate::pass::{Compare, DrawState, Redraw, Stencil, StencilOp, StencilOps};
+use crate::pass::{Channels, Compare, DrawState, Redraw, Stencil, StencilOp, StencilOps};
 
 /// The pass that tags shadowed pixels; `None`: the lit pass looks the shade up itself.
 pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<StencilCount> {
@@ -19,7 +19,7 @@ pub fn counting(view: &LightView<'_>, settings: &Settings) -> Option<StencilCoun
         Stencil { test: Compare::Always, reference: 1, read_mask: 0xFF, write_mask: 0xFF, front: tag, back: tag };
     let pass = CountPass {
         label: format!("light {}: tag", view.index),
-        state: DrawState { color_write: false, stencil: Some(stencil), ..DrawState::REPEAT },
+        state: DrawState { color_write: Channels::None, stencil: Some(stencil), ..DrawState::REPEAT },
         depths: VolumeDepths::Scene,
         counted: Counted::Shadowed,
     };

@@ -45,6 +45,35 @@ fn a_cone_ends_where_the_shader_ends_it_with_eight_bits_of_alpha_too() {
     assert_eq!(differing(&drawn.shaders[0], &drawn.fixed[0], ONE_CODE), 0);
 }
 
+/// Passes that blend by DST_COLOR and DST_ALPHA, in 8 bits, where each pass is rounded: scene, what is set, and the codes
+/// that the roundings of colour, factor and sum allow, of each light.
+const BLENDED: &[(&str, &[&str], f32)] = &[
+    ("data/cases/slide-projector/room/scene.toml", &[], 2.0),
+    ("data/cases/slide-projector/room/scene.toml", &["shading.background=ambient", "light.shape=cone"], 2.0),
+    ("data/figures/slide.toml", &["light.1.color=[0.3, 0.3, 0.3]"], 2.0),
+    ("data/figures/spotlight.toml", &["shading.passes=shadow", "shading.lighting=per-vertex"], 2.0),
+    ("data/cases/scenes/two_lights.toml", &["shading.passes=shadow", "shading.lighting=per-vertex"], 2.0),
+    (SAMPLE, &["shading.passes=shadow"], 1.0),
+    (SAMPLE, &["shading.passes=shadow", "light.shadow.dimming=0.4", "light.shape=cone"], 2.0),
+];
+
+#[test]
+fn passes_that_multiply_and_weigh_by_alpha_are_those_of_the_shaders() {
+    let mut pipelines = Pipelines::open();
+    for (path, set, codes) in BLENDED {
+        let plan = pipelines.plan(&load(Path::new(path), set), &Request::default());
+        let drawn =
+            pipelines.draw_in_driver_arithmetic(&plan).unwrap_or_else(|error| panic!("{path} {set:?}: {error}"));
+        let off = |codes: f32| differing(&drawn.shaders[0], &drawn.fixed[0], codes * ONE_CODE);
+        println!("{path} {set:?}: {} pixels differ, {} by more than a code", off(0.0), off(1.0));
+        // Where a silhouette's two faces round to the same depth, either may be the one that a pass meets.
+        assert!(off(*codes) <= HANDFUL / 4, "{path} {set:?}: {}", off(*codes));
+        let colors: std::collections::HashSet<Vec<u32>> =
+            drawn.fixed[0].chunks(4).map(|pixel| pixel.iter().map(|value| value.to_bits()).collect()).collect();
+        assert!(colors.len() > 10, "{path} {set:?}: an empty picture");
+    }
+}
+
 /// Keys of the sample's shadow that are varied, beside set-ups and splits.
 const VARIANTS: &[&[&str]] = &[
     &["light.shadow.format=depth16"],

@@ -6,7 +6,10 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use glumbra::geometry::{Material, Mesh, Part};
 use glumbra::math::Aabb;
-use glumbra::scene::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
+use glumbra::scene::{
+    Background, Camera, Frustum, Image, Law, Light, LightKind, LightShape, Object, PicturePasses, Point, Scene,
+    Shading, Spot,
+};
 use glumbra::truth::{Answer, Options, Pixel, Truth, trace};
 
 pub const SIZE: u32 = 192;
@@ -127,6 +130,7 @@ pub fn light(position: DVec3, target: DVec3) -> Light {
         specular: [1.0; 3],
         name: String::from("light"),
         dust: None,
+        law: Law::Lit,
         shadow: glumbra::techniques::unshadowed(),
     }
 }
@@ -175,7 +179,12 @@ pub fn scene(objects: Vec<Object>, light: Light) -> Scene {
             near: 0.1,
             far: 60.0,
         },
-        shading: Shading { ambient: [0.2; 3], per_vertex: false },
+        shading: Shading {
+            ambient: [0.2; 3],
+            per_vertex: false,
+            passes: PicturePasses::One,
+            background: Background::Scene,
+        },
         lights: vec![light],
         objects,
     }

@@ -1,0 +1,46 @@
+// Factors of the slide projector's product, c (ambient + light) [Segal 1992, 3.1]; a pass has one of them or all.
+#ifdef EYE_POSITION
+in vec3 eye_position;
+#endif
+#ifdef OWN_COLOR
+uniform vec3 own_color;
+#endif
+#ifdef DECAL
+#ifndef ALPHA_TEST
+in vec2 st;
+#endif
+uniform sampler2D decal_map;
+#endif
+
+EXACT out vec4 fragment;
+
+void main()
+{
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
+#ifdef AMBIENT_FACTOR
+    EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
+#else
+    EXACT Lit lit = Lit(vec3(0.0), vec3(0.0), vec3(0.0));
+#endif
+#ifdef ANY_LIGHT
+    Surface surface = Surface(vec3(0.0), vec3(0.0), vec3(0.0));
+#ifdef EYE_POSITION
+    surface.position = eye_position;
+#endif
+    ILLUMINATE(surface, lit)
+#endif
+#if defined(AMBIENT_FACTOR) || defined(ANY_LIGHT)
+    EXACT vec3 color = lit.ambient + lit.diffuse;
+#else
+    EXACT vec3 color = vec3(1.0);
+#endif
+#ifdef OWN_COLOR
+    color *= own_color;
+#endif
+#ifdef DECAL
+    color *= texture(decal_map, DECAL_ST).rgb;
+#endif
+    fragment = vec4(color, 1.0);
+}
