@@ -41,12 +41,12 @@ pub struct Panel {
     /// Points that the eye does not see are then dark.
     pub counts: Option<&'static str>,
     /// Something else than the finished picture.
-    pub stage: Option<Stage>,
+    pub stage: Option<PanelStage>,
 }
 
 /// Part of how a picture comes about.
 #[derive(Clone, Copy, Debug)]
-pub enum Stage {
+pub enum PanelStage {
     /// The picture as it stands after the pass of this label.
     After(&'static str),
     /// The image of the first light.
@@ -114,8 +114,8 @@ fn draw(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas,
     let views = panel.view.into_iter().chain(shade).map(|view| ViewRequest { view, light: 0 }).collect();
     let mut plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
     match panel.stage {
-        Some(Stage::After(pass)) => plan = plan.after_pass(pass).map_err(frame::Error::from)?,
-        Some(Stage::Image) => return Ok(output::to_canvas(&image_of(scene), None)),
+        Some(PanelStage::After(pass)) => plan = plan.after_pass(pass).map_err(frame::Error::from)?,
+        Some(PanelStage::Image) => return Ok(output::to_canvas(&image_of(scene), None)),
         None => {}
     }
     renderer.draw(&plan)?;

@@ -1,6 +1,6 @@
 //! Every figure. Captions say what can be seen; the test figures checks that against pixels.
 
-use super::{Figure, Panel, Stage};
+use super::{Figure, Panel, PanelStage};
 use crate::scene::Embedded;
 use crate::views::View;
 
@@ -31,7 +31,7 @@ const fn panel(title: &'static str, set: &'static [&'static str], view: Option<V
 }
 
 /// A panel that shows a part of how the picture comes about.
-const fn stage(title: &'static str, set: &'static [&'static str], stage: Stage) -> Panel {
+const fn stage(title: &'static str, set: &'static [&'static str], stage: PanelStage) -> Panel {
     Panel { title, set, view: None, counts: None, stage: Some(stage) }
 }
 
@@ -205,16 +205,16 @@ pub const FIGURES: &[Figure] = &[
         scene: SLIDE,
         columns: 3,
         panels: &[
-            stage("the slide", &[], Stage::Image),
+            stage("the slide", &[], PanelStage::Image),
             panel("the scene in ambient light and the slide's", &[], None),
             panel(
                 "two projectors, red and cyan",
                 &["light.0.color=[1.0, 0.30, 0.25]", "light.1.color=[0.25, 0.80, 1.0]"],
                 None,
             ),
-            stage("pass 1: depth; ambient light", &[], Stage::After("depth and ambient light")),
-            stage("pass 2: the slide, added", &[], Stage::After("slide of light 0")),
-            stage("pass 3: times the surfaces' colours", &[], Stage::After("surfaces' colours")),
+            stage("pass 1: depth; ambient light", &[], PanelStage::After("depth and ambient light")),
+            stage("pass 2: the slide, added", &[], PanelStage::After("slide of light 0")),
+            stage("pass 3: times the surfaces' colours", &[], PanelStage::After("surfaces' colours")),
         ],
         caption: "Projecting is texturing with another divisor: s/q and t/q of the projector find the texel. The light knows no \
                   angle and no occlusion: it falls through the box onto the floor and the wall behind it. Sums \
@@ -228,11 +228,11 @@ pub const FIGURES: &[Figure] = &[
         columns: 3,
         panels: &[
             panel("the shadow map", &[], Some(View::LightDepth)),
-            stage("the intensity map", &[], Stage::Image),
+            stage("the intensity map", &[], PanelStage::Image),
             panel("both", &[], None),
             panel("the shadow alone", &[WITHOUT_IMAGE], None),
             panel("the intensity map alone", &["light.0.shadow.technique=none"], None),
-            stage("the shade in destination alpha", &["shading.passes=shadow"], Stage::After("shade of light 0")),
+            stage("the shade in destination alpha", &["shading.passes=shadow"], PanelStage::After("shade of light 0")),
         ],
         caption: "One light looks up two textures by the same coordinates: a depth, which is compared, and an intensity, which is \
                   a factor. Where both apply (c) is the product of (d) and (e). In three passes the comparison comes first, into \
@@ -245,11 +245,11 @@ pub const FIGURES: &[Figure] = &[
         scene: SPOTLIGHT,
         columns: 3,
         panels: &[
-            stage("pass 1: ambient light", &TWO_COLORS, Stage::After("ambient light")),
-            stage("pass 2: the first light's shade, in alpha", &TWO_COLORS, Stage::After("shade of light 0")),
-            stage("pass 3: its colour, by DST_ALPHA, ONE", &TWO_COLORS, Stage::After("light 0")),
-            stage("pass 2 again: the second light's shade", &TWO_COLORS, Stage::After("shade of light 1")),
-            stage("pass 3 again: the picture", &TWO_COLORS, Stage::After("light 1")),
+            stage("pass 1: ambient light", &TWO_COLORS, PanelStage::After("ambient light")),
+            stage("pass 2: the first light's shade, in alpha", &TWO_COLORS, PanelStage::After("shade of light 0")),
+            stage("pass 3: its colour, by DST_ALPHA, ONE", &TWO_COLORS, PanelStage::After("light 0")),
+            stage("pass 2 again: the second light's shade", &TWO_COLORS, PanelStage::After("shade of light 1")),
+            stage("pass 3 again: the picture", &TWO_COLORS, PanelStage::After("light 1")),
             panel(
                 "the same in one pass",
                 &[TWO_COLORS[1], TWO_COLORS[2], TWO_COLORS[3], TWO_COLORS[4], TWO_COLORS[5]],
@@ -361,7 +361,7 @@ pub const FIGURES: &[Figure] = &[
     Figure {
         name: "lec-dusty-room",
         title: "A beam of light in dusty air, sliced",
-        source: "lecture, Combining Shadows with Atmospherics",
+        source: "Projective texturing and shadow maps, lecture, \"Combining Shadows with Atmospherics\"",
         scene: DUSTY_ROOM,
         columns: 3,
         panels: &[

@@ -264,6 +264,7 @@ const HEADINGS: &[&str] = &[
     "Combine with Projective Texturing for Spotlight Shadows",
     "Segal 1992, 3.1 and Figure 3",
     "Segal 1992, 3.3",
+    "Combining Shadows with Atmospherics",
 ];
 
 #[test]

@@ -67,7 +67,7 @@ fn meshes(plan: &Plan, label: &str) -> Vec<MeshRef> {
     draws.map(|draw| draw.mesh.clone()).collect()
 }
 
-/// What a plan finds from meshes is found once: the renderer's next plan draws the very same meshes, so that passes of them
+/// Facts of meshes are found once: the renderer's next plan draws the very same meshes, so that passes of them
 /// are kept. A plan of its own finds other ones.
 #[test]
 fn the_next_plan_draws_the_same_derived_meshes() {
