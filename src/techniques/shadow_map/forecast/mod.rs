@@ -14,6 +14,7 @@ mod texels;
 mod told;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use self::lookup::Receiver;
 use self::points::{Items, Met, Seen, on_the_way, seen, to_light};
@@ -129,10 +130,23 @@ impl Way<'_> {
     }
 }
 
+/// Samples of some rows.
+#[derive(Default)]
+struct Samples {
+    reached: u32,
+    wrong: Vec<Wrong>,
+}
+
+/// Every `step`-th of `size` pixels.
+fn middles(step: u32, size: u32) -> impl Iterator<Item = u32> {
+    (step / 2..size).step_by(step as usize)
+}
+
 struct Forecast<'a> {
     view: &'a LightView<'a>,
     map: &'a Map<'a>,
     items: &'a Items<'a>,
+    /// The maps, without texels: each core finds its own.
     texels: Vec<Texels<'a>>,
     /// The items by their places in the picture.
     raster: Raster,
@@ -156,10 +170,20 @@ impl<'a> Forecast<'a> {
         self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
     }
 
-    /// Samples every `step`-th pixel of every `step`-th row, from scratch.
+    /// Samples every `step`-th pixel of every `step`-th row, from scratch, on all cores.
     fn sample(&mut self, step: u32) {
-        (self.step, self.reached) = (step, 0);
-        self.wrong.clear();
+        let height = self.view.scene.image.size[1];
+        let rows: Vec<u32> = middles(step, height).collect();
+        // A few bands a core: rows with many casters take longer.
+        let band = rows.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+        let samples: Vec<Samples> = rows.par_chunks(band).map(|rows| self.sample_rows(rows, step)).collect();
+        self.step = step;
+        self.reached = samples.iter().map(|samples| samples.reached).sum();
+        self.wrong = samples.into_iter().flat_map(|samples| samples.wrong).collect();
+    }
+
+    /// Samples every `step`-th pixel of these rows.
+    fn sample_rows(&self, rows: &[u32], step: u32) -> Samples {
         let size = self.view.scene.image.size;
         let world_from_clip = self.view.camera.clip_from_world.inverse();
         let ray = |x: u32, y: u32| {
@@ -167,8 +191,9 @@ impl<'a> Forecast<'a> {
                 [(x, size[0]), (y, size[1])].map(|(at, size)| (2.0 * f64::from(at) + 1.0) / f64::from(size) - 1.0);
             [-1.0, 1.0].map(|z| world_from_clip.project_point3(DVec3::new(x, y, z)))
         };
-        let middles = |size: u32| (step / 2..size).step_by(step as usize);
-        for (x, y) in middles(size[1]).flat_map(|y| middles(size[0]).map(move |x| (x, y))) {
+        let mut texels = self.texels.clone();
+        let mut samples = Samples::default();
+        for (x, y) in rows.iter().flat_map(|y| middles(step, size[0]).map(move |x| (x, *y))) {
             let [near, far] = ray(x, y);
             let at = self.raster.at_both([near, far], |point| sighting(self.view, point));
             let Some(point) = seen(self.items, at, self.view.scene.camera.eye, near, far - near) else { continue };
@@ -176,20 +201,31 @@ impl<'a> Forecast<'a> {
             let beside = [ray(x + 1, y), ray(x, y + 1)].map(|[near, far]| {
                 near + (far - near) * (point.normal.dot(point.point - near) / point.normal.dot(far - near))
             });
-            if let Some(wrong) = self.judge(&point, [x, y], beside) {
-                self.wrong.push(wrong);
-            }
+            let Some(index) = self.face_of(&point) else { continue };
+            samples.reached += 1;
+            samples.wrong.extend(self.judge(&point, [x, y], beside, index, &mut texels[index]));
         }
+        samples
     }
 
-    /// Counts a point within the light's reach, and says what the picture will show wrong.
-    fn judge(&mut self, point: &Seen, pixel: [u32; 2], beside: [DVec3; 2]) -> Option<Wrong> {
-        let map = self.map;
+    /// Index of the map that the light reaches a point by; `None`: it does not reach it, or lies behind its surface.
+    fn face_of(&self, point: &Seen) -> Option<usize> {
         let index = self.texels.iter().position(|texels| is_in(texels.projector(), point.point))?;
-        if !self.is_in_cone(point.point) || point.normal.dot(to_light(point.point, &self.rays())) <= 0.0 {
-            return None;
-        }
-        self.reached += 1;
+        let is_lit = self.is_in_cone(point.point) && point.normal.dot(to_light(point.point, &self.rays())) > 0.0;
+        is_lit.then_some(index)
+    }
+
+    /// Says what the picture will show wrong at a point that the light reaches, by map number `index`, whose `texels` are
+    /// found where they are needed.
+    fn judge(
+        &self,
+        point: &Seen,
+        pixel: [u32; 2],
+        beside: [DVec3; 2],
+        index: usize,
+        texels: &mut Texels<'a>,
+    ) -> Option<Wrong> {
+        let map = self.map;
         let way = self.way(point, index);
         let receiver = receiver(&self.texels[index], point, beside);
         let is_blocked = way.blockers().next().is_some();
@@ -199,7 +235,6 @@ impl<'a> Forecast<'a> {
         let rounding = 2.0 * code(DepthFormat::Depth32F) + interpolation;
         // The place in the map is interpolated as the depth is; a filtered shade changes by as much as its weights.
         let shade_error = (PLACE_ERROR + interpolation * f64::from(map.settings.size)).min(MOST_SHADE_ERROR);
-        let texels = &mut self.texels[index];
         let mut shade = |deeper: f64| lookup::lit(texels, map.settings, map.offset.texels, &receiver, deeper);
         let doubt = if is_blocked { -shade_error } else { shade_error };
         let [outcome, moved] = [0.0, if is_blocked { -rounding } else { rounding }].map(&mut shade);

@@ -2,6 +2,7 @@
 //! window, in [0, 1] and growing away from the light, whichever way the map's own run.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 
@@ -35,20 +36,21 @@ pub enum Alone {
 }
 
 /// A map, or one face of a cube.
+#[derive(Clone)]
 pub struct Texels<'a> {
     items: &'a Items<'a>,
     settings: &'a Settings,
     stored: Stored,
     offset: PolygonOffset,
     /// True if each item is a caster that the map is drawn from.
-    casts: Vec<bool>,
+    casts: Arc<[bool]>,
     projector: Projector,
     world_from_light: DMat4,
     /// The map's clip space.
     map_from_light: DMat4,
     clip_from_raster: DMat4,
     /// The items by their places in the map.
-    raster: Raster,
+    raster: Arc<Raster>,
     /// Depths by level and place, as one number each.
     known: HashMap<u64, f64>,
 }
@@ -78,11 +80,11 @@ impl<'a> Texels<'a> {
             world_from_light: projector.light_from_world.inverse(),
             map_from_light,
             clip_from_raster: raster_from_clip.inverse(),
-            raster: Raster::default(),
+            raster: Arc::default(),
             projector,
             known: HashMap::new(),
         };
-        texels.raster = items.raster(|point| texels.sighting(point));
+        texels.raster = Arc::new(items.raster(|point| texels.sighting(point)));
         texels
     }
 
