@@ -8,7 +8,7 @@
 //! 3. adds the lit pass, and leaves out what this scene cannot show; a [`plan::Plan`] says what, and why.
 //! 4. Its [`pass::PassList`] is data: images, draw state, shader variants, draws. It can be printed and compared.
 //! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.
-//! 6. [`device::Device`] turns the pass list into GL, the only module that does,
+//! 6. [`device::Device`] turns the pass list into GL with shaders,
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY.
 //! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone, [`fixed_function`] draws

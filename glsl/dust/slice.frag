@@ -9,7 +9,7 @@ uniform vec3 light_position_@;
 #endif
 uniform vec3 light_diffuse_@;
 // Extinction times the distance of two slices along the view axis.
-uniform float thickness;
+uniform float optical_depth;
 // The way of the view ray through a pixel, at distance 1 along the view axis: scale, then offset.
 uniform vec4 ray_from_pixel;
 
@@ -26,9 +26,9 @@ void main()
 #endif
     // A ray at an angle phi to the view axis is 1 / cos phi as long in the layer as the axis.
 #ifdef SECANT
-    float optical = thickness * sqrt(1.0 + dot(ray, ray));
+    float optical = optical_depth * sqrt(1.0 + dot(ray, ray));
 #else
-    float optical = thickness;
+    float optical = optical_depth;
 #endif
 #ifdef SPOT_IMAGE_@
     // Before any branch, where derivatives are defined.

@@ -2,9 +2,10 @@
 //! light's image and shadow [LEC, "Combining Shadows with Atmospherics"].
 //!
 //! A slice is what a plane across the view axis cuts out of the beam: the light's pyramid between its near and far planes,
-//! within the camera's. It stands for the air around it, of the thickness Δz in which the slices follow each other; a ray
-//! at the angle φ to the axis goes Δz / cos φ through it. The slices are summed in an image of floats of their own: 8 bits
-//! would round each slice's share.
+//! within the camera's. Each slice stands for a slab of air as thick as the spacing Δz. With `thickness_along_ray` the slab
+//! counts by the ray's length in it, Δz / cos φ, where φ is the angle to the view axis. The slices of one light are blended,
+//! over each other or added, into a float image, because 8 bits would round each share; that image is then blended over the
+//! picture.
 
 use std::sync::Arc;
 
@@ -73,7 +74,7 @@ impl Passes<'_> {
         Ok(())
     }
 
-    /// Sums the slices of one light in an image of their own, before the surfaces' depth.
+    /// Blends one light's slices into the dust image, depth-tested against the surfaces.
     fn dust_of(
         &mut self,
         term: &LightTerm,
@@ -152,7 +153,8 @@ fn why_not_in_air(term: &LightTerm) -> Option<&'static str> {
     is_middle.then_some("a midpoint map has shadows begin halfway between a caster and what lies behind it")
 }
 
-/// Cuts the beam into `count` slices of the same thickness, between its nearest and its farthest point.
+/// Polygons of the beam in `count` planes of equal spacing across the view axis, between its nearest and its farthest point.
+/// Planes that miss the beam are dropped.
 fn slices(scene: &Scene, spot: &Spot, count: u32) -> Slices {
     let eye_from_world = scene.camera.view_from_world();
     let world_from_eye = eye_from_world.inverse();
@@ -178,7 +180,7 @@ fn slices(scene: &Scene, spot: &Spot, count: u32) -> Slices {
         let depth = far - (f64::from(number) + 0.5) * spacing;
         let half_height = depth * (0.5 * scene.camera.fov_y_radians).tan();
         let half_width = half_height * scene.aspect();
-        // The camera's own sides clip this square when it is drawn; a little wider, so that no pixel at the rim is lost.
+        // The camera's own sides clip this rectangle when it is drawn; a little wider, so that no pixel at the rim is lost.
         let [x, y] = [half_width, half_height].map(|half| 1.001 * half);
         let square = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| DVec3::new(x, y, -depth));
         clipped(&square, &light_planes)
@@ -234,7 +236,7 @@ fn set_slices(
     let half_width = half_height * scene.aspect();
     let ray = DVec4::new(2.0 * half_width / width, 2.0 * half_height / height, -half_width, -half_height);
     batch.uniforms.push(Uniform::new("ray_from_pixel", ray.as_vec4()));
-    batch.uniforms.push(Uniform::new("thickness", (dust.density * spacing) as f32));
+    batch.uniforms.push(Uniform::new("optical_depth", (dust.density * spacing) as f32));
     let defines = &mut batch.program.defines;
     if dust.thickness_along_ray {
         defines.push(Define::flag("SECANT"));

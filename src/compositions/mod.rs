@@ -1,4 +1,5 @@
-//! Compositions: the passes in which light becomes a picture. Each is a row of [`TABLE`].
+//! Compositions: the passes in which light becomes a picture. Folders are the rows of [`TABLE`]; files beside them are shared
+//! parts and `dust`.
 //!
 //! # How to add a composition
 //!
@@ -6,7 +7,7 @@
 //! 2. Its row in [`TABLE`].
 //! 3. A case folder of the same name under `data/cases/`.
 //!
-//! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
+//! A composition's code depends on light terms, not on techniques; surfaces are given to it as a function, [`passes::Surfaces`].
 
 mod alpha_shadows;
 pub mod dust;
@@ -31,7 +32,7 @@ pub trait Composition: Sync {
     /// The name; of its folders too, with underscores in `src/` and `glsl/`.
     fn name(&self) -> &'static str;
 
-    /// Tests whether it draws pictures in which these lights meet.
+    /// True if it draws this scene with these lights: by `[shading] passes`, and by whether a light counts in the stencil buffer.
     fn serves(&self, scene: &Scene, terms: &[&LightTerm]) -> bool;
 
     /// Tests whether its picture of these lights has a stencil buffer.
@@ -44,7 +45,7 @@ pub trait Composition: Sync {
     /// Lights that exclude each other.
     fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error>;
 
-    /// Adds the passes of the picture: all surfaces in the light of `terms`.
+    /// Adds the passes of the picture: all surfaces in the light of `terms`. `lens`: the camera's projection and depth range.
     ///
     /// # Errors
     ///
@@ -57,8 +58,8 @@ pub trait Composition: Sync {
         terms: &[&LightTerm],
     ) -> Result<(), Error>;
 
-    /// Adds the passes of a view of one light, and returns the image that they end in. `None`: one pass of the surfaces
-    /// shows the view.
+    /// Adds the passes of a picture beside the picture (`--aov`) of one light, and returns the image that they end in. `None`:
+    /// it has no passes of its own; one pass of the surfaces shows it.
     ///
     /// # Errors
     ///

@@ -65,6 +65,17 @@ impl FrustumView<'_> {
 }
 
 /// A light in the lit pass: its shade, its reach, and what they need.
+///
+/// A technique makes one by [`LightTerm::new`] or [`LightTerm::unshadowed`] and fills
+///
+/// - `shade`: how a shader finds the visibility; its `meaning` is [`Shade::Shader`] with a reason where fixed function cannot;
+/// - `coordinates` and `frustum_from_map`, if its map is not of the light's whole frustum;
+/// - `map` and `map_info`, if it has a map: the image for views, the numbers for bounds of the error. Without `map_info` a wrong
+///   pixel beside a shadow's edge is not excused by the map's resolution;
+/// - `counting`, if volumes count in the stencil buffer: the picture is then drawn by another composition.
+///
+/// The other fields are set later: `dimming` and `guard` from the light's own keys, `gain`, `diffuse_weight` and `addition` by
+/// compositions that draw a light in parts.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
     /// Index into [`Scene::lights`].

@@ -1,5 +1,5 @@
-//! Keys of `[light.shadow]` that every light has, whatever its technique: they are read and applied here alone, so that no
-//! technique can forget them.
+//! Keys of `[light.shadow]` that every light has. They are read here; `LightShadow::describe` applies them after the
+//! technique's own `describe` (`guard`: `stencil_guard.rs`), so that no technique can forget them.
 
 use crate::lights::LightTerm;
 use crate::lights::guard::Guard;
@@ -13,7 +13,7 @@ pub struct CommonKeys {
     pub dimming: f32,
     /// `guard`: what keeps a spotlight from lighting what lies behind it.
     pub guard: Guard,
-    /// `redraw`: when a light's passes are drawn again.
+    /// `redraw`: when a light's passes are drawn again. `once`: only if a pass has changed; `always`: in every frame.
     pub redraw: Redraw,
 }
 

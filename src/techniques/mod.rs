@@ -1,14 +1,9 @@
-//! Shadow techniques, each describing passes as data. Knows scene, pass, geometry and math; no GL.
+//! Shadow techniques, each describing passes as data. Uses lights, pass, scene, geometry and math; calls no GL.
 //!
 //! # How to add a technique
 //!
-//! 1. A folder here with a type that implements [`Technique`], and one that holds its keys and implements
-//!    [`ShadowSettings`]; its shaders in a folder of the same name under `glsl/`, whose README says what a shade must define
-//!    and what it may read.
-//! 2. Its row in [`TABLE`].
-//! 3. A case folder of the same name under `data/cases/`.
-//!
-//! Nothing else changes: scenes name it in `[light.shadow]`, the plan calls it, the device draws its passes.
+//! See "Adding a row" in src/ARCHITECTURE.md. The plan, the device and the scene's reader need no change: scenes name the
+//! technique in `[light.shadow]`, the plan calls it, the device draws its passes.
 //!
 //! `[light.shadow]` is read once, when a scene is loaded: first [`CommonKeys`], which every light has, then the technique's
 //! own keys, into a type of its own that implements [`ShadowSettings`]. A wrong key, also of a light that is never drawn,
@@ -45,7 +40,7 @@ pub trait Technique: Sync {
     /// One line for tables and `--help`.
     fn summary(&self) -> &'static str;
 
-    /// The document and section that it implements.
+    /// The document that it implements, for tables of techniques.
     fn source(&self) -> &'static str;
 
     /// Tests whether it finds the shade of such lights.
@@ -60,8 +55,8 @@ pub trait Technique: Sync {
         true
     }
 
-    /// Tests whether its shadows end where the light is hidden, but for rounding: it has no texels that explain a wrong
-    /// pixel.
+    /// True if shadow edges are exact up to rounding, as with shadow volumes: then no wrong pixel is excused by a map's
+    /// resolution.
     fn is_exact(&self) -> bool {
         false
     }
@@ -71,15 +66,15 @@ pub trait Technique: Sync {
         false
     }
 
-    /// Keys that a report varies, with their values.
+    /// Keys that `glumbra report` varies; it measures every combination of their values.
     fn axes(&self) -> &'static [Axis];
 
-    /// Smaller grids beside that of [`Technique::axes`], for keys that need not be crossed with all others.
+    /// Further sets of keys, each measured in combination only among themselves.
     fn more_axes(&self, _kind: &LightKind) -> &'static [&'static [Axis]] {
         &[]
     }
 
-    /// Changes of its keys that a stress test draws, each alone, for a light of this `kind`.
+    /// Settings that `glumbra stress` tries for a light of this `kind`, one change at a time from the defaults.
     fn changes(&self, _kind: &LightKind) -> Vec<Change> {
         Vec::new()
     }
@@ -94,8 +89,8 @@ pub trait Technique: Sync {
         &[]
     }
 
-    /// Reads the technique's own keys of `[light.shadow]`, each with its default, and checks them one by one. Keys of every
-    /// light are not among them: see [`CommonKeys`].
+    /// Validates this technique's own keys of `[light.shadow]` one by one, where another technique is chosen, and marks them as
+    /// known. Keys of every light are not among them: see [`CommonKeys`].
     ///
     /// # Errors
     ///

@@ -3,8 +3,8 @@
 //!
 //! A lit surface is compared with the far side of its own caster, a caster's thickness away, so that it needs no polygon
 //! offset. A surface that looks away from the light is compared with itself, and errs; its shading is dark in any case. An
-//! open caster has no far side and would lose its shadow: it is refused, or with `closed = "assume"` drawn as it is, and
-//! named in a warning if that shadow is missed.
+//! open caster is refused. With `closed = "assume"` its back faces alone are drawn: parts that face the light then cast no
+//! shadow, and a warning names the caster if that makes pixels wrong.
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ const CLAIMS: &[Claim] = &[
 
 const AXES: &[Axis] = &[
     Axis { key: "size", values: &["512", "1024", "2048"], quick: &["1024"] },
-    // Floors and other open receivers lose a shadow that falls on nothing.
+    // An open floor casts no shadow here; that is harmless, because nothing lies below it.
     Axis { key: "closed", values: &["\"assume\""], quick: &["\"assume\""] },
 ];
 

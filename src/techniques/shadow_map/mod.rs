@@ -76,7 +76,8 @@ impl Technique for ShadowMap {
         settings::AXES
     }
 
-    /// A cube map has the keys of the first three grids only; nothing lies behind parallel light.
+    /// Point lights: `size` with `transfer`, stencil tags, kernels. Directional lights: all but the last, `guard`, because they
+    /// have no back side.
     fn more_axes(&self, kind: &LightKind) -> &'static [&'static [Axis]] {
         match kind {
             LightKind::Point(_) => &settings::MORE_AXES[..3],

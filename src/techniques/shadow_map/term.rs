@@ -26,8 +26,8 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         inputs: vec![Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) }],
     };
     let mut term = LightTerm::new(view.scene, index, shade);
-    // A floating-point map does not clamp the reference. A normal offset may move it out of any map's depths; the other
-    // biases clamp each tap's own.
+    // A floating-point map does not clamp the compared depth to [0, 1]: the shader must. A normal offset can move that depth
+    // out of range in any format. The other biases clamp at every tap.
     if clamped && settings.bias == Bias::Offset || settings.bias == Bias::NormalOffset {
         term.shade.defines.push(Define::flag("CLAMP_REFERENCE").of_light(index));
     }
@@ -89,7 +89,8 @@ pub fn sampler(rays: Rays, settings: &Settings) -> Sampler {
     }
 }
 
-/// Chooses the shader of a kernel, or of a bias in the comparison. One comparison needs only the plain shader.
+/// Adds the defines and uniforms that a kernel or a bias needs, and marks the shade as impossible for fixed function. A single
+/// comparison with a polygon offset needs none.
 fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'_>, settings: &Settings) {
     let index = term.index;
     if settings.mipmaps != Mipmaps::None {
@@ -170,7 +171,8 @@ fn chunks(settings: &Settings) -> Vec<Chunk> {
     }
 }
 
-/// `S`, by the rules of the addressing, with r's tweaks and bias; mirrored in r for GEQUAL.
+/// The matrix `S`, from clip space to [0, 1], in OpenGL's or Direct3D's convention, with the keys for scale and bias of the r
+/// coordinate. For GEQUAL, depth is 1 - r.
 pub fn texture_from_light_clip(settings: &Settings) -> DMat4 {
     let mirrored = match settings.order {
         Order::LessEqual => DMat4::IDENTITY,
@@ -180,7 +182,8 @@ pub fn texture_from_light_clip(settings: &Settings) -> DMat4 {
     let texture = match settings.addressing {
         Addressing::OpenGl => DMat4::from_translation(DVec3::new(0.0, 0.0, settings.matrix_bias)) * ordinary,
         Addressing::Direct3d(way) => {
-            // Direct3D's clip z is in [0, w]; its depth counts codes, GL's texture unit compares in [0, 1].
+            // Direct3D's clip z is in [0, w]. Its depth here is an integer code, 0 to 2^bits - 1; GL's texture unit compares in
+            // [0, 1].
             let direct3d_from_gl = DMat4::from_translation(DVec3::new(0.0, 0.0, settings.r_bias))
                 * DMat4::from_scale(DVec3::new(1.0, 1.0, settings.r_scale));
             let (bits, half_texel) = (settings.format.bits(), matrix_half_texel(way, settings));
