@@ -171,7 +171,7 @@ fn slices(scene: &Scene, spot: &Spot, count: u32) -> Slices {
     let depths = points.iter().map(|point| -point.z);
     let near = depths.clone().fold(f64::INFINITY, f64::min);
     let far = depths.fold(f64::NEG_INFINITY, f64::max);
-    // Also where there are no points.
+    // No points: the camera does not see the beam.
     if near >= far {
         return Slices { polygons: Vec::new(), spacing: 0.0 };
     }
