@@ -9,7 +9,9 @@
 //! A composition reads light terms, never a technique; surfaces are given to it as a function, [`passes::Surfaces`].
 
 pub mod dust;
+pub mod focus;
 mod groups;
+mod layer;
 pub mod passes;
 pub mod projection;
 mod single_pass;
@@ -104,6 +106,20 @@ pub enum Error {
         /// Reason, as the end of a sentence.
         why: &'static str,
     },
+    /// A light's lens points cannot be added one by one.
+    #[error(
+        "`focus` of light {light}: its lens points are added one by one with depth EQUAL and a stencil bit for each, and the light {why}. Choose a technique with a map, such as \"shadow-map\", and guard = \"auto\""
+    )]
+    FocusCounted {
+        /// Index into the scene's lights.
+        light: usize,
+        /// Reason, as the end of a sentence that begins with the light.
+        why: &'static str,
+    },
+    #[error(
+        "`focus` of light {light}: lighting per vertex is clamped as a whole, not lens point by lens point. Leave out `lighting` of [shading], or `focus`"
+    )]
+    FocusPerVertex { light: usize },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

@@ -1,6 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
 mod compose;
+mod lens;
 pub mod matrices;
 mod pictures;
 mod print;

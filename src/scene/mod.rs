@@ -23,8 +23,8 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Camera, Dust, DustBlend, Frustum, Image, ImageFilter, Light, LightKind, LightShape, Object, Point, Scene, Shading,
-    Spot,
+    Camera, Dust, DustBlend, Focus, Frustum, Image, ImageFilter, Light, LightKind, LightShape, Object, Point, Scene,
+    Shading, Spot,
 };
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;

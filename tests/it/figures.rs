@@ -221,6 +221,9 @@ const HEADINGS: &[&str] = &[
     "For Shadow Volumes With Intersecting Polygons",
     "Shadow Volume Near Plane Clipping Artifacts",
     "Alternative to Near Plane Capping: Carmack's Reverse",
+    "Combining Shadows with Atmospherics",
+    "Hardware Shadow Map Filtering",
+    "Segal 1992, 3.1",
 ];
 
 #[test]

@@ -141,7 +141,7 @@ impl Passes<'_> {
         let others: Vec<&LightTerm> = terms.iter().filter(others).copied().collect();
         for (stencil, is_lit) in [(LIT, true), (UNLIT, false)] {
             let part = |term: &&LightTerm| match is_lit && term.index == index {
-                true => Some(once_counted(self.scene, term)),
+                true => Some(once_counted(term)),
                 false => self.uncounted_part(term),
             };
             let parts: Vec<LightTerm> = terms.iter().filter_map(part).collect();
@@ -262,7 +262,7 @@ impl Passes<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let mut lit = LightTerm { dimming, ..once_counted(self.scene, term) };
+        let mut lit = LightTerm { dimming, ..once_counted(term) };
         if self.scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             lit.addition = Addition::Clamped;
@@ -285,13 +285,13 @@ impl Passes<'_> {
         let left = if of_all(term) { 0.0 } else { term.dimming };
         // Lighting per vertex is clamped before it is weighed.
         let diffuse = if per_vertex && left > 0.0 { 1.0 } else { left };
-        let source = &self.scene.lights[term.index];
+        let source = &term.source;
         let gives = |color: [f32; 3]| color != [0.0; 3];
         if !(gives(source.ambient) || (diffuse > 0.0 && gives(source.diffuse))) {
             return None;
         }
         let gain = Gain { ambient: 1.0, diffuse, specular: 0.0 };
-        let mut part = LightTerm { dimming: 0.0, gain, ..term.under(self.scene, ShadeSource::lit()) };
+        let mut part = LightTerm { dimming: 0.0, gain, ..term.under(ShadeSource::lit()) };
         if per_vertex {
             weigh(&mut part, term.dimming);
         }
@@ -310,9 +310,9 @@ fn of_all(term: &LightTerm) -> bool {
 }
 
 /// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
-fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
+fn once_counted(term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(StencilCount::tags);
-    if tagged { term.under(scene, ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
+    if tagged { term.under(ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
 }
 
 /// Weights the light's diffuse colour.
