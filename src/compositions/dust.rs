@@ -76,7 +76,7 @@ impl Passes<'_> {
         let label = format!("light {}: dust in {} slices", term.index, slices.polygons.len());
         let scene = self.scene;
         let term = LightTerm { counting: None, ..(*term).clone() };
-        let place = dust.jitter.then(|| glsl!("dust/jitter.frag"));
+        let place = dust.jitter.then_some(glsl!("dust/jitter.frag"));
         let ending = Ending::Slice { chunk: glsl!("dust/slice.frag"), place };
         let item = drawable(slices, term.index, &lens.camera.eye_from_world.inverse());
         let terms = std::slice::from_ref(&term);
@@ -125,8 +125,8 @@ fn slices(scene: &Scene, spot: &Spot, count: u32) -> Slices {
     let depths = points.iter().map(|point| -point.z);
     let near = depths.clone().fold(f64::INFINITY, f64::min);
     let far = depths.fold(f64::NEG_INFINITY, f64::max);
-    // Also false where there are no points.
-    if !(near < far) {
+    // Also where there are no points.
+    if near >= far {
         return Slices { polygons: Vec::new(), spacing: 0.0 };
     }
     let spacing = (far - near) / f64::from(count);

@@ -71,9 +71,10 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         let image = pictures.view(wanted, &lights, buffers)?;
         views.push((*wanted, image));
     }
-    let maps = terms().filter_map(|term| term.map_info).collect();
+    let described = || lights.iter().filter_map(PlannedLight::described);
+    let maps = described().filter_map(|term| term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    let matrices = Matrices::new(scene, terms());
+    let matrices = Matrices::new(scene, described());
     Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps, matrices })
 }
 

@@ -54,7 +54,7 @@ fn through(light: &Light, lens: &Focus, number: u32) -> Light {
 /// The images of one lens point in the frame's list: those of earlier ones, where the descriptions are equal.
 fn share(own: &[ImageDesc], shared: &mut Vec<ImageId>, list: &mut PassList) -> Vec<ImageId> {
     let mut free = shared.clone();
-    let mut find = |desc: &ImageDesc| match free.iter().position(|image| list.desc(*image) == desc) {
+    let find = |desc: &ImageDesc| match free.iter().position(|image| list.desc(*image) == desc) {
         Some(place) => free.remove(place),
         None => {
             let image = list.image(desc.clone());
@@ -62,5 +62,5 @@ fn share(own: &[ImageDesc], shared: &mut Vec<ImageId>, list: &mut PassList) -> V
             image
         }
     };
-    own.iter().map(|desc| find(desc)).collect()
+    own.iter().map(find).collect()
 }

@@ -22,6 +22,13 @@ pub struct PlannedLight {
     pub focused: Option<Focused>,
 }
 
+impl PlannedLight {
+    /// The light's term, or that of its first lens point.
+    pub fn described(&self) -> Option<&LightTerm> {
+        self.term.as_ref().or_else(|| Some(&self.focused.as_ref()?.points.first()?.term))
+    }
+}
+
 /// The passes of a frame's pictures.
 pub struct Pictures<'a> {
     pub passes: Passes<'a>,

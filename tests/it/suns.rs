@@ -68,7 +68,7 @@ fn load(text: &str) -> Scene {
 /// The errors on surfaces that face the light; `None`: too few to count.
 fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> Option<Errors> {
     let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
-    let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
+    let scene = techniques::with_keys(scene, 0, &keys).unwrap();
     let shade = draw_shade(&scene, 0, renderer).unwrap();
     let errors = compare(truth, &shade, &Band { texels: 2.0, map_size: [1024; 2] }).unwrap().facing;
     (errors.compared > 500).then_some(errors)
@@ -76,7 +76,7 @@ fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> 
 
 fn warnings(scene: &Scene, keys: &str) -> Vec<String> {
     let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
-    let scene = techniques::with_keys(&scene, 0, &keys).unwrap();
+    let scene = techniques::with_keys(scene, 0, &keys).unwrap();
     glumbra::plan::make(&scene, &glumbra::plan::Request::default()).unwrap().warnings
 }
 
