@@ -14,14 +14,10 @@ use glam::{DVec3, DVec4, Vec4};
 use super::Error;
 use super::passes::{Buffers, Onto, Passes};
 use super::projection::CameraProjection;
-use crate::geometry::{Material, Mesh, Part, primitive};
+use crate::geometry::{Material, Mesh, Part};
 use crate::lights::{Drawable, Ending, LightTerm};
 use crate::math::{Aabb, frustum};
-use crate::pass::{
-    Attribute, Batch, Blend, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, Format,
-    ImageDesc, ImageId, IndexOrder, Input, MeshRef, Primitive, Program, Redraw, Sampler, Storage, Target, Uniform,
-    Wrap, glsl,
-};
+use crate::pass::{Batch, Blend, Clear, Compare, Define, DrawPass, DrawState, MeshRef, Redraw, Uniform, glsl};
 use crate::scene::{Dust, DustBlend, Scene, Spot};
 
 /// The slices of a beam, as polygons in eye space.
@@ -41,7 +37,7 @@ impl Passes<'_> {
     pub fn dust(&mut self, buffers: Buffers, lens: &CameraProjection, terms: &[&LightTerm]) -> Result<(), Error> {
         let mut layer = None;
         for term in terms {
-            let light = &self.scene.lights[term.index];
+            let light = &term.source;
             let (Some(dust), Some(spot)) = (light.dust, light.spot()) else { continue };
             if let Some(why) = why_not_in_air(term) {
                 return Err(Error::DustUnshadowed { light: term.index, why });
@@ -60,16 +56,11 @@ impl Passes<'_> {
             if empty > 0 {
                 self.notes.left_out(format!("{empty} of {} slices of the {what}", dust.slices), "the beam misses them");
             }
-            let layer = *layer.get_or_insert_with(|| {
-                self.list.image(ImageDesc {
-                    label: String::from("dust"),
-                    size: self.scene.image.size,
-                    format: Format::Rgba32F,
-                    storage: Storage::Texture,
-                })
-            });
+            let layer = *layer.get_or_insert_with(|| self.layer("dust"));
             self.dust_of(term, &dust, &slices, Buffers { color: layer, ..buffers }, lens)?;
-            self.dust_over(&format!("light {}: dust over the picture", term.index), layer, buffers);
+            let label = format!("light {}: dust over the picture", term.index);
+            let meaning = "the sum of a beam's slices";
+            self.put_over(&label, layer, buffers, Blend::OverPremultiplied, meaning);
         }
         Ok(())
     }
@@ -106,41 +97,6 @@ impl Passes<'_> {
         let Onto { target, viewport, clear, state, .. } = onto;
         self.push(&label, Redraw::Always, DrawPass { target, viewport, clear, state, batches });
         Ok(())
-    }
-
-    /// Blends the sum over the picture.
-    fn dust_over(&mut self, label: &str, layer: ImageId, picture: Buffers) {
-        let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
-        let program = Program {
-            label: String::from("dust"),
-            defines: Vec::new(),
-            vertex: vec![glsl!("common/position.vert"), glsl!("common/depth.vert")],
-            fragment: vec![glsl!("dust/over.frag")],
-            attributes: vec![Attribute::Position],
-        };
-        let batch = Batch {
-            program,
-            meaning: FixedFunctionDesc::Shader("the sum of a beam's slices"),
-            uniforms: Vec::new(),
-            inputs: vec![Input { name: "dust".into(), image: layer, sampler }],
-            cull: None,
-            scissor: None,
-            clip_planes: 0,
-            draws: vec![whole_picture()],
-        };
-        let pass = DrawPass {
-            target: Target { color: Some(picture.color), depth: None, level: 0, face: None },
-            viewport: self.scene.image.size,
-            clear: Clear::default(),
-            state: DrawState {
-                depth_test: None,
-                depth_write: false,
-                blend: Some(Blend::OverPremultiplied),
-                ..DrawState::OPAQUE
-            },
-            batches: vec![batch],
-        };
-        self.push(label, Redraw::Always, pass);
     }
 }
 
@@ -258,22 +214,4 @@ fn set_slices(
         batch.uniforms.push(Uniform::new("depth_of_distance", lens.depth_of_distance().as_vec2()));
     }
     Ok(())
-}
-
-/// Covers every pixel: the square of side 2 in x and z, stood up in clip space.
-fn whole_picture() -> Draw {
-    let mesh = Arc::new(primitive("quad").unwrap_or_default());
-    let clip_from_model = glam::DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
-    Draw {
-        label: String::from("every pixel"),
-        primitive: Primitive::Triangles,
-        indices: 0..mesh.indices.len() as u32,
-        order: IndexOrder::File,
-        bounds: mesh.bounds,
-        mesh: MeshRef(mesh),
-        clip_from_model,
-        eye_from_model: None,
-        mirrored: false,
-        uniforms: Vec::new(),
-    }
 }

@@ -8,7 +8,6 @@ use crate::lights::guard::Guard;
 use crate::lights::light::Addition;
 use crate::lights::{Ending, LightTerm};
 use crate::pass::{Blend, Clear, DrawState};
-use crate::scene::Scene;
 
 /// Greatest number of lights in one pass: each has four components of texture coordinates, of the 60 that every driver
 /// passes from stage to stage [GL 3.3, table 6.40].
@@ -19,18 +18,17 @@ const MOST_LIGHTS: usize = 8;
 const MOST_TEXTURES: usize = 14;
 
 /// Number of textures that a light takes in the lit pass.
-fn textures(scene: &Scene, term: &LightTerm) -> usize {
-    let spot = scene.lights.get(term.index).and_then(|light| light.spot());
-    let image = spot.is_some_and(|spot| spot.image.is_some());
+fn textures(term: &LightTerm) -> usize {
+    let image = term.source.spot().is_some_and(|spot| spot.image.is_some());
     term.shade.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
 }
 
 /// Number of lights in each group, in order. One group, which may be empty, at least.
-pub fn sizes<'t>(scene: &Scene, terms: impl IntoIterator<Item = &'t LightTerm>) -> Vec<usize> {
+pub fn sizes<'t>(terms: impl IntoIterator<Item = &'t LightTerm>) -> Vec<usize> {
     let mut sizes = vec![0];
     let (mut size, mut taken) = (0, 0);
     for term in terms {
-        let wanted = textures(scene, term);
+        let wanted = textures(term);
         if size == MOST_LIGHTS || (size > 0 && taken + wanted > MOST_TEXTURES) {
             sizes.push(0);
             (size, taken) = (0, 0);
@@ -48,8 +46,8 @@ pub fn sizes<'t>(scene: &Scene, terms: impl IntoIterator<Item = &'t LightTerm>) 
 /// # Errors
 ///
 /// A light that is guarded by a clip plane, beside more lights than one pass holds.
-pub fn check(scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
-    let groups = sizes(scene, terms.iter().copied()).len();
+pub fn check(terms: &[&LightTerm]) -> Result<(), Error> {
+    let groups = sizes(terms.iter().copied()).len();
     let cutting = terms.iter().find(|term| groups > 1 && term.guard == Guard::ClipPlane);
     cutting.map_or(Ok(()), |term| Err(Error::CutGroups { light: term.index, lights: terms.len() }))
 }
@@ -62,7 +60,7 @@ impl Passes<'_> {
     ///
     /// A light whose transform has no inverse.
     pub fn lit(&mut self, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
-        let sizes = sizes(self.scene, terms);
+        let sizes = sizes(terms);
         let (first, mut rest) = terms.split_at(sizes[0]);
         self.surfaces(onto, first, &Ending::Lit)?;
         if rest.is_empty() {

@@ -11,7 +11,9 @@
 
 mod alpha_shadows;
 pub mod dust;
+pub mod focus;
 mod groups;
+mod layer;
 mod once;
 mod parts;
 pub mod passes;
@@ -129,6 +131,20 @@ pub enum Error {
         "guard = \"clip-plane\" (light {light}) cannot be combined with passes = \"shadow\": clipping changes depth values, and lights are added with depth EQUAL. Choose another guard."
     )]
     CutShade { light: usize },
+    /// A light's lens points cannot be added one by one.
+    #[error(
+        "`focus` of light {light}: its lens points are added one by one with depth EQUAL and a stencil bit for each, and the light {why}. Choose a technique with a map, such as \"shadow-map\", and guard = \"auto\""
+    )]
+    FocusCounted {
+        /// Index into the scene's lights.
+        light: usize,
+        /// Reason, as the end of a sentence that begins with the light.
+        why: &'static str,
+    },
+    #[error(
+        "`focus` of light {light}: lighting per vertex is clamped as a whole, not lens point by lens point. Leave out `lighting` of [shading], or `focus`"
+    )]
+    FocusPerVertex { light: usize },
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

@@ -25,6 +25,8 @@ const NESTED: Embedded = embedded!("nested.toml");
 const DUSTY_ROOM: Embedded = embedded!("dusty_room.toml");
 const SLIDE: Embedded = embedded!("slide.toml");
 const SPOTLIGHT: Embedded = embedded!("spotlight.toml");
+const BOARDS: Embedded = embedded!("boards.toml");
+const COLUMNS: Embedded = embedded!("columns.toml");
 
 const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
     Panel { title, set, view, counts: None, stage: None }
@@ -379,6 +381,38 @@ pub const FIGURES: &[Figure] = &[
         caption: "Planes across the view, from back to front, each with the light's shadow: the sum is the light that dust sends \
                   to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
                   through walls and chair. A slice must count as thick as the ray goes through it, or corners are too dim.",
+    },
+    Figure {
+        name: "segal-focus",
+        title: "A slide in focus: by accumulation of many projectors",
+        source: "Segal 1992, 3.1",
+        scene: BOARDS,
+        columns: 2,
+        panels: &[
+            panel("one projector: sharp everywhere", &["light.focus.samples=1"], None),
+            panel("a lens, in focus at the middle board", &[], None),
+            panel("in focus at the near board", &["light.focus.distance=1.2"], None),
+            panel("in focus at the far board", &["light.focus.distance=4.8"], None),
+        ],
+        caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the                   slide is a disc elsewhere, of the lens's radius times |1 - d / F| at the distance d of the board, F of the                   plane: the boards stand at half, one and two times 2.4.",
+    },
+    Figure {
+        name: "segal-soft-shadows",
+        title: "Soft shadows: a map for each point of a lamp",
+        source: "Segal 1992, 3.1; lecture, \"Hardware Shadow Map Filtering\"",
+        scene: COLUMNS,
+        columns: 2,
+        panels: &[
+            panel("one point: hard shadows", &["light.focus.samples=1"], None),
+            panel("16 points: still apart far from their casters", &["light.focus.samples=16"], None),
+            panel("256 points", &[], None),
+            panel(
+                "a filter of 7 x 7 texels: as soft at the foot",
+                &["light.focus.samples=1", "light.shadow.size=256", "light.shadow.kernel=7x7"],
+                None,
+            ),
+        ],
+        caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns                   stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
     },
 ];
 

@@ -1,6 +1,7 @@
 //! A light as techniques see it, and the term that they give the lit pass for it.
 
 use std::ops::{Deref, Range};
+use std::sync::Arc;
 
 use glam::{DMat4, Vec4};
 
@@ -28,6 +29,8 @@ pub struct LightView<'a> {
     pub derived: &'a Derived,
     /// Into [`Scene::lights`].
     pub index: usize,
+    /// That light, or what a part of its lens sends.
+    pub source: &'a Light,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
     pub shown_whole: bool,
     /// True if things that no picture can show are drawn too, to prove that they change none.
@@ -38,7 +41,7 @@ pub struct LightView<'a> {
 
 impl<'a> LightView<'a> {
     pub fn light(&self) -> &'a Light {
-        &self.scene.lights[self.index]
+        self.source
     }
 }
 
@@ -80,6 +83,8 @@ impl FrustumView<'_> {
 pub struct LightTerm {
     /// Index into [`Scene::lights`].
     pub index: usize,
+    /// That light, or what a part of its lens sends.
+    pub source: Arc<Light>,
     pub shade: ShadeSource,
     /// Generation of `light_coord_@`; `None`: neither the shade nor the light's reach needs it.
     pub coordinates: Option<Coordinates>,
@@ -309,25 +314,25 @@ impl VolumeDraw {
 }
 
 impl LightTerm {
-    /// Light `index` of `scene`, which nothing shadows.
-    pub fn unshadowed(scene: &Scene, index: usize) -> Self {
-        Self::new(scene, index, ShadeSource::lit())
+    /// Light `index` of a scene, `source`, which nothing shadows.
+    pub fn unshadowed(source: &Light, index: usize) -> Self {
+        Self::new(source, index, ShadeSource::lit())
     }
 
     /// A copy of this term with the given shade and without a stencil count.
-    pub fn under(&self, scene: &Scene, shade: ShadeSource) -> Self {
-        let bounded = scene.lights.get(self.index).is_some_and(|source| source.spot().is_some());
-        let coordinates = self.coordinates.clone().filter(|_| bounded);
+    pub fn under(&self, shade: ShadeSource) -> Self {
+        let coordinates = self.coordinates.clone().filter(|_| self.source.spot().is_some());
         Self { shade, coordinates, counting: None, ..self.clone() }
     }
 
-    /// Light `index` of `scene` with a shade, and with the coordinates that the light's own reach needs: those of a
-    /// spotlight's frustum.
-    pub fn new(scene: &Scene, index: usize, shade: ShadeSource) -> Self {
+    /// Light `index` of a scene, `source`, with a shade, and with the coordinates that the light's own reach needs: those of
+    /// a spotlight's frustum.
+    pub fn new(source: &Light, index: usize, shade: ShadeSource) -> Self {
         Self {
             index,
+            source: Arc::new(source.clone()),
             shade,
-            coordinates: scene.lights.get(index).and_then(Light::frustum).map(Coordinates::of_frustum),
+            coordinates: source.frustum().map(Coordinates::of_frustum),
             dimming: 0.0,
             frustum_from_map: None,
             gain: Gain::ALL,

@@ -1,7 +1,7 @@
 //! Projections that maps are drawn from: the frustum of a spotlight, a face of the cube around a point light, the box
 //! across a directional light's rays. Matrices alone; knows no settings and no pass.
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::Crop;
 use crate::pass::CubeFace;
@@ -65,5 +65,14 @@ pub fn face_frustum(point: &Point, face: CubeFace) -> Frustum {
     let Point { position, near, far, .. } = *point;
     // A target so far away that its coordinates may round, but stay on the axis.
     let target = position + direction * position.abs().max_element().max(1.0);
-    Frustum { position, target, up, cone_radians: std::f64::consts::FRAC_PI_2, aspect: 1.0, near, far }
+    Frustum {
+        position,
+        target,
+        up,
+        cone_radians: std::f64::consts::FRAC_PI_2,
+        aspect: 1.0,
+        near,
+        far,
+        lean: DVec2::ZERO,
+    }
 }

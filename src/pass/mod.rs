@@ -135,6 +135,17 @@ impl Pass {
         }
     }
 
+    /// Every image that the pass names, to be renumbered.
+    pub fn images_mut(&mut self) -> Vec<&mut ImageId> {
+        match &mut self.work {
+            Work::CopyDepth { from, to, .. } => vec![from, to],
+            Work::Draw(DrawPass { target: Target { color, depth, .. }, batches, .. }) => {
+                let inputs = batches.iter_mut().flat_map(|batch| batch.inputs.iter_mut());
+                color.iter_mut().chain(depth.iter_mut()).chain(inputs.map(|input| &mut input.image)).collect()
+            }
+        }
+    }
+
     /// The image in whose stencil values the pass counts.
     pub fn counts_in(&self) -> Option<ImageId> {
         let Work::Draw(draw) = &self.work else { return None };

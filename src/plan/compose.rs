@@ -4,7 +4,7 @@ use glam::DMat4;
 
 use super::matrices::Matrices;
 use super::pictures::{Pictures, PlannedLight};
-use super::{Error, Plan, Request, Subject, ViewRequest};
+use super::{Error, Plan, Request, Subject, ViewRequest, lens};
 use crate::compositions::passes::Passes;
 use crate::geometry::Derived;
 use crate::lights::drawable::{items, note_clear};
@@ -12,7 +12,7 @@ use crate::lights::guard::Guard;
 use crate::lights::{CameraView, Drawable, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::PassList;
-use crate::scene::{Light, Scene};
+use crate::scene::{Focus, Light, Scene, Spot};
 use crate::surfaces;
 use crate::techniques::LightShadow;
 
@@ -29,17 +29,22 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         notes.chosen(object.name.clone(), "moved before it is drawn", why);
     }
     let camera = CameraView::new(scene, &items);
-    let view = LightView {
+    let view = |index| LightView {
         scene,
         items: &items,
         camera: &camera,
         derived,
-        index: 0,
+        index,
+        source: &scene.lights[index],
         shown_whole: false,
         keep_all: request.keep_all,
         sampled_warnings: request.sampled_warnings,
     };
-    let lights = planned_lights(&shadows, &view, request, &mut list, &mut notes);
+    let lights: Vec<PlannedLight> = shadows
+        .iter()
+        .enumerate()
+        .map(|(index, shadow)| planned_light(&view(index), shadow, request, &mut list, &mut notes))
+        .collect();
     let terms = || lights.iter().filter_map(|light| light.term.as_ref());
     let counts = terms().filter_map(|term| term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
@@ -67,9 +72,10 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         let image = pictures.view(wanted, &lights, buffers)?;
         views.push((*wanted, image));
     }
-    let maps = terms().filter_map(|term| term.map_info).collect();
+    let described = || lights.iter().filter_map(PlannedLight::described);
+    let maps = described().filter_map(|term| term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    let matrices = Matrices::new(scene, terms());
+    let matrices = Matrices::new(scene, described());
     Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps, matrices })
 }
 
@@ -79,36 +85,56 @@ fn shadows(scene: &Scene) -> Result<Vec<&LightShadow>, Error> {
     lights.map(|(light, source)| LightShadow::of(&source.shadow).ok_or(Error::Unread { light })).collect()
 }
 
-/// Describes every light that reaches something visible or that a view shows, and no other. `any`: the view of any light.
-fn planned_lights(
-    shadows: &[&LightShadow],
-    any: &LightView<'_>,
+/// Describes a light if it reaches something visible or a view shows it.
+fn planned_light(
+    view: &LightView<'_>,
+    shadow: &LightShadow,
     request: &Request,
     list: &mut PassList,
     notes: &mut Notes,
-) -> Vec<PlannedLight> {
-    let mut planned = Vec::new();
-    for (index, shadow) in shadows.iter().enumerate() {
-        let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
-        let shown = request.views.iter().any(|v| of_this(&v));
-        let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
-        // Things outside the camera's view may be in another viewer's.
-        let shown_whole = shown_whole || request.subject != Subject::Camera;
-        // Shadows are seen in the air, too.
-        let shown_whole = shown_whole || any.scene.lights[index].dust.is_some();
-        let view = LightView { index, shown_whole, ..*any };
-        let keep_all = view.keep_all;
-        let absent = why_absent(&view).filter(|_| !keep_all);
-        let mut term = (absent.is_none() || shown).then(|| shadow.describe(&view, list, notes));
-        if let Some(term) = term.as_mut().filter(|term| keep_all && term.guard == Guard::Auto) {
+) -> PlannedLight {
+    let (index, keep_all) = (view.index, view.keep_all);
+    let of_this = |v: &&ViewRequest| v.view.of_light() && v.light == index;
+    let shown = request.views.iter().any(|v| of_this(&v));
+    let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
+    // Things outside the camera's view may be in another viewer's.
+    let shown_whole = shown_whole || request.subject != Subject::Camera;
+    // Shadows are seen in the air, too.
+    let shown_whole = shown_whole || view.light().dust.is_some();
+    let view = LightView { shown_whole, ..*view };
+    let absent = why_absent(&view).filter(|_| !keep_all);
+    if let Some(why) = absent {
+        notes.left_out(format!("light {index}"), why);
+    }
+    let describe = |view: &LightView<'_>, list: &mut PassList, notes: &mut Notes| {
+        let mut term = shadow.describe(view, list, notes);
+        if keep_all && term.guard == Guard::Auto {
             term.guard = Guard::Fragment;
         }
-        if let Some(why) = absent {
-            notes.left_out(format!("light {index}"), why);
-        }
-        planned.push(PlannedLight { term, contributes: absent.is_none() });
+        term
+    };
+    let lens = view.light().spot().and_then(|spot| lens_in_use(spot, index, notes)).filter(|_| absent.is_none());
+    let focused = lens.map(|lens| lens::focused(&view, &lens, list, notes, &describe));
+    let contributes = absent.is_none() && focused.is_none();
+    // Views show the light from the middle of its lens, about which the picture has no more to say.
+    let mut unheard = Notes::default();
+    let notes = if focused.is_some() { &mut unheard } else { notes };
+    let term = (contributes || shown).then(|| describe(&view, list, notes));
+    PlannedLight { term, contributes, focused }
+}
+
+/// The spotlight's lens, where it changes the picture; notes why not.
+fn lens_in_use(spot: &Spot, index: usize, notes: &mut Notes) -> Option<Focus> {
+    let focus = spot.focus?;
+    if spot.lens().is_none() {
+        let why = if focus.samples == 1 {
+            "one lens point is its middle"
+        } else {
+            "all points of a lens of radius 0 are one"
+        };
+        notes.left_out(format!("focus of light {index}"), why);
     }
-    planned
+    spot.lens()
 }
 
 /// Reason why a light adds nothing to the picture, if there is one.
@@ -136,8 +162,8 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     if view.camera.visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
 }
 
-/// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position. Near and far bound the
+/// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position or its lens. Near and far bound the
 /// map's depths, not the light. `None`: nothing bounds it.
 fn reach(source: &Light) -> Option<DMat4> {
-    source.frustum().map(|frustum| frustum.unbounded().clip_from_world())
+    source.spot().map(|spot| spot.reach().unbounded().clip_from_world())
 }

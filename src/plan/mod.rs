@@ -2,6 +2,7 @@
 
 mod after_pass;
 mod compose;
+mod lens;
 pub mod matrices;
 mod pictures;
 mod print;

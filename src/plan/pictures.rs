@@ -3,6 +3,7 @@
 
 use super::{Error, Request, ViewRequest};
 use crate::compositions;
+use crate::compositions::focus::{self, Focused};
 use crate::compositions::passes::{Buffers, Onto, Passes};
 use crate::compositions::projection::CameraProjection;
 use crate::lights::guard::Guard;
@@ -17,6 +18,15 @@ pub struct PlannedLight {
     /// `None`: neither the picture nor a view needs the light, which is not described then.
     pub term: Option<LightTerm>,
     pub contributes: bool,
+    /// The light through its lens, which the picture needs in place of the term.
+    pub focused: Option<Focused>,
+}
+
+impl PlannedLight {
+    /// The light's term, or that of its first lens point.
+    pub fn described(&self) -> Option<&LightTerm> {
+        self.term.as_ref().or_else(|| Some(&self.focused.as_ref()?.points.first()?.term))
+    }
 }
 
 /// The passes of a frame's pictures.
@@ -34,18 +44,18 @@ impl Pictures<'_> {
         let composition = compositions::chosen(self.passes.scene, &terms)?;
         check_cuts(&terms)?;
         composition.check(self.passes.scene, &terms)?;
+        let focused: Vec<&Focused> = lights.iter().filter_map(|light| light.focused.as_ref()).collect();
+        focused.iter().try_for_each(|light| focus::check(light, self.passes.scene.shading.per_vertex))?;
         let items = self.passes.cut_items(&lens);
-        surfaces::explain_guards(
-            self.passes.scene,
-            &items,
-            &lens.camera,
-            &terms,
-            self.passes.derived,
-            self.passes.notes,
-        );
-        let buffers = self.buffers(composition.needs_stencil(&self.passes, &terms));
+        // A lens point's guards are explained by the first.
+        let first = focused.iter().filter_map(|light| Some(&light.points.first()?.term));
+        let explained: Vec<&LightTerm> = terms.iter().copied().chain(first).collect();
+        surfaces::explain_guards(&items, &lens.camera, &explained, self.passes.derived, self.passes.notes);
+        let stencil = composition.needs_stencil(&self.passes, &terms);
+        let buffers = self.buffers(stencil || !focused.is_empty());
         let target = buffers.target();
         composition.picture(&mut self.passes, target, &lens, &terms)?;
+        self.passes.focused(buffers, &lens, &focused)?;
         self.passes.dust(buffers, &lens, &terms)?;
         if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {
             let state = lens.of_surfaces(frustum_lines::STATE);
@@ -82,7 +92,7 @@ impl Pictures<'_> {
         };
         let viewer = Viewer { clip_from_eye: frustum.clip_from_view(), eye_from_world: frustum.view_from_world() };
         let lens = CameraProjection::of_viewer(viewer);
-        let term = LightTerm::unshadowed(scene, index);
+        let term = LightTerm::unshadowed(source, index);
         let first = self.passes.first(label, buffers.target(), &lens, self.passes.background());
         let onto = Onto { viewport: [side; 2], ..first };
         Ok(self.passes.surfaces(&onto, &[term], &Ending::Lit)?)

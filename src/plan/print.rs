@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
+use crate::compositions::focus;
 use crate::pass::{
     Blend, Channels, Compare, CubeFace, Define, DrawPass, DrawState, IndexOrder, Input, Pass, Primitive, Redraw,
     Stencil, StencilOp, StencilOps, Work,
@@ -254,7 +255,15 @@ fn op_name(op: StencilOp) -> &'static str {
 
 impl Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut repeated = 0;
         for (number, pass) in self.passes.iter().enumerate() {
+            if focus::repeats(&pass.label) {
+                repeated += 1;
+                continue;
+            }
+            if std::mem::take(&mut repeated) > 0 {
+                writeln!(f, "…  the same for the other lens points")?;
+            }
             let [width, height] = pass.size;
             writeln!(f, "{}. {} ({})", number + 1, pass.label, pass.redraw)?;
             let mut line = |name: &str, words: &[String]| -> fmt::Result {

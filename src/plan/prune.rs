@@ -4,12 +4,10 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Plan, Request};
+use crate::compositions::focus;
 use crate::lights::LeftOut;
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{
-    Channels, DrawPass, Format, ImageDesc, ImageId, IndexOrder, Input, Pass, PassList, Primitive, Redraw, Storage,
-    Target, Work,
-};
+use crate::pass::{Channels, Format, ImageDesc, ImageId, IndexOrder, Pass, PassList, Primitive, Redraw, Storage, Work};
 
 /// Prunes in place.
 pub fn prune(plan: &mut Plan, request: &Request) {
@@ -19,23 +17,29 @@ pub fn prune(plan: &mut Plan, request: &Request) {
     cull_draws(plan);
     drop_unread_passes(plan);
     drop_unused_images(plan);
+    plan.left_out.retain(|left| !focus::repeats(&left.what));
     choose_index_order(plan, request.frames);
 }
 
 /// The opposite of pruning: every pass in every frame, and a colour buffer for each depth pass.
 fn keep_all(plan: &mut Plan) {
     let PassList { images, passes } = &mut plan.list;
+    // One for all passes of a depth buffer: a light's lens points may be thousands.
+    let mut colors: HashMap<(Option<ImageId>, [u32; 2]), ImageId> = HashMap::new();
     for pass in passes {
         pass.redraw = Redraw::Always;
         let Work::Draw(draw) = &mut pass.work else { continue };
         if draw.target.color.is_none() {
-            images.push(ImageDesc {
-                label: format!("{}: colour", pass.label),
-                size: draw.viewport,
-                format: Format::Rgba8,
-                storage: Storage::Renderbuffer,
+            let color = *colors.entry((draw.target.depth, draw.viewport)).or_insert_with(|| {
+                images.push(ImageDesc {
+                    label: format!("{}: colour", pass.label),
+                    size: draw.viewport,
+                    format: Format::Rgba8,
+                    storage: Storage::Renderbuffer,
+                });
+                ImageId(images.len() - 1)
             });
-            draw.target.color = Some(ImageId(images.len() - 1));
+            draw.target.color = Some(color);
             draw.clear.color = Some([0.0; 4]);
             draw.state.color_write = Channels::All;
         }
@@ -114,19 +118,7 @@ pub(super) fn drop_unused_images(plan: &mut Plan) {
     let new = |id: &mut ImageId| *id = renumbered.get(id).copied().unwrap_or(*id);
     new(&mut plan.picture);
     plan.views.iter_mut().for_each(|(_, image)| new(image));
-    for pass in &mut plan.list.passes {
-        match &mut pass.work {
-            Work::CopyDepth { from, to, .. } => {
-                new(from);
-                new(to);
-            }
-            Work::Draw(DrawPass { target: Target { color, depth, .. }, batches, .. }) => {
-                color.iter_mut().chain(depth.iter_mut()).for_each(new);
-                let inputs = batches.iter_mut().flat_map(|batch| batch.inputs.iter_mut());
-                inputs.for_each(|Input { image, .. }| new(image));
-            }
-        }
-    }
+    plan.list.passes.iter_mut().flat_map(Pass::images_mut).for_each(new);
 }
 
 /// Sorting a scattered mesh for the vertex cache costs about as much as drawing it this many times; each draw then saves

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::sight::{Pyramid, Span};
-use super::{Camera, Frustum, Object};
+use super::{Camera, Object, Spot};
 use crate::math::{Aabb, spaces};
 
 /// The part of the picture's half height and half width that framed points may reach.
@@ -77,15 +77,18 @@ pub(super) fn depth_range(points: &[DVec3], camera: &Camera, seen: Span, radius:
 }
 
 /// Near and far planes of a spotlight (its own are ignored), around the contents of its frustum.
-pub(super) fn spot_range(frustum: &Frustum, objects: &[Object]) -> [f64; 2] {
-    let pyramid = Pyramid::of_frustum(frustum);
+pub(super) fn spot_range(spot: &Spot, objects: &[Object]) -> [f64; 2] {
+    let frustum = spot.reach();
+    let behind = frustum.position.distance(spot.frustum.position);
+    let pyramid = Pyramid::of_frustum(&frustum);
     let seen = objects.iter().fold(Span::EMPTY, |span, object| span.union(pyramid.span(object)));
-    let reach = frustum.position.distance(frustum.target);
+    let seen = Span { least: seen.least - behind, most: seen.most - behind, ..seen };
+    let reach = spot.frustum.position.distance(spot.frustum.target);
     let far = if seen.is_empty() { 2.0 * reach } else { 1.1 * seen.most };
     let near = near_before(seen, far, reach);
     // Before the boxes too, if that costs little: maps choose casters by their boxes.
     let boxes = objects.iter().map(|object| pyramid.span_of_box(object).least).fold(f64::INFINITY, f64::min);
-    let near = near.min(0.99 * boxes).max(0.25 * near);
+    let near = near.min(0.99 * (boxes - behind)).max(0.25 * near);
     // A map cannot show surfaces at the light's own position.
     [near, far.max(2.0 * near)]
 }

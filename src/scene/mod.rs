@@ -24,7 +24,7 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, Camera, Dust, DustBlend, Frustum, Image, ImageFilter, Law, Light, LightKind, LightShape, Object,
+    Background, Camera, Dust, DustBlend, Focus, Frustum, Image, ImageFilter, Law, Light, LightKind, LightShape, Object,
     PicturePasses, Point, Scene, Shading, Spot,
 };
 pub use ranges::{LARGEST, SMALLEST};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::Shadow;
 use crate::geometry::{Material, Mesh, Texture, Wave};
@@ -186,6 +186,20 @@ pub struct Spot {
     pub image_filter: ImageFilter,
     /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
+    /// Lens that the light comes through; `None`: all of it comes from one point.
+    pub focus: Option<Focus>,
+}
+
+/// A lens: the light comes from points of a disc around its position, across its axis. From each of them it is projected
+/// through a frustum of its own; all of these agree in the focal plane [SEG, 3.2; Haeberli and Akeley 1990].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Focus {
+    /// Distance of the focal plane along the axis, > 0.
+    pub distance: f64,
+    /// Radius of the lens in world units, >= 0; 0: one point.
+    pub radius: f64,
+    /// Number of lens points, in 1..=4096; 1: the lens's middle.
+    pub samples: u32,
 }
 
 /// A point light: it lights equally in all directions.
@@ -202,7 +216,7 @@ pub struct Point {
     pub attenuation: [f32; 3],
 }
 
-/// A symmetric frustum.
+/// A frustum, symmetric unless its axis leans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frustum {
     /// Apex, in world space.
@@ -219,6 +233,8 @@ pub struct Frustum {
     pub near: f64,
     /// Distance of the far plane along the axis.
     pub far: f64,
+    /// The middle of its cross-section at distance 1, to the right of and above its axis; (0, 0): symmetric.
+    pub lean: DVec2,
 }
 
 /// Shape at which a spotlight's light ends.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Shadow, Spot};
+use super::{Camera, Focus, Frustum, Image, Light, LightKind, Object, Scene, Shadow, Spot};
 use crate::math::{Aabb, spaces};
 
 /// Ratio of distance from the world's origin to size from which a scene is moved.
@@ -97,6 +97,33 @@ impl Light {
     }
 }
 
+impl Spot {
+    /// The focus, where it changes the picture: through several points of a lens that has a size.
+    pub fn lens(&self) -> Option<Focus> {
+        self.focus.filter(|focus| focus.samples > 1 && focus.radius > 0.0)
+    }
+
+    /// A frustum that holds the light's, through every point of its lens.
+    pub fn reach(&self) -> Frustum {
+        self.lens().map_or_else(|| self.frustum.clone(), |focus| self.frustum.around(&focus))
+    }
+}
+
+impl Focus {
+    /// Lens point `index` in 0..samples: its place to the right of and above the light's position. Points come in pairs
+    /// across the middle, which an odd number of them begins with. Each stands for the same area: pair j, from 0, lies at
+    /// the share √((2 j + 1) / samples) of the radius, or √((2 j + 2) / samples) of it around a point in the middle, and is
+    /// turned by π (√5 - 1) / 2 against the pair before it [Vogel 1979].
+    pub fn lens_point(&self, index: u32) -> DVec2 {
+        let odd = self.samples % 2;
+        let Some(paired) = index.checked_sub(odd) else { return DVec2::ZERO };
+        let (pair, sign) = (f64::from(paired / 2), if paired.is_multiple_of(2) { 1.0 } else { -1.0 });
+        let share = (2.0 * pair + 1.0 + f64::from(odd)) / f64::from(self.samples);
+        let angle = pair * std::f64::consts::PI * 0.5 * (5.0_f64.sqrt() - 1.0);
+        sign * self.radius * share.sqrt() * DVec2::from_angle(angle)
+    }
+}
+
 impl LightKind {
     /// The value of `kind` in a scene file.
     pub fn name(&self) -> &'static str {
@@ -114,15 +141,42 @@ impl Frustum {
         spaces::view_from_world(self.position, self.target, self.up)
     }
 
-    /// Perspective of the light's square image.
+    /// Perspective of the light's image.
     pub fn clip_from_view(&self) -> DMat4 {
-        spaces::perspective(self.cone_radians, self.aspect, self.near, self.far)
+        let mut clip = spaces::perspective(self.cone_radians, self.aspect, self.near, self.far);
+        clip.z_axis.x = self.lean.x * clip.x_axis.x;
+        clip.z_axis.y = self.lean.y * clip.y_axis.y;
+        clip
     }
 
     /// Half its width and half its height at distance 1.
     pub fn tangents(&self) -> DVec2 {
         let tan = (0.5 * self.cone_radians).tan();
         DVec2::new(tan * self.aspect, tan)
+    }
+
+    /// The same from a point of its lens: its apex moves, and the cross-section at the focal distance stays.
+    pub fn through(&self, lens_point: DVec2, focus: &Focus) -> Self {
+        let world_from_view = self.view_from_world().transpose();
+        let moved = world_from_view.transform_vector3(lens_point.extend(0.0));
+        let [position, target] = [self.position, self.target].map(|place| place + moved);
+        Self { position, target, lean: self.lean - lens_point / focus.distance, ..self.clone() }
+    }
+
+    /// A pyramid around those through all lens points. At the distance d these reach to `tan d + radius |1 - d / F|` from
+    /// the axis; with the tangent larger by radius / F, and the apex so far behind that it is as wide as the lens there, it
+    /// is wider everywhere.
+    fn around(&self, focus: &Focus) -> Self {
+        let tangents = self.tangents() + focus.radius / focus.distance;
+        let behind = focus.radius / tangents.min_element();
+        let ahead = (self.target - self.position).normalize();
+        Self {
+            position: self.position - behind * ahead,
+            cone_radians: 2.0 * tangents.y.atan(),
+            aspect: tangents.x / tangents.y,
+            far: self.far + behind,
+            ..self.clone()
+        }
     }
 
     /// The same pyramid from its apex to far beyond its far plane: the region that the light can reach.

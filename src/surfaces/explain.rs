@@ -6,27 +6,19 @@ use crate::geometry::Derived;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::{Drawable, LightTerm, Notes, Viewer};
 use crate::math::frustum::{self, Overlap};
-use crate::scene::Scene;
 
 /// Names that a sentence lists before it counts.
 const MOST_NAMES: usize = 3;
 
 /// Notes the guards that the items in `viewer`'s view need for each light, and what is left out for them.
-pub fn explain_guards(
-    scene: &Scene,
-    items: &[Drawable],
-    viewer: &Viewer,
-    terms: &[&LightTerm],
-    derived: &Derived,
-    notes: &mut Notes,
-) {
+pub fn explain_guards(items: &[Drawable], viewer: &Viewer, terms: &[&LightTerm], derived: &Derived, notes: &mut Notes) {
     let clip_from_world = viewer.clip_from_world();
     let seen = |item: &&Drawable| {
         frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
     };
     let seen: Vec<&Drawable> = items.iter().filter(seen).collect();
     for term in terms {
-        let Some(plane) = plane(scene, term, viewer) else { continue };
+        let Some(plane) = plane(term, viewer) else { continue };
         let on = |side| seen.iter().copied().filter(move |item| plane.side(item, viewer) == side).collect::<Vec<_>>();
         explain(term, &plane, viewer, [on(Side::Before), on(Side::Across), on(Side::Behind)], derived, notes);
     }

@@ -8,7 +8,6 @@ use super::partition::partition;
 use crate::geometry::Derived;
 use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::{Drawable, LightTerm, Viewer};
-use crate::scene::Scene;
 
 /// Part of a light that an item is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +43,6 @@ pub const MOST_CLIP_PLANES: usize = 3;
 
 /// The pieces that `items` are drawn as.
 pub fn pieces(
-    scene: &Scene,
     items: &[Drawable],
     viewer: &Viewer,
     terms: &[LightTerm],
@@ -54,16 +52,15 @@ pub fn pieces(
     let whole = |item: &Drawable| Piece { item: item.clone(), reaches: Vec::new(), clip_planes: Vec::new() };
     let mut pieces: Vec<Piece> = items.iter().map(whole).collect();
     for term in terms {
-        let plane = plane(scene, term, viewer);
+        let plane = plane(term, viewer);
         let one = |piece| under(piece, term, plane.as_ref(), viewer, ending, derived);
         pieces = pieces.into_iter().flat_map(one).collect();
     }
     pieces
 }
 
-pub fn plane(scene: &Scene, term: &LightTerm, viewer: &Viewer) -> Option<LightPlane> {
-    let bounded = scene.lights.get(term.index).is_some_and(|source| source.spot().is_some());
-    LightPlane::of(term.coordinates.as_ref(), bounded, viewer)
+pub fn plane(term: &LightTerm, viewer: &Viewer) -> Option<LightPlane> {
+    LightPlane::of(term.coordinates.as_ref(), term.source.spot().is_some(), viewer)
 }
 
 /// Splits `piece` for one more light.

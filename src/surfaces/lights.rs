@@ -14,7 +14,7 @@ use crate::math::texgen;
 use crate::pass::{
     Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
-use crate::scene::{ImageFilter, Law, Light, LightKind, LightShape, Scene, Spot};
+use crate::scene::{ImageFilter, Law, Light, LightKind, LightShape, Spot};
 
 /// The picture has the ambient light already.
 pub const ADDED: Define = Define::flag("ADDED");
@@ -56,8 +56,8 @@ pub struct Variants<'a> {
 const SIDE_EXPONENT: f64 = 28.0;
 
 impl<'a> Variants<'a> {
-    pub fn new(scene: &Scene, items: &[Drawable], term: &'a LightTerm, viewer: &Viewer) -> Self {
-        let plane = guarded::plane(scene, term, viewer).filter(|_| term.guard == Guard::Texture1d);
+    pub fn new(items: &[Drawable], term: &'a LightTerm, viewer: &Viewer) -> Self {
+        let plane = guarded::plane(term, viewer).filter(|_| term.guard == Guard::Texture1d);
         let side_plane = plane.map_or(Vec4::ZERO, |plane| {
             let exponent = SIDE_EXPONENT - plane.extent(items, viewer).max(1e-30).log2().ceil();
             plane.q_from_eye.as_vec4() * exponent.clamp(-100.0, 100.0).exp2() as f32
@@ -66,17 +66,10 @@ impl<'a> Variants<'a> {
     }
 
     /// `None` where the light's transform has no inverse.
-    pub fn make(
-        &mut self,
-        scene: &Scene,
-        viewer: &Viewer,
-        reach: Reach,
-        ending: &Ending,
-        list: &mut PassList,
-    ) -> Option<()> {
+    pub fn make(&mut self, viewer: &Viewer, reach: Reach, ending: &Ending, list: &mut PassList) -> Option<()> {
         let made = &mut self.made[reach as usize];
         if made.is_none() {
-            let mut source = scene.lights[self.term.index].clone();
+            let mut source = Light::clone(&self.term.source);
             let Gain { ambient, diffuse, specular } = self.term.gain;
             for (color, gain) in
                 [(&mut source.ambient, ambient), (&mut source.diffuse, diffuse), (&mut source.specular, specular)]
@@ -87,7 +80,7 @@ impl<'a> Variants<'a> {
                 Reach::Nowhere if source.ambient == [0.0; 3] => None,
                 Reach::Nowhere => {
                     (source.diffuse, source.specular) = ([0.0; 3], [0.0; 3]);
-                    let mut term = self.term.under(scene, ShadeSource::dark());
+                    let mut term = self.term.under(ShadeSource::dark());
                     (term.coordinates, term.frustum_from_map, term.dimming) = (None, None, 0.0);
                     Some(light_parts(&source, viewer, &term, reach, ending, list)?)
                 }

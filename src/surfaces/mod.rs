@@ -31,13 +31,13 @@ pub fn batches(
     list: &mut PassList,
 ) -> Option<Vec<Batch>> {
     let clip_from_world = viewer.clip_from_world();
-    let pieces = guarded::pieces(scene, items, viewer, terms, ending, derived);
+    let pieces = guarded::pieces(items, viewer, terms, ending, derived);
     let adds = terms.iter().any(|term| term.addition != Addition::None);
     let ambient = !terms.iter().any(|term| term.addition == Addition::Light);
-    let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(scene, items, term, viewer)).collect();
+    let mut lights: Vec<Variants> = terms.iter().map(|term| Variants::new(items, term, viewer)).collect();
     for piece in &pieces {
         for (variants, reach) in lights.iter_mut().zip(&piece.reaches) {
-            variants.make(scene, viewer, *reach, ending, list)?;
+            variants.make(viewer, *reach, ending, list)?;
         }
     }
     let mut batches: Vec<Batch> = Vec::new();

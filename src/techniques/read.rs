@@ -92,10 +92,34 @@ pub fn read(written: Settings, kind: &LightKind, objects: &[Object]) -> Result<S
         let why = format_args!("= \"stencil\" does not go with {counting}: both tag in the one buffer");
         return Err(keys.error("guard", why));
     }
+    refuse_in_focus(kind, common.guard, settings.counts_by(), &keys)?;
     check_others(technique, &mut keys)?;
     keys.finish()?;
     settings.check(kind, objects)?;
     Ok(Shadow::new(written, LightShadow { technique, common, settings }))
+}
+
+/// Refuses keys of a light with a lens that its lens points cannot have.
+fn refuse_in_focus(
+    kind: &LightKind,
+    guard: Guard,
+    counts_by: Option<&'static str>,
+    keys: &Reader<'_>,
+) -> Result<(), SettingsError> {
+    if !matches!(kind, LightKind::Spot(spot) if spot.lens().is_some()) {
+        return Ok(());
+    }
+    let rule = "lens points are added one by one with depth EQUAL and a stencil bit for each";
+    if let Some(counting) = counts_by {
+        let why = format_args!("does not go with `focus`: {rule}, and {counting} counts there, too");
+        return Err(keys.error("technique", why));
+    }
+    match guard {
+        Guard::Stencil | Guard::ClipPlane => {
+            Err(keys.error("guard", format_args!("= \"{}\" does not go with `focus`: {rule}", guard.name())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// As [`read`], from the inside of an inline table: `technique = "shadow-map", size = 512`.

@@ -137,7 +137,7 @@ impl Tracer<'_> {
 }
 
 /// The image at (s, t), of the four texels around it; beyond the rim the rim's own.
-fn linear(image: &Texture, st: DVec2) -> DVec3 {
+pub(super) fn linear(image: &Texture, st: DVec2) -> DVec3 {
     let size = [image.width, image.height];
     let texel = |x: i64, y: i64| {
         let [x, y] = [(x, size[0]), (y, size[1])].map(|(at, size)| at.clamp(0, i64::from(size) - 1) as usize);

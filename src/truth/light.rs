@@ -39,7 +39,7 @@ impl Lamp {
     pub fn new(light: &Light, center: DVec3, radius: f64) -> Self {
         match &light.kind {
             LightKind::Spot(spot) => {
-                let Frustum { position, target, up, cone_radians, aspect, near, far } = spot.frustum;
+                let Frustum { position, target, up, cone_radians, aspect, near, far, .. } = spot.frustum;
                 let ahead = (target - position).normalize();
                 let right = ahead.cross(up).normalize();
                 let axes = [ahead, right, right.cross(ahead)];

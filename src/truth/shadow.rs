@@ -51,7 +51,7 @@ impl Tracer<'_> {
         (seen.normal.dot(to_light), tilt)
     }
 
-    fn shadow_beam(&self, seen: &SeenPoint<'_>) -> Beam {
+    pub(super) fn shadow_beam(&self, seen: &SeenPoint<'_>) -> Beam {
         Beam {
             apex: self.lamp.apex(seen.position),
             base: seen.position,
@@ -91,7 +91,7 @@ impl Tracer<'_> {
     }
 
     /// Tests whether nothing blocks the beam's middle.
-    fn is_clear_at_center(&self, beam: &Beam, seen: &SeenPoint<'_>) -> bool {
+    pub(super) fn is_clear_at_center(&self, beam: &Beam, seen: &SeenPoint<'_>) -> bool {
         let segment = Segment { origin: beam.origin(), direction: beam.axis(), start: beam.start, end: 1.0 };
         let mut is_clear = true;
         self.world.visit(

@@ -4,6 +4,7 @@
 mod child;
 mod floor;
 mod floor_gl;
+mod floor_lens;
 mod floor_maps;
 mod floor_passes;
 mod judge;

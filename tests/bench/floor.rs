@@ -11,6 +11,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use super::floor_gl::{self, Program};
+use super::floor_lens::Lens;
 use super::floor_maps::{self, MapPass};
 use super::floor_passes::{self, PicturePass};
 use super::kinds::{self, Kind};
@@ -28,6 +29,8 @@ pub struct Floor {
     /// Passes of the picture, where it takes several.
     passes: Vec<PicturePass>,
     picture_target: glow::Framebuffer,
+    /// Only for [`Kind::Lens`].
+    lens: Option<Lens>,
     size: i32,
     /// Indices of the model; those of the quad follow.
     model_indices: i32,
@@ -69,6 +72,8 @@ impl Floor {
         let passes = floor_passes::make(&gl, kind)?;
         let programs = [&lit].into_iter().chain(passes.iter().map(|pass| &pass.program));
         programs.for_each(|program| set_uniforms(&gl, kind, &numbers, program));
+        let lens = (kind == Kind::Lens).then(|| Lens::new(&gl, &numbers, camera(&numbers))).transpose()?;
+        let picture_target = lens.as_ref().map_or(picture_target, |lens| lens.picture);
         unsafe {
             gl.enable(glow::DEPTH_TEST);
             gl.polygon_offset(1.1, 4.0);
@@ -78,11 +83,14 @@ impl Floor {
         }
         let pixels = vec![0; 4 * (numbers.size * numbers.size) as usize];
         let Numbers { size, models, .. } = numbers;
-        Ok(Self { gl, kind, lit, maps, passes, picture_target, size, model_indices, models, pixels })
+        Ok(Self { gl, kind, lit, maps, passes, picture_target, lens, size, model_indices, models, pixels })
     }
 
     /// Draws the maps.
     pub fn depth_pass(&self) {
+        if self.lens.is_some() {
+            return; // each map comes before its lens point
+        }
         let gl = &self.gl;
         let offset = !matches!(self.kind, Kind::Midpoint | Kind::SecondDepth);
         unsafe {
@@ -107,6 +115,9 @@ impl Floor {
     /// Draws the picture.
     pub fn lit_pass(&self) {
         let gl = &self.gl;
+        if let (Some(lens), [map]) = (&self.lens, self.maps.as_slice()) {
+            return lens.draw(gl, self.size, map, &self.lit, |program| unsafe { self.draw(program) });
+        }
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.picture_target));
             gl.viewport(0, 0, self.size, self.size);
@@ -173,10 +184,15 @@ impl Floor {
     }
 }
 
-fn set_uniforms(gl: &glow::Context, kind: Kind, numbers: &Numbers, lit: &Program) {
+/// `clip_from_world` of the picture.
+fn camera(numbers: &Numbers) -> Mat4 {
     let [near, far] = numbers.near_far;
-    let clip_from_world = opengl::perspective(numbers.fov_y_degrees.to_radians(), 1.0, near, far)
-        * look_at_mat4(numbers.eye, numbers.target, Vec3::Y);
+    opengl::perspective(numbers.fov_y_degrees.to_radians(), 1.0, near, far)
+        * look_at_mat4(numbers.eye, numbers.target, Vec3::Y)
+}
+
+fn set_uniforms(gl: &glow::Context, kind: Kind, numbers: &Numbers, lit: &Program) {
+    let clip_from_world = camera(numbers);
     let (projection, view) = kinds::light_matrices(kind, numbers);
     let half = Mat4::from_translation(Vec3::splat(0.5)) * Mat4::from_scale(Vec3::splat(0.5));
     let [near, far] = numbers.light_near_far;

@@ -28,7 +28,14 @@ pub enum Kind {
     Slide,
     /// The shade in destination alpha.
     AlphaShadow,
+    /// A light through a lens: a map and an added pass for each of its points.
+    Lens,
 }
+
+/// The lens of [`Kind::Lens`].
+pub const LENS_POINTS: u32 = 64;
+pub const LENS_DISTANCE: f32 = 5.0;
+pub const LENS_RADIUS: f32 = 0.25;
 
 /// The shader that finds the shade, glumbra's own where it is more than one lookup: the floor is of calls.
 pub fn shade(kind: Kind) -> (&'static str, String) {
@@ -58,6 +65,7 @@ pub fn shade(kind: Kind) -> (&'static str, String) {
         ),
         Kind::Cube | Kind::Face => ("#define CUBE\n", String::new()),
         Kind::Parallel => ("#define PARALLEL\n", String::new()),
+        Kind::Lens => ("#define LENS\n", String::new()),
         Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth | Kind::Slide | Kind::AlphaShadow => {
             ("", String::new())
         }

@@ -38,5 +38,9 @@ void main()
 #endif
 #endif
     float lambert = max(dot(normalize(surface_normal), normalize(to_light)), 0.0);
+#ifdef LENS
+    color = vec4(vec3(material * (reach * shade * lambert / 64.0)), 0.0);
+#else
     color = vec4(vec3(material * (0.2 + reach * shade * lambert)), 1.0);
+#endif
 }

@@ -80,6 +80,12 @@ const WAYS: &[Way] = &[
     way("second-depth", Kind::SecondDepth, &["light.shadow.technique=second-depth", "light.shadow.closed=assume"]),
     by_light("cube, light aside: three faces needed", Kind::Cube, &[POINT_ASIDE]),
     by_light("cube, light above: one face needed", Kind::Face, &[POINT_ABOVE]),
+    Way { scene: Some(Scene::S1), expected: [Some(0.6), None], ..way("through a lens, 64 points", Kind::Lens, LENS) },
+    Way {
+        scene: Some(Scene::S1),
+        expected: [Some(0.6), None],
+        ..way("the same, casters at the map's resolution", Kind::Lens, LENS_AT_RESOLUTION)
+    },
     by_light("directional", Kind::Parallel, &[PARALLEL]),
     Way {
         expected: [Some(0.8); 2],
@@ -101,6 +107,10 @@ const WAYS: &[Way] = &[
     way("shadow-volume, z-pass-capped", Kind::Map, &[VOLUMES, "light.shadow.method=z-pass-capped"]),
     way("shadow-volume, z-fail", Kind::Map, &[VOLUMES, "light.shadow.method=z-fail"]),
 ];
+
+/// As [`super::kinds::LENS_POINTS`] and so on.
+const LENS: &[&str] = &["light.focus={ distance = 5.0, radius = 0.25, samples = 64 }"];
+const LENS_AT_RESOLUTION: &[&str] = &[LENS[0], "light.shadow.casters=texel"];
 
 const FITTED: &[&str] = &["light.shadow.fit=view", "light.shadow.size=512"];
 

@@ -265,6 +265,8 @@ const HEADINGS: &[&str] = &[
     "Segal 1992, 3.1 and Figure 3",
     "Segal 1992, 3.3",
     "Combining Shadows with Atmospherics",
+    "Hardware Shadow Map Filtering",
+    "Segal 1992, 3.1",
 ];
 
 #[test]

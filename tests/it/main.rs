@@ -23,6 +23,7 @@ mod figures;
 mod fit;
 mod fixed_function;
 mod floor;
+mod focus;
 mod generated;
 mod geometry_files;
 mod guards;

@@ -54,7 +54,16 @@ fn the_example_has_every_value_as_written() {
     let spot = light.spot().unwrap();
     let (position, target) = (dvec3(2.0, 4.0, 3.0), dvec3(0.0, 0.5, 0.0));
     let cone_radians = 60.0_f64.to_radians();
-    let frustum = Frustum { position, target, up: DVec3::Y, cone_radians, aspect: 1.0, near: 0.5, far: 20.0 };
+    let frustum = Frustum {
+        position,
+        target,
+        up: DVec3::Y,
+        cone_radians,
+        aspect: 1.0,
+        near: 0.5,
+        far: 20.0,
+        lean: glam::DVec2::ZERO,
+    };
     assert_eq!((&spot.frustum, spot.shape, light.name.as_str()), (&frustum, LightShape::Cone, "light 0"));
     assert_eq!((light.ambient, light.diffuse, light.specular), ([0.0; 3], [1.0; 3], [1.0; 3]));
     assert_eq!(spot.attenuation, [1.0, 0.0, 0.0]);

@@ -25,7 +25,7 @@ impl Composition for AlphaShadows {
 
     fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
         let parts = first_parts(passes.scene, terms);
-        groups::sizes(passes.scene, &parts).len() > 1
+        groups::sizes(&parts).len() > 1
             || (!terms.is_empty() && Once::find(passes, &CameraProjection::of_scene(passes.scene)).0)
     }
 
@@ -105,7 +105,7 @@ impl Passes<'_> {
 
     /// The part of a light that its shadow takes, without the shadow.
     fn light_alone(&self, term: &LightTerm) -> LightTerm {
-        let mut alone = LightTerm { dimming: 0.0, ..unshadowed(self.scene, term) };
+        let mut alone = LightTerm { dimming: 0.0, ..unshadowed(term) };
         if self.scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             alone.addition = Addition::Clamped;

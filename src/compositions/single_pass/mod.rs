@@ -6,7 +6,7 @@ use super::passes::Passes;
 use super::projection::CameraProjection;
 use super::{Composition, Error};
 use crate::lights::LightTerm;
-use crate::pass::Target;
+use crate::pass::{Format, Target};
 use crate::scene::{PicturePasses, Scene};
 
 pub struct SinglePass;
@@ -20,12 +20,12 @@ impl Composition for SinglePass {
         scene.shading.passes == PicturePasses::One && terms.iter().all(|term| term.counting.is_none())
     }
 
-    fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
-        groups::sizes(passes.scene, terms.iter().copied()).len() > 1
+    fn needs_stencil(&self, _passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
+        groups::sizes(terms.iter().copied()).len() > 1
     }
 
-    fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
-        groups::check(scene, terms)
+    fn check(&self, _scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+        groups::check(terms)
     }
 
     fn picture(
@@ -36,7 +36,8 @@ impl Composition for SinglePass {
         terms: &[&LightTerm],
     ) -> Result<(), Error> {
         let has_stencil = self.needs_stencil(passes, terms);
-        if !has_stencil {
+        let depth = target.depth.map(|depth| passes.list.desc(depth).format);
+        if !has_stencil && depth != Some(Format::Depth24Stencil8) {
             passes.notes.left_out("stencil buffer", "no technique of this scene counts in it");
         }
         let terms: Vec<LightTerm> = terms.iter().copied().cloned().collect();

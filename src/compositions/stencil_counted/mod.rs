@@ -142,7 +142,7 @@ impl Passes<'_> {
         let others: Vec<&LightTerm> = terms.iter().filter(others).copied().collect();
         for (stencil, is_lit) in [(LIT, true), (UNLIT, false)] {
             let part = |term: &&LightTerm| match is_lit && term.index == index {
-                true => Some(once_counted(self.scene, term)),
+                true => Some(once_counted(term)),
                 false => self.uncounted_part(term),
             };
             let parts: Vec<LightTerm> = terms.iter().filter_map(part).collect();
@@ -263,7 +263,7 @@ impl Passes<'_> {
             }),
             ..self.first(&label, target, lens, [0.0; 4])
         };
-        let mut lit = LightTerm { dimming, ..once_counted(self.scene, term) };
+        let mut lit = LightTerm { dimming, ..once_counted(term) };
         if self.scene.shading.per_vertex {
             // Lighting per vertex is clamped beside the ambient light, which is there already.
             lit.addition = Addition::Clamped;
@@ -298,7 +298,7 @@ fn of_all(term: &LightTerm) -> bool {
 }
 
 /// The term of a light where its count is 0: the lookup that tagged the surfaces is not repeated.
-fn once_counted(scene: &Scene, term: &LightTerm) -> LightTerm {
+fn once_counted(term: &LightTerm) -> LightTerm {
     let tagged = term.counting.as_ref().is_some_and(StencilCount::tags);
-    if tagged { term.under(scene, ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
+    if tagged { term.under(ShadeSource::lit()) } else { LightTerm { counting: None, ..term.clone() } }
 }

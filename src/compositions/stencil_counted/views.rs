@@ -38,11 +38,11 @@ impl Passes<'_> {
             }
             _ => {}
         }
-        let lit = once_counted(self.scene, term);
+        let lit = once_counted(term);
         let Some((ending, lit)) = views::camera_pass(view, &lit) else {
             return Err(Error::NoCount { view: view.name(), light: term.index });
         };
-        let shadowed = term.under(self.scene, ShadeSource::dark());
+        let shadowed = term.under(ShadeSource::dark());
         let onto = self.first(label, target, &lens, [0.0; 4]);
         self.surfaces(&onto, &[shadowed], &ending)?;
         self.count(target, &lens, term, counting, &format!("{label}: "), Redraw::Always)?;
@@ -64,7 +64,7 @@ impl Passes<'_> {
         counting: &StencilCount,
     ) -> Result<ImageId, Error> {
         let target = buffers.target();
-        let unshadowed = term.under(self.scene, ShadeSource::lit());
+        let unshadowed = term.under(ShadeSource::lit());
         let onto = self.first(label, target, lens, self.background());
         self.surfaces(&onto, &[unshadowed], &Ending::Lit)?;
         let (draws, name): (&[VolumeDraw], _) = match view {

@@ -1,13 +1,13 @@
 //! `[[light]]`: one table, three kinds of light, each with its own keys.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
 use crate::scene::{
-    Dust, DustBlend, Error, Frustum, ImageFilter, Law, Light, LightKind, LightShape, Object, Point, ReadShadow, Spot,
-    camera_framing,
+    Dust, DustBlend, Error, Focus, Frustum, ImageFilter, Law, Light, LightKind, LightShape, Object, Point, ReadShadow,
+    Spot, camera_framing,
 };
 
 /// Greatest colour component of a light.
@@ -92,8 +92,10 @@ impl LightKeys {
             LightKind::Point(point) => {
                 (camera_framing::cube_range(point.position, objects), &mut point.near, &mut point.far)
             }
-            LightKind::Spot(Spot { frustum, .. }) => {
-                (camera_framing::spot_range(frustum, objects), &mut frustum.near, &mut frustum.far)
+            LightKind::Spot(spot) => {
+                let found = camera_framing::spot_range(spot, objects);
+                let frustum = &mut spot.frustum;
+                (found, &mut frustum.near, &mut frustum.far)
             }
             LightKind::Directional { .. } => return Ok(()),
         };
@@ -113,7 +115,7 @@ fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
     let position = position(reader)?;
     let target = reader.vector("target")?.ok_or_else(|| reader.missing("target", "what the light points at"))?;
     let up = reader.up(["position", "target"], position, target)?;
-    let frustum = Frustum { position, target, up, cone_radians, aspect, near: 0.0, far: 0.0 };
+    let frustum = Frustum { position, target, up, cone_radians, aspect, near: 0.0, far: 0.0, lean: DVec2::ZERO };
     let attenuation = attenuation(reader)?;
     let frustum_shown = reader.choice("frustum", &[("hidden", false), ("shown", true)])?.unwrap_or(false);
     let image_filter = reader.choice("filter", &FILTERS)?;
@@ -121,7 +123,8 @@ fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
         return Err(reader.error("filter", "is of the light's `image`, which is missing"));
     }
     let image_filter = image_filter.unwrap_or(ImageFilter::Linear);
-    Ok(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown })
+    let focus = focus(reader)?;
+    Ok(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown, focus })
 }
 
 /// Width over height of a light's frustum; only of one that ends at its sides.
@@ -134,14 +137,14 @@ fn aspect(reader: &mut Reader<'_>, shape: LightShape) -> Result<f64, SettingsErr
 }
 
 fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
-    let others = ["cone", "shape", "aspect", "target", "up", "image", "filter", "frustum", "direction"];
+    let others = ["cone", "shape", "aspect", "target", "up", "image", "filter", "frustum", "focus", "direction"];
     reader.refuse(&others, "is no key of a point light, which shines every way alike")?;
     Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
 }
 
 /// `direction`, or the direction from `position` to `target`.
 fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
-    let others = ["cone", "shape", "aspect", "up", "near", "far", "image", "filter", "frustum", "attenuation"];
+    let others = ["cone", "shape", "aspect", "up", "near", "far", "image", "filter", "frustum", "focus", "attenuation"];
     reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;
     let (position, target) = (reader.vector("position")?, reader.vector("target")?);
     if let Some(direction) = reader.vector("direction")? {
@@ -171,6 +174,24 @@ fn attenuation(reader: &mut Reader<'_>) -> Result<[f32; 3], SettingsError> {
     Ok(factors)
 }
 
+/// Greatest number of lens points.
+const MOST_LENS_POINTS: i64 = 4096;
+
+/// `focus`.
+fn focus(reader: &mut Reader<'_>) -> Result<Option<Focus>, SettingsError> {
+    let Some(table) = reader.table("focus")? else { return Ok(None) };
+    let mut keys = table.read();
+    let distance = keys
+        .length("distance")?
+        .ok_or_else(|| keys.missing("distance", "where the focal plane lies along the light's axis"))?;
+    let radius = keys
+        .number("radius", 0.0..=LARGEST)?
+        .ok_or_else(|| keys.missing("radius", "of the lens that the light comes through, in world units"))?;
+    let samples = keys.integer("samples", 1..=MOST_LENS_POINTS)?.unwrap_or(64) as u32;
+    keys.finish()?;
+    Ok(Some(Focus { distance, radius, samples }))
+}
+
 /// Greatest number of slices of a beam.
 const MOST_SLICES: i64 = 4096;
 
@@ -181,6 +202,9 @@ fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, Setti
         let message =
             format_args!("needs a spotlight, whose beam slices can fill, and this is a {} light", kind.name());
         return Err(reader.error("dust", message));
+    }
+    if matches!(kind, LightKind::Spot(Spot { focus: Some(_), .. })) {
+        return Err(reader.error("dust", "cannot stand beside `focus`: slices show a beam from one point alone"));
     }
     let mut keys = table.read();
     let density = keys

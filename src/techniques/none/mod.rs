@@ -43,6 +43,6 @@ impl Technique for Unshadowed {
 
 impl ShadowSettings for Unshadowed {
     fn describe(&self, view: &LightView<'_>, _list: &mut PassList, _notes: &mut Notes) -> LightTerm {
-        LightTerm::unshadowed(view.scene, view.index)
+        LightTerm::unshadowed(view.light(), view.index)
     }
 }

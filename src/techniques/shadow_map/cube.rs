@@ -198,7 +198,7 @@ fn term(view: &LightView<'_>, point: &Point, map: ImageId, settings: &Settings) 
     let index = view.index;
     let meaning = Shade::Shader("a shade that is looked up in a cube map");
     let shade = ShadeSource::of(glsl!("shadow_map/cube.frag"), meaning);
-    let mut term = LightTerm::new(view.scene, index, shade);
+    let mut term = LightTerm::new(view.light(), index, shade);
     term.coordinates = Some(Coordinates {
         texture_from_light_clip: DMat4::IDENTITY,
         receiver_bias: DMat4::IDENTITY,

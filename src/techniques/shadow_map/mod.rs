@@ -181,5 +181,5 @@ pub(super) fn one_view<'a>(view: &LightView<'a>, settings: &Settings, notes: &mu
 pub(super) fn without_casters(view: &LightView<'_>, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
     notes.left_out(format!("the map of light {}", view.index), why);
-    LightTerm::unshadowed(view.scene, view.index)
+    LightTerm::unshadowed(view.light(), view.index)
 }

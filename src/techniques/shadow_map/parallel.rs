@@ -184,6 +184,7 @@ mod tests {
             camera: &camera,
             derived: &derived,
             index: 0,
+            source: &scene.lights[0],
             shown_whole,
             keep_all,
             sampled_warnings,

@@ -25,7 +25,7 @@ pub fn term(view: &FrustumView<'_>, map: ImageId, settings: &Settings, texels: f
         uniforms: Vec::new(),
         inputs: vec![Input { name: name.into(), image: map, sampler: sampler(view.projector.rays, settings) }],
     };
-    let mut term = LightTerm::new(view.scene, index, shade);
+    let mut term = LightTerm::new(view.light(), index, shade);
     // A floating-point map does not clamp the compared depth to [0, 1]: the shader must. A normal offset can move that depth
     // out of range in any format. The other biases clamp at every tap.
     if clamped && settings.bias == Bias::Offset || settings.bias == Bias::NormalOffset {
@@ -126,7 +126,9 @@ fn look_up(term: &mut LightTerm, coordinates: &Coordinates, view: &FrustumView<'
                 term.shade.uniforms.push(Uniform::of_light("light_from_texture", index, light_from_texture));
             } else {
                 let scale = [texture.x_axis.x * light_clip.x_axis.x, texture.y_axis.y * light_clip.y_axis.y];
-                let from_map = [1.0 / scale[0], 1.0 / scale[1], texture.w_axis.x, texture.w_axis.y];
+                // w is -z.
+                let ahead = -texture_from_light.z_axis;
+                let from_map = [1.0 / scale[0], 1.0 / scale[1], ahead.x, ahead.y];
                 term.shade.uniforms.push(Uniform::of_light(
                     "light_from_map",
                     index,

@@ -68,7 +68,7 @@ impl Technique for ShadowVolume {
 
 impl ShadowSettings for Settings {
     fn describe(&self, view: &LightView<'_>, _list: &mut PassList, notes: &mut Notes) -> LightTerm {
-        let mut term = LightTerm::unshadowed(view.scene, view.index);
+        let mut term = LightTerm::unshadowed(view.light(), view.index);
         let casting = casting_objects(view.items, view.derived);
         explain(view, &casting, notes);
         let ways = choice::ways(view, &casting, self, notes);

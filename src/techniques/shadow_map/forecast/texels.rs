@@ -197,7 +197,7 @@ impl<'a> Texels<'a> {
         let (from, to) = match self.projector.rays {
             Rays::From { .. } => {
                 let far = self.distance(1.0);
-                (DVec3::ZERO, (light / scale).extend(-1.0) * far)
+                (DVec3::ZERO, ((light + clip.z_axis.truncate().truncate()) / scale).extend(-1.0) * far)
             }
             Rays::Along(_) => {
                 let at = (light - clip.w_axis.truncate().truncate()) / scale;
