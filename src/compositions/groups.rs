@@ -30,8 +30,11 @@ const ONCE: Stencil = Stencil {
 /// Number of textures that a light takes in the lit pass.
 fn textures(scene: &Scene, term: &LightTerm) -> usize {
     let spot = scene.lights.get(term.index).and_then(|light| light.spot());
-    let image = spot.is_some_and(|spot| spot.image.is_some());
-    term.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
+    let projected = spot.map_or(0, |spot| {
+        let (image, beam, falloff) = (spot.plain_image().is_some(), spot.beam.is_some(), spot.falloff.is_some());
+        usize::from(image) + usize::from(beam) + usize::from(falloff)
+    });
+    term.inputs.len() + projected + usize::from(term.guard == Guard::Texture1d)
 }
 
 /// Number of lights in each group, in order. One group, which may be empty, at least.

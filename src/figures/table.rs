@@ -287,6 +287,9 @@ pub const FIGURES: &[Figure] = &[
                   eye's ray has left all volumes but a few, too little is left and the far rim of the shadow is lit. Wrapping \
                   counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
     },
+    super::projected::SWIMMING,
+    super::projected::BEAMS,
+    super::projected::FALLOFF,
 ];
 
 /// A light that is hardly higher than the left box.

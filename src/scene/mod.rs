@@ -10,6 +10,7 @@ mod model;
 mod overrides;
 mod parse;
 mod print;
+mod projected;
 mod ranges;
 mod resolve;
 mod settings;
@@ -21,8 +22,9 @@ use std::path::Path;
 
 pub use default_scene::{Floor, framing};
 pub use error::Error;
-pub use model::{
-    Camera, Frustum, Image, ImageFilter, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot,
+pub use model::{Camera, Frustum, Image, Light, LightKind, LightShape, Object, Point, Scene, Shading, Spot};
+pub use projected::{
+    BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
 };
 pub use ranges::{LARGEST, SMALLEST};
 pub use resolve::MAX_IMAGE_SIDE;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use super::Settings;
+use super::{Falloff, ImageFilter, Interpolation, LightBeam, Settings};
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
@@ -20,9 +20,9 @@ pub struct Scene {
 impl Scene {
     /// The textures of lights, objects and meshes; one that is used twice comes twice.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
-        let of_lights = self.lights.iter().filter_map(|light| match &light.kind {
-            LightKind::Spot(spot) => spot.image.as_deref(),
-            LightKind::Point(_) | LightKind::Directional { .. } => None,
+        let of_lights = self.lights.iter().filter_map(Light::spot).flat_map(|spot| {
+            let of_beam = spot.beam.iter().flat_map(|beam| [Some(&*beam.map), beam.shield.as_deref()]);
+            of_beam.chain([spot.image.as_deref()]).flatten()
         });
         let materials =
             self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
@@ -97,6 +97,11 @@ pub struct Spot {
     /// [`Frustum::up`].
     pub image: Option<Arc<Texture>>,
     pub image_filter: ImageFilter,
+    /// Intensity over the cross-section; modulates diffuse and specular, too.
+    pub beam: Option<LightBeam>,
+    /// Intensity along the axis; modulates diffuse and specular, too, beside `attenuation`.
+    pub falloff: Option<Falloff>,
+    pub interpolation: Interpolation,
     /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
 }
@@ -136,15 +141,6 @@ pub enum LightShape {
     Cone,
     /// At the frustum's sides, as in the sample programs.
     Frustum,
-}
-
-/// Filter of a light's image. None reads a texel beyond the image's border.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ImageFilter {
-    Nearest,
-    Linear,
-    /// Between and within mipmap levels, by the image's own footprint in the picture.
-    Trilinear,
 }
 
 /// A mesh placed in the world.

@@ -1,8 +1,11 @@
 //! Matrices and bounds of a scene.
 
+use std::sync::Arc;
+
 use glam::{DMat4, DVec2, DVec3};
 
 use super::{Camera, Frustum, Image, Light, LightKind, Object, Scene, Spot};
+use crate::geometry::Texture;
 use crate::math::{Aabb, spaces};
 
 /// Ratio of distance from the world's origin to size from which a scene is moved.
@@ -90,6 +93,14 @@ impl Light {
             LightKind::Point(point) => point.attenuation,
             LightKind::Directional { .. } => [1.0, 0.0, 0.0],
         }
+    }
+}
+
+impl Spot {
+    /// The image that is projected beside the beam's map: none if a lens moves it, for the map has it then.
+    pub fn plain_image(&self) -> Option<&Arc<Texture>> {
+        let has_lens = self.beam.as_ref().is_some_and(|beam| beam.lens != 0.0);
+        self.image.as_ref().filter(|_| !has_lens)
     }
 }
 

@@ -2,11 +2,11 @@
 //! Illumination Model"]. They depend on how much of the light an item is drawn with. Knows lights and terms; no item's
 //! material.
 
-use glam::{DMat4, Vec3, Vec4};
+use glam::{DMat4, DVec2, Vec3, Vec4};
 
 use super::Ending;
 use super::guarded::{self, Reach};
-use crate::lights::drawable::{side_map, upload};
+use crate::lights::drawable::{side_map, upload, upload_values};
 use crate::lights::guard::Guard;
 use crate::lights::light::{Addition, Gain};
 use crate::lights::{Drawable, LightTerm, Viewer};
@@ -14,7 +14,9 @@ use crate::math::texgen;
 use crate::pass::{
     Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
-use crate::scene::{ImageFilter, Light, LightKind, LightShape, Scene, Spot};
+use crate::scene::{
+    DistanceTable, Frustum, ImageFilter, Interpolation, Light, LightKind, LightShape, Scene, Spot, TableSteps,
+};
 
 /// Parts of one light in every variant.
 pub struct LightParts {
@@ -153,14 +155,24 @@ fn light_parts(
     };
     if let Some(projection) = &projection {
         add_texgen(&mut parts, &projection.texgen);
+        let interpolation = source.spot().map_or(Interpolation::Perspective, |spot| spot.interpolation);
+        let define = match interpolation {
+            Interpolation::Perspective => None,
+            Interpolation::Affine => Some("AFFINE"),
+            Interpolation::Segal => Some(OVER_W),
+        };
+        parts.defines.extend(define.map(|define| Define::flag(define).of_light(index)));
     }
     if cone {
         parts.defines.push(Define::flag("CONE").of_light(index));
     }
-    if spot.is_some() {
+    if let Some(spot) = spot {
         add_guard(&mut parts, reach, list);
         if term.guard == Guard::None {
             parts.meaning.shade = Shade::Shader("light behind a light, which guard = \"none\" asks for");
+        }
+        if let Some(why) = beyond_fixed_function(spot, ending) {
+            parts.meaning.shade = Shade::Shader(why);
         }
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
@@ -174,6 +186,17 @@ fn light_parts(
         add_lighting(&mut parts, source, spot, viewer, term, list);
     }
     Some(parts)
+}
+
+/// Divides the light's coordinates by w, for items that allow it.
+pub const OVER_W: &str = "OVER_W";
+
+/// Feature of a spotlight that fixed function lacks, in words.
+fn beyond_fixed_function(spot: &Spot, ending: &Ending) -> Option<&'static str> {
+    if spot.interpolation == Interpolation::Affine {
+        return Some("coordinates interpolated without perspective, which interpolate = \"affine\" asks for");
+    }
+    (*ending == Ending::Lit && spot.falloff.is_some()).then_some("a law of planar distance, in a table of floats")
 }
 
 /// Adds the guard that replaces the fragment's test of q.
@@ -204,7 +227,8 @@ fn meaning(
     term: &LightTerm,
     projection: Option<Projection>,
 ) -> FixedFunctionLight {
-    let has_image = spot.is_some_and(|spot| spot.image.is_some());
+    let image = spot.and_then(|spot| spot.plain_image()).map(|_| format!("spot_image_{}", term.index).into());
+    let map = spot.and_then(|spot| spot.beam.as_ref()).map(|_| format!("beam_map_{}", term.index).into());
     FixedFunctionLight {
         index: term.index,
         position: eye_position(source, viewer).to_array(),
@@ -212,7 +236,7 @@ fn meaning(
         diffuse: source.diffuse,
         specular: source.specular,
         attenuation: source.attenuation(),
-        beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
+        beams: image.into_iter().chain(map).collect(),
         dimming: term.dimming,
         projection,
         shade: term.meaning.clone(),
@@ -239,6 +263,45 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
         parts.defines.push(Define::flag("TEXTURE_MATRIX").of_light(parts.index));
         parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
     }
+}
+
+/// Adds what modulates a spotlight's diffuse and specular light: its image, its beam, its law of distance.
+fn add_projected(parts: &mut LightParts, spot: &Spot, list: &mut PassList) {
+    let index = parts.index;
+    if let Some(image) = spot.plain_image() {
+        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
+        if spot.image_filter == ImageFilter::Trilinear {
+            parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
+        }
+        parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
+    }
+    if let Some(beam) = &spot.beam {
+        parts.defines.push(Define::flag("BEAM_MAP").of_light(index));
+        parts.inputs.push(upload(format!("beam_map_{index}"), &beam.map, image_sampler(ImageFilter::Linear), list));
+    }
+    if let Some(falloff) = &spot.falloff {
+        parts.defines.push(Define::flag("FALLOFF").of_light(index));
+        if falloff.table.steps == TableSteps::Depth {
+            parts.defines.push(Define::flag("FALLOFF_DEPTH").of_light(index));
+        }
+        let place = falloff_place(&falloff.table, &spot.frustum).as_vec2();
+        parts.uniforms.push(Uniform::of_light("falloff_place", index, place));
+        let label = format!("distances of light {index}");
+        parts.inputs.push(upload_values(format!("falloff_{index}"), label, &falloff.table.values, list));
+    }
+}
+
+/// Scale and offset that make a distance, or its inverse, a texture coordinate at the centres of the first and the last
+/// texel for the near and far planes. The inverse stands for the depth in window space, z_t = (f - n f / d) / (f - n).
+fn falloff_place(table: &DistanceTable, frustum: &Frustum) -> DVec2 {
+    let (near, far) = (frustum.near, frustum.far);
+    let range = far - near;
+    let share = match table.steps {
+        TableSteps::Distance => DVec2::new(1.0, -near) / range,
+        TableSteps::Depth => DVec2::new(-near * far, far) / range,
+    };
+    let count = table.values.len() as f64;
+    (share * (count - 1.0) + DVec2::new(0.0, 0.5)) / count
 }
 
 fn add_lighting(
@@ -270,12 +333,8 @@ fn add_lighting(
         parts.defines.push(Define::flag("DIMMING").of_light(index));
         parts.uniforms.push(Uniform::of_light("dimming", index, term.dimming));
     }
-    if let Some((spot, image)) = spot.and_then(|spot| Some((spot, spot.image.as_ref()?))) {
-        parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
-        if spot.image_filter == ImageFilter::Trilinear {
-            parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
-        }
-        parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
+    if let Some(spot) = spot {
+        add_projected(parts, spot, list);
     }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
 }

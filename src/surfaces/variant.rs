@@ -2,10 +2,11 @@
 
 use glam::{Vec3, Vec4};
 
-use super::lights::LightParts;
+use super::lights::{self, LightParts};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::{Drawable, Ending, Viewer};
+use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, ShadeView, Uniform,
     glsl,
@@ -95,7 +96,7 @@ pub fn of(
     attributes.extend(cut.attributes.iter().copied());
     let program = Program {
         label: String::from("surface"),
-        defines: defines(item, lights, ending, needs, &cut),
+        defines: defines(item, lights, ending, needs, &cut, viewer),
         vertex: vertex(lights, ending, needs, &cut),
         fragment: fragment(lights, ending, needs, &cut),
         attributes,
@@ -162,7 +163,14 @@ fn material_uniforms(material: &Material, needs: Needs, any_light: bool) -> Vec<
     uniforms
 }
 
-fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
+fn defines(
+    item: &Drawable,
+    lights: &[&LightParts],
+    ending: &Ending,
+    needs: Needs,
+    cut: &Cutout,
+    viewer: &Viewer,
+) -> Vec<Define> {
     let lit = *ending == Ending::Lit;
     let decal = lit && item.decal().is_some();
     let per_fragment = needs.normals && !needs.per_vertex;
@@ -183,7 +191,9 @@ fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Need
     ];
     let mut defines: Vec<Define> = cut.defines.clone();
     defines.extend(flags.into_iter().filter(|(_, set)| *set).map(|(define, _)| define));
-    defines.extend(lights.iter().flat_map(|light| light.defines.iter().cloned()));
+    let divides = is_in_view(item, viewer);
+    let of_light = lights.iter().flat_map(|light| light.defines.iter().cloned());
+    defines.extend(of_light.filter(|define| divides || define.name() != lights::OVER_W));
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
     let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
@@ -198,6 +208,12 @@ fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Need
         defines.push(Define::calls("ILLUMINATE", "surface, lit", calls("illuminate_@(surface, lit);")));
     }
     defines
+}
+
+/// Tests whether all of an item lies in the eye's view: no vertex is then made by clipping. Not every driver clips what is
+/// interpolated without perspective as GL has it, and what is divided by w has no meaning at vertices behind the eye.
+fn is_in_view(item: &Drawable, viewer: &Viewer) -> bool {
+    frustum::overlap(&(viewer.clip_from_world() * item.world_from_model), &item.bounds) == Overlap::Inside
 }
 
 fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {

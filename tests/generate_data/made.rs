@@ -22,6 +22,8 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     std::fs::write(folder.join("meshes/dense.obj"), obj_text(&positions, &triangles))?;
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
+    textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
+    textures::head_light().save(folder.join("textures/head-light.png"))?;
     Ok(())
 }
 

@@ -222,6 +222,8 @@ const HEADINGS: &[&str] = &[
     "For Shadow Volumes With Intersecting Polygons",
     "Shadow Volume Near Plane Clipping Artifacts",
     "Alternative to Near Plane Capping: Carmack's Reverse",
+    "Segal 1992, 2",
+    "Segal 1992, 3.2",
 ];
 
 #[test]

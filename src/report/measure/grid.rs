@@ -176,12 +176,21 @@ mod tests {
     use super::*;
 
     fn spot() -> LightKind {
-        use crate::scene::{Frustum, ImageFilter, LightShape, Spot};
+        use crate::scene::{Frustum, ImageFilter, Interpolation, LightShape, Spot};
         let (position, target, up) = (glam::DVec3::Y, glam::DVec3::ZERO, glam::DVec3::Z);
         let frustum = Frustum { position, target, up, cone_radians: 1.0, aspect: 1.0, near: 0.1, far: 10.0 };
         let attenuation = [1.0, 0.0, 0.0];
-        let (shape, image_filter) = (LightShape::Cone, ImageFilter::Linear);
-        LightKind::Spot(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown: false })
+        LightKind::Spot(Spot {
+            frustum,
+            shape: LightShape::Cone,
+            attenuation,
+            image: None,
+            image_filter: ImageFilter::Linear,
+            beam: None,
+            falloff: None,
+            interpolation: Interpolation::Perspective,
+            frustum_shown: false,
+        })
     }
 
     fn load_text(text: &str) -> Result<Vec<Settings>, String> {

@@ -2,10 +2,14 @@
 
 use glam::DVec3;
 
+use super::{beam, falloff};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
-use crate::scene::{Error, Frustum, ImageFilter, Light, LightKind, LightShape, Object, Point, Spot, camera_framing};
+use crate::scene::{
+    Error, FalloffLaw, Frustum, ImageFilter, Interpolation, Light, LightKind, LightShape, Object, Point, Spot,
+    camera_framing,
+};
 
 /// Greatest colour component of a light.
 const BRIGHTEST: f64 = 1e6;
@@ -17,6 +21,12 @@ const ASPECTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 const FILTERS: [(&str, ImageFilter); 3] =
     [("nearest", ImageFilter::Nearest), ("linear", ImageFilter::Linear), ("trilinear", ImageFilter::Trilinear)];
+
+const INTERPOLATIONS: [(&str, Interpolation); 3] =
+    [("perspective", Interpolation::Perspective), ("affine", Interpolation::Affine), ("segal", Interpolation::Segal)];
+
+/// Keys of light that is projected through a frustum.
+const PROJECTED: [&str; 7] = ["aspect", "image", "filter", "beam", "falloff", "interpolate", "frustum"];
 
 /// The value of `kind`.
 #[derive(Clone, Copy)]
@@ -34,6 +44,8 @@ pub(super) struct LightKeys {
     settings: Settings,
     /// The light; its planes are not known yet.
     light: Light,
+    /// Law of `falloff`, whose table needs the planes.
+    law: Option<FalloffLaw>,
     near: Option<f64>,
     far: Option<f64>,
 }
@@ -44,6 +56,8 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let kind = reader.choice("kind", &KINDS)?.unwrap_or(KindKey::Spot);
     let [near, far] = reader.near_and_far()?;
     let image = reader.file("image")?;
+    let beam = reader.table("beam")?.filter(|_| matches!(kind, KindKey::Spot)).map(beam::read).transpose()?;
+    let law = falloff::read(&mut reader)?;
     let kind = match kind {
         KindKey::Spot => LightKind::Spot(spot(&mut reader)?),
         KindKey::Point => LightKind::Point(point(&mut reader)?),
@@ -57,16 +71,17 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
     let mut light = Light { kind, ambient, diffuse, specular, name, shadow };
-    if let (LightKind::Spot(spot), Some((name, origin))) = (&mut light.kind, image) {
-        spot.image = Some(assets.texture(name, origin)?);
+    if let LightKind::Spot(spot) = &mut light.kind {
+        spot.image = image.map(|(name, origin)| assets.texture(name, origin)).transpose()?;
+        spot.beam = beam.map(|keys| beam::bake(keys, spot, &light.name, assets)).transpose()?;
     }
-    Ok(LightKeys { settings: table.clone(), light, near, far })
+    Ok(LightKeys { settings: table.clone(), light, law, near, far })
 }
 
 impl LightKeys {
     /// The light, its maps' range around `objects` if that is missing.
     pub fn complete(self, objects: &[Object]) -> Result<Light, SettingsError> {
-        let Self { settings, mut light, near: written_near, far: written_far } = self;
+        let Self { settings, mut light, law, near: written_near, far: written_far } = self;
         let (found, near, far) = match &mut light.kind {
             LightKind::Point(point) => {
                 (camera_framing::cube_range(point.position, objects), &mut point.near, &mut point.far)
@@ -79,6 +94,9 @@ impl LightKeys {
         *near = written_near.unwrap_or_else(|| written_far.map_or(found[0], |far| found[0].min(far / 2.0)));
         *far = written_far.unwrap_or_else(|| found[1].max(2.0 * *near));
         settings.read().check_far(*near, *far)?;
+        if let LightKind::Spot(spot) = &mut light.kind {
+            spot.falloff = law.map(|law| falloff::tabulate(law, &spot.frustum));
+        }
         Ok(light)
     }
 }
@@ -101,7 +119,9 @@ fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
         return Err(reader.error("filter", "is of the light's `image`, which is missing"));
     }
     let image_filter = image_filter.unwrap_or(ImageFilter::Linear);
-    Ok(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown })
+    let interpolation = reader.choice("interpolate", &INTERPOLATIONS)?.unwrap_or(Interpolation::Perspective);
+    let (image, beam, falloff) = (None, None, None);
+    Ok(Spot { frustum, shape, attenuation, image, image_filter, beam, falloff, interpolation, frustum_shown })
 }
 
 /// Width over height of a light's frustum; only of one that ends at its sides.
@@ -114,15 +134,18 @@ fn aspect(reader: &mut Reader<'_>, shape: LightShape) -> Result<f64, SettingsErr
 }
 
 fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
-    let others = ["cone", "shape", "aspect", "target", "up", "image", "filter", "frustum", "direction"];
-    reader.refuse(&others, "is no key of a point light, which shines every way alike")?;
+    let others = ["cone", "shape", "target", "up", "direction"];
+    reader.refuse(&[&others[..], &PROJECTED].concat(), "is no key of a point light, which shines every way alike")?;
     Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
 }
 
 /// `direction`, or the direction from `position` to `target`.
 fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
-    let others = ["cone", "shape", "aspect", "up", "near", "far", "image", "filter", "frustum", "attenuation"];
-    reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;
+    let others = ["cone", "shape", "up", "near", "far", "attenuation"];
+    reader.refuse(
+        &[&others[..], &PROJECTED].concat(),
+        "is no key of a directional light, whose rays are parallel and come from infinitely far",
+    )?;
     let (position, target) = (reader.vector("position")?, reader.vector("target")?);
     if let Some(direction) = reader.vector("direction")? {
         reader.refuse(&["position", "target"], "cannot stand beside `direction`: write the one or the others")?;

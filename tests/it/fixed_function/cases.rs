@@ -20,6 +20,8 @@ const KNOWN_LIMITS: &[&str] = &[
     "volumes have no modelview",
     "a clip plane of the vertex stage",
     "waves in the vertex stage",
+    "a law of planar distance",
+    "without perspective",
 ];
 
 #[test]
