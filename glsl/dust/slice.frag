@@ -1,8 +1,5 @@
 // A slice of light @'s beam in dusty air [LEC, "Combining Shadows with Atmospherics"]: the light that a layer of air scatters to the eye,
 // and with OVER its opacity in alpha. The colour has that opacity as a factor already.
-#ifdef SPOT_IMAGE_@
-uniform sampler2D spot_image_@;
-#endif
 #ifdef ATTENUATION_@
 uniform vec3 attenuation_@;
 uniform vec3 light_position_@;
@@ -30,16 +27,16 @@ void main()
 #else
     float optical = optical_depth;
 #endif
-#ifdef SPOT_IMAGE_@
-    // Before any branch, where derivatives are defined.
-    vec3 image = textureProj(spot_image_@, frustum_coord_@()).rgb;
-#else
-    const vec3 image = vec3(1.0);
+#ifdef PROJECTED_@
+    find_image_@();
 #endif
     if (!in_reach_@())
         discard;
     float shade = shade_@();
-    vec3 light = shade * image * light_diffuse_@;
+    vec3 light = shade * light_diffuse_@;
+#ifdef PROJECTED_@
+    light *= projected_@();
+#endif
 #ifdef ATTENUATION_@
     float away = distance(vec3(ray, -1.0) / gl_FragCoord.w, light_position_@);
     light /= dot(attenuation_@, vec3(1.0, away, away * away));

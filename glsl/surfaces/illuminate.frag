@@ -1,8 +1,5 @@
 // Adds light @ [LEC, "Advice for Shadowed Illumination Model"]:
 // diffuse by diffuseShade = dimming + (1 - dimming) shade, specular by shade.
-#ifdef SPOT_IMAGE_@
-uniform sampler2D spot_image_@;
-#endif
 #ifdef DIMMING_@
 uniform float dimming_@;
 #endif
@@ -22,13 +19,8 @@ void illuminate_@(Surface surface, EXACT inout Lit lit)
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif
-#ifdef IMAGE_GRADIENT_@
-    // Before any branch, where derivatives are defined. By the rule for quotients, at this fragment's own q: a neighbour's
-    // may be 0 or below.
-    vec3 image_coord = frustum_coord_@();
-    vec2 image_st = image_coord.xy / image_coord.z;
-    vec3 image_dx = dFdx(image_coord) / image_coord.z;
-    vec3 image_dy = dFdy(image_coord) / image_coord.z;
+#ifdef PROJECTED_@
+    find_image_@();
 #endif
     if (!in_reach_@())
         return;
@@ -41,11 +33,8 @@ void illuminate_@(Surface surface, EXACT inout Lit lit)
 #ifdef DIFFUSE_WEIGHT_@
     diffuse_shade *= diffuse_weight_@;
 #endif
-#ifdef IMAGE_GRADIENT_@
-    vec3 beam = textureGrad(spot_image_@, image_st, image_dx.xy - image_st * image_dx.z,
-                            image_dy.xy - image_st * image_dy.z).rgb;
-#elif defined(SPOT_IMAGE_@)
-    vec3 beam = textureProj(spot_image_@, frustum_coord_@()).rgb;
+#ifdef PROJECTED_@
+    vec3 beam = projected_@();
 #else
     const vec3 beam = vec3(1.0);
 #endif

@@ -4,7 +4,14 @@ uniform vec4 eye_planes_@[4];
 uniform mat4 texture_matrix_@;
 #endif
 
+#if defined(OVER_W_@)
+noperspective out vec4 light_coord_over_w_@;
+vec4 light_coord_@;
+#elif defined(AFFINE_@)
+noperspective out vec4 light_coord_@;
+#else
 out vec4 light_coord_@;
+#endif
 
 void texgen_@(vec4 eye)
 {
@@ -14,4 +21,7 @@ void texgen_@(vec4 eye)
     generated = texture_matrix_@ * generated;
 #endif
     light_coord_@ = generated;
+#ifdef OVER_W_@
+    light_coord_over_w_@ = generated / gl_Position.w;
+#endif
 }

@@ -83,6 +83,7 @@ Examples:
   glumbra stress
   glumbra stress --seed 7 --count 1000 -o out/stress
   glumbra stress --count 0 --case cone --technique shadow-map
+  glumbra stress --count 50 --case projected    random images, beams and laws of distance, judged by colour, too
   parallel glumbra stress --count 10000 --shard {}/4 -o part{} ::: 1 2 3 4";
 
 /// Scenes reduced at most: each takes some seconds.
@@ -139,7 +140,11 @@ fn cases(arguments: &StressArgs) -> Result<Vec<Case>, Error> {
     let named = named::cases()?.into_iter();
     let random = (0..arguments.count).map(|index| random::case(arguments.seed, index));
     let (part, parts) = arguments.shard;
-    let of_shard = named.chain(random).enumerate().filter(|(index, _)| index % parts == part - 1);
+    // Drawn where they are named: they take the colours of every pixel.
+    let named_projected = arguments.case.as_ref().is_some_and(|name| name.starts_with("projected"));
+    let projected = (0..if named_projected { arguments.count } else { 0 })
+        .map(|index| stress::projected::case(arguments.seed, index));
+    let of_shard = named.chain(random).chain(projected).enumerate().filter(|(index, _)| index % parts == part - 1);
     let is_wanted = |case: &Case| arguments.case.as_ref().is_none_or(|name| case.name.contains(name.as_str()));
     let cases: Vec<Case> = of_shard.map(|(_, case)| case).filter(is_wanted).collect();
     match (cases.is_empty(), &arguments.case) {

@@ -19,8 +19,11 @@ const MOST_TEXTURES: usize = 14;
 
 /// Number of textures that a light takes in the lit pass.
 fn textures(term: &LightTerm) -> usize {
-    let image = term.source.spot().is_some_and(|spot| spot.image.is_some());
-    term.shade.inputs.len() + usize::from(image) + usize::from(term.guard == Guard::Texture1d)
+    let projected = term.source.spot().map_or(0, |spot| {
+        let (image, beam, falloff) = (spot.plain_image().is_some(), spot.beam.is_some(), spot.falloff.is_some());
+        usize::from(image) + usize::from(beam) + usize::from(falloff)
+    });
+    term.shade.inputs.len() + projected + usize::from(term.guard == Guard::Texture1d)
 }
 
 /// Number of lights in each group, in order. One group, which may be empty, at least.

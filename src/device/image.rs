@@ -71,6 +71,7 @@ fn codes(format: Format) -> (u32, u32, u32) {
     match format {
         Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
         Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),
+        Format::R32F => (glow::R32F, glow::RED, glow::FLOAT),
         Format::Depth(depth) => {
             let internal = match depth {
                 DepthFormat::Depth16 => glow::DEPTH_COMPONENT16,
@@ -92,7 +93,8 @@ pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Erro
         Storage::Texture => create_texture(gl, desc, None, 1)?,
         Storage::Cube(cube) => create_cube(gl, desc, cube)?,
         Storage::Mipmapped(levels) => create_texture(gl, desc, None, *levels)?,
-        Storage::Line(texels) => create_line(gl, desc, texels)?,
+        Storage::Line(texels) => create_line(gl, desc, texels.len(), bytemuck::cast_slice(texels))?,
+        Storage::Values(values) => create_line(gl, desc, values.len(), bytemuck::cast_slice(values))?,
         Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba), 1)?,
     };
     let image = GpuImage { gl: gl.clone(), name };
@@ -141,15 +143,15 @@ fn create_texture(
     }
 }
 
-/// A 1D texture.
-fn create_line(gl: &glow::Context, desc: &ImageDesc, texels: &[[u8; 4]]) -> Result<ImageName, Error> {
+/// A 1D texture of `count` texels, in the format's bytes.
+fn create_line(gl: &glow::Context, desc: &ImageDesc, count: usize, texels: &[u8]) -> Result<ImageName, Error> {
     let (internal, format, kind) = codes(desc.format);
     // SAFETY: the context is current; the texels are as many as the size says.
     unsafe {
         let texture = gl.create_texture().map_err(Error::Create)?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(glow::TEXTURE_1D, Some(texture));
-        let (width, pixels) = (texels.len() as i32, glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(texels))));
+        let (width, pixels) = (count as i32, glow::PixelUnpackData::Slice(Some(texels)));
         gl.tex_image_1d(glow::TEXTURE_1D, 0, internal as i32, width, 0, format, kind, pixels);
         gl.tex_parameter_i32(glow::TEXTURE_1D, glow::TEXTURE_MAX_LEVEL, 0);
         gl.bind_texture(glow::TEXTURE_1D, None);

@@ -414,6 +414,9 @@ pub const FIGURES: &[Figure] = &[
         ],
         caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns                   stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
     },
+    super::projected::SWIMMING,
+    super::projected::BEAMS,
+    super::projected::FALLOFF,
 ];
 
 /// The spotlight without its image.

@@ -296,9 +296,7 @@ fn light_layer(
     }
     stack.shade(&light.shade, projection, parts.weight)?;
     if let Some(projection) = projection {
-        if let Some(beam) = &light.beam {
-            stack.beam(beam, projection)?;
-        }
+        light.beams.iter().try_for_each(|beam| stack.beam(beam, projection))?;
         stack.reach(projection, reach.behind, false);
     }
     if parts.diffuse && light.diffuse_weight < 1.0 {

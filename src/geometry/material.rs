@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Colours are linear and as written (no colour management), each channel in [0, 1].
 #[derive(Clone, Debug, PartialEq)]
@@ -135,6 +135,22 @@ impl Texture {
     /// The channel of a map_d that the alpha test reads: alpha, or red where all is opaque.
     pub fn alpha_channel(&self) -> usize {
         if self.has_alpha { 3 } else { 0 }
+    }
+
+    /// The colour at (s, t) by GL's linear filter in f64: weights between the centres of the four nearest texels, the edge's
+    /// own beyond it [GL 4.6, 8.14.2]. RGB, each in [0, 1].
+    pub fn bilinear(&self, st: DVec2) -> DVec3 {
+        let at = st * DVec2::new(f64::from(self.width), f64::from(self.height)) - 0.5;
+        let first = at.floor();
+        let part = at - first;
+        let texel = |x: f64, y: f64| {
+            let x = x.clamp(0.0, f64::from(self.width - 1)) as usize;
+            let y = y.clamp(0.0, f64::from(self.height - 1)) as usize;
+            let place = 4 * (y * self.width as usize + x);
+            DVec3::from_array([0, 1, 2].map(|k| f64::from(self.rgba[place + k]) / 255.0))
+        };
+        let row = |y: f64| texel(first.x, y).lerp(texel(first.x + 1.0, y), part.x);
+        row(first.y).lerp(row(first.y + 1.0), part.y)
     }
 
     /// The greatest value of a channel, in [0, 1].

@@ -308,6 +308,22 @@ pub fn side_map(name: impl Into<std::borrow::Cow<'static, str>>, list: &mut Pass
     Input { name: name.into(), image, sampler }
 }
 
+/// Binds a spotlight's law of distance.
+pub fn upload_values(
+    name: impl Into<std::borrow::Cow<'static, str>>,
+    label: String,
+    values: &Arc<[f32]>,
+    list: &mut PassList,
+) -> Input {
+    let storage = Storage::Values(values.clone());
+    let image = match list.images.iter().position(|desc| desc.storage == storage) {
+        Some(index) => ImageId(index),
+        None => list.image(ImageDesc { label, size: [values.len() as u32, 1], format: Format::R32F, storage }),
+    };
+    let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    Input { name: name.into(), image, sampler }
+}
+
 /// Binds a texture of the scene; the same one becomes one image however often it is bound.
 pub fn upload(
     name: impl Into<std::borrow::Cow<'static, str>>,

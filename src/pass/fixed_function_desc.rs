@@ -119,8 +119,8 @@ pub struct FixedFunctionLight {
     pub specular: [f32; 3],
     /// GL's constant, linear and quadratic attenuation.
     pub attenuation: [f32; 3],
-    /// The input that modulates diffuse and specular light, projected through the frustum.
-    pub beam: Option<Cow<'static, str>>,
+    /// The inputs that modulate diffuse and specular light, projected through the frustum.
+    pub beams: Vec<Cow<'static, str>>,
     /// The fraction of diffuse light that a full shadow leaves, in [0, 1].
     pub dimming: f32,
     /// Factor of the diffuse light behind all else, in [0, 1].

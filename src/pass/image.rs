@@ -39,6 +39,8 @@ pub enum Storage {
     Uploaded(Arc<Texture>),
     /// A 1D texture of these RGBA texels, of one level.
     Line(&'static [[u8; 4]]),
+    /// A 1D texture of these values, red in 32-bit floats, of one level.
+    Values(Arc<[f32]>),
 }
 
 impl Storage {
@@ -61,6 +63,7 @@ impl PartialEq for Storage {
             (Self::Cube(a), Self::Cube(b)) => a == b,
             (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
             (Self::Line(a), Self::Line(b)) => a == b,
+            (Self::Values(a), Self::Values(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
     }
@@ -110,6 +113,8 @@ pub enum Format {
     Rgba8,
     /// GL_RGBA32F.
     Rgba32F,
+    /// One 32-bit float.
+    R32F,
     /// Depth with a stated number of bits.
     Depth(DepthFormat),
     /// Unsized: the driver chooses the bits [GL 4.6, 8.5.1].
@@ -129,6 +134,7 @@ impl Format {
         match self {
             Self::Rgba8 => 4,
             Self::Rgba32F => 16,
+            Self::R32F => 4,
             Self::Depth(DepthFormat::Depth16) => 2,
             Self::Depth(_) | Self::UnsizedDepth | Self::Depth24Stencil8 => 4,
         }
@@ -164,6 +170,7 @@ impl fmt::Display for Format {
         f.write_str(match self {
             Self::Rgba8 => "RGBA8",
             Self::Rgba32F => "RGBA32F",
+            Self::R32F => "R32F",
             Self::Depth(DepthFormat::Depth16) => "DEPTH_COMPONENT16",
             Self::Depth(DepthFormat::Depth24) => "DEPTH_COMPONENT24",
             Self::Depth(DepthFormat::Depth32) => "DEPTH_COMPONENT32",

@@ -9,6 +9,7 @@ use crate::compositions::passes::Passes;
 use crate::geometry::Derived;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
+use crate::lights::projected::note_projected;
 use crate::lights::{CameraView, Drawable, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::PassList;
@@ -24,6 +25,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     let mut list = PassList::default();
     let mut notes = Notes::default();
     note_clear(scene, &mut notes);
+    note_projected(scene, &mut notes);
     for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);

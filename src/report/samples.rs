@@ -110,6 +110,7 @@ fn row(index: usize, technique: &str, settings: Vec<(String, String)>) -> Row {
     };
     let measured = Measured {
         metrics: metrics(wrong, size as u32),
+        colors: None,
         frame_redrawn: Spread { median: time, least: 0.96 * time, greatest: 1.08 * time, runs: 5 },
         frame_kept: Spread { median: 4.8, least: 4.7, greatest: 5.1, runs: 5 },
         passes: vec![pass("shadow map of light 0", time - 4.0, true), pass("lit", 4.0, false)],

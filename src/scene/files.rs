@@ -8,8 +8,13 @@ use super::{Error, Origin};
 use crate::geometry;
 
 /// The keys that name files, by the tables that have them.
-const KEYS: [(&str, &str); 4] =
-    [("light", "image"), ("object", "mesh"), ("object.material", "decal"), ("object.material", "alpha")];
+const KEYS: [(&str, &str); 5] = [
+    ("light", "image"),
+    ("light.beam", "shield"),
+    ("object", "mesh"),
+    ("object.material", "decal"),
+    ("object.material", "alpha"),
+];
 
 /// Makes each file's name an absolute path. `model`: the file around which the scene is supplied, which is named as it was
 /// given.

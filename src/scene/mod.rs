@@ -10,6 +10,7 @@ mod model;
 mod overrides;
 mod parse;
 mod print;
+mod projected;
 mod ranges;
 mod read_shadow;
 mod resolve;
@@ -24,8 +25,11 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, Camera, Dust, DustBlend, Focus, Frustum, Image, ImageFilter, Law, Light, LightKind, LightShape, Object,
+    Background, Camera, Dust, DustBlend, Focus, Frustum, Image, Law, Light, LightKind, LightShape, Object,
     PicturePasses, Point, Scene, Shading, Spot,
+};
+pub use projected::{
+    BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
 };
 pub use ranges::{LARGEST, SMALLEST};
 pub use read_shadow::ReadShadow;

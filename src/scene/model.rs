@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::Shadow;
+use super::{Falloff, ImageFilter, Interpolation, LightBeam, Shadow};
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
@@ -25,9 +25,9 @@ pub struct Scene {
 impl Scene {
     /// The textures of lights, objects and meshes; one that is used twice comes twice.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
-        let of_lights = self.lights.iter().filter_map(|light| match &light.kind {
-            LightKind::Spot(spot) => spot.image.as_deref(),
-            LightKind::Point(_) | LightKind::Directional { .. } => None,
+        let of_lights = self.lights.iter().filter_map(Light::spot).flat_map(|spot| {
+            let of_beam = spot.beam.iter().flat_map(|beam| [Some(&*beam.map), beam.shield.as_deref()]);
+            of_beam.chain([spot.image.as_deref()]).flatten()
         });
         let materials =
             self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
@@ -184,6 +184,12 @@ pub struct Spot {
     pub image: Option<Arc<Texture>>,
     /// Filter of `image`.
     pub image_filter: ImageFilter,
+    /// Intensity over the cross-section; modulates diffuse and specular, too.
+    pub beam: Option<LightBeam>,
+    /// Intensity along the axis; modulates diffuse and specular, too, beside `attenuation`.
+    pub falloff: Option<Falloff>,
+    /// Interpolation of its texture coordinates.
+    pub interpolation: Interpolation,
     /// True if the frustum is drawn as a wire cube in the camera's picture.
     pub frustum_shown: bool,
     /// Lens that the light comes through; `None`: all of it comes from one point.
@@ -244,17 +250,6 @@ pub enum LightShape {
     Cone,
     /// At the frustum's sides, as in the sample programs.
     Frustum,
-}
-
-/// Filter of a light's image. None reads a texel beyond the image's border.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ImageFilter {
-    /// The texel at the point.
-    Nearest,
-    /// The four texels around it.
-    Linear,
-    /// Between and within mipmap levels, by the image's own footprint in the picture.
-    Trilinear,
 }
 
 /// A mesh placed in the world.

@@ -1,10 +1,12 @@
 //! Matrices and bounds of a scene.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 
 use super::{Camera, Focus, Frustum, Image, Light, LightKind, Object, Scene, Shadow, Spot};
+use crate::geometry::Texture;
 use crate::math::{Aabb, spaces};
 
 /// Ratio of distance from the world's origin to size from which a scene is moved.
@@ -98,6 +100,12 @@ impl Light {
 }
 
 impl Spot {
+    /// The image that is projected beside the beam's map: none if a lens moves it, for the map has it then.
+    pub fn plain_image(&self) -> Option<&Arc<Texture>> {
+        let has_lens = self.beam.as_ref().is_some_and(|beam| beam.lens != 0.0);
+        self.image.as_ref().filter(|_| !has_lens)
+    }
+
     /// The focus, where it changes the picture: through several points of a lens that has a size.
     pub fn lens(&self) -> Option<Focus> {
         self.focus.filter(|focus| focus.samples > 1 && focus.radius > 0.0)

@@ -55,6 +55,8 @@ files! {
     "nested_256.obj" at "stress/meshes/nested_256.obj",
     "nested_300.obj" at "stress/meshes/nested_300.obj",
     "fence.png" at "meshes/fence.png",
+    "floor.png" at "textures/floor.png",
+    "barn-doors.png" at "textures/barn-doors.png",
 }
 
 /// The files of [`FILES`] that a scene's text names.

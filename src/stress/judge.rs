@@ -280,7 +280,10 @@ fn in_one_light(scene: &Scene, light: usize) -> Scene {
         lamp.specular = [0.0; 3];
         lamp.diffuse = [if index == light { 1.0 } else { 0.0 }; 3];
         match &mut lamp.kind {
-            LightKind::Spot(spot) => (spot.attenuation, spot.image) = ([1.0, 0.0, 0.0], None),
+            LightKind::Spot(spot) => {
+                (spot.attenuation, spot.image) = ([1.0, 0.0, 0.0], None);
+                (spot.beam, spot.falloff) = (None, None);
+            }
             LightKind::Point(point) => point.attenuation = [1.0, 0.0, 0.0],
             LightKind::Directional { .. } => {}
         }

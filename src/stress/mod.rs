@@ -9,6 +9,7 @@ mod judge;
 pub mod named;
 mod page;
 mod plot;
+pub mod projected;
 pub mod random;
 mod reduce;
 mod results;

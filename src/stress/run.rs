@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::case::Case;
 use super::judge::{Judge, Judged};
+use super::projected::color_row;
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
 use super::rows::{RowSettings, row_of, rows};
 use crate::context::{self, ContextRequest};
@@ -95,6 +96,11 @@ fn draw_rows(
             }
             result.rows.push(judged.row);
         }
+    }
+    if options.technique.is_none() && case.name.starts_with("projected") {
+        let mut row = color_row(&scene, renderer);
+        row.add_warnings(&loaded.warnings);
+        result.rows.push(row);
     }
     result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     Ok(())

@@ -2,11 +2,11 @@
 //! Illumination Model"]. They depend on how much of the light an item is drawn with. Knows lights and terms; no item's
 //! material.
 
-use glam::{DMat4, Vec3, Vec4};
+use glam::{DMat4, DVec2, Vec3, Vec4};
 
 use super::Ending;
 use super::guarded::{self, Reach};
-use crate::lights::drawable::{side_map, upload};
+use crate::lights::drawable::{side_map, upload, upload_values};
 use crate::lights::guard::Guard;
 use crate::lights::light::{Addition, Gain, ShadeSource};
 use crate::lights::{Drawable, LightTerm, Viewer};
@@ -14,7 +14,9 @@ use crate::math::texgen;
 use crate::pass::{
     Chunk, Define, Filter, FixedFunctionLight, Input, PassList, Projection, Sampler, Shade, Uniform, Wrap, glsl,
 };
-use crate::scene::{ImageFilter, Law, Light, LightKind, LightShape, Spot};
+use crate::scene::{
+    DistanceTable, Frustum, ImageFilter, Interpolation, Law, Light, LightKind, LightShape, Spot, TableSteps,
+};
 
 /// The picture has the ambient light already.
 pub const ADDED: Define = Define::flag("ADDED");
@@ -32,6 +34,8 @@ pub struct LightParts {
     /// Defines `void find_side_@(vec4 eye)`, and `float side_@()` of what that found, 0 behind the light.
     pub side: Option<[Chunk; 2]>,
     pub has_coordinates: bool,
+    /// Defines `vec3 projected_@()`: image, beam and law of distance.
+    pub projected: Option<Chunk>,
     pub meaning: FixedFunctionLight,
     pub has_specular: bool,
     pub has_ambient: bool,
@@ -143,6 +147,7 @@ fn light_parts(
         inputs,
         reach: in_reach.for_light(index),
         side: None,
+        projected: None,
         has_coordinates: projection.is_some(),
         meaning: meaning(source, spot, viewer, term, projection.clone()),
         has_position: source.position().is_some(),
@@ -153,14 +158,24 @@ fn light_parts(
     };
     if let Some(projection) = &projection {
         add_texgen(&mut parts, &projection.texgen);
+        let interpolation = source.spot().map_or(Interpolation::Perspective, |spot| spot.interpolation);
+        let define = match interpolation {
+            Interpolation::Perspective => None,
+            Interpolation::Affine => Some("AFFINE"),
+            Interpolation::Segal => Some(OVER_W),
+        };
+        parts.defines.extend(define.map(|define| Define::flag(define).of_light(index)));
     }
     if cone {
         parts.defines.push(Define::flag("CONE").of_light(index));
     }
-    if spot.is_some() {
+    if let Some(spot) = spot {
         add_guard(&mut parts, reach, list);
         if term.guard == Guard::None {
             parts.meaning.shade = Shade::Shader("light behind a light, which guard = \"none\" asks for");
+        }
+        if let Some(why) = beyond_fixed_function(spot, ending) {
+            parts.meaning.shade = Shade::Shader(why);
         }
     }
     if let Some(frustum_from_map) = term.frustum_from_map {
@@ -176,6 +191,17 @@ fn light_parts(
         add_beam(&mut parts, source, spot, viewer, list);
     }
     Some(parts)
+}
+
+/// Divides the light's coordinates by w, for items that allow it.
+pub const OVER_W: &str = "OVER_W";
+
+/// Feature of a spotlight that fixed function lacks, in words.
+fn beyond_fixed_function(spot: &Spot, ending: &Ending) -> Option<&'static str> {
+    if spot.interpolation == Interpolation::Affine {
+        return Some("coordinates interpolated without perspective, which interpolate = \"affine\" asks for");
+    }
+    (*ending == Ending::Lit && spot.falloff.is_some()).then_some("a law of planar distance, in a table of floats")
 }
 
 /// Adds the guard that replaces the fragment's test of q.
@@ -206,7 +232,8 @@ fn meaning(
     term: &LightTerm,
     projection: Option<Projection>,
 ) -> FixedFunctionLight {
-    let has_image = spot.is_some_and(|spot| spot.image.is_some());
+    let image = spot.and_then(|spot| spot.plain_image()).map(|_| format!("spot_image_{}", term.index).into());
+    let map = spot.and_then(|spot| spot.beam.as_ref()).map(|_| format!("beam_map_{}", term.index).into());
     FixedFunctionLight {
         index: term.index,
         cosine: source.law == Law::Lit,
@@ -215,7 +242,7 @@ fn meaning(
         diffuse: source.diffuse,
         specular: source.specular,
         attenuation: source.attenuation(),
-        beam: has_image.then(|| format!("spot_image_{}", term.index).into()),
+        beams: image.into_iter().chain(map).collect(),
         dimming: term.dimming,
         diffuse_weight: term.diffuse_weight,
         projection,
@@ -245,11 +272,13 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     }
 }
 
-/// Adds the light's colour, image and attenuation, without a surface that they fall on.
+/// Adds the light's colour, attenuation and what is projected through its frustum, without a surface that they fall on.
 fn add_beam(parts: &mut LightParts, source: &Light, spot: Option<&Spot>, viewer: &Viewer, list: &mut PassList) {
     let index = parts.index;
     parts.uniforms.push(Uniform::of_light("light_diffuse", index, Vec3::from(source.diffuse)));
-    add_image(parts, spot, list);
+    if let Some(spot) = spot {
+        add_projected(parts, spot, list);
+    }
     if parts.has_attenuation {
         parts.defines.push(Define::flag("ATTENUATION").of_light(index));
         parts.uniforms.push(Uniform::of_light("attenuation", index, Vec3::from(source.attenuation())));
@@ -257,16 +286,47 @@ fn add_beam(parts: &mut LightParts, source: &Light, spot: Option<&Spot>, viewer:
     }
 }
 
-/// Adds the image that is projected through the light's frustum, if there is one.
-fn add_image(parts: &mut LightParts, spot: Option<&Spot>, list: &mut PassList) {
+/// Adds what modulates a spotlight's diffuse and specular light: its image, its beam, its law of distance.
+fn add_projected(parts: &mut LightParts, spot: &Spot, list: &mut PassList) {
     let index = parts.index;
-    if let Some((spot, image)) = spot.and_then(|spot| Some((spot, spot.image.as_ref()?))) {
+    if spot.plain_image().is_some() || spot.beam.is_some() || spot.falloff.is_some() {
+        parts.defines.push(Define::flag("PROJECTED").of_light(index));
+        parts.projected = Some(glsl!("surfaces/projected.frag").for_light(index));
+    }
+    if let Some(image) = spot.plain_image() {
         parts.defines.push(Define::flag("SPOT_IMAGE").of_light(index));
         if spot.image_filter == ImageFilter::Trilinear {
             parts.defines.push(Define::flag("IMAGE_GRADIENT").of_light(index));
         }
         parts.inputs.push(upload(format!("spot_image_{index}"), image, image_sampler(spot.image_filter), list));
     }
+    if let Some(beam) = &spot.beam {
+        parts.defines.push(Define::flag("BEAM_MAP").of_light(index));
+        parts.inputs.push(upload(format!("beam_map_{index}"), &beam.map, image_sampler(ImageFilter::Linear), list));
+    }
+    if let Some(falloff) = &spot.falloff {
+        parts.defines.push(Define::flag("FALLOFF").of_light(index));
+        if falloff.table.steps == TableSteps::Depth {
+            parts.defines.push(Define::flag("FALLOFF_DEPTH").of_light(index));
+        }
+        let place = falloff_place(&falloff.table, &spot.frustum).as_vec2();
+        parts.uniforms.push(Uniform::of_light("falloff_place", index, place));
+        let label = format!("distances of light {index}");
+        parts.inputs.push(upload_values(format!("falloff_{index}"), label, &falloff.table.values, list));
+    }
+}
+
+/// Scale and offset that make a distance, or its inverse, a texture coordinate at the centres of the first and the last
+/// texel for the near and far planes. The inverse stands for the depth in window space, z_t = (f - n f / d) / (f - n).
+fn falloff_place(table: &DistanceTable, frustum: &Frustum) -> DVec2 {
+    let (near, far) = (frustum.near, frustum.far);
+    let range = far - near;
+    let share = match table.steps {
+        TableSteps::Distance => DVec2::new(1.0, -near) / range,
+        TableSteps::Depth => DVec2::new(-near * far, far) / range,
+    };
+    let count = table.values.len() as f64;
+    (share * (count - 1.0) + DVec2::new(0.0, 0.5)) / count
 }
 
 fn add_lighting(
@@ -305,6 +365,8 @@ fn add_lighting(
         parts.defines.push(Define::flag("DIFFUSE_WEIGHT").of_light(index));
         parts.uniforms.push(Uniform::of_light("diffuse_weight", index, term.diffuse_weight));
     }
-    add_image(parts, spot, list);
+    if let Some(spot) = spot {
+        add_projected(parts, spot, list);
+    }
     parts.uniforms.push(Uniform::of_light("light_specular", index, Vec3::from(source.specular)));
 }

@@ -2,10 +2,11 @@
 
 use glam::{Vec3, Vec4};
 
-use super::lights::{ADDED, LightParts};
+use super::lights::{self, ADDED, LightParts};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::{Drawable, Ending, Factors, Viewer};
+use crate::math::frustum::{self, Overlap};
 use crate::pass::{
     Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, ShadeView, Uniform,
     glsl,
@@ -102,7 +103,7 @@ pub fn of(
     attributes.extend(cut.attributes.iter().copied());
     let program = Program {
         label: String::from("surface"),
-        defines: defines(item, lights, ending, needs, &cut),
+        defines: defines(item, lights, ending, needs, &cut, viewer),
         vertex: vertex(lights, ending, needs, &cut),
         fragment: fragment(lights, ending, needs, &cut),
         attributes,
@@ -210,7 +211,14 @@ fn shows_decal(ending: &Ending) -> bool {
     }
 }
 
-fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Define> {
+fn defines(
+    item: &Drawable,
+    lights: &[&LightParts],
+    ending: &Ending,
+    needs: Needs,
+    cut: &Cutout,
+    viewer: &Viewer,
+) -> Vec<Define> {
     let (lit, shows_light) = (*ending == Ending::Lit, ending.shows_light());
     let decal = shows_decal(ending) && item.decal().is_some();
     let unlit = !item.lit || (!lights.is_empty() && !needs.normals);
@@ -236,7 +244,9 @@ fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Need
     ];
     let mut defines: Vec<Define> = cut.defines.clone();
     defines.extend(flags.into_iter().filter(|(_, set)| *set).map(|(define, _)| define));
-    defines.extend(lights.iter().flat_map(|light| light.defines.iter().cloned()));
+    let divides = is_in_view(item, viewer);
+    let of_light = lights.iter().flat_map(|light| light.defines.iter().cloned());
+    defines.extend(of_light.filter(|define| divides || define.name() != lights::OVER_W));
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
     let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
@@ -251,6 +261,12 @@ fn defines(item: &Drawable, lights: &[&LightParts], ending: &Ending, needs: Need
         defines.push(Define::calls("ILLUMINATE", "surface, lit", calls("illuminate_@(surface, lit);")));
     }
     defines
+}
+
+/// Tests whether all of an item lies in the eye's view: no vertex is then made by clipping. Not every driver clips what is
+/// interpolated without perspective as GL has it, and what is divided by w has no meaning at vertices behind the eye.
+fn is_in_view(item: &Drawable, viewer: &Viewer) -> bool {
+    frustum::overlap(&(viewer.clip_from_world() * item.world_from_model), &item.bounds) == Overlap::Inside
 }
 
 fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
@@ -286,6 +302,7 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
             chunks.extend(coordinates(light));
             chunks.extend(place.map(|place| place.for_light(light.index)));
             chunks.push(light.reach.clone());
+            chunks.extend(light.projected.clone());
             if has_shade {
                 chunks.extend(light.shade.iter().cloned());
             }
@@ -297,6 +314,7 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
     for light in lights {
         chunks.extend(coordinates(light));
         chunks.push(light.reach.clone());
+        chunks.extend(light.projected.clone());
         chunks.extend(light.shade.iter().cloned());
         chunks.push(if needs.per_vertex {
             glsl!("surfaces/per_vertex.frag").for_light(light.index)

@@ -242,6 +242,11 @@ impl Lamp {
         [self.inside_sides(point), self.beyond_near(point), self.before_far(point)].iter().all(|inside| *inside >= 0.0)
     }
 
+    /// Tests whether a point lies between the planes of the light's map.
+    pub fn is_between_planes(&self, point: DVec3) -> bool {
+        self.beyond_near(point) >= 0.0 && self.before_far(point) >= 0.0
+    }
+
     /// Distance to the cone's or the frustum's surface, positive inside. Never steeper than 1, as are the next two.
     fn inside_sides(&self, point: DVec3) -> f64 {
         let Shape::Spot { axes, ends, half_angle_radians, aspect, .. } = &self.shape else { return UNBOUNDED };

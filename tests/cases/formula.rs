@@ -113,7 +113,7 @@ pub fn tangent_point(light: &Light, sphere: &Sphere, outward: DVec3) -> DVec3 {
 /// Distance of `point` from the light's axis, as a part of the light's reach: below 1 inside, above 1 outside.
 pub fn reach(light: &Light, point: DVec3) -> f64 {
     let Some(spot) = light.spot() else { return 0.0 };
-    let Frustum { position, target, up, cone_radians, .. } = spot.frustum;
+    let Frustum { position, target, up, cone_radians, aspect, .. } = spot.frustum;
     let (half, axes) = (0.5 * cone_radians, axes(position, target, up));
     let from_light = point - position;
     let depth = from_light.dot(axes.ahead);
@@ -123,7 +123,7 @@ pub fn reach(light: &Light, point: DVec3) -> f64 {
     let off = DVec2::new(from_light.dot(axes.right), from_light.dot(axes.above)) / depth;
     match spot.shape {
         LightShape::Cone => off.length() / half.tan(),
-        LightShape::Frustum => off.abs().max_element() / half.tan(),
+        LightShape::Frustum => (off / DVec2::new(aspect, 1.0)).abs().max_element() / half.tan(),
     }
 }
 

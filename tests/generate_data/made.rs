@@ -24,6 +24,8 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
     slide::slide().save(folder.join("textures/slide.png"))?;
+    textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
+    textures::head_light().save(folder.join("textures/head-light.png"))?;
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-//! The textures: a floor of inlaid stone, and the picture that a lamp throws.
+//! The textures: a floor of inlaid stone, the picture that a lamp throws, and shields that stand before lamps.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use image::{Rgb, RgbImage};
@@ -7,6 +7,7 @@ use super::noise::{hash, tiled_noise};
 
 const FLOOR_SIZE: u32 = 512;
 const SPOT_SIZE: u32 = 256;
+const SHIELD_SIZE: u32 = 128;
 
 /// Four large tiles, each framed by strips of dark stone, with a star of two marbles in it; tiles without a seam.
 pub fn floor() -> RgbImage {
@@ -16,6 +17,16 @@ pub fn floor() -> RgbImage {
 /// White in the middle and exactly black at the border, with the faint rings of a lamp's lens.
 pub fn spot() -> RgbImage {
     draw([SPOT_SIZE; 2], spot_color)
+}
+
+/// The opening between four barn doors, one of them askew: bright with soft edges, the nearer the door the softer.
+pub fn barn_doors() -> RgbImage {
+    draw([SHIELD_SIZE; 2], barn_doors_color)
+}
+
+/// The lens of a low beam: dark above a cut-off that rises to the right, brightest just below it.
+pub fn head_light() -> RgbImage {
+    draw([SHIELD_SIZE; 2], head_light_color)
 }
 
 /// `color` at each texel, the mean of 4×4 samples; places in [0, 1).
@@ -135,4 +146,29 @@ fn spot_color(place: DVec2) -> DVec3 {
 pub(super) fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+fn barn_doors_color(place: DVec2) -> DVec3 {
+    let q = dvec2(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
+    let door = |distance: f64, soft: f64| smoothstep(0.0, soft, distance);
+    let left = door(q.x + 0.62 + 0.10 * q.y, 0.10);
+    let right = door(0.62 - q.x, 0.10);
+    let upper = door(0.45 - q.y - 0.18 * q.x, 0.14);
+    let lower = door(q.y + 0.58, 0.06);
+    let lamp = 1.0 - 0.35 * (q.x * q.x + q.y * q.y);
+    DVec3::splat(left * right * upper * lower * lamp)
+}
+
+fn head_light_color(place: DVec2) -> DVec3 {
+    let q = dvec2(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
+    // Level to the left; to the right it rises by 15 degrees.
+    let cut_off = if q.x > 0.0 { 0.268 * q.x } else { 0.0 };
+    let below = cut_off - q.y;
+    let edge = smoothstep(-0.02, 0.06, below);
+    let spill = 0.06 * smoothstep(-0.7, 0.0, below);
+    let (wide, hot) = (dvec2(q.x / 0.95, below / 0.75), dvec2((q.x - 0.08) / 0.40, (below - 0.10) / 0.22));
+    let pool = |at: DVec2| (1.0 - at.length_squared()).max(0.0);
+    let value = edge * (0.55 * pool(wide) + 0.60 * pool(hot)) + spill * pool(dvec2(q.x, 0.0));
+    let value = value.min(1.0);
+    dvec3(value, 0.98 * value, 0.92 * value)
 }

@@ -171,7 +171,9 @@ fn names(cell: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn what_the_bibliography_names_exists() {
     let page = bibliography();
-    let table = fs::read_to_string(root().join("src/figures/table.rs")).unwrap();
+    let table =
+        ["table.rs", "projected.rs"].map(|file| fs::read_to_string(root().join("src/figures").join(file)).unwrap());
+    let table = table.concat();
     let figures: Vec<&str> =
         table.lines().filter_map(|line| line.trim().strip_prefix("name: \"")?.strip_suffix("\",")).collect();
     let mut wrong = Vec::new();

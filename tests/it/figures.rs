@@ -267,6 +267,8 @@ const HEADINGS: &[&str] = &[
     "Combining Shadows with Atmospherics",
     "Hardware Shadow Map Filtering",
     "Segal 1992, 3.1",
+    "Segal 1992, 2",
+    "Segal 1992, 3.2",
 ];
 
 #[test]

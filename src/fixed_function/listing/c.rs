@@ -118,7 +118,7 @@ pub fn face_name(face: CubeFace) -> &'static str {
 pub fn binding(storage: &Storage) -> &'static str {
     match storage {
         Storage::Cube(_) => "GL_TEXTURE_CUBE_MAP",
-        Storage::Line(_) => "GL_TEXTURE_1D",
+        Storage::Line(_) | Storage::Values(_) => "GL_TEXTURE_1D",
         _ => "GL_TEXTURE_2D",
     }
 }
@@ -128,6 +128,7 @@ pub fn format(format: Format) -> [&'static str; 3] {
     match format {
         Format::Rgba8 => ["GL_RGBA8", "GL_RGBA", "GL_UNSIGNED_BYTE"],
         Format::Rgba32F => ["GL_RGBA32F", "GL_RGBA", "GL_FLOAT"],
+        Format::R32F => ["GL_R32F", "GL_RED", "GL_FLOAT"],
         Format::Depth(depth) => {
             let internal = match depth {
                 DepthFormat::Depth16 => "GL_DEPTH_COMPONENT16",

@@ -187,6 +187,12 @@ fn write_image(out: &mut Text, index: usize, desc: &ImageDesc) {
             out.call(&format!("glTexImage1D({binding}, 0, {internal}, {width}, 0, {format}, {kind}, {texels})"));
             1
         }
+        Storage::Values(values) => {
+            let numbers: Vec<String> = values.iter().map(|value| format!("{value:?}f")).collect();
+            let texels = format!("(const GLfloat[]){{{}}}", numbers.join(", "));
+            out.call(&format!("glTexImage1D({binding}, 0, {internal}, {width}, 0, {format}, {kind}, {texels})"));
+            1
+        }
         Storage::Cube(_) => {
             CubeFace::ALL.iter().for_each(|face| allocate(c::face_name(*face), 0, "NULL"));
             1

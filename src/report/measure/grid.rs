@@ -178,7 +178,7 @@ mod tests {
     use super::*;
 
     fn spot() -> LightKind {
-        use crate::scene::{Frustum, ImageFilter, LightShape, Spot};
+        use crate::scene::{Frustum, ImageFilter, Interpolation, LightShape, Spot};
         let (position, target, up) = (glam::DVec3::Y, glam::DVec3::ZERO, glam::DVec3::Z);
         let frustum = Frustum {
             position,
@@ -191,13 +191,15 @@ mod tests {
             lean: glam::DVec2::ZERO,
         };
         let attenuation = [1.0, 0.0, 0.0];
-        let (shape, image_filter) = (LightShape::Cone, ImageFilter::Linear);
         LightKind::Spot(Spot {
             frustum,
-            shape,
+            shape: LightShape::Cone,
             attenuation,
             image: None,
-            image_filter,
+            image_filter: ImageFilter::Linear,
+            beam: None,
+            falloff: None,
+            interpolation: Interpolation::Perspective,
             frustum_shown: false,
             focus: None,
         })

@@ -2,6 +2,7 @@
 
 mod band;
 pub mod claims;
+pub mod colors;
 mod costs;
 pub mod difference;
 mod edges;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::colors::{self, compare_colors};
 use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics};
@@ -19,7 +20,7 @@ use crate::report::store::results::{
 };
 use crate::scene::{self, Loaded, Scene, Settings, SettingsError, Shadow, with_shadow};
 use crate::techniques::{self, LightShadow, vary};
-use crate::truth::{self, Answer, Truth};
+use crate::truth::{self, Answer, ColorTruth, Truth};
 use crate::views::View;
 
 /// Reason why a report cannot be started. Errors of a row are kept in that row.
@@ -52,6 +53,8 @@ pub struct Sweep {
     pub scene: Scene,
     /// The ray tracer's answer for the measured light.
     pub truth: Truth,
+    /// Colours in f64, if a light has an image, a beam or a law of distance.
+    colors: Option<ColorTruth>,
     /// The scene's part of the report, still without rows.
     pub report: SceneReport,
     /// Warnings of loading the scene and laying out its grid.
@@ -90,6 +93,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     let start = Instant::now();
     let truth = truth::trace(&scene, options.light, &truth::Options::default())?;
     let trace_ms = start.elapsed().as_secs_f64() * 1e3;
+    let colors = colors::has_projected_light(&scene).then(|| colors::true_colors(&scene, options.light)).transpose()?;
     let report = SceneReport {
         path: path.to_owned(),
         path_bytes: bytes_of(path),
@@ -103,7 +107,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
-    Ok(Sweep { scene, truth, report, warnings, notes: left_out, rows })
+    Ok(Sweep { scene, truth, colors, report, warnings, notes: left_out, rows })
 }
 
 /// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.
@@ -215,7 +219,7 @@ impl Sweep {
     fn outcome(&self, shadow: &Shadow, options: &MeasureOptions, renderer: &mut Renderer) -> Outcome {
         let scene = with_shadow(&self.scene, options.light, shadow);
         let band = Band { texels: options.band_texels, map_size: [techniques::map_size(shadow); 2] };
-        match measure(&scene, &self.truth, &band, options, renderer) {
+        match measure(&scene, (&self.truth, self.colors.as_ref()), &band, options, renderer) {
             Ok(measured) => Outcome::Measured(Box::new(measured)),
             Err(why) => Outcome::Failed(why),
         }
@@ -260,18 +264,21 @@ impl Sweep {
 
 fn measure(
     scene: &Scene,
-    truth: &Truth,
+    (truth, colors): (&Truth, Option<&ColorTruth>),
     band: &Band,
     options: &MeasureOptions,
     renderer: &mut Renderer,
 ) -> Result<Measured, String> {
     let metrics = check(scene, options.light, truth, band, renderer)?;
+    let colors = colors.map(|colors| compare_colors(scene, colors, renderer)).transpose();
+    let colors = colors.map_err(|error| error.to_string())?.flatten();
     let request = Request { frames: 100, ..Request::default() };
     let plan = renderer.plan(scene, &request).map_err(|error| error.to_string())?;
     let costs = costs(&plan, options.runs, renderer).map_err(|error| error.to_string())?;
     let summary = plan.summary();
     Ok(Measured {
         metrics,
+        colors,
         frame_redrawn: costs.redrawn,
         frame_kept: costs.kept,
         passes: costs.passes,

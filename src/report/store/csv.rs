@@ -80,6 +80,11 @@ fn measured_columns(measured: Option<&Measured>) -> Vec<(String, String)> {
     for (name, value) in left_out_columns(measured) {
         push(name.to_owned(), value);
     }
+    let colors = measured.and_then(|m| m.colors);
+    push("color_compared".to_owned(), colors.map(|c| c.compared.to_string()));
+    push("color_rmse_codes".to_owned(), colors.map(|c| c.rmse_codes.to_string()));
+    push("color_most_codes".to_owned(), colors.map(|c| c.most_codes.to_string()));
+    push("color_beyond_percent".to_owned(), colors.map(|c| c.beyond_percent.to_string()));
     for (name, spread) in [("redrawn", measured.map(|m| &m.frame_redrawn)), ("kept", measured.map(|m| &m.frame_kept))] {
         let part =
             |what: &str, of: fn(&Spread) -> f64| (format!("{name}_ms_{what}"), spread.map(|s| of(s).to_string()));

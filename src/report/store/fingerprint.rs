@@ -72,6 +72,11 @@ impl Mark {
             if let LightKind::Spot(spot) = &mut rest.kind {
                 let image = spot.image.take();
                 self.texture(image.as_ref());
+                // The map follows from the rest.
+                if let Some(beam) = spot.beam.take() {
+                    self.texture(beam.shield.as_ref());
+                    self.debug(&(&beam.profile, beam.lens));
+                }
             }
             self.debug(&rest);
         }

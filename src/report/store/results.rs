@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::claimed::Claimed;
+use crate::report::measure::colors::ColorErrors;
 use crate::report::measure::metrics::{FEWEST_COMPARED, Metrics};
 
 /// A whole report, or a part of one.
@@ -151,6 +152,9 @@ pub enum Outcome {
 pub struct Measured {
     /// Errors against the truth.
     pub metrics: Metrics,
+    /// Errors of the picture's colours, if a light has an image, a beam or a law of distance.
+    #[serde(default)]
+    pub colors: Option<ColorErrors>,
     /// Every pass drawn, the maps among them, in milliseconds from the first call to the end of glFinish.
     pub frame_redrawn: Spread,
     /// A frame that keeps what a static scene's first frame drew.

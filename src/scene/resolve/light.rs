@@ -2,12 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
+use super::{beam, falloff};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError};
 use crate::scene::{
-    Dust, DustBlend, Error, Focus, Frustum, ImageFilter, Law, Light, LightKind, LightShape, Object, Point, ReadShadow,
-    Spot, camera_framing,
+    Dust, DustBlend, Error, FalloffLaw, Focus, Frustum, ImageFilter, Interpolation, Law, Light, LightKind, LightShape,
+    Object, Point, ReadShadow, Spot, camera_framing,
 };
 
 /// Greatest colour component of a light.
@@ -22,6 +23,12 @@ const ASPECTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 const FILTERS: [(&str, ImageFilter); 3] =
     [("nearest", ImageFilter::Nearest), ("linear", ImageFilter::Linear), ("trilinear", ImageFilter::Trilinear)];
+
+const INTERPOLATIONS: [(&str, Interpolation); 3] =
+    [("perspective", Interpolation::Perspective), ("affine", Interpolation::Affine), ("segal", Interpolation::Segal)];
+
+/// Keys of light that is projected through a frustum.
+const PROJECTED: [&str; 7] = ["aspect", "image", "filter", "beam", "falloff", "interpolate", "frustum"];
 
 /// The value of `kind`.
 #[derive(Clone, Copy)]
@@ -39,6 +46,8 @@ pub(super) struct LightKeys {
     settings: Settings,
     /// The planes of its frustum are not known yet.
     kind: LightKind,
+    /// Law of `falloff`, whose table needs the planes.
+    falloff: Option<FalloffLaw>,
     near: Option<f64>,
     far: Option<f64>,
     name: String,
@@ -56,6 +65,8 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let kind = reader.choice("kind", &KINDS)?.unwrap_or(KindKey::Spot);
     let [near, far] = reader.near_and_far()?;
     let image = reader.file("image")?;
+    let beam = reader.table("beam")?.filter(|_| matches!(kind, KindKey::Spot)).map(beam::read).transpose()?;
+    let falloff = falloff::read(&mut reader)?;
     let mut kind = match kind {
         KindKey::Spot => LightKind::Spot(spot(&mut reader)?),
         KindKey::Point => LightKind::Point(point(&mut reader)?),
@@ -71,10 +82,12 @@ pub(super) fn read(table: &Settings, index: usize, assets: &mut Assets) -> Resul
     let specular = if law == Law::Slide { [0.0; 3] } else { specular };
     let shadow = shadow(&mut reader)?;
     reader.finish()?;
-    if let (LightKind::Spot(spot), Some((name, origin))) = (&mut kind, image) {
-        spot.image = Some(assets.texture(name, origin)?);
+    if let LightKind::Spot(spot) = &mut kind {
+        spot.image = image.map(|(name, origin)| assets.texture(name, origin)).transpose()?;
+        spot.beam = beam.map(|keys| beam::bake(keys, spot, &name, assets)).transpose()?;
     }
-    Ok(LightKeys { settings: table.clone(), kind, near, far, name, ambient, diffuse, specular, dust, law, shadow })
+    let settings = table.clone();
+    Ok(LightKeys { settings, kind, falloff, near, far, name, ambient, diffuse, specular, dust, law, shadow })
 }
 
 impl LightKeys {
@@ -101,7 +114,11 @@ impl LightKeys {
         };
         *near = self.near.unwrap_or_else(|| self.far.map_or(found[0], |far| found[0].min(far / 2.0)));
         *far = self.far.unwrap_or_else(|| found[1].max(2.0 * *near));
-        self.settings.read().check_far(*near, *far)
+        self.settings.read().check_far(*near, *far)?;
+        if let LightKind::Spot(spot) = &mut self.kind {
+            spot.falloff = self.falloff.take().map(|law| falloff::tabulate(law, &spot.frustum));
+        }
+        Ok(())
     }
 }
 
@@ -124,7 +141,9 @@ fn spot(reader: &mut Reader<'_>) -> Result<Spot, SettingsError> {
     }
     let image_filter = image_filter.unwrap_or(ImageFilter::Linear);
     let focus = focus(reader)?;
-    Ok(Spot { frustum, shape, attenuation, image: None, image_filter, frustum_shown, focus })
+    let interpolation = reader.choice("interpolate", &INTERPOLATIONS)?.unwrap_or(Interpolation::Perspective);
+    let (image, beam, falloff) = (None, None, None);
+    Ok(Spot { frustum, shape, attenuation, image, image_filter, beam, falloff, interpolation, frustum_shown, focus })
 }
 
 /// Width over height of a light's frustum; only of one that ends at its sides.
@@ -137,15 +156,18 @@ fn aspect(reader: &mut Reader<'_>, shape: LightShape) -> Result<f64, SettingsErr
 }
 
 fn point(reader: &mut Reader<'_>) -> Result<Point, SettingsError> {
-    let others = ["cone", "shape", "aspect", "target", "up", "image", "filter", "frustum", "focus", "direction"];
-    reader.refuse(&others, "is no key of a point light, which shines every way alike")?;
+    let others = ["cone", "shape", "target", "up", "focus", "direction"];
+    reader.refuse(&[&others[..], &PROJECTED].concat(), "is no key of a point light, which shines every way alike")?;
     Ok(Point { position: position(reader)?, near: 0.0, far: 0.0, attenuation: attenuation(reader)? })
 }
 
 /// `direction`, or the direction from `position` to `target`.
 fn direction(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
-    let others = ["cone", "shape", "aspect", "up", "near", "far", "image", "filter", "frustum", "focus", "attenuation"];
-    reader.refuse(&others, "is no key of a directional light, whose rays are parallel and come from infinitely far")?;
+    let others = ["cone", "shape", "up", "near", "far", "focus", "attenuation"];
+    reader.refuse(
+        &[&others[..], &PROJECTED].concat(),
+        "is no key of a directional light, whose rays are parallel and come from infinitely far",
+    )?;
     let (position, target) = (reader.vector("position")?, reader.vector("target")?);
     if let Some(direction) = reader.vector("direction")? {
         reader.refuse(&["position", "target"], "cannot stand beside `direction`: write the one or the others")?;

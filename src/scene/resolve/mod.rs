@@ -1,6 +1,8 @@
 //! [`Settings`] to a [`Scene`]: the keys of a scene, their allowed values, and their defaults.
 
+mod beam;
 mod camera;
+mod falloff;
 mod light;
 mod material;
 pub(super) mod object;

@@ -21,6 +21,8 @@ const KNOWN_LIMITS: &[&str] = &[
     "a clip plane of the vertex stage",
     "waves in the vertex stage",
     "drawn once by a stencil test, of several numbers of layers",
+    "a law of planar distance",
+    "without perspective",
 ];
 
 #[test]

@@ -1,6 +1,9 @@
 //! Projected light against formulas in f64: images, beams, laws of distance, interpolation.
 
+mod beams;
+mod colors;
 mod images;
+mod swimming;
 
 use std::path::Path;
 use std::rc::Rc;

@@ -30,7 +30,11 @@ pub(super) const GROUPS: [(&str, &str); 6] = [
         "Distances between shadow edges in the picture and true ones. Both directions are needed: acne has edges far \
          from any true one; a lost shadow has true edges far from any drawn one.",
     ),
-    ("shade", "Of the shade as it is, not only above or below one half."),
+    (
+        "shade and colour",
+        "Of the shade as it is, not only above or below one half; of the picture's colours, where a light has an image, a \
+         beam or a law of distance.",
+    ),
     ("price", "What a frame with everything drawn takes."),
 ];
 
@@ -72,7 +76,7 @@ fn edge(distance: Option<EdgeDistance>, of: fn(&EdgeDistance) -> f64) -> Option<
 /// The column with error bars.
 pub(super) const REDRAWN: &str = "redrawn";
 
-pub(super) const COLUMNS: [Column; 27] = [
+pub(super) const COLUMNS: [Column; 30] = [
     column(0, "all", 3, "All that is wrong: false shadow and leak, inside the band and outside.", |m| {
         compared(m, |e| e.wrong_percent)
     }),
@@ -140,6 +144,23 @@ pub(super) const COLUMNS: [Column; 27] = [
         4,
         "Root of the mean squared difference of the shade from 0 or 1: the measure for filtered shade.",
         |m| compared(m, |e| e.rmse),
+    ),
+    column(
+        4,
+        "colour: RMSE, codes",
+        3,
+        "Root of the mean squared difference of the picture from its colours in f64, in 1/255.",
+        |m| m.colors.map(|colors| colors.rmse_codes),
+    ),
+    column(4, "colour: most, codes", 1, "The pixel that is farthest from its colour.", |m| {
+        m.colors.map(|colors| colors.most_codes)
+    }),
+    column(
+        4,
+        "colour: beyond, %",
+        3,
+        "Pixels more than two codes outside of what a sample's own error explains, edges of shadows and texels included.",
+        |m| m.colors.map(|colors| colors.beyond_percent),
     ),
     column(5, "images, KiB", 1, "Memory of the plan's images: maps, buffers, textures.", |m| {
         Some(m.image_bytes as f64 / 1024.0)

@@ -1,0 +1,83 @@
+//! A picture's colours against those in f64: for scenes whose light is more than lit or shadowed.
+
+use crate::device::Pixels;
+use crate::frame::{self, Renderer};
+use crate::plan::Request;
+use crate::scene::{Law, Light, Scene, Shadow};
+use crate::techniques::LightShadow;
+use crate::truth::{self, ColorTruth};
+
+/// Errors of a picture's colours, over the pixels whose colour is known.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ColorErrors {
+    /// Pixels compared.
+    pub compared: usize,
+    /// Root mean square over pixels and channels, in codes of 1/255.
+    pub rmse_codes: f64,
+    /// The greatest difference of a channel, in codes.
+    pub most_codes: f64,
+    /// Pixels further than two codes outside of what the error of a sample explains, in percent.
+    pub beyond_percent: f64,
+}
+
+/// Codes that a picture may be off beyond the bounds of a colour: its own rounding, and that of tables.
+const ALLOWED_CODES: f64 = 2.0;
+
+/// Tests whether a light of the scene has an image, a beam or a law of distance, and nothing else decides colours:
+/// [`truth::color`] knows no dust, no lens with a size and no slide projectors.
+pub fn has_projected_light(scene: &Scene) -> bool {
+    let is_known = |light: &Light| {
+        light.law == Law::Lit && light.dust.is_none() && light.spot().is_none_or(|spot| spot.lens().is_none())
+    };
+    let mut spots = scene.lights.iter().filter_map(|light| light.spot());
+    scene.lights.iter().all(is_known)
+        && spots.any(|spot| spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some())
+}
+
+/// Colours of the scene, in which light `measured` casts its shadow whatever its technique, and others by their own.
+///
+/// # Errors
+///
+/// See [`truth::color`].
+pub fn true_colors(scene: &Scene, measured: usize) -> Result<ColorTruth, truth::Error> {
+    let lights = scene.lights.iter().enumerate();
+    let shadows: Vec<_> = lights.map(|(index, light)| shadow_of(&light.shadow, index == measured)).collect();
+    truth::color(scene, &shadows, &truth::Options::default())
+}
+
+/// The diffuse light that a full shadow leaves; `None`: the light has no shadow. `always`: it has one, whatever its technique.
+pub fn shadow_of(shadow: &Shadow, always: bool) -> Option<f64> {
+    let read = LightShadow::of(shadow);
+    let has_shadow = always || read.is_some_and(|read| read.technique.draws_shadows());
+    has_shadow.then(|| read.map_or(0.0, |read| f64::from(read.common.dimming)))
+}
+
+/// Draws the picture and compares it; `None`: no pixel's colour is known.
+///
+/// # Errors
+///
+/// An error of the plan or the device.
+pub fn compare_colors(
+    scene: &Scene,
+    truth: &ColorTruth,
+    renderer: &mut Renderer,
+) -> Result<Option<ColorErrors>, frame::Error> {
+    let plan = renderer.plan(scene, &Request { sampled_warnings: false, ..Request::default() })?;
+    renderer.draw(&plan)?;
+    let Pixels::Rgba8 { data, .. } = renderer.read(&plan)?.picture else { return Ok(None) };
+    let (mut compared, mut squares, mut most, mut beyond) = (0, 0.0, 0.0_f64, 0);
+    for (pixel, codes) in truth.pixels.iter().zip(data.as_chunks::<4>().0).filter(|(pixel, _)| pixel.is_known) {
+        let codes = [0, 1, 2].map(|k| f64::from(codes[k]));
+        compared += 1;
+        squares += (0..3).map(|k| (codes[k] - 255.0 * pixel.rgb[k].value).powi(2)).sum::<f64>();
+        most = most.max(pixel.error_codes(codes));
+        beyond += usize::from(pixel.excess_codes(codes) > ALLOWED_CODES);
+    }
+    let count = compared as f64;
+    Ok((compared > 0).then(|| ColorErrors {
+        compared,
+        rmse_codes: (squares / (3.0 * count)).sqrt(),
+        most_codes: most,
+        beyond_percent: 100.0 * beyond as f64 / count,
+    }))
+}

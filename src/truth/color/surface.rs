@@ -1,0 +1,136 @@
+//! The visible point of a surface as lighting needs it: material, interpolated normal, decal.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::bounds::Bounds;
+use super::projected::{Place, Wrapped, window};
+use super::unit;
+use crate::geometry::Material;
+use crate::scene::{Object, Scene};
+use crate::truth::primary::SeenPoint;
+
+/// A point of a surface.
+pub(super) struct Shaded<'a> {
+    pub material: &'a Material,
+    /// True if normals count; false: the diffuse colour as it is.
+    pub lit: bool,
+    pub position: DVec3,
+    /// Ways that a pixel's sample may move the point, and the radius of the ball that it may lie in besides.
+    pub spread: [DVec3; 2],
+    pub error: f64,
+    /// Ways that the point moves by from a pixel to those beside it.
+    pub beside: [DVec3; 2],
+    /// Unit vector, interpolated, on the side that is seen.
+    pub normal: DVec3,
+    pub corners: [DVec3; 3],
+    /// As the mesh has them, of unit length.
+    pub corner_normals: [DVec3; 3],
+    /// Barycentric coordinates of the point.
+    pub weights: [f64; 3],
+    pub decal: [Bounds; 3],
+}
+
+/// Values that are the same all over an object.
+pub(super) struct SurfaceTable {
+    /// Matrix of normals of each object: the inverse transpose of its linear part.
+    normals: Vec<DMat3>,
+    fallback: Material,
+}
+
+impl SurfaceTable {
+    pub fn new(scene: &Scene) -> Self {
+        let normal = |object: &Object| DMat3::from_mat4(object.world_from_model).inverse().transpose();
+        let normals = scene.objects.iter().map(normal).collect();
+        Self { normals, fallback: Material::default() }
+    }
+
+    /// The surface that a pixel shows; `None` where the mesh moves in the vertex stage.
+    pub fn at<'s>(&'s self, seen: &SeenPoint<'_>, scene: &'s Scene, subpixel: f64) -> Option<Shaded<'s>> {
+        let triangle = &seen.triangle;
+        let object = scene.objects.get(triangle.object as usize).filter(|object| object.wave.is_none())?;
+        let first = 3 * triangle.index as usize;
+        let indices: [usize; 3] = object
+            .mesh
+            .indices
+            .get(first..first + 3)?
+            .iter()
+            .map(|index| *index as usize)
+            .collect::<Vec<_>>()
+            .try_into()
+            .ok()?;
+        let part = object.mesh.parts.iter().find(|part| part.indices.contains(&(first as u32)));
+        let own = || object.mesh.materials.get(part?.material?);
+        let material = object.material.as_deref().or_else(own).unwrap_or(&self.fallback);
+        let weights = |point: DVec3| barycentric(&triangle.corners, point);
+        let at = weights(seen.position);
+        let matrix = self.normals[triangle.object as usize];
+        let corner_normals = indices.map(|index| matrix * DVec3::from_array(object.mesh.normals[index].map(f64::from)));
+        let smooth = unit(mix(&corner_normals, at));
+        let behind = smooth.dot(seen.position - scene.camera.eye) > 0.0 && smooth.dot(seen.normal) < 0.0;
+        let beside = seen.spread.map(|way| way / subpixel);
+        let texcoord = |point: DVec3| {
+            let corners = indices.map(|index| texcoord(object, material, index));
+            mix(&corners.map(|corner| corner.extend(0.0)), weights(point)).truncate()
+        };
+        Some(Shaded {
+            material,
+            lit: object.lit,
+            position: seen.position,
+            spread: seen.spread,
+            error: seen.error,
+            beside,
+            normal: if behind { -smooth } else { smooth },
+            corners: triangle.corners,
+            corner_normals: corner_normals.map(unit),
+            weights: at,
+            decal: decal(object, material, seen.position, beside, &texcoord),
+        })
+    }
+}
+
+fn mix(corners: &[DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    (0..3).map(|k| corners[k] * weights[k]).sum()
+}
+
+fn barycentric([a, b, c]: &[DVec3; 3], point: DVec3) -> [f64; 3] {
+    let area = (b - a).cross(c - a);
+    let scale = area.length_squared().recip();
+    let v = (point - a).cross(c - a).dot(area) * scale;
+    let w = (b - a).cross(point - a).dot(area) * scale;
+    [1.0 - v - w, v, w]
+}
+
+/// A vertex's texture coordinates: the mesh's own, or by object-linear planes.
+fn texcoord(object: &Object, material: &Material, index: usize) -> DVec2 {
+    if let Some(texgen) = &material.texgen {
+        let [x, y, z] = object.mesh.positions[index].map(f64::from);
+        let along = |plane: [f32; 4]| {
+            let [a, b, c, d] = plane.map(f64::from);
+            f64::from(texgen.scale) * (a * x + b * y + c * z + d)
+        };
+        return DVec2::new(along(texgen.s), along(texgen.t));
+    }
+    let own = object.mesh.texcoords.as_ref().and_then(|all| all.get(index));
+    DVec2::from_array(own.copied().unwrap_or_default().map(f64::from))
+}
+
+/// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
+fn decal(
+    object: &Object,
+    material: &Material,
+    position: DVec3,
+    beside: [DVec3; 2],
+    texcoord: &dyn Fn(DVec3) -> DVec2,
+) -> [Bounds; 3] {
+    let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
+    let Some(picture) = material.decal.as_deref().filter(|_| has_texcoords) else {
+        return [Bounds::exactly(1.0); 3];
+    };
+    let placement = &material.decal_placement;
+    let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
+    let place = |point: DVec3| scale * texcoord(point) + offset;
+    let st = place(position);
+    let step = beside.map(|way| (place(position + way) - st).abs());
+    let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
+    window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
+}
