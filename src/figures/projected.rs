@@ -67,8 +67,8 @@ pub const FALLOFF: Figure = Figure {
     scene: LAMP_WALL,
     columns: 3,
     panels: &[
-        panel("planar: (2 / d)², d along the axis", &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"]),
-        panel("radial: (2 / d)², d to the light", &["light.attenuation=[0, 0, 0.25]"]),
+        panel("planar: (2 / d)^2, d along the axis", &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"]),
+        panel("radial: (2 / d)^2, d to the light", &["light.attenuation=[0, 0, 0.25]"]),
         panel(
             "planar, up and down: surfaces of equal light",
             &[

@@ -280,6 +280,9 @@ fn figures_name_what_is_in_documents_and_fit_their_sheets() {
         assert!(is_ours || named.iter().all(|name| HEADINGS.contains(name)), "{}: {}", figure.name, figure.source);
         let is_of = |prefix: &str| figure.name.starts_with(prefix);
         assert!(!is_ours || !["hsm-", "lec-", "gdc-"].into_iter().any(is_of), "{}", figure.name);
+        // The sheets' font has no other letters.
+        let texts = figure.panels.iter().map(|panel| panel.title).chain([figure.title, figure.source, figure.caption]);
+        texts.for_each(|text| assert!(text.is_ascii(), "{}: {text}", figure.name));
         let width = figure.columns as usize * 400 + (figure.columns as usize - 1) * 14;
         assert!(figure.source.len() * 7 <= width, "{}: the source is cut off", figure.name);
     }
