@@ -99,7 +99,8 @@ impl Painter<'_> {
         let (seen, doubt) = self.tracers[0].look(x, y);
         let seen = match (seen, doubt) {
             (None, None) => return ColorPixel::exactly(self.scene.image.background),
-            (Some(seen), None) => seen,
+            // A neighbouring triangle may have another normal, and so another colour.
+            (Some(seen), None) if !seen.is_at_edge => seen,
             _ => return ColorPixel::UNKNOWN,
         };
         let Some(surface) = self.surfaces.at(&seen, self.scene, self.tracers[0].subpixel) else {

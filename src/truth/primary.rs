@@ -20,6 +20,8 @@ pub(super) struct SeenPoint<'w> {
     pub spread: [DVec3; 2],
     /// Radius of the ball that the point may lie in besides.
     pub error: f64,
+    /// True if the sample may land on a neighbouring triangle of the surface, whose normal may be another.
+    pub is_at_edge: bool,
 }
 
 impl Tracer<'_> {
@@ -39,7 +41,17 @@ impl Tracer<'_> {
         let known = spread.unwrap_or([DVec3::ZERO; 2]);
         let (reason, widened) = self.search(&self.view_beam(direction, depth, known, error), Some(&triangle));
         let reason = if spread.is_none() { Some(Reason::GrazingView) } else { reason };
-        (Some(SeenPoint { triangle, position, normal, spread: known, error: error + widened }), reason)
+        (
+            Some(SeenPoint {
+                triangle,
+                position,
+                normal,
+                spread: known,
+                error: error + widened,
+                is_at_edge: widened > 0.0,
+            }),
+            reason,
+        )
     }
 
     fn view_beam(&self, direction: DVec3, depth: f64, surface_spread: [DVec3; 2], error: f64) -> Beam {
