@@ -158,6 +158,7 @@ pub enum Law {
 
 /// Kind of a light, with the values that only this kind has.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a scene has few lights, and most are spotlights")]
 pub enum LightKind {
     /// A spotlight.
     Spot(Spot),
