@@ -221,8 +221,8 @@ const MOST_SLICES: i64 = 4096;
 fn dust(reader: &mut Reader<'_>, kind: &LightKind) -> Result<Option<Dust>, SettingsError> {
     let Some(table) = reader.table("dust")? else { return Ok(None) };
     if !matches!(kind, LightKind::Spot(_)) {
-        let message =
-            format_args!("needs a spotlight, whose beam slices can fill, and this is a {} light", kind.name());
+        let kind = kind.name();
+        let message = format!("needs a spotlight, whose beam slices can fill, and this is a {kind} light");
         return Err(reader.error("dust", message));
     }
     if matches!(kind, LightKind::Spot(Spot { focus: Some(_), .. })) {
