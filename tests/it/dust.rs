@@ -147,7 +147,7 @@ fn random_scene(random: &mut Random, technique: &str, slices: u32) -> Scene {
     load(&text)
 }
 
-const SCENES: usize = 24;
+const SCENES: usize = 16;
 
 /// Without shadows every layer is the same on both sides, but for rounding at the rim of the beam and at surfaces: there a
 /// ray gains or loses a slice.
