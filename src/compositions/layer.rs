@@ -1,14 +1,10 @@
 //! Layers: images of floats in which light is summed before it joins the picture, whose 8 bits would round each share.
 
-use std::sync::Arc;
-
-use glam::DVec4;
-
 use super::passes::{Buffers, Passes};
-use crate::geometry::primitive;
+use crate::lights::whole_target;
 use crate::pass::{
-    Attribute, Batch, Blend, Clear, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
-    IndexOrder, Input, MeshRef, Primitive, Program, Redraw, Sampler, Storage, Target, Wrap, glsl,
+    Attribute, Batch, Blend, Clear, DrawPass, DrawState, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId, Input,
+    Program, Redraw, Sampler, Storage, Target, Wrap, glsl,
 };
 
 impl Passes<'_> {
@@ -40,7 +36,7 @@ impl Passes<'_> {
             cull: None,
             scissor: None,
             clip_planes: 0,
-            draws: vec![whole_picture()],
+            draws: vec![whole_target("every pixel")],
         };
         let pass = DrawPass {
             target: Target { color: Some(picture.color), depth: None, level: 0, face: None },
@@ -50,23 +46,5 @@ impl Passes<'_> {
             batches: vec![batch],
         };
         self.push(label, Redraw::Always, pass);
-    }
-}
-
-/// Covers every pixel: the square of side 2 in x and z, stood up in clip space.
-fn whole_picture() -> Draw {
-    let mesh = Arc::new(primitive("quad").unwrap_or_default());
-    let clip_from_model = glam::DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
-    Draw {
-        label: String::from("every pixel"),
-        primitive: Primitive::Triangles,
-        indices: 0..mesh.indices.len() as u32,
-        order: IndexOrder::File,
-        bounds: mesh.bounds,
-        mesh: MeshRef(mesh),
-        clip_from_model,
-        eye_from_model: None,
-        mirrored: false,
-        uniforms: Vec::new(),
     }
 }

@@ -2,6 +2,7 @@
 //! captions. A figure is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames;
 //! no technique by more than a scene's keys, no GL.
 
+mod panels;
 mod projected;
 mod sheet;
 mod table;

@@ -1,29 +1,16 @@
-//! Figures of projected light: beams, laws of distance, and coordinates that swim [Segal 1992, 2 and 3.2].
+//! Figures of projected light: beams, laws of distance, coordinates that swim, focus and soft shadows [Segal 1992, 2 and 3],
+//! dusty air [LEC, "Combining Shadows with Atmospherics"].
 
-use super::{Figure, Panel};
+use super::Figure;
+use super::panels::{embedded, panel};
 use crate::scene::Embedded;
 
-macro_rules! embedded {
-    ($name:literal) => {
-        Embedded {
-            path: concat!("data/figures/", $name),
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/figures/", $name)),
-            pictures: &[
-                ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
-                ("../textures/barn-doors.png", include_bytes!("../../data/textures/barn-doors.png")),
-                ("../textures/head-light.png", include_bytes!("../../data/textures/head-light.png")),
-            ],
-        }
-    };
-}
-
+const DUSTY_ROOM: Embedded = embedded!("dusty_room.toml");
+const BOARDS: Embedded = embedded!("boards.toml");
+const COLUMNS: Embedded = embedded!("columns.toml");
 const YARD: Embedded = embedded!("beams.toml");
 const LAMP_WALL: Embedded = embedded!("lamp-wall.toml");
 const SWIM: Embedded = embedded!("swimming.toml");
-
-const fn panel(title: &'static str, set: &'static [&'static str]) -> Panel {
-    Panel { title, set, view: None, stage: None, counts: None }
-}
 
 pub const BEAMS: Figure = Figure {
     name: "segal-beams",
@@ -35,23 +22,27 @@ pub const BEAMS: Figure = Figure {
         panel(
             "landing light: cos^90",
             &["light.0.cone=44", "light.0.beam={ exponent = 90 }", "light.0.color=[2, 2, 1.9]"],
+            None,
         ),
-        panel("taxi light: wide and low", &["light.0.color=[0, 0, 0]", "light.1.color=[1.8, 1.75, 1.6]"]),
+        panel("taxi light: wide and low", &["light.0.color=[0, 0, 0]", "light.1.color=[1.8, 1.75, 1.6]"], None),
         panel(
             "flashlight: rings of its reflector",
             &[
                 "light.0.cone=36",
                 "light.0.beam={ profile = [0.75, 0.9, 1, 0.5, 0.45, 0.7, 0.35, 0.16, 0.10, 0.05, 0] }",
             ],
+            None,
         ),
         panel(
             "head lights: two lenses with a cut-off",
             &["light.0.color=[0, 0, 0]", "light.2.color=[1.8, 1.75, 1.6]", "light.3.color=[1.8, 1.75, 1.6]"],
+            None,
         ),
-        panel("barn doors: a shield", &["light.0.color=[0, 0, 0]", "light.4.color=[1.6, 1.55, 1.4]"]),
+        panel("barn doors: a shield", &["light.0.color=[0, 0, 0]", "light.4.color=[1.6, 1.55, 1.4]"], None),
         panel(
             "the same through a lens, r (1 + 0.3 r^2)",
             &["light.0.color=[0, 0, 0]", "light.5.color=[1.6, 1.55, 1.4]"],
+            None,
         ),
     ],
     caption: "One texture holds what a lamp's reflector, lens and doors make of its light. It is projected through the light's \
@@ -67,13 +58,18 @@ pub const FALLOFF: Figure = Figure {
     scene: LAMP_WALL,
     columns: 3,
     panels: &[
-        panel("planar: (2 / d)^2, d along the axis", &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"]),
-        panel("radial: (2 / d)^2, d to the light", &["light.attenuation=[0, 0, 0.25]"]),
+        panel(
+            "planar: (2 / d)^2, d along the axis",
+            &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"],
+            None,
+        ),
+        panel("radial: (2 / d)^2, d to the light", &["light.attenuation=[0, 0, 0.25]"], None),
         panel(
             "planar, up and down: surfaces of equal light",
             &[
                 "light.falloff={ by = 'z', table = [[1.0, 1.0], [1.4, 0.45], [1.8, 0.9], [2.2, 0.4], [2.6, 0.8], [3.0, 0.35], [3.4, 0.7], [3.8, 0.3], [4.2, 0.6], [4.4, 0.5]] }",
             ],
+            None,
         ),
     ],
     caption: "A texture over the depth of the light's own projection makes light fade with the distance along its axis: the wall, \
@@ -88,12 +84,69 @@ pub const SWIMMING: Figure = Figure {
     scene: SWIM,
     columns: 2,
     panels: &[
-        panel("with perspective", &["light.interpolate=perspective"]),
-        panel("affine: linear in the picture", &["light.interpolate=affine"]),
-        panel("with perspective, the eye moved", &["light.interpolate=perspective", "camera.eye=[7.4, 2.2, 2.2]"]),
-        panel("affine, the eye moved", &["light.interpolate=affine", "camera.eye=[7.4, 2.2, 2.2]"]),
+        panel("with perspective", &["light.interpolate=perspective"], None),
+        panel("affine: linear in the picture", &["light.interpolate=affine"], None),
+        panel(
+            "with perspective, the eye moved",
+            &["light.interpolate=perspective", "camera.eye=[7.4, 2.2, 2.2]"],
+            None,
+        ),
+        panel("affine, the eye moved", &["light.interpolate=affine", "camera.eye=[7.4, 2.2, 2.2]"], None),
     ],
     caption: "The slide and its shadow lie still on the floor when the eye moves (a, c). Without division by w they are right at \
               the corners of the floor's two triangles alone: they break along its diagonal, and another eye sees them \
               elsewhere (b, d).",
+};
+
+pub const DUST: Figure = Figure {
+    name: "lec-dusty-room",
+    title: "A beam of light in dusty air, sliced",
+    source: "Projective texturing and shadow maps, lecture, \"Combining Shadows with Atmospherics\"",
+    scene: DUSTY_ROOM,
+    columns: 3,
+    panels: &[
+        panel("8 slices: bands", &["light.dust.slices=8"], None),
+        panel("8 slices, moved from pixel to pixel: noise", &["light.dust.slices=8", "light.dust.jitter=true"], None),
+        panel("32 slices", &["light.dust.slices=32"], None),
+        panel("128 slices", &[], None),
+        panel("without the shadow test", &["light.shadow.technique=none"], None),
+        panel("without 1 / cos of the ray's angle: too thin", &["light.dust.thickness=axis"], None),
+    ],
+    caption: "Planes across the view, from back to front, each with the light's shadow: the sum is the light that dust sends \
+                  to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
+                  through walls and chair. A slice must count as thick as the ray goes through it, or corners are too dim.",
+};
+
+pub const FOCUS: Figure = Figure {
+    name: "segal-focus",
+    title: "A slide in focus: by accumulation of many projectors",
+    source: "Segal 1992, 3.1",
+    scene: BOARDS,
+    columns: 2,
+    panels: &[
+        panel("one projector: sharp everywhere", &["light.focus.samples=1"], None),
+        panel("a lens, in focus at the middle board", &[], None),
+        panel("in focus at the near board", &["light.focus.distance=1.2"], None),
+        panel("in focus at the far board", &["light.focus.distance=4.8"], None),
+    ],
+    caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the                   slide is a disc elsewhere, of the lens's radius times |1 - d / F| at the distance d of the board, F of the                   plane: the boards stand at half, one and two times 2.4.",
+};
+
+pub const SOFT_SHADOWS: Figure = Figure {
+    name: "segal-soft-shadows",
+    title: "Soft shadows: a map for each point of a lamp",
+    source: "Segal 1992, 3.1; lecture, \"Hardware Shadow Map Filtering\"",
+    scene: COLUMNS,
+    columns: 2,
+    panels: &[
+        panel("one point: hard shadows", &["light.focus.samples=1"], None),
+        panel("16 points: still apart far from their casters", &["light.focus.samples=16"], None),
+        panel("256 points", &[], None),
+        panel(
+            "a filter of 7 x 7 texels: as soft at the foot",
+            &["light.focus.samples=1", "light.shadow.size=256", "light.shadow.kernel=7x7"],
+            None,
+        ),
+    ],
+    caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns                   stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
 };

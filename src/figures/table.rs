@@ -1,41 +1,16 @@
 //! Every figure. Captions say what can be seen; the test figures checks that against pixels.
 
+use super::panels::{embedded, panel, stage};
 use super::{Figure, Panel, PanelStage};
 use crate::scene::Embedded;
 use crate::views::View;
-
-macro_rules! embedded {
-    ($name:literal) => {
-        Embedded {
-            path: concat!("data/figures/", $name),
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/figures/", $name)),
-            pictures: &[
-                ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
-                ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
-                ("../textures/slide.png", include_bytes!("../../data/textures/slide.png")),
-            ],
-        }
-    };
-}
 
 const WORKSHOP: Embedded = embedded!("workshop.toml");
 const LAMP: Embedded = embedded!("lamp.toml");
 const BOXES: Embedded = embedded!("boxes.toml");
 const NESTED: Embedded = embedded!("nested.toml");
-const DUSTY_ROOM: Embedded = embedded!("dusty_room.toml");
 const SLIDE: Embedded = embedded!("slide.toml");
 const SPOTLIGHT: Embedded = embedded!("spotlight.toml");
-const BOARDS: Embedded = embedded!("boards.toml");
-const COLUMNS: Embedded = embedded!("columns.toml");
-
-const fn panel(title: &'static str, set: &'static [&'static str], view: Option<View>) -> Panel {
-    Panel { title, set, view, counts: None, stage: None }
-}
-
-/// A panel that shows a part of how the picture comes about.
-const fn stage(title: &'static str, set: &'static [&'static str], stage: PanelStage) -> Panel {
-    Panel { title, set, view: None, counts: None, stage: Some(stage) }
-}
 
 /// A close view of the teapot's shadow on the floor.
 const CLOSE: [&str; 3] = ["camera.eye=[4.3, 3.4, 3.6]", "camera.target=[1.15, 0.2, -0.45]", "camera.fov_y=26"];
@@ -360,60 +335,9 @@ pub const FIGURES: &[Figure] = &[
                   eye's ray has left all volumes but a few, too little is left and the far rim of the shadow is lit. Wrapping \
                   counts are right modulo 256; they fail only where a point lies in exactly 256 volumes.",
     },
-    Figure {
-        name: "lec-dusty-room",
-        title: "A beam of light in dusty air, sliced",
-        source: "Projective texturing and shadow maps, lecture, \"Combining Shadows with Atmospherics\"",
-        scene: DUSTY_ROOM,
-        columns: 3,
-        panels: &[
-            panel("8 slices: bands", &["light.dust.slices=8"], None),
-            panel(
-                "8 slices, moved from pixel to pixel: noise",
-                &["light.dust.slices=8", "light.dust.jitter=true"],
-                None,
-            ),
-            panel("32 slices", &["light.dust.slices=32"], None),
-            panel("128 slices", &[], None),
-            panel("without the shadow test", &["light.shadow.technique=none"], None),
-            panel("without 1 / cos of the ray's angle: too thin", &["light.dust.thickness=axis"], None),
-        ],
-        caption: "Planes across the view, from back to front, each with the light's shadow: the sum is the light that dust sends \
-                  to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
-                  through walls and chair. A slice must count as thick as the ray goes through it, or corners are too dim.",
-    },
-    Figure {
-        name: "segal-focus",
-        title: "A slide in focus: by accumulation of many projectors",
-        source: "Segal 1992, 3.1",
-        scene: BOARDS,
-        columns: 2,
-        panels: &[
-            panel("one projector: sharp everywhere", &["light.focus.samples=1"], None),
-            panel("a lens, in focus at the middle board", &[], None),
-            panel("in focus at the near board", &["light.focus.distance=1.2"], None),
-            panel("in focus at the far board", &["light.focus.distance=4.8"], None),
-        ],
-        caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the                   slide is a disc elsewhere, of the lens's radius times |1 - d / F| at the distance d of the board, F of the                   plane: the boards stand at half, one and two times 2.4.",
-    },
-    Figure {
-        name: "segal-soft-shadows",
-        title: "Soft shadows: a map for each point of a lamp",
-        source: "Segal 1992, 3.1; lecture, \"Hardware Shadow Map Filtering\"",
-        scene: COLUMNS,
-        columns: 2,
-        panels: &[
-            panel("one point: hard shadows", &["light.focus.samples=1"], None),
-            panel("16 points: still apart far from their casters", &["light.focus.samples=16"], None),
-            panel("256 points", &[], None),
-            panel(
-                "a filter of 7 x 7 texels: as soft at the foot",
-                &["light.focus.samples=1", "light.shadow.size=256", "light.shadow.kernel=7x7"],
-                None,
-            ),
-        ],
-        caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns                   stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
-    },
+    super::projected::DUST,
+    super::projected::FOCUS,
+    super::projected::SOFT_SHADOWS,
     super::projected::SWIMMING,
     super::projected::BEAMS,
     super::projected::FALLOFF,

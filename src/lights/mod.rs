@@ -17,6 +17,7 @@ pub mod projected;
 pub mod projector;
 pub mod sides;
 mod viewer;
+mod whole_target;
 
 pub use camera_visibility::CameraView;
 pub use coordinates::Coordinates;
@@ -27,3 +28,4 @@ pub use light::{FrustumView, LightTerm, LightView};
 pub use map::{MapInfo, MapShape};
 pub use notes::{Chosen, LeftOut, Notes};
 pub use viewer::Viewer;
+pub use whole_target::whole_target;

@@ -1,15 +1,10 @@
 //! Value of texels with only one layer, if it is not the far plane: a pass over the whole map stores the nearest layer
 //! there. It writes a third map, as no pass may read what it draws into [GL 4.6, 9.3.1].
 
-use std::sync::{Arc, OnceLock};
-
-use glam::{DMat4, DVec4};
-
-use crate::geometry::{Mesh, primitive};
-use crate::lights::FrustumView;
+use crate::lights::{FrustumView, whole_target};
 use crate::pass::{
-    Attribute, Batch, Clear, Compare, Define, Draw, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId,
-    IndexOrder, Input, MeshRef, Pass, PassList, Primitive, Program, Redraw, Sampler, Storage, Target, Work, Wrap, glsl,
+    Attribute, Batch, Clear, Compare, Define, DrawPass, DrawState, Filter, FixedFunctionDesc, ImageId, Input, Pass,
+    PassList, Program, Redraw, Sampler, Storage, Target, Work, Wrap, glsl,
 };
 use crate::techniques::shadow_map::depth;
 use crate::techniques::shadow_map::settings::{Order, Settings};
@@ -43,7 +38,7 @@ pub fn fill(
         cull: None,
         scissor: None,
         clip_planes: 0,
-        draws: vec![whole_target()],
+        draws: vec![whole_target("every texel")],
     };
     list.passes.push(Pass {
         label: format!("light {}: single layer", view.index),
@@ -58,23 +53,4 @@ pub fn fill(
         }),
     });
     map
-}
-
-/// The square of side 2 in x and z, stood up in clip space. One mesh for all, so that it is uploaded once.
-fn whole_target() -> Draw {
-    static SQUARE: OnceLock<Arc<Mesh>> = OnceLock::new();
-    let mesh = SQUARE.get_or_init(|| Arc::new(primitive("quad").unwrap_or_default())).clone();
-    let clip_from_model = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
-    Draw {
-        label: String::from("every texel"),
-        primitive: Primitive::Triangles,
-        indices: 0..mesh.indices.len() as u32,
-        order: IndexOrder::File,
-        bounds: mesh.bounds,
-        mesh: MeshRef(mesh),
-        clip_from_model,
-        eye_from_model: None,
-        mirrored: false,
-        uniforms: Vec::new(),
-    }
 }
