@@ -6,6 +6,7 @@ mod map_options;
 mod material;
 mod mesh;
 mod mtl;
+mod mtl_maps;
 mod normals;
 mod obj;
 mod primitives;

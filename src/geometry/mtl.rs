@@ -2,14 +2,13 @@
 //! three numbers and knows no Tr. Other statements are ignored, with a warning if that changes the picture. Format:
 //! Wavefront's "MTL material format", version 4.2.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use super::map_options::{MapOptions, Values};
+use super::map_options::MapOptions;
+use super::mtl_maps::{Loaded, Map, Statement};
 use super::obj::corner::shorten;
 use super::tally::WarningTally;
-use super::{Error, Material, Placement, Texture, Warning, text, texture};
+use super::{Error, Material, Warning, text, texture};
 
 /// The materials of one or more library files.
 #[derive(Debug, Default)]
@@ -54,46 +53,6 @@ struct Opacity {
     /// The statement, alone and with file and line.
     statement: String,
     origin: String,
-}
-
-/// A texture that a material names.
-#[derive(Debug)]
-struct Map {
-    material: usize,
-    statement: Statement,
-    /// The library's file and line.
-    path: PathBuf,
-    line: usize,
-    placement: Placement,
-    values: Values,
-    /// The file as written.
-    written: String,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Statement {
-    Decal,
-    Alpha,
-    /// Ignored: most files name map_Kd's picture here too, and the decal modulates ambient light.
-    Ambient,
-}
-
-impl Statement {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Decal => "map_Kd",
-            Self::Alpha => "map_d",
-            Self::Ambient => "map_Ka",
-        }
-    }
-
-    /// Names what is drawn if its texture is missing.
-    fn without(self) -> &'static str {
-        match self {
-            Self::Alpha => "the surface has no holes",
-            Self::Decal | Self::Ambient => "the plain colour is drawn",
-        }
-    }
 }
 
 /// Place of a statement.
@@ -339,43 +298,6 @@ impl Library {
         }
         warnings.extend(self.oddities.warnings());
         materials
-    }
-}
-
-/// The textures of a library, each loaded once for each change of its values.
-#[derive(Default)]
-struct Loaded {
-    pictures: HashMap<PathBuf, Result<Arc<Texture>, String>>,
-    changed: Vec<(PathBuf, Statement, Values, Arc<Texture>)>,
-}
-
-impl Loaded {
-    /// The texture of a map, or why there is none.
-    fn texture(&mut self, map: &Map) -> Result<Arc<Texture>, String> {
-        let found = map.find().ok_or_else(|| format!("there is no file '{}'", map.written))?;
-        let load = || texture::load_texture(&found).map(Arc::new).map_err(|error| error.to_string());
-        let picture = self.pictures.entry(found.clone()).or_insert_with(load).clone()?;
-        if map.values == Values::default() {
-            return Ok(picture);
-        }
-        let is_known = |known: &&(PathBuf, Statement, Values, Arc<Texture>)| {
-            (&known.0, known.1, known.2) == (&found, map.statement, map.values)
-        };
-        if let Some((.., texture)) = self.changed.iter().find(is_known) {
-            return Ok(texture.clone());
-        }
-        let texture = Arc::new(match map.statement {
-            Statement::Alpha => map.values.of_scalar(&picture),
-            Statement::Decal | Statement::Ambient => map.values.of_color(&picture),
-        });
-        self.changed.push((found, map.statement, map.values, texture.clone()));
-        Ok(texture)
-    }
-}
-
-impl Map {
-    fn find(&self) -> Option<PathBuf> {
-        texture::find_file(self.path.parent().unwrap_or(Path::new("")), &self.written)
     }
 }
 
