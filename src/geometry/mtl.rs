@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use super::map_options::MapOptions;
-use super::mtl_maps::{Loaded, Map, Statement};
+use super::mtl_maps::{LoadedMaps, Map, Statement};
 use super::obj::corner::shorten;
 use super::tally::WarningTally;
 use super::{Error, Material, Warning, text, texture};
@@ -273,7 +273,7 @@ impl Library {
     /// to `warnings`.
     pub(super) fn load_materials(mut self, warnings: &mut Vec<Warning>) -> Vec<Material> {
         let mut materials: Vec<Material> = std::mem::take(&mut self.statements).into_iter().map(material_of).collect();
-        let mut loaded = Loaded::default();
+        let mut loaded = LoadedMaps::default();
         for map in std::mem::take(&mut self.maps).iter() {
             let place = Place { path: &map.path, line: map.line };
             let Some(material) = materials.get_mut(map.material) else { continue };

@@ -49,12 +49,12 @@ impl Statement {
 
 /// The textures of a library, each loaded once for each change of its values.
 #[derive(Default)]
-pub(super) struct Loaded {
+pub(super) struct LoadedMaps {
     pictures: HashMap<PathBuf, Result<Arc<Texture>, String>>,
     changed: Vec<(PathBuf, Statement, Values, Arc<Texture>)>,
 }
 
-impl Loaded {
+impl LoadedMaps {
     /// The texture of a map, or why there is none.
     pub fn texture(&mut self, map: &Map) -> Result<Arc<Texture>, String> {
         let found = map.find().ok_or_else(|| format!("there is no file '{}'", map.written))?;
