@@ -39,21 +39,21 @@ fn without_core_file() {
 #[cfg(unix)]
 fn end_of(child: libc::pid_t) -> Result<(), String> {
     use std::time::{Duration, Instant};
-    const PATIENCE: Duration = Duration::from_secs(20);
     const BETWEEN: Duration = Duration::from_millis(2);
+    let patience = Duration::from_secs(u64::from(crate::process::patience()));
     let start = Instant::now();
     let mut status = 0;
     loop {
         // SAFETY: the child is this process's own and has not been waited for; it is again after it was ended.
         match unsafe { libc::waitpid(child, &mut status, libc::WNOHANG) } {
-            0 if start.elapsed() < PATIENCE => std::thread::sleep(BETWEEN),
+            0 if start.elapsed() < patience => std::thread::sleep(BETWEEN),
             0 => {
                 // SAFETY: as above.
                 unsafe {
                     libc::kill(child, libc::SIGKILL);
                     libc::waitpid(child, &mut status, 0);
                 }
-                return Err(format!("does not answer in {} s, tried in a child process", PATIENCE.as_secs()));
+                return Err(format!("does not answer in {} s, tried in a child process", patience.as_secs()));
             }
             -1 => return Err(format!("cannot be waited for: {}", std::io::Error::last_os_error())),
             _ if libc::WIFSIGNALED(status) => {

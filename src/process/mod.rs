@@ -20,12 +20,36 @@ pub(crate) use unfinished::{Unfinished, unfinished};
 /// size of files (RLIMIT_FSIZE) becomes an error of the write that meets it. To be called once, before there are threads.
 #[cfg(unix)]
 pub fn guard() {
+    if let Err(warning) = set_patience() {
+        say(&[warning.as_bytes()]);
+    }
     signals::install();
 }
 
 /// Does nothing: this system has no signals.
 #[cfg(not(unix))]
 pub fn guard() {}
+
+/// Seconds that a driver may do nothing before it is given up, unless GLUMBRA_PATIENCE says otherwise.
+const PATIENCE: u32 = 30;
+
+/// Seconds that a driver may do nothing before it is given up: GLUMBRA_PATIENCE, from 1 to 3600. An error if it is set and
+/// is no such number.
+fn set_patience() -> Result<u32, String> {
+    let Some(text) = std::env::var_os("GLUMBRA_PATIENCE") else { return Ok(PATIENCE) };
+    let seconds = text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| (1..=3600).contains(seconds));
+    seconds.ok_or_else(|| {
+        format!(
+            "warning: GLUMBRA_PATIENCE={} is no number of seconds from 1 to 3600; {PATIENCE} is used\n",
+            text.display()
+        )
+    })
+}
+
+/// Seconds that a driver may do nothing before it is given up.
+pub(crate) fn patience() -> u32 {
+    set_patience().unwrap_or(PATIENCE)
+}
 
 /// Writes on standard error without taking memory or a lock.
 fn say(parts: &[&[u8]]) {

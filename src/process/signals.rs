@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicI64, AtomicU32, Ordering};
 
 use libc::{c_int, c_void, siginfo_t};
 
-use super::{doing, say, unfinished};
+use super::{digits, doing, patience, say, unfinished};
 
 /// Faults of the process itself, with their names.
 const CRASHES: [(c_int, &str); 5] = [
@@ -23,12 +23,13 @@ const CRASHES: [(c_int, &str); 5] = [
 /// Requests to end.
 const ENDS: [c_int; 3] = [libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
 
-/// Seconds between two checks of the processor time.
-const TICK_SECONDS: u32 = 5;
 /// Successive checks without used processor time after which a working driver is given up.
 const MOST_IDLE_TICKS: u32 = 6;
 /// Processor time between two checks that counts as none, in microseconds; the check itself uses some.
 const IDLE_MICROSECONDS: i64 = 1_000;
+
+/// Seconds between two checks of the processor time: a sixth of [`patience`], rounded up.
+static TICK_SECONDS: AtomicU32 = AtomicU32::new(0);
 
 /// Successive checks that found no processor time used.
 static IDLE_TICKS: AtomicU32 = AtomicU32::new(0);
@@ -38,6 +39,7 @@ pub(super) fn install() {
         handle(signal, on_end);
     }
     handle(libc::SIGALRM, on_alarm);
+    TICK_SECONDS.store(patience().div_ceil(MOST_IDLE_TICKS), Ordering::Relaxed);
     doing::watch_by(watch);
     // SAFETY: an ignored SIGXFSZ makes a write beyond the limit fail with EFBIG.
     unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
@@ -47,7 +49,7 @@ pub(super) fn install() {
 fn watch(begins: bool) {
     IDLE_TICKS.store(0, Ordering::Relaxed);
     // SAFETY: takes a number; 0 takes the alarm back.
-    unsafe { libc::alarm(if begins { TICK_SECONDS } else { 0 }) };
+    unsafe { libc::alarm(if begins { TICK_SECONDS.load(Ordering::Relaxed) } else { 0 }) };
 }
 
 /// In a child made by fork: the parent reports a crash.
@@ -127,18 +129,21 @@ extern "C" fn on_alarm(_: c_int, _: *mut siginfo_t, _: *mut c_void) {
     let ticks = if is_idle && at_work { IDLE_TICKS.fetch_add(1, Ordering::Relaxed) + 1 } else { 0 };
     IDLE_TICKS.store(ticks, Ordering::Relaxed);
     if ticks >= MOST_IDLE_TICKS {
+        let seconds = (ticks * TICK_SECONDS.load(Ordering::Relaxed)) as usize;
+        let mut buffer = [0; 20];
+        let seconds = digits(seconds, &mut buffer);
         doing::steps(|what| {
-            let stopped = b"error: the OpenGL driver has done nothing for half a minute while ";
-            say(&[stopped, what.as_bytes(), b"\n"]);
+            let stopped = b"error: the OpenGL driver has done nothing for ";
+            say(&[stopped, seconds, b" s while ", what.as_bytes(), b"\n"]);
         });
-        say(&[b"Too little memory or too few threads (ulimit -v, ulimit -u) may be why.\n"]);
+        say(&[b"Too little memory or too few threads (ulimit -v, ulimit -u) may be why. GLUMBRA_PATIENCE=SECONDS waits longer.\n"]);
         unfinished::remove_all();
         // SAFETY: ends the process; a regular exit would wait for the driver's threads.
         unsafe { libc::_exit(1) };
     }
     if at_work {
         // SAFETY: takes a number.
-        unsafe { libc::alarm(TICK_SECONDS) };
+        unsafe { libc::alarm(TICK_SECONDS.load(Ordering::Relaxed)) };
     }
 }
 

@@ -115,7 +115,7 @@ pub fn load(path: &Path, set: &[&str]) -> Scene {
 /// The picture in floats, so that nothing is rounded before it is compared, and each light's shade.
 pub fn picture_and_shades(scene: &Scene) -> Request {
     let views = (0..scene.lights.len()).map(|light| ViewRequest { view: View::Shade, light }).collect();
-    Request { views, float_picture: true, ..Request::default() }
+    Request { views, float_picture: true, sampled_warnings: false, ..Request::default() }
 }
 
 /// Compares both pipelines. `Ok(true)` if some light's shade has a shadow.
