@@ -3,7 +3,9 @@
 
 mod child;
 mod floor;
+mod floor_dust;
 mod floor_gl;
+mod floor_layer;
 mod floor_lens;
 mod floor_maps;
 mod floor_passes;

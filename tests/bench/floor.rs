@@ -10,6 +10,7 @@ use glow::HasContext;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
+use super::floor_dust::Dust;
 use super::floor_gl::{self, Program};
 use super::floor_lens::Lens;
 use super::floor_maps::{self, MapPass};
@@ -31,6 +32,8 @@ pub struct Floor {
     picture_target: glow::Framebuffer,
     /// Only for [`Kind::Lens`].
     lens: Option<Lens>,
+    /// Only for [`Kind::Dust`].
+    dust: Option<Dust>,
     size: i32,
     /// Indices of the model; those of the quad follow.
     model_indices: i32,
@@ -68,12 +71,18 @@ impl Floor {
         let lit = Program::new(&gl, defines, include_str!("lit.vert"), &fragment)?;
         let maps = floor_maps::make(&gl, kind, &numbers)?;
         let picture_target = floor_gl::picture(&gl, numbers.size)?;
-        floor_gl::upload(&gl, bytemuck::cast_slice(&vertices), bytemuck::cast_slice(&indices))?;
+        let surfaces = floor_gl::upload(&gl, bytemuck::cast_slice(&vertices), bytemuck::cast_slice(&indices))?;
         let passes = floor_passes::make(&gl, kind)?;
         let programs = [&lit].into_iter().chain(passes.iter().map(|pass| &pass.program));
         programs.for_each(|program| set_uniforms(&gl, kind, &numbers, program));
         let lens = (kind == Kind::Lens).then(|| Lens::new(&gl, &numbers, camera(&numbers))).transpose()?;
-        let picture_target = lens.as_ref().map_or(picture_target, |lens| lens.picture);
+        let dust = || {
+            let (projection, view) = kinds::light_matrices(kind, &numbers);
+            Dust::new(&gl, &numbers, surfaces, camera(&numbers), projection * view)
+        };
+        let dust = (kind == Kind::Dust).then(dust).transpose()?;
+        let layer = lens.as_ref().map(|lens| &lens.layer).or(dust.as_ref().map(|dust| &dust.layer));
+        let picture_target = layer.map_or(picture_target, |layer| layer.picture);
         unsafe {
             gl.enable(glow::DEPTH_TEST);
             gl.polygon_offset(1.1, 4.0);
@@ -83,7 +92,7 @@ impl Floor {
         }
         let pixels = vec![0; 4 * (numbers.size * numbers.size) as usize];
         let Numbers { size, models, .. } = numbers;
-        Ok(Self { gl, kind, lit, maps, passes, picture_target, lens, size, model_indices, models, pixels })
+        Ok(Self { gl, kind, lit, maps, passes, picture_target, lens, dust, size, model_indices, models, pixels })
     }
 
     /// Draws the maps.
@@ -127,6 +136,9 @@ impl Floor {
             if self.passes.is_empty() {
                 gl.use_program(Some(self.lit.name));
                 self.draw(&self.lit);
+                if let Some(dust) = &self.dust {
+                    dust.draw(gl);
+                }
                 return;
             }
             for (index, pass) in self.passes.iter().enumerate() {

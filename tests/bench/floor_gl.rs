@@ -99,9 +99,10 @@ pub fn picture(gl: &glow::Context, size: i32) -> Result<glow::Framebuffer> {
 }
 
 /// One vertex array over interleaved positions and normals, left bound.
-pub fn upload(gl: &glow::Context, vertices: &[u8], indices: &[u8]) -> Result<()> {
+pub fn upload(gl: &glow::Context, vertices: &[u8], indices: &[u8]) -> Result<glow::VertexArray> {
     unsafe {
-        gl.bind_vertex_array(Some(gl.create_vertex_array()?));
+        let array = gl.create_vertex_array()?;
+        gl.bind_vertex_array(Some(array));
         gl.bind_buffer(glow::ARRAY_BUFFER, Some(gl.create_buffer()?));
         gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, vertices, glow::STATIC_DRAW);
         gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(gl.create_buffer()?));
@@ -110,8 +111,8 @@ pub fn upload(gl: &glow::Context, vertices: &[u8], indices: &[u8]) -> Result<()>
             gl.enable_vertex_attrib_array(location);
             gl.vertex_attrib_pointer_f32(location, 3, glow::FLOAT, false, 24, 12 * location as i32);
         }
+        Ok(array)
     }
-    Ok(())
 }
 
 /// A context, a framebuffer, a clear, a pixel read: what no picture comes without.

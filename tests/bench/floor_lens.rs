@@ -8,17 +8,15 @@ use glow::HasContext;
 
 use super::Result;
 use super::floor_gl::Program;
+use super::floor_layer::Layer;
 use super::floor_maps::MapPass;
 use super::kinds::{LENS_DISTANCE, LENS_POINTS, LENS_RADIUS};
 use super::numbers::Numbers;
 
 /// Targets, programs and lens points.
 pub struct Lens {
-    /// The picture, with the depth that both share.
-    pub picture: glow::Framebuffer,
-    layer: glow::Framebuffer,
+    pub layer: Layer,
     ambient: Program,
-    over: Program,
     points: Vec<Point>,
 }
 
@@ -37,21 +35,12 @@ impl Lens {
             vertex,
             "#version 330 core\nuniform float material;\nout vec4 color;\nvoid main() { color = vec4(vec3(material * 0.2), 1.0); }\n",
         )?;
-        let over = Program::new(
-            gl,
-            "",
-            "#version 330 core\nvoid main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }\n",
-            "#version 330 core\nuniform sampler2D layer;\nout vec4 color;\nvoid main() { color = texelFetch(layer, ivec2(gl_FragCoord.xy), 0); }\n",
-        )?;
         unsafe {
             gl.use_program(Some(ambient.name));
             let matrix = ambient.at(gl, "clip_from_world");
             gl.uniform_matrix_4_f32_slice(matrix.as_ref(), false, &camera.to_cols_array());
-            gl.use_program(Some(over.name));
-            gl.uniform_1_i32(over.at(gl, "layer").as_ref(), 1);
         }
-        let [picture, layer] = targets(gl, numbers.size)?;
-        Ok(Self { picture, layer, ambient, over, points: points(numbers) })
+        Ok(Self { layer: Layer::new(gl, numbers.size)?, ambient, points: points(numbers) })
     }
 
     /// Draws the picture. `draw` draws everything by a program.
@@ -60,10 +49,8 @@ impl Lens {
         let of_map = map.program.at(gl, "clip_from_world");
         let [texture, light] = ["texture_from_world", "light"].map(|name| lit.at(gl, name));
         unsafe {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.layer));
-            gl.clear_color(0.0, 0.0, 0.0, 0.0);
-            gl.clear(glow::COLOR_BUFFER_BIT);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.picture));
+            self.layer.clear(gl);
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.layer.picture));
             gl.viewport(0, 0, size, size);
             gl.clear_color(0.30, 0.40, 0.60, 1.0);
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
@@ -79,7 +66,7 @@ impl Lens {
                 gl.uniform_matrix_4_f32_slice(of_map.as_ref(), false, &point.clip_from_world.to_cols_array());
                 draw(&map.program);
                 gl.disable(glow::POLYGON_OFFSET_FILL);
-                gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.layer));
+                self.layer.bind(gl);
                 gl.viewport(0, 0, size, size);
                 gl.depth_func(glow::EQUAL);
                 gl.depth_mask(false);
@@ -93,13 +80,7 @@ impl Lens {
                 gl.depth_mask(true);
                 gl.depth_func(glow::LESS);
             }
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.picture));
-            gl.disable(glow::DEPTH_TEST);
-            gl.enable(glow::BLEND);
-            gl.use_program(Some(self.over.name));
-            gl.draw_arrays(glow::TRIANGLES, 0, 3);
-            gl.disable(glow::BLEND);
-            gl.enable(glow::DEPTH_TEST);
+            self.layer.put_over(gl);
         }
     }
 }
@@ -124,32 +105,4 @@ fn points(numbers: &Numbers) -> Vec<Point> {
         Point { clip_from_world: sheared * view, place: numbers.light + moved }
     };
     (0..LENS_POINTS).map(point).collect()
-}
-
-/// The picture and the layer of floats, with one depth buffer; the layer's texture is left bound to unit 1.
-fn targets(gl: &glow::Context, size: i32) -> Result<[glow::Framebuffer; 2]> {
-    unsafe {
-        let [color, depth] = [gl.create_renderbuffer()?, gl.create_renderbuffer()?];
-        for (buffer, format) in [(color, glow::RGBA8), (depth, glow::DEPTH_COMPONENT24)] {
-            gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
-            gl.renderbuffer_storage(glow::RENDERBUFFER, format, size, size);
-        }
-        gl.active_texture(glow::TEXTURE1);
-        let texture = gl.create_texture()?;
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        let (format, pixels) = (glow::RGBA32F as i32, glow::PixelUnpackData::Slice(None));
-        gl.tex_image_2d(glow::TEXTURE_2D, 0, format, size, size, 0, glow::RGBA, glow::FLOAT, pixels);
-        gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MIN_FILTER, glow::NEAREST as i32);
-        gl.active_texture(glow::TEXTURE0);
-        let [picture, layer] = [gl.create_framebuffer()?, gl.create_framebuffer()?];
-        for target in [picture, layer] {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target));
-            gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, glow::DEPTH_ATTACHMENT, glow::RENDERBUFFER, Some(depth));
-        }
-        let attachment = glow::COLOR_ATTACHMENT0;
-        gl.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, Some(texture), 0);
-        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(picture));
-        gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, glow::RENDERBUFFER, Some(color));
-        Ok([picture, layer])
-    }
 }

@@ -30,7 +30,13 @@ pub enum Kind {
     AlphaShadow,
     /// A light through a lens: a map and an added pass for each of its points.
     Lens,
+    /// The map's picture under dusty air.
+    Dust,
 }
+
+/// The dust of [`Kind::Dust`], over each other.
+pub const DUST_SLICES: u32 = 64;
+pub const DUST_DENSITY: f32 = 0.1;
 
 /// The lens of [`Kind::Lens`].
 pub const LENS_POINTS: u32 = 64;
@@ -66,9 +72,8 @@ pub fn shade(kind: Kind) -> (&'static str, String) {
         Kind::Cube | Kind::Face => ("#define CUBE\n", String::new()),
         Kind::Parallel => ("#define PARALLEL\n", String::new()),
         Kind::Lens => ("#define LENS\n", String::new()),
-        Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth | Kind::Slide | Kind::AlphaShadow => {
-            ("", String::new())
-        }
+        Kind::Map | Kind::EightTaps | Kind::Midpoint | Kind::SecondDepth => ("", String::new()),
+        Kind::Slide | Kind::AlphaShadow | Kind::Dust => ("", String::new()),
     }
 }
 

@@ -86,6 +86,7 @@ const WAYS: &[Way] = &[
         expected: [Some(0.6), None],
         ..way("the same, casters at the map's resolution", Kind::Lens, LENS_AT_RESOLUTION)
     },
+    Way { scene: Some(Scene::S1), expected: [Some(1.0), None], ..way("dusty air, 64 slices", Kind::Dust, DUST) },
     by_light("directional", Kind::Parallel, &[PARALLEL]),
     Way {
         expected: [Some(0.8); 2],
@@ -110,6 +111,8 @@ const WAYS: &[Way] = &[
 
 /// As [`super::kinds::LENS_POINTS`] and so on.
 const LENS: &[&str] = &["light.focus={ distance = 5.0, radius = 0.25, samples = 64 }"];
+/// As [`super::kinds::DUST_SLICES`] and so on.
+const DUST: &[&str] = &["light.dust={ density = 0.1, slices = 64, extinct = \"lit\" }"];
 const LENS_AT_RESOLUTION: &[&str] = &[LENS[0], "light.shadow.casters=texel"];
 
 const FITTED: &[&str] = &["light.shadow.fit=view", "light.shadow.size=512"];
