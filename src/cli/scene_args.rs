@@ -43,7 +43,7 @@ impl SceneChanges {
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
-    /// A scene (.toml), or a model (.obj) around which a floor, a spotlight and a camera are supplied
+    /// A scene (.toml), or a model (.obj, .md2) around which a floor, a spotlight and a camera are supplied
     pub scene: PathBuf,
 
     #[command(flatten)]

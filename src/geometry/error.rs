@@ -14,6 +14,8 @@ pub enum Error {
     NotText { path: PathBuf, line: usize, byte: u8 },
     #[error("{}:{line}: {what}", path.display())]
     Malformed { path: PathBuf, line: usize, what: String },
+    #[error("{}: at byte {offset}: {what}", path.display())]
+    MalformedAt { path: PathBuf, offset: usize, what: String },
     #[error("{}: has no faces of three vertices or more", path.display())]
     NoFaces { path: PathBuf },
     #[error("{}: has more than {} {what}", path.display(), u32::MAX)]

@@ -1,9 +1,10 @@
-//! Meshes on the CPU: loading (OBJ and MTL), primitives, smooth normals, shadow volumes. No GL, no scene.
+//! Meshes on the CPU: loading (OBJ and MTL, MD2), primitives, smooth normals, shadow volumes. No GL, no scene.
 
 mod derived;
 mod error;
 mod map_options;
 mod material;
+pub mod md2;
 mod mesh;
 mod mtl;
 mod mtl_maps;

@@ -5,14 +5,41 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Error;
+use super::resolve::pose::WrittenPose;
 use super::settings::{Origin, SettingsError, suggest};
-use crate::geometry::{self, Mesh, Texture};
+use crate::geometry::{self, Mesh, Texture, md2};
+
+/// Ends of the names of files that have a mesh.
+pub(super) const MODELS: [&str; 2] = ["obj", "md2"];
+
+/// The model of a file or of a built-in name.
+#[derive(Clone)]
+pub(super) enum Model {
+    /// One pose.
+    Still(Arc<Mesh>),
+    KeyFramed(Arc<md2::Model>),
+}
+
+impl Model {
+    /// The mesh, in its first frame.
+    pub fn first(&self) -> Arc<Mesh> {
+        match self {
+            Self::Still(mesh) => mesh.clone(),
+            Self::KeyFramed(model) => Arc::new(model.mesh(&md2::Pose::default(), md2::NormalSource::File)),
+        }
+    }
+}
+
+/// A pose of a file's model, bit for bit.
+type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
 
 /// Meshes and textures loaded so far.
 #[derive(Default)]
 pub(super) struct Assets {
-    /// Meshes by built-in name, or by the file's canonical path.
-    meshes: HashMap<PathBuf, Arc<Mesh>>,
+    /// Models by built-in name, or by the file's canonical path.
+    models: HashMap<PathBuf, Model>,
+    /// Meshes of key-framed models.
+    poses: HashMap<PoseKey, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Pictures in memory, by the names that the scene file has for them.
     embedded: &'static [(&'static str, &'static [u8])],
@@ -26,18 +53,32 @@ impl Assets {
         Self { embedded, ..Self::default() }
     }
 
-    /// A built-in mesh, or one of a file named from `origin`.
-    pub fn mesh(&mut self, name: &str, origin: &Origin) -> Result<Arc<Mesh>, Error> {
-        if let Some(mesh) = self.primitive(name) {
-            return Ok(mesh);
-        }
+    /// A built-in mesh, or one of a file named from `origin`, in a pose if its model is key-framed.
+    pub fn mesh(&mut self, name: &str, origin: &Origin, pose: &WrittenPose<'_>) -> Result<Arc<Mesh>, Error> {
         let path = file(name, origin);
-        if !has_extension(&path, "obj") {
-            let hint = suggest(name, geometry::PRIMITIVES.iter().copied());
-            let message = format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj");
-            return Err(SettingsError::new(origin, message).into());
+        let model = match self.primitive(name) {
+            Some(model) => model,
+            None if is_model(&path) => {
+                self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })?
+            }
+            None => {
+                let hint = suggest(name, geometry::PRIMITIVES.iter().copied());
+                let message =
+                    format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj or .md2");
+                return Err(SettingsError::new(origin, message).into());
+            }
+        };
+        match model {
+            Model::Still(mesh) => {
+                pose.refuse()?;
+                Ok(mesh)
+            }
+            Model::KeyFramed(model) => {
+                let (pose, source) = pose.resolve(&model)?;
+                let key = (canonical(&path), pose.frames, pose.blend.to_bits(), source);
+                Ok(self.poses.entry(key).or_insert_with(|| Arc::new(model.mesh(&pose, source))).clone())
+            }
         }
-        self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
     /// Keeps a warning, once.
@@ -47,22 +88,27 @@ impl Assets {
         }
     }
 
-    /// An OBJ file.
-    pub fn model(&mut self, path: &Path) -> Result<Arc<Mesh>, geometry::Error> {
+    /// A file's model.
+    pub fn model(&mut self, path: &Path) -> Result<Model, geometry::Error> {
         let key = canonical(path);
-        if let Some(mesh) = self.meshes.get(&key) {
-            return Ok(mesh.clone());
+        if let Some(model) = self.models.get(&key) {
+            return Ok(model.clone());
         }
-        let (mesh, warnings) = geometry::load_obj(path)?;
+        let (model, warnings) = if has_extension(path, "md2") {
+            let (model, warnings) = md2::Model::load(path)?;
+            (Model::KeyFramed(Arc::new(model)), warnings)
+        } else {
+            let (mesh, warnings) = geometry::load_obj(path)?;
+            (Model::Still(Arc::new(mesh)), warnings)
+        };
         self.warnings.extend(warnings.iter().map(ToString::to_string));
-        let mesh = Arc::new(mesh);
-        self.meshes.insert(key, mesh.clone());
-        Ok(mesh)
+        self.models.insert(key, model.clone());
+        Ok(model)
     }
 
     /// Registers a model under `name` too, for paths that are not UTF-8.
-    pub fn also_known_as(&mut self, name: &str, mesh: &Arc<Mesh>) {
-        self.meshes.insert(canonical(Path::new(name)), mesh.clone());
+    pub fn also_known_as(&mut self, name: &str, model: &Model) {
+        self.models.insert(canonical(Path::new(name)), model.clone());
     }
 
     /// A picture file named from `origin`.
@@ -86,13 +132,13 @@ impl Assets {
         self.embedded.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
     }
 
-    fn primitive(&mut self, name: &str) -> Option<Arc<Mesh>> {
-        if let Some(mesh) = self.meshes.get(Path::new(name)) {
-            return Some(mesh.clone());
+    fn primitive(&mut self, name: &str) -> Option<Model> {
+        if let Some(model) = self.models.get(Path::new(name)) {
+            return Some(model.clone());
         }
-        let mesh = Arc::new(geometry::primitive(name)?);
-        self.meshes.insert(PathBuf::from(name), mesh.clone());
-        Some(mesh)
+        let model = Model::Still(Arc::new(geometry::primitive(name)?));
+        self.models.insert(PathBuf::from(name), model.clone());
+        Some(model)
     }
 }
 
@@ -107,6 +153,11 @@ pub(super) fn file(name: &str, origin: &Origin) -> PathBuf {
 /// Path that identifies a file; absolute, so never a built-in's name.
 fn canonical(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| Path::new("/").join(path))
+}
+
+/// Tests whether `path` ends as a model's does.
+pub(super) fn is_model(path: &Path) -> bool {
+    MODELS.iter().any(|extension| has_extension(path, extension))
 }
 
 /// Tests whether `path` ends in `.extension`, in whatever case.

@@ -16,7 +16,7 @@ pub enum Error {
     Read { path: PathBuf, reason: io::Error },
 
     /// The path is that of a folder.
-    #[error("{path}: is a folder; name a scene (.toml) or a model (.obj)", path = .path.display())]
+    #[error("{path}: is a folder; name a scene (.toml) or a model (.obj, .md2)", path = .path.display())]
     Folder { path: PathBuf },
 
     /// The file is longer than any scene.
@@ -24,7 +24,7 @@ pub enum Error {
     TooLong { path: PathBuf, bytes: u64, limit: u64 },
 
     /// The file's name has none of the known endings.
-    #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj", path = .path.display())]
+    #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj or .md2", path = .path.display())]
     UnknownKind { path: PathBuf },
 
     /// A byte of the file is not UTF-8.

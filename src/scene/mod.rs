@@ -1,4 +1,4 @@
-//! From a file to a resolved [`Scene`]: TOML or OBJ in, plain values out. Errors carry file and line, unknown keys
+//! From a file to a resolved [`Scene`]: TOML, OBJ or MD2 in, plain values out. Errors carry file and line, unknown keys
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
@@ -39,7 +39,7 @@ pub use shadow::Shadow;
 pub use views::with_shadow;
 
 use crate::math::Aabb;
-use assets::{Assets, has_extension};
+use assets::{Assets, has_extension, is_model};
 use settings::Plain;
 
 /// Greatest size of a scene file, in bytes.
@@ -78,7 +78,7 @@ pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn Re
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
-/// Loads a scene (.toml) or a model (.obj) with a scene supplied around it. `overrides` are the texts of `--set`,
+/// Loads a scene (.toml) or a model (.obj, .md2) with a scene supplied around it. `overrides` are the texts of `--set`,
 /// `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
 /// techniques read it.
 ///
@@ -109,7 +109,7 @@ pub fn table(path: &Path) -> Result<Settings, Error> {
 /// The scene as [`settings`] has it, but with absolute paths to its files: to be saved in any folder.
 pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     let mut root = settings(path, overrides)?;
-    files::make_absolute(&mut root, has_extension(path, "obj").then_some(path))?;
+    files::make_absolute(&mut root, is_model(path).then_some(path))?;
     Ok(root)
 }
 
@@ -128,7 +128,7 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
     if path.is_dir() {
         return Err(Error::Folder { path: path.to_owned() });
     }
-    if has_extension(path, "obj") {
+    if is_model(path) {
         return around_model(path, overrides, assets);
     }
     if !has_extension(path, "toml") {
@@ -142,13 +142,14 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
 /// The key that leaves out the floor of a supplied scene.
 const FLOOR: &str = "floor";
 
-/// The supplied scene around an OBJ file. Overrides can move the model and reshape the picture, so the framing is repeated
+/// The supplied scene around a model's file. Overrides can move the model and reshape the picture, so the framing is repeated
 /// after them.
 fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Result<Settings, Error> {
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
-    let bounds = Aabb { min: model.bounds.min + model.origin, max: model.bounds.max + model.origin };
+    let mesh = model.first();
+    let bounds = Aabb { min: mesh.bounds.min + mesh.origin, max: mesh.bounds.max + mesh.origin };
     let mut first = framing(&name, &bounds, 1.0, Floor::Touching);
     overrides::apply(&mut first, overrides)?;
 

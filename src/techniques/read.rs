@@ -58,7 +58,7 @@ impl ReadShadow for Techniques {
     }
 }
 
-/// Loads a scene (.toml), or a model (.obj) with a scene supplied around it, with its lights' shadow settings.
+/// Loads a scene (.toml), or a model (.obj, .md2) with a scene supplied around it, with its lights' shadow settings.
 /// `overrides` are the texts of `--set`, `a.b.c=value`, applied in order.
 ///
 /// # Errors

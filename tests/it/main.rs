@@ -37,6 +37,7 @@ mod licences;
 mod light_maps;
 mod listing_drawn;
 mod many_lights;
+mod md2;
 mod mistakes;
 mod mutated;
 mod oracle;

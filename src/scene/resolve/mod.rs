@@ -6,6 +6,7 @@ mod falloff;
 mod light;
 mod material;
 pub(super) mod object;
+pub(super) mod pose;
 
 use super::assets::Assets;
 use super::settings::{Plain, Reader, Settings, SettingsError};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use super::material;
+use super::pose::WrittenPose;
 use crate::geometry::{Material, Mesh, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
@@ -15,9 +16,10 @@ use crate::scene::{Error, Object};
 pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Object, Error> {
     let mut reader = table.read();
     let (mesh, mesh_origin) =
-        reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh or an .obj file"))?;
+        reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh, or an .obj or .md2 file"))?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
     let world_from_file = placement(&mut reader)?;
+    let pose = WrittenPose::read(&mut reader, table.read())?;
     let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
@@ -25,7 +27,7 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let material = reader.table("material")?;
     reader.finish()?;
     let material = material.map(|table| material::read(table, &name, assets)).transpose()?;
-    let mesh = assets.mesh(mesh, mesh_origin)?;
+    let mesh = assets.mesh(mesh, mesh_origin, &pose)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
     }

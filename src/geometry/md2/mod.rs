@@ -1,0 +1,8 @@
+//! Key-framed models: MD2 files, read and written, and their meshes between two key frames [GDC, "Quake2 Models"].
+
+mod file;
+mod model;
+mod normals;
+
+pub use file::{Frame, Md2, Triangle, read, text, write};
+pub use model::{Model, NormalSource, Pose};

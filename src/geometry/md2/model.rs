@@ -1,0 +1,209 @@
+//! A key-framed model made ready to draw: corners, triangles that are counter-clockwise from outside, poses.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use glam::{DVec3, Vec3};
+
+use super::super::{Error, Mesh, Part, Warning, normals as smooth};
+use super::file::{self, Md2, Triangle};
+use super::normals;
+use crate::math::Aabb;
+
+/// Greatest numbers of triangles, vertices, frames and skins in Quake II, for which the format was made.
+const OF_QUAKE: [(&str, usize); 4] = [("triangles", 4096), ("vertices", 2048), ("frames", 512), ("skins", 32)];
+
+/// Share of the box's volume below which a model has no inside: its triangles are turned by the format's rule.
+const LEAST_VOLUME: f64 = 1e-3;
+
+/// A model's skin, triangles and frames. Model space is right-handed with y up: the file's x stays, its z is y.
+#[derive(Clone, Debug)]
+pub struct Model {
+    file: Md2,
+    name: String,
+    /// Pairs of a vertex and a texture coordinate, each once: what is drawn as a vertex.
+    corners: Vec<[u16; 2]>,
+    /// Three corners a triangle, counter-clockwise from outside.
+    indices: Vec<u32>,
+    /// Unit directions of the file's normals, in model space.
+    directions: Vec<DVec3>,
+}
+
+/// A place between two key frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Numbers of two frames, below the model's.
+    pub frames: [usize; 2],
+    /// Share of the second, in [0, 1].
+    pub blend: f64,
+}
+
+/// Source of a model's normals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum NormalSource {
+    /// The file's, of 162 directions: up to 11 degrees off.
+    #[default]
+    File,
+    /// Means of the triangles around each vertex.
+    Recomputed,
+}
+
+impl Model {
+    /// Reads the MD2 file at `path`. Warnings are: counts beyond Quake II's, names without an end, triangles without an area
+    /// in any frame, which are left out, and triangles that are counter-clockwise although the format has them clockwise.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, and those of [`file::read`].
+    pub fn load(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
+        let bytes = super::super::text::read(path)?;
+        let mut warnings = Vec::new();
+        let model = Self::new(file::read(&bytes, path)?, &path.display().to_string(), |message| {
+            warnings.push(Warning { path: path.to_owned(), line: 0, message });
+        });
+        Ok((model, warnings))
+    }
+
+    /// Makes a model ready. `name`: that of its meshes.
+    pub fn new(file: Md2, name: &str, mut warn: impl FnMut(String)) -> Self {
+        let vertices = file.frames.first().map_or(0, |frame| frame.vertices.len());
+        let counts = [file.triangles.len(), vertices, file.frames.len(), file.skins.len()];
+        for (count, (what, most)) in counts.into_iter().zip(OF_QUAKE).filter(|(count, (_, most))| count > most) {
+            warn(format!("has {count} {what}; Quake II allows {most}, and other programs may refuse the file"));
+        }
+        let frames = file.frames.iter().map(|frame| frame.name.as_slice());
+        let endless =
+            frames.chain(file.skins.iter().map(<[u8; 64]>::as_slice)).filter(|name| !name.contains(&0)).count();
+        if endless > 0 {
+            warn(format!("{endless} names of frames or skins have no zero byte at their end"));
+        }
+        let turned: Vec<DVec3> = normals::directions().into_iter().map(upright).collect();
+        let mut model =
+            Self { file, name: name.to_owned(), corners: Vec::new(), indices: Vec::new(), directions: turned };
+        let kept: Vec<Triangle> =
+            model.file.triangles.iter().copied().filter(|triangle| model.has_area(triangle)).collect();
+        if kept.len() < model.file.triangles.len() {
+            let flat = model.file.triangles.len() - kept.len();
+            warn(format!("{flat} triangles have no area in any frame; left out"));
+        }
+        let is_clockwise = model.is_clockwise(&kept);
+        if !is_clockwise {
+            warn(String::from("its triangles are counter-clockwise seen from outside; those of MD2 are clockwise"));
+        }
+        let mut known = HashMap::new();
+        for triangle in &kept {
+            let order = if is_clockwise { [0, 2, 1] } else { [0, 1, 2] };
+            for corner in order {
+                let pair = [triangle.vertices[corner], triangle.texcoords[corner]];
+                let index = *known.entry(pair).or_insert(model.corners.len() as u32);
+                if index as usize == model.corners.len() {
+                    model.corners.push(pair);
+                }
+                model.indices.push(index);
+            }
+        }
+        model
+    }
+
+    pub fn file(&self) -> &Md2 {
+        &self.file
+    }
+
+    pub fn frame_count(&self) -> usize {
+        self.file.frames.len()
+    }
+
+    /// Number of the first frame of this name.
+    pub fn frame_named(&self, name: &str) -> Option<usize> {
+        self.file.frames.iter().position(|frame| frame.name() == name)
+    }
+
+    /// Three indices a triangle into the vertices of [`Self::mesh`], counter-clockwise from outside.
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// The file's vertex of each vertex of [`Self::mesh`].
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = usize> {
+        self.corners.iter().map(|[vertex, _]| usize::from(*vertex))
+    }
+
+    /// Position of a vertex of the file in model space: both frames' positions in f64, blended.
+    pub fn position(&self, pose: &Pose, vertex: usize) -> DVec3 {
+        let [first, second] =
+            pose.frames.map(|frame| upright(DVec3::from_array(self.file.frames[frame].position(vertex))));
+        first + pose.blend * (second - first)
+    }
+
+    /// The mesh in a pose. Its vertices are the same corners in every pose; its only part has no material.
+    ///
+    /// A vertex's normal is that of the file, blended and of unit length, or the mean of its triangles by their angles.
+    pub fn mesh(&self, pose: &Pose, source: NormalSource) -> Mesh {
+        let positions: Vec<DVec3> = self.vertices().map(|vertex| self.position(pose, vertex)).collect();
+        let normals = self.vertices().map(|vertex| match source {
+            NormalSource::File => self.normal(pose, vertex),
+            NormalSource::Recomputed => Vec3::ZERO,
+        });
+        let [width, height] = self.file.skin_size.map(f64::from);
+        let texcoords = self.corners.iter().map(|[_, texcoord]| {
+            let [s, t] = self.file.texcoords[usize::from(*texcoord)].map(f64::from);
+            [(s / width) as f32, (1.0 - t / height) as f32]
+        });
+        let indices = 0..self.indices.len() as u32;
+        let part = Part { name: self.name.clone(), indices, material: None, bounds: Aabb::EMPTY };
+        let mut mesh = Mesh {
+            name: self.name.clone(),
+            normals: normals.map(|normal| normal.to_array()).collect(),
+            texcoords: Some(texcoords.collect()),
+            positions: positions.iter().map(|position| position.as_vec3().to_array()).collect(),
+            indices: self.indices.clone(),
+            parts: vec![part],
+            ..Mesh::default()
+        };
+        // No edge stays sharp: the corners are the same in every pose.
+        smooth::complete(&mut mesh, std::f64::consts::PI);
+        mesh.update_bounds();
+        mesh
+    }
+
+    /// The file's normal of a vertex; zero where two opposite ones are blended.
+    fn normal(&self, pose: &Pose, vertex: usize) -> Vec3 {
+        let [first, second] = pose.frames.map(|frame| {
+            let [.., normal] = self.file.frames[frame].vertices[vertex];
+            self.directions[usize::from(normal)]
+        });
+        (first + pose.blend * (second - first)).normalize_or_zero().as_vec3()
+    }
+
+    /// Tests whether a triangle has three places in some frame.
+    fn has_area(&self, triangle: &Triangle) -> bool {
+        let [a, b, c] = triangle.vertices.map(usize::from);
+        self.file.frames.iter().any(|frame| {
+            let [a, b, c] = [a, b, c].map(|vertex| DVec3::from_array(frame.position(vertex)));
+            (b - a).cross(c - a) != DVec3::ZERO
+        })
+    }
+
+    /// Tests whether the triangles are clockwise seen from outside: by the volume that they enclose in the first frame, and
+    /// by the format's rule where they enclose none.
+    fn is_clockwise(&self, triangles: &[Triangle]) -> bool {
+        let at = |vertex: u16| self.position(&Pose::default(), usize::from(vertex));
+        let corners = || triangles.iter().flat_map(|triangle| triangle.vertices.map(at));
+        let bounds = Aabb::from_points(corners());
+        let middle = 0.5 * (bounds.min + bounds.max);
+        let volume: f64 = triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = triangle.vertices.map(|vertex| at(vertex) - middle);
+                a.dot(b.cross(c)) / 6.0
+            })
+            .sum();
+        let extent = bounds.max - bounds.min;
+        volume <= LEAST_VOLUME * extent.x * extent.y * extent.z
+    }
+}
+
+/// A vector of the file, z up, in model space, y up.
+fn upright(vector: DVec3) -> DVec3 {
+    DVec3::new(vector.x, vector.z, -vector.y)
+}
