@@ -79,6 +79,8 @@
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
+pub mod combiners;
+#[doc(hidden)]
 pub mod compositions;
 #[doc(hidden)]
 #[allow(unsafe_code)]

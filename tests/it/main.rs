@@ -10,6 +10,7 @@ mod bad_scenes;
 mod check;
 mod claims;
 mod cli;
+mod combiners;
 mod contexts;
 mod coverage;
 mod doc_comments;

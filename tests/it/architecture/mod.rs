@@ -28,6 +28,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A counted light has views of its own: its volumes, its silhouettes, the count.
     ("compositions", &["lights", "views"]),
     ("views", &["lights"]),
+    // Programs as data, run on the CPU or made GLSL: text in, text out.
+    ("combiners", &[]),
     ("lights", &["pass", "scene"]),
     // The images and the raster state of its passes are the device's.
     ("fixed_function", &["device"]),
