@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use image::{ImageReader, Limits};
+use image::{DynamicImage, ImageReader, Limits};
 
 use super::{Error, Texture, text};
 
@@ -16,6 +16,15 @@ pub fn load_texture(path: &Path) -> Result<Texture, Error> {
 
 /// [`load_texture`] of a file that is in memory; `path` is its name.
 pub fn decode_texture(path: &Path, bytes: &[u8]) -> Result<Texture, Error> {
+    let picture = decode(path, bytes)?.flipv();
+    let (width, height) = (picture.width(), picture.height());
+    let rgba = picture.into_rgba8().into_raw();
+    let has_alpha = rgba.chunks_exact(4).any(|texel| texel[3] != 255);
+    Ok(Texture { name: path.display().to_string(), width, height, rgba, has_alpha })
+}
+
+/// A picture as its file has it, rows from the top down.
+pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, Error> {
     let picture_error = |source| Error::Picture { path: path.to_owned(), source };
     let mut reader = ImageReader::new(std::io::Cursor::new(bytes));
     if let Ok(format) = image::ImageFormat::from_path(path) {
@@ -35,9 +44,7 @@ pub fn decode_texture(path: &Path, bytes: &[u8]) -> Result<Texture, Error> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(16 * u64::from(width) * u64::from(height) + (64 << 20));
     reader.limits(limits);
-    let rgba = reader.decode().map_err(picture_error)?.flipv().into_rgba8().into_raw();
-    let has_alpha = rgba.chunks_exact(4).any(|texel| texel[3] != 255);
-    Ok(Texture { name: path.display().to_string(), width, height, rgba, has_alpha })
+    reader.decode().map_err(picture_error)
 }
 
 /// Finds the file `written` in a material library in `folder`. If it does not exist as written, backslashes count as
