@@ -16,6 +16,7 @@ pub mod rays;
 pub mod sampled;
 mod simplify;
 mod tally;
+pub mod tangents;
 mod text;
 mod texture;
 pub mod topology;
