@@ -53,7 +53,15 @@ pub struct Texels<'a> {
     raster: Arc<Raster>,
     /// Depths by level and place, as one number each.
     known: HashMap<u64, f64>,
+    /// The last of these, by the last bits of their places: a kernel's texels are looked up again and again.
+    recent: [(u64, f64); RECENT * RECENT],
 }
+
+/// Texels a side of those that are kept at hand.
+const RECENT: usize = 16;
+
+/// No texel's number.
+const NONE: u64 = u64::MAX;
 
 /// A layer that a texel's ray crosses.
 #[derive(Clone, Copy)]
@@ -83,6 +91,7 @@ impl<'a> Texels<'a> {
             raster: Arc::default(),
             projector,
             known: HashMap::new(),
+            recent: [(NONE, 0.0); RECENT * RECENT],
         };
         texels.raster = Arc::new(items.raster(|point| texels.sighting(point)));
         texels
@@ -125,11 +134,19 @@ impl<'a> Texels<'a> {
     /// The depth that a texel holds.
     pub fn depth(&mut self, level: u32, [x, y]: [u32; 2]) -> f64 {
         let key = u64::from(level) << 48 | u64::from(y) << 24 | u64::from(x);
-        if let Some(depth) = self.known.get(&key) {
-            return *depth;
+        let slot = y as usize % RECENT * RECENT + x as usize % RECENT;
+        if self.recent[slot].0 == key {
+            return self.recent[slot].1;
         }
-        let depth = rounded(self.settings.format, self.found(level, [x, y]));
-        self.known.insert(key, depth);
+        let depth = match self.known.get(&key) {
+            Some(depth) => *depth,
+            None => {
+                let depth = rounded(self.settings.format, self.found(level, [x, y]));
+                self.known.insert(key, depth);
+                depth
+            }
+        };
+        self.recent[slot] = (key, depth);
         depth
     }
 
