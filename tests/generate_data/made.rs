@@ -1,6 +1,8 @@
 //! The files themselves. No function is used whose last bit differs between platforms: sums, products, quotients and square
 //! roots only.
 
+mod knight;
+mod knight_skin;
 mod noise;
 mod slide;
 mod statue;
@@ -26,6 +28,11 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     slide::slide().save(folder.join("textures/slide.png"))?;
     textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
     textures::head_light().save(folder.join("textures/head-light.png"))?;
+    std::fs::write(folder.join("meshes/knight.md2"), glumbra::geometry::md2::write(&knight::knight()))?;
+    let (colors, heights, gloss) = knight_skin::skins();
+    colors.save(folder.join("textures/knight.png"))?;
+    heights.save(folder.join("textures/knight-height.png"))?;
+    gloss.save(folder.join("textures/knight-gloss.png"))?;
     Ok(())
 }
 

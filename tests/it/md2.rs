@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use glumbra::geometry::md2::{self, Frame, Md2, Model, NormalSource, Pose, Triangle};
+use glumbra::geometry::tangents::{BasisFit, Tangents};
 use glumbra::geometry::{Mesh, topology};
 
 /// A closed body of random vertices: a sphere of latitudes and longitudes with a seam in its skin, clockwise as MD2 has it,
@@ -348,4 +349,26 @@ fn what_is_odd_is_told() {
     let mut many = good.clone();
     many.skins = vec![[0; 64]; 33];
     assert_eq!(ready(&many).1, ["has 33 skins; Quake II allows 32, and other programs may refuse the file"]);
+}
+
+/// The project's own figure: two animations of eight frames, each part closed, half of the head's and the trunk's triangles
+/// mirrored on the skin.
+#[test]
+fn the_knight_is_closed_and_mirrored_in_every_frame() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/meshes/knight.md2");
+    let (model, warnings) = Model::load(&path).unwrap();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let names: Vec<String> = model.file().frames.iter().map(Frame::name).collect();
+    let expected: Vec<String> =
+        ["stand", "run"].iter().flat_map(|name| (1..=8).map(move |number| format!("{name}{number}"))).collect();
+    assert_eq!(names, expected);
+    for frame in 0..model.frame_count() {
+        let mesh = model.mesh(&Pose { frames: [frame, (frame + 1) % 16], blend: 0.5 }, NormalSource::File);
+        assert!((600..1000).contains(&mesh.triangle_count()), "{} triangles", mesh.triangle_count());
+        assert!(mesh.is_closed() && mesh.signed_volume() > 0.0, "frame {frame}");
+        let tangents = Tangents::of_skin(&mesh, BasisFit::Orthogonal).unwrap();
+        assert!(2 * tangents.mirrored > mesh.triangle_count() * 8 / 10, "{} mirrored", tangents.mirrored);
+        assert!(2 * tangents.mirrored < mesh.triangle_count() * 12 / 10, "{} mirrored", tangents.mirrored);
+        assert_eq!(tangents.without, 0, "{:?}", mesh.texcoords);
+    }
 }

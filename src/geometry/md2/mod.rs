@@ -6,3 +6,4 @@ mod normals;
 
 pub use file::{Frame, Md2, Triangle, read, text, write};
 pub use model::{Model, NormalSource, Pose};
+pub use normals::nearest_normal;

@@ -16,6 +16,18 @@ pub fn directions() -> Vec<DVec3> {
     ROUGH.iter().map(nearest).collect()
 }
 
+/// Number of the direction that is nearest to one of the file's space; the first of several.
+pub fn nearest_normal(direction: DVec3) -> u8 {
+    let all = directions();
+    let mut best = 0;
+    for (number, candidate) in all.iter().enumerate() {
+        if candidate.dot(direction) > all[best].dot(direction) {
+            best = number;
+        }
+    }
+    best as u8
+}
+
 /// All directions, in no order; those on edges and corners several times.
 fn lattice() -> Vec<DVec3> {
     let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
