@@ -8,6 +8,7 @@ pub mod md2;
 mod mesh;
 mod mtl;
 mod mtl_maps;
+pub mod normal_cube;
 pub mod normal_map;
 mod normals;
 mod obj;
