@@ -8,22 +8,26 @@ use super::Error;
 use super::settings::{Origin, SettingsError, suggest};
 use crate::geometry::{self, Mesh, Texture};
 
+/// Files in memory, each by its name.
+type Files = &'static [(&'static str, &'static [u8])];
+
 /// Meshes and textures loaded so far.
 #[derive(Default)]
 pub(super) struct Assets {
     /// Meshes by built-in name, or by the file's canonical path.
     meshes: HashMap<PathBuf, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
-    /// Pictures in memory, by the names that the scene file has for them.
-    embedded: &'static [(&'static str, &'static [u8])],
+    /// Pictures and OBJ files in memory, by the names that the scene file has for them.
+    pictures: Files,
+    models: Files,
     /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
 }
 
 impl Assets {
-    /// Assets with pictures in memory, each by its name in the scene file.
-    pub fn with_pictures(embedded: &'static [(&'static str, &'static [u8])]) -> Self {
-        Self { embedded, ..Self::default() }
+    /// Assets with pictures and OBJ files in memory, each by its name in the scene file.
+    pub fn with_files(pictures: Files, models: Files) -> Self {
+        Self { pictures, models, ..Self::default() }
     }
 
     /// A built-in mesh, or one of a file named from `origin`.
@@ -37,7 +41,7 @@ impl Assets {
             let message = format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj");
             return Err(SettingsError::new(origin, message).into());
         }
-        self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })
+        self.model_in(&path, embedded(self.models, name, origin)).map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
     /// Keeps a warning, once.
@@ -49,11 +53,18 @@ impl Assets {
 
     /// An OBJ file.
     pub fn model(&mut self, path: &Path) -> Result<Arc<Mesh>, geometry::Error> {
+        self.model_in(path, None)
+    }
+
+    fn model_in(&mut self, path: &Path, embedded: Option<&[u8]>) -> Result<Arc<Mesh>, geometry::Error> {
         let key = canonical(path);
         if let Some(mesh) = self.meshes.get(&key) {
             return Ok(mesh.clone());
         }
-        let (mesh, warnings) = geometry::load_obj(path)?;
+        let (mesh, warnings) = match embedded {
+            Some(bytes) => geometry::decode_obj(path, bytes)?,
+            None => geometry::load_obj(path)?,
+        };
         self.warnings.extend(warnings.iter().map(ToString::to_string));
         let mesh = Arc::new(mesh);
         self.meshes.insert(key, mesh.clone());
@@ -72,18 +83,13 @@ impl Assets {
         if let Some(texture) = self.textures.get(&key) {
             return Ok(texture.clone());
         }
-        let texture = match self.embedded_picture(name, origin) {
+        let texture = match embedded(self.pictures, name, origin) {
             Some(bytes) => geometry::decode_texture(&path, bytes),
             None => geometry::load_texture(&path),
         };
         let texture = Arc::new(texture.map_err(|source| Error::Asset { origin: origin.clone(), source })?);
         self.textures.insert(key, texture.clone());
         Ok(texture)
-    }
-
-    fn embedded_picture(&self, name: &str, origin: &Origin) -> Option<&'static [u8]> {
-        let by_the_file = matches!(origin, Origin::File { .. });
-        self.embedded.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
     }
 
     fn primitive(&mut self, name: &str) -> Option<Arc<Mesh>> {
@@ -94,6 +100,12 @@ impl Assets {
         self.meshes.insert(PathBuf::from(name), mesh.clone());
         Some(mesh)
     }
+}
+
+/// The file in memory that a scene file names.
+fn embedded(files: Files, name: &str, origin: &Origin) -> Option<&'static [u8]> {
+    let by_the_file = matches!(origin, Origin::File { .. });
+    files.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
 }
 
 /// A file's name is relative to the scene file that names it; on the command line, to the current folder.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::{Falloff, ImageFilter, Interpolation, LightBeam, Shadow};
+use super::{Falloff, ImageFilter, Interpolation, LightBeam, Photo, Shadow};
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
@@ -23,7 +23,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The textures of lights, objects and meshes; one that is used twice comes twice.
+    /// The textures of lights, objects, meshes and photographs; one that is used twice comes twice.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
         let of_lights = self.lights.iter().filter_map(Light::spot).flat_map(|spot| {
             let of_beam = spot.beam.iter().flat_map(|beam| [Some(&*beam.map), beam.shield.as_deref()]);
@@ -33,7 +33,8 @@ impl Scene {
             self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
         let of_materials =
             materials.flat_map(|material| material.decal.as_deref().into_iter().chain(material.alpha.as_deref()));
-        of_lights.chain(of_materials)
+        let of_photos = self.objects.iter().filter_map(|object| object.photo.as_ref()?.image());
+        of_lights.chain(of_materials).chain(of_photos.map(|image| &**image))
     }
 }
 
@@ -266,6 +267,9 @@ pub struct Object {
     pub wave: Option<Wave>,
     /// Replaces every material of the mesh.
     pub material: Option<Arc<Material>>,
+    /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
+    /// one need one depth map.
+    pub photo: Option<Arc<Photo>>,
     /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,
     /// True if it is drawn into shadow maps.

@@ -40,6 +40,7 @@ mod many_lights;
 mod mistakes;
 mod mutated;
 mod oracle;
+mod photos;
 mod placement;
 mod plan_listings;
 mod planes;
