@@ -41,7 +41,8 @@ impl Assets {
             let message = format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj");
             return Err(SettingsError::new(origin, message).into());
         }
-        self.model_in(&path, embedded(self.models, name, origin)).map_err(|source| Error::Asset { origin: origin.clone(), source })
+        self.model_in(&path, embedded(self.models, name, origin))
+            .map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
     /// Keeps a warning, once.

@@ -42,7 +42,7 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
     let objects = objects.iter().map(|table| object::read(table, assets)).collect::<Result<Vec<_>, _>>()?;
     let (mut objects, photos): (Vec<_>, Vec<_>) = objects.into_iter().unzip();
     photo::complete(photos, &mut objects, shadows)?;
-    if lights.is_empty() {
+    if lights.is_empty() && objects.iter().any(|object| object.photo.is_none()) {
         assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
     }
     let complete = |light: light::LightKeys| light.complete(&objects, shadows);

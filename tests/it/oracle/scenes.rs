@@ -30,7 +30,6 @@ pub fn mesh((points, triangles): &Shape) -> Mesh {
             name: String::from("test"),
             indices: 0..u32::try_from(indices.len()).unwrap(),
             material: None,
-            photo: None,
             bounds,
         }],
         indices,

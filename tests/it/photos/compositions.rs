@@ -7,7 +7,8 @@ const SIZE: [u32; 2] = [120, 90];
 
 /// Lit objects under `lights`; each text lacks the end of its material.
 fn lit_objects(random: &mut Random) -> Vec<String> {
-    let mut objects = vec![String::from("mesh = \"quad\"\nscale = [3.0, 1.0, 3.0]\nmaterial = { diffuse = [0.7, 0.6, 0.5], ")];
+    let mut objects =
+        vec![String::from("mesh = \"quad\"\nscale = [3.0, 1.0, 3.0]\nmaterial = { diffuse = [0.7, 0.6, 0.5], ")];
     for _ in 0..3 {
         let mesh = random.pick(&["box", "sphere", "torus"]);
         let at = random.vector() * DVec3::new(1.6, 0.0, 1.6) + DVec3::Y * 0.8;

@@ -53,7 +53,8 @@ fn extreme_photographs_are_those_of_the_ray_tracer() {
     ];
     for (name, from, size, more) in cases {
         let path = noise(&studio, size);
-        for (filter, hidden) in [("nearest", "smear"), ("linear", "grey"), ("trilinear", "leave"), ("linear", "smear")] {
+        for (filter, hidden) in [("nearest", "smear"), ("linear", "grey"), ("trilinear", "leave"), ("linear", "smear")]
+        {
             let more = format!("{more}filter = \"{filter}\", hidden = \"{hidden}\", map = {{ size = 2048 }}");
             let scene = studio.load(&scene_text(SIZE, &front(), &room(), &from.photo(&path, &more)));
             let picture = studio.draw(&scene);

@@ -4,6 +4,7 @@
 mod compositions;
 mod errors;
 mod extremes;
+mod facade;
 mod planes;
 mod plans;
 mod proof;
@@ -110,7 +111,8 @@ impl Studio {
     fn take(&mut self, scene: &Scene, name: &str) -> (PathBuf, Vec<[i32; 3]>) {
         let pixels = self.draw(scene);
         let [width, height] = scene.image.size;
-        let picture = RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize].map(|code| code as u8)));
+        let picture =
+            RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize].map(|code| code as u8)));
         let path = self.path(name);
         picture.save(&path).unwrap();
         (path, pixels)
@@ -141,7 +143,8 @@ fn generated_objects(studio: &Studio, random: &mut Random) -> Vec<String> {
         format!("diffuse = [{r:.3}, {g:.3}, {b:.3}], ")
     };
     let decal = format!("decal = {decal:?}, ");
-    let mut objects = vec![format!("mesh = \"quad\"\nlit = false\nscale = [4.0, 1.0, 4.0]\nmaterial = {{ {}{decal}", color(random))];
+    let mut objects =
+        vec![format!("mesh = \"quad\"\nlit = false\nscale = [4.0, 1.0, 4.0]\nmaterial = {{ {}{decal}", color(random))];
     for _ in 0..4 {
         let mesh = random.pick(&["box", "sphere", "quad", "torus", "box"]);
         let size = random.within(0.4, 0.9);

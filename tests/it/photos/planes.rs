@@ -81,7 +81,8 @@ fn corners_of_a_photographed_plane_lie_where_the_homography_has_them() {
             // Where the square shows: by the colour's share in each pixel. Grey and the other squares have none of it.
             let (mut weight, mut sum) = (0.0, DVec2::ZERO);
             for (index, pixel) in picture.iter().enumerate() {
-                let at = DVec2::new((index as u32 % SIZE[0]) as f64 + 0.5, height - (index as u32 / SIZE[0]) as f64 - 0.5);
+                let at =
+                    DVec2::new((index as u32 % SIZE[0]) as f64 + 0.5, height - (index as u32 / SIZE[0]) as f64 - 0.5);
                 if at.distance(expected) > 40.0 || *pixel == GREY {
                     continue;
                 }

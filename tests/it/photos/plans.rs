@@ -55,7 +55,9 @@ fn maps_and_lights_that_nothing_shows_are_left_out() {
     let mut studio = Studio::new();
     let path = photo(&studio, "photo.png");
     let objects = boxes(&[-1.2, 0.0, 1.2]);
-    let text = |hidden: &str| scene_text(SIZE, &camera(), &objects, &from(-1.0).photo(&path, &format!("hidden = \"{hidden}\"")));
+    let text = |hidden: &str| {
+        scene_text(SIZE, &camera(), &objects, &from(-1.0).photo(&path, &format!("hidden = \"{hidden}\"")))
+    };
     let light = "[[light]]\nposition = [1.0, 4.0, 3.0]\ntarget = [0.0, 0.0, 0.0]\ncone = 60.0\n[light.shadow]\n\
                  technique = \"shadow-map\"\n[[light]]\nkind = \"directional\"\ndirection = [0.1, -1.0, 0.2]\n";
     for (hidden, passes, lights) in [
@@ -66,9 +68,16 @@ fn maps_and_lights_that_nothing_shows_are_left_out() {
         let scene = studio.load(&(text(hidden) + light));
         let plan = studio.plan(&scene, &Request::default());
         assert_eq!(labels(&plan), passes, "{hidden}");
-        assert_eq!(is_left_out(&plan, "the map of photograph 0", "hidden = \"smear\" tests no depth"), hidden == "smear");
+        assert_eq!(
+            is_left_out(&plan, "the map of photograph 0", "hidden = \"smear\" tests no depth"),
+            hidden == "smear"
+        );
         for light in ["light 0", "light 1"] {
-            let why = if light == "light 0" { "what its cone reaches shows photographs alone" } else { "all that is seen shows photographs alone" };
+            let why = if light == "light 0" {
+                "what its cone reaches shows photographs alone"
+            } else {
+                "all that is seen shows photographs alone"
+            };
             assert_eq!(is_left_out(&plan, light, why), lights == 0, "{hidden}: {:?}", plan.left_out);
         }
     }

@@ -100,7 +100,9 @@ fn from_elsewhere_it_is_the_direct_picture_where_its_eye_saw() {
         let reach = 2.0 * 2.0 * tangent / 1024.0;
         for (index, pixel) in truth.pixels.iter().enumerate() {
             let (x, y) = (index as u32 % SIZE, index as u32 / SIZE);
-            let Some(hit) = pixel.hit.filter(|_| matches!(pixel.answer, Answer::Lit | Answer::Shadowed)) else { continue };
+            let Some(hit) = pixel.hit.filter(|_| matches!(pixel.answer, Answer::Lit | Answer::Shadowed)) else {
+                continue;
+            };
             let Some(around) = around.around(x, y, reach) else { continue };
             let thin = around.blockers.iter().any(|near| near.gap < 0.1);
             if around.edge || thin {
@@ -165,7 +167,8 @@ fn colours_are_those_of_the_ray_tracer() {
         let hidden = random.pick(&["smear", "grey", "leave"]);
         let filter = random.pick(&["nearest", "linear", "trilinear"]);
         let aspect = random.pick(&["", "aspect = 0.7, ", "aspect = 1.6, "]);
-        let technique = random.pick(&["", "technique = \"midpoint\", ", "bias = \"receiver-plane\", ", "fit = \"view\", "]);
+        let technique =
+            random.pick(&["", "technique = \"midpoint\", ", "bias = \"receiver-plane\", ", "fit = \"view\", "]);
         let more = format!("{aspect}filter = \"{filter}\", hidden = \"{hidden}\", map = {{ {technique}size = 1024 }}");
         let scene = case.projected(&studio, &case.elsewhere, &path, &more);
         let picture = studio.draw(&scene);
