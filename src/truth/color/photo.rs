@@ -15,6 +15,10 @@ use crate::truth::{Error, Options};
 /// the offset that keeps surfaces from hiding themselves.
 const REACH_TEXELS: f64 = 2.0;
 
+/// Share of that reach by which something may rise before the visible surface, at an inner corner, without hiding it: less
+/// than the offset forgives.
+const RISE: f64 = 0.125;
+
 /// Grey of [`Hidden::Grey`].
 const GREY: f64 = 128.0 / 255.0;
 
@@ -72,7 +76,8 @@ impl Photograph<'_> {
         let slope = |slope: f64| scale * (1.0 + slope);
         let doubtful = self.around.around(x, y, self.reach).is_none_or(|around| {
             let thin = |gap: f64, own: f64| gap < slope(own + around.slope);
-            around.edge || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
+            let rises = around.rise > RISE * scale;
+            around.edge || rises || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
         });
         inside.times(if doubtful { Bounds::anything(shade.value) } else { shade })
     }

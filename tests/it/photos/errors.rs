@@ -27,9 +27,9 @@ fn wrong_keys_are_errors_with_their_line() {
         (format!("{good}, hidden = \"red\""), "`object.material.photo.hidden` "),
         (format!("{good}, filter = \"cubic\""), "`object.material.photo.filter` "),
         (format!("{good}, near = 2.0, far = 1.0"), "`object.material.photo.far` must be above `near`"),
-        (format!("{good}, hiden = \"grey\""), "`object.material.photo.hiden`"),
+        (format!("{good}, hiden = \"grey\""), "unknown key `hiden` in [object.material.photo]: did you mean `hidden`?"),
         (format!("{good}, map = {{ size = 0 }}"), "`object.material.photo.map.size` must be"),
-        (format!("{good}, map = {{ sice = 9 }}"), "`object.material.photo.map.sice`"),
+        (format!("{good}, map = {{ sice = 9 }}"), "unknown key `sice` in [object.material.photo.map]"),
         (
             format!("{good}, map = {{ technique = \"shadow-volume\" }}"),
             "`object.material.photo.map.technique` needs a depth map that the shader looks up, and technique = \

@@ -95,10 +95,14 @@ fn what_a_depth_map_gets_wrong_is_a_fringe_of_two_texels() {
             let reaches = |texels: f64| {
                 around.around(x, y, texels * texel).is_none_or(|around| {
                     let allowed = |slope: f64| texels * texel * around.scale * (1.0 + around.slope + slope);
-                    around.edge || around.blockers.iter().any(|near| near.gap < allowed(near.slope))
+                    let rises = around.rise > 0.25 * texels * texel * around.scale;
+                    around.edge || rises || around.blockers.iter().any(|near| near.gap < allowed(near.slope))
                 })
             };
             let width = (1..=16).map(|step| 0.25 * f64::from(step)).find(|texels| reaches(*texels));
+            if width.is_none() {
+                println!("  pixel ({x}, {y}): {:?}, {:?}", picture[*pixel], around.around(x, y, 2.0 * texel));
+            }
             widest = widest.max(width.unwrap_or(f64::INFINITY));
         }
         println!("seed {seed}, {size} texels: {} of {known} pixels are wrong", wrong.len());
