@@ -268,7 +268,7 @@ fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
     parts.uniforms.extend(uniforms);
 }
 
-/// What texture coordinate generation for light `index` takes.
+/// Defines and uniforms of texture coordinate generation for light `index`.
 pub fn texgen_parts(index: usize, generated: &texgen::Texgen) -> (Vec<Define>, Vec<Uniform>) {
     let rows = generated.eye_planes.as_mat4().transpose();
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];

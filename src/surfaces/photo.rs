@@ -25,7 +25,7 @@ pub struct PhotoParts {
     inputs: Vec<Input>,
 }
 
-/// What a pass needs of a photograph.
+/// Part of a photograph that a pass needs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Wanted {
     /// Its colour.

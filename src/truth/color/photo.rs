@@ -19,6 +19,10 @@ const REACH_TEXELS: f64 = 2.0;
 /// than the offset forgives.
 const RISE: f64 = 0.125;
 
+/// Share of that reach, for a slope of 1, by which the other face of a fold may be nearer to the eye: a polygon offset by the
+/// slope forgives no more where a flat face meets a steep one.
+const FORGIVEN: f64 = 1.5;
+
 /// Grey of [`Hidden::Grey`].
 const GREY: f64 = 128.0 / 255.0;
 
@@ -77,7 +81,8 @@ impl Photograph<'_> {
         let doubtful = self.around.around(x, y, self.reach).is_none_or(|around| {
             let thin = |gap: f64, own: f64| gap < slope(own + around.slope);
             let rises = around.rise > RISE * scale;
-            around.edge || rises || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
+            let folds = around.nearer.iter().any(|near| near.by > scale * (FORGIVEN * near.slope + RISE));
+            around.edge || rises || folds || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
         });
         inside.times(if doubtful { Bounds::anything(shade.value) } else { shade })
     }

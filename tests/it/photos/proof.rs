@@ -135,7 +135,7 @@ fn from_elsewhere_it_is_the_direct_picture_where_its_eye_saw() {
         }
     }
     println!("{shown} pixels shown, {hidden} hidden; at worst {worst} codes beyond the local contrast");
-    assert!(shown > 30_000 && hidden > 10_000, "{shown} {hidden}");
+    assert!(shown > 30_000 && hidden > 5_000, "{shown} {hidden}");
 }
 
 /// Distance of a point along the camera's axis.
