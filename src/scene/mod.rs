@@ -26,10 +26,10 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, Camera, Dust, DustBlend, Focus, Frustum, Image, Law, Light, LightKind, LightShape, Object,
-    PicturePasses, Point, Scene, Shading, Spot,
+    Background, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind, LightShape, Object,
+    Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
-pub use photo::{Hidden, Photo, photos_of};
+pub use photo::photos_of;
 pub use projected::{
     BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
 };

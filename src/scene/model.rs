@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::{Falloff, ImageFilter, Interpolation, LightBeam, Photo, Shadow};
+use super::{Falloff, ImageFilter, Interpolation, LightBeam, Shadow};
 use crate::geometry::{Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
@@ -277,4 +277,26 @@ pub struct Object {
     /// Declared and checked by the scene: the mesh is closed and its faces look outwards, so that no back face is ever seen
     /// from outside of it.
     pub closed: bool,
+}
+
+/// A photograph of objects, and the camera that took it.
+#[derive(Clone, Debug)]
+pub struct Photo {
+    /// The camera as a spotlight that projects the photograph back: its frustum is the camera's, its image the photograph,
+    /// its shadow settings those of the depth map that tells what the camera saw. It lights nothing.
+    pub projector: Light,
+    /// Content of points that the photograph does not show.
+    pub hidden: Hidden,
+}
+
+/// Content of points that a photograph does not show: beyond its frame, behind its eye, or hidden from its eye.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// The photograph all the same, without a test of depth: what lies behind something shows its colours. Beyond the frame
+    /// those of the frame's edge; behind the eye the material's own colour, lit.
+    Smear,
+    /// Grey, 128 of 255.
+    Grey,
+    /// The material's own colour, lit.
+    Leave,
 }

@@ -1,33 +1,11 @@
-//! A photograph that is projected back onto what it shows [Segal 1992, 3.1].
+//! Photographs of a scene: which there are, and their pictures [Segal 1992, 3.1].
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Light, LightKind, Object, Scene};
+use super::{LightKind, Object, Photo, Scene};
 use crate::geometry::Texture;
-
-/// A photograph of objects, and the camera that took it.
-#[derive(Clone, Debug)]
-pub struct Photo {
-    /// The camera as a spotlight that projects the photograph back: its frustum is the camera's, its image the photograph,
-    /// its shadow settings those of the depth map that tells what the camera saw. It lights nothing.
-    pub projector: Light,
-    /// Content of points that the photograph does not show.
-    pub hidden: Hidden,
-}
-
-/// Content of points that a photograph does not show: beyond its frame, behind its eye, or hidden from its eye.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hidden {
-    /// The photograph all the same, without a test of depth: what lies behind something shows its colours. Beyond the frame
-    /// those of the frame's edge; behind the eye the material's own colour, lit.
-    Smear,
-    /// Grey, 128 of 255.
-    Grey,
-    /// The material's own colour, lit.
-    Leave,
-}
 
 impl Photo {
     /// The photograph's texels.

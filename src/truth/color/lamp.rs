@@ -110,7 +110,9 @@ impl<'a> Source<'a> {
         if depth <= 0.0 || !across.is_finite() {
             return [Bounds::anything(0.5); 3];
         }
-        lantern.image(&lantern.image_place(surface, depth, across))
+        let place = lantern.image_place(surface, depth, across);
+        // The filter goes on inwards from the frame's edge, however far beyond it the place lies.
+        lantern.image(&Place { st: place.st.clamp(DVec2::ZERO, DVec2::ONE), ..place })
     }
 
     /// The factor of image, beam and law of distance.
