@@ -42,5 +42,18 @@ void main()
 #ifdef DECAL
     color *= texture(decal_map, DECAL_ST).rgb;
 #endif
+#ifdef PHOTOGRAPH
+    // A photograph as it is: no light but 1, and its colour in place of the surface's own.
+    vec4 photo = vec4(0.0);
+    PHOTOGRAPH(photo, eye_position)
+    if (photo.a > 0.0)
+#if defined(OWN_COLOR)
+        color = photo.rgb;
+#elif defined(AMBIENT_FACTOR)
+        color = vec3(1.0);
+#else
+        color = vec3(0.0);
+#endif
+#endif
     fragment = vec4(color, 1.0);
 }

@@ -57,5 +57,15 @@ void main()
 #ifdef SPECULAR
     color += lit.specular;
 #endif
+#ifdef PHOTOGRAPH
+    vec4 photo = vec4(0.0);
+    PHOTOGRAPH(photo, eye_position)
+    if (photo.a > 0.0)
+#ifdef PHOTO_THERE
+        color = vec3(0.0); // no light falls on it
+#else
+        color = photo.rgb;
+#endif
+#endif
     fragment = vec4(color, 1.0);
 }

@@ -26,6 +26,9 @@ void main()
 #ifdef EYE_SPACE
     vec4 eye = eye_from_model * model_position;
     TEXGEN(eye)
+#ifdef PHOTO_TEXGEN
+    PHOTO_TEXGEN(eye)
+#endif
 #ifdef CLIP_PLANES
     for (int k = 0; k < CLIP_PLANES; ++k)
         gl_ClipDistance[k] = dot(clip_planes[k], eye);

@@ -19,6 +19,7 @@ const SAMPLE: Sample = Sample {
             ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
             ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
         ],
+        meshes: &[],
     },
     techniques: &["midpoint", "shadow-map"],
 };

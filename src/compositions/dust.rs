@@ -81,7 +81,7 @@ impl Passes<'_> {
         let ending = Ending::Slice { chunk: glsl!("dust/slice.frag"), place };
         let item = drawable(slices, term.index, &lens.camera.eye_from_world.inverse());
         let terms = std::slice::from_ref(&term);
-        let batches = (self.surface)(scene, &[item], &lens.camera, terms, &ending, self.derived, self.list);
+        let batches = (self.surface)(scene, &[item], &lens.camera, terms, &[], &ending, self.derived, self.list);
         let mut batches = batches.ok_or(Error::Singular { light: term.index })?;
         for batch in &mut batches {
             set_slices(scene, &term, dust, slices.spacing, lens, batch)?;
@@ -172,6 +172,7 @@ fn drawable(slices: &Slices, light: usize, world_from_eye: &glam::DMat4) -> Draw
         material: Arc::new(Material::default()),
         world_from_model: *world_from_eye,
         wave: None,
+        photo: None,
         lit: false,
         casts_shadow: false,
         closed: false,

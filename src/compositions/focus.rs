@@ -146,7 +146,8 @@ impl Passes<'_> {
         let gain = Gain { ambient: share, diffuse: share, specular: share };
         let term = LightTerm { gain, addition: Addition::Light, ..point.term.clone() };
         let terms = std::slice::from_ref(&term);
-        let batches = (self.surface)(self.scene, items, &lens.camera, terms, &Ending::Lit, self.derived, self.list);
+        let batches =
+            (self.surface)(self.scene, items, &lens.camera, terms, self.photos, &Ending::Lit, self.derived, self.list);
         let mut batches = batches.ok_or(Error::Singular { light: term.index })?;
         self.cut_at_far(lens, &mut batches);
         Ok(batches)

@@ -8,6 +8,7 @@ use crate::lights::guard::Guard;
 use crate::lights::light::Addition;
 use crate::lights::{Ending, LightTerm};
 use crate::pass::{Blend, Clear, DrawState};
+use crate::scene::Scene;
 
 /// Greatest number of lights in one pass: each has four components of texture coordinates, of the 60 that every driver
 /// passes from stage to stage [GL 3.3, table 6.40].
@@ -16,6 +17,9 @@ const MOST_LIGHTS: usize = 8;
 /// Greatest number of textures of the lights in one pass: a fragment shader has at least 16 [GL 3.3, table 6.43], of which
 /// the surface takes up to two.
 const MOST_TEXTURES: usize = 14;
+
+/// Textures that a surface with a photograph takes beside: the photograph and its depth map.
+const TEXTURES_OF_PHOTO: usize = 2;
 
 /// Number of textures that a light takes in the lit pass.
 fn textures(term: &LightTerm) -> usize {
@@ -27,12 +31,14 @@ fn textures(term: &LightTerm) -> usize {
 }
 
 /// Number of lights in each group, in order. One group, which may be empty, at least.
-pub fn sizes<'t>(terms: impl IntoIterator<Item = &'t LightTerm>) -> Vec<usize> {
+/// `photos`: some surfaces look up a photograph.
+pub fn sizes<'t>(terms: impl IntoIterator<Item = &'t LightTerm>, photos: bool) -> Vec<usize> {
+    let most = if photos { MOST_TEXTURES - TEXTURES_OF_PHOTO } else { MOST_TEXTURES };
     let mut sizes = vec![0];
     let (mut size, mut taken) = (0, 0);
     for term in terms {
         let wanted = textures(term);
-        if size == MOST_LIGHTS || (size > 0 && taken + wanted > MOST_TEXTURES) {
+        if size == MOST_LIGHTS || (size > 0 && taken + wanted > most) {
             sizes.push(0);
             (size, taken) = (0, 0);
         }
@@ -49,8 +55,8 @@ pub fn sizes<'t>(terms: impl IntoIterator<Item = &'t LightTerm>) -> Vec<usize> {
 /// # Errors
 ///
 /// A light that is guarded by a clip plane, beside more lights than one pass holds.
-pub fn check(terms: &[&LightTerm]) -> Result<(), Error> {
-    let groups = sizes(terms.iter().copied()).len();
+pub fn check(scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+    let groups = sizes(terms.iter().copied(), !scene.photos().is_empty()).len();
     let cutting = terms.iter().find(|term| groups > 1 && term.guard == Guard::ClipPlane);
     cutting.map_or(Ok(()), |term| Err(Error::CutGroups { light: term.index, lights: terms.len() }))
 }
@@ -63,7 +69,7 @@ impl Passes<'_> {
     ///
     /// A light whose transform has no inverse.
     pub fn lit(&mut self, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
-        let sizes = sizes(terms);
+        let sizes = sizes(terms, self.has_photos());
         let (first, mut rest) = terms.split_at(sizes[0]);
         self.surfaces(onto, first, &Ending::Lit)?;
         if rest.is_empty() {

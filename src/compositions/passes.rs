@@ -6,6 +6,7 @@ use super::Error;
 use super::projection::CameraProjection;
 use crate::geometry::Derived;
 use crate::lights::cut::Cutter;
+use crate::lights::photo::PhotoTerm;
 use crate::lights::{Drawable, Ending, LightTerm, Notes, Viewer};
 use crate::pass::{
     Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Pass,
@@ -13,14 +14,25 @@ use crate::pass::{
 };
 use crate::scene::Scene;
 
-/// The batches that draw surfaces as a viewer sees them, lit by the terms. `None` where a light's transform has no inverse.
-pub type Surfaces =
-    fn(&Scene, &[Drawable], &Viewer, &[LightTerm], &Ending, &Derived, &mut PassList) -> Option<Vec<Batch>>;
+/// The batches that draw surfaces as a viewer sees them, lit by the terms or showing photographs. `None` where the transform
+/// of a light or of a photograph has no inverse.
+pub type Surfaces = fn(
+    &Scene,
+    &[Drawable],
+    &Viewer,
+    &[LightTerm],
+    &[Option<PhotoTerm>],
+    &Ending,
+    &Derived,
+    &mut PassList,
+) -> Option<Vec<Batch>>;
 
 /// Builder of a frame's passes.
 pub struct Passes<'a> {
     pub scene: &'a Scene,
     pub items: &'a [Drawable],
+    /// The scene's photographs by their numbers, those that are needed.
+    pub photos: &'a [Option<PhotoTerm>],
     /// Facts that earlier plans found from meshes.
     pub derived: &'a Derived,
     /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
@@ -72,6 +84,11 @@ impl Passes<'_> {
         Buffers { color: image(label.to_owned(), format), depth: image(format!("{label} depth"), depth) }
     }
 
+    /// Tests whether surfaces may look up a photograph.
+    pub fn has_photos(&self) -> bool {
+        self.photos.iter().any(Option::is_some)
+    }
+
     /// The scene's background colour.
     pub fn background(&self) -> [f32; 4] {
         let [r, g, b] = self.scene.image.background;
@@ -118,7 +135,8 @@ impl Passes<'_> {
         ending: &Ending,
     ) -> Result<(), Error> {
         let items = self.cut_items(onto.lens);
-        let batches = (self.surface)(self.scene, &items, &onto.lens.camera, terms, ending, self.derived, self.list);
+        let batches =
+            (self.surface)(self.scene, &items, &onto.lens.camera, terms, self.photos, ending, self.derived, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, state, .. } = *onto;

@@ -10,6 +10,17 @@ pub const PICTURES: &[(&str, &[u8])] = &[
     ("../textures/slide.png", include_bytes!("../../data/textures/slide.png")),
     ("../textures/barn-doors.png", include_bytes!("../../data/textures/barn-doors.png")),
     ("../textures/head-light.png", include_bytes!("../../data/textures/head-light.png")),
+    ("../textures/bricks.png", include_bytes!("../../data/textures/bricks.png")),
+    ("../textures/facade.png", include_bytes!("../../data/textures/facade.png")),
+];
+
+/// OBJ files that the figures' scenes name.
+pub const MESHES: &[(&str, &[u8])] = &[
+    ("../meshes/facade-wall.obj", include_bytes!("../../data/meshes/facade-wall.obj")),
+    ("../meshes/facade-stone.obj", include_bytes!("../../data/meshes/facade-stone.obj")),
+    ("../meshes/facade-wood.obj", include_bytes!("../../data/meshes/facade-wood.obj")),
+    ("../meshes/facade-glass.obj", include_bytes!("../../data/meshes/facade-glass.obj")),
+    ("../meshes/facade-iron.obj", include_bytes!("../../data/meshes/facade-iron.obj")),
 ];
 
 /// The scene of a file in `data/figures/`.
@@ -19,6 +30,7 @@ macro_rules! embedded {
             path: concat!("data/figures/", $name),
             text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/figures/", $name)),
             pictures: $crate::figures::panels::PICTURES,
+            meshes: $crate::figures::panels::MESHES,
         }
     };
 }

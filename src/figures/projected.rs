@@ -1,4 +1,4 @@
-//! Figures of projected light: beams, laws of distance, coordinates that swim, focus and soft shadows [Segal 1992, 2 and 3],
+//! Figures of projected light: beams, laws of distance, coordinates that swim, focus and soft shadows, photographs [Segal 1992, 2 and 3],
 //! dusty air [LEC, "Combining Shadows with Atmospherics"].
 
 use super::Figure;
@@ -11,6 +11,7 @@ const COLUMNS: Embedded = embedded!("columns.toml");
 const YARD: Embedded = embedded!("beams.toml");
 const LAMP_WALL: Embedded = embedded!("lamp-wall.toml");
 const SWIM: Embedded = embedded!("swimming.toml");
+const FACADE: Embedded = embedded!("facade.toml");
 
 pub const BEAMS: Figure = Figure {
     name: "segal-beams",
@@ -49,6 +50,36 @@ pub const BEAMS: Figure = Figure {
               frustum and dark beyond its border; shadows fall as before. A power of the cosine by a map (a) is GL's own \
               spotlight to two codes of 255, but at every pixel, not at vertices alone. The lens (f) draws what it shows \
               together.",
+};
+
+/// No photograph: its camera looks away from all there is, and what it did not see keeps its own colour.
+const DIRECT: [&str; 2] = ["object.material.photo.hidden=leave", "object.material.photo.target=[-6.3, 1.7, 30.0]"];
+const SMEAR: &str = "object.material.photo.hidden=smear";
+
+/// From the photograph's own place, and from above on its side.
+const OWN: [&str; 3] = ["camera.eye=[-3.2, 1.7, 15.0]", "camera.target=[-0.1, 4.15, 0.0]", "camera.fov_y=38"];
+const ABOVE: [&str; 2] = ["camera.eye=[-8.2, 7.6, 10.2]", "camera.target=[-0.1, 3.9, 0.0]"];
+
+pub const PHOTOGRAPH: Figure = Figure {
+    name: "segal-facade",
+    title: "A photograph projected back onto a facade",
+    source: "Segal 1992, 3.1",
+    scene: FACADE,
+    columns: 4,
+    panels: &[
+        panel("the photograph", &[OWN[0], OWN[1], OWN[2], DIRECT[0], DIRECT[1]], None),
+        panel("from the right: drawn directly", &DIRECT, None),
+        panel("the photograph, without a test of depth", &[SMEAR], None),
+        panel("grey: what its eye did not see", &[], None),
+        panel("projected back, from its own place", &OWN, None),
+        panel("from the left: drawn directly", &[ABOVE[0], ABOVE[1], DIRECT[0], DIRECT[1]], None),
+        panel("the photograph, without a test of depth", &[ABOVE[0], ABOVE[1], SMEAR], None),
+        panel("grey: what its eye did not see", &ABOVE, None),
+    ],
+    caption: "One photograph (a) replaces all materials and lights: from its own place it is itself (e), from elsewhere (d, h) it \
+              is the scene wherever its eye saw the surface, shadows included. Without a test of depth (c, g) it is smeared \
+              onto what lies behind: the lamp and the balcony stand on the wall a second time, and the house's side repeats \
+              its front. A depth map from the photograph's eye finds what it did not see.",
 };
 
 pub const FALLOFF: Figure = Figure {

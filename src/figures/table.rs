@@ -341,6 +341,7 @@ pub const FIGURES: &[Figure] = &[
     super::projected::SWIMMING,
     super::projected::BEAMS,
     super::projected::FALLOFF,
+    super::projected::PHOTOGRAPH,
 ];
 
 /// The spotlight without its image.

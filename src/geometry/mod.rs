@@ -29,7 +29,7 @@ pub use derived::{Derived, Most};
 pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Placement, Texture};
 pub use mesh::{Mesh, Part};
-pub use obj::{CREASE_DEGREES, load_obj};
+pub use obj::{CREASE_DEGREES, decode_obj, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
 pub use texture::{decode_texture, load_texture};
 pub use wave::Wave;

@@ -32,7 +32,7 @@ pub enum Difference {
 
 /// Heights beyond the border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Border {
+pub enum HeightWrap {
     #[default]
     Repeat,
     /// The border's own.
@@ -60,17 +60,17 @@ pub enum MipColors {
 
 impl HeightField {
     /// The height at a texel that may lie beyond the border.
-    fn at(&self, x: i64, y: i64, border: Border) -> f64 {
+    fn at(&self, x: i64, y: i64, border: HeightWrap) -> f64 {
         let inside = |at: i64, count: u32| match border {
-            Border::Repeat => at.rem_euclid(i64::from(count)),
-            Border::Clamp => at.clamp(0, i64::from(count) - 1),
+            HeightWrap::Repeat => at.rem_euclid(i64::from(count)),
+            HeightWrap::Clamp => at.clamp(0, i64::from(count) - 1),
         };
         let (x, y) = (inside(x, self.width), inside(y, self.height));
         f64::from(self.heights[(y * i64::from(self.width) + x) as usize])
     }
 
     /// Normals of the surface (s, t, `scale` · height), s and t in texels: normalize(-scale ∂h/∂s, -scale ∂h/∂t, 1).
-    pub fn normals(&self, scale: f64, difference: Difference, border: Border) -> NormalLevel {
+    pub fn normals(&self, scale: f64, difference: Difference, border: HeightWrap) -> NormalLevel {
         let slope = |x: i64, y: i64, step: [i64; 2]| {
             let beside = |sign: i64| self.at(x + sign * step[0], y + sign * step[1], border);
             match difference {
@@ -212,7 +212,7 @@ mod tests {
     /// Greatest angle in degrees to the normals of 0.01 sin 6 π s.
     fn worst(size: u32, difference: Difference) -> f64 {
         let wave = field(size, 1, |s, _| 0.5 + 0.01 * (3.0 * TAU * s).sin());
-        let normals = wave.normals(f64::from(size), difference, Border::Repeat);
+        let normals = wave.normals(f64::from(size), difference, HeightWrap::Repeat);
         let angle = |(x, normal): (usize, &DVec3)| {
             let s = (x as f64 + 0.5) / f64::from(size);
             let slope = 0.01 * 3.0 * TAU * (3.0 * TAU * s).cos();
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn a_flat_field_is_straight_up() {
         for (width, height) in [(1, 1), (1, 7), (8, 8), (5, 3)] {
-            for border in [Border::Repeat, Border::Clamp] {
+            for border in [HeightWrap::Repeat, HeightWrap::Clamp] {
                 let flat = field(width, height, |_, _| 0.3).normals(5.0, Difference::Central, border);
                 for level in flat.levels() {
                     assert!(level.signed(MipColors::UnitAndLength).iter().all(|texel| *texel == [0, 0, 127, 127]));
@@ -260,10 +260,10 @@ mod tests {
             let normals = ramp.normals(1.0, Difference::Forward, border);
             normals.means.iter().map(|normal| (-normal.x / normal.z * 100.0).round() / 100.0).collect()
         };
-        assert_eq!(slopes(Border::Repeat), [0.25, 0.25, 0.25, -0.75]);
-        assert_eq!(slopes(Border::Clamp), [0.25, 0.25, 0.25, 0.0]);
+        assert_eq!(slopes(HeightWrap::Repeat), [0.25, 0.25, 0.25, -0.75]);
+        assert_eq!(slopes(HeightWrap::Clamp), [0.25, 0.25, 0.25, 0.0]);
         // Upwards in t is upwards in the file: rows begin at the bottom.
-        let up = field(1, 4, |_, t| t).normals(1.0, Difference::Forward, Border::Clamp);
+        let up = field(1, 4, |_, t| t).normals(1.0, Difference::Forward, HeightWrap::Clamp);
         assert!(up.means[0].y < -0.2 && up.means[0].x == 0.0);
     }
 
@@ -275,7 +275,7 @@ mod tests {
             let heights: Vec<f64> = (0..width * height).map(|_| random.f64()).collect();
             let place = |at: f64, count: u32| (at * f64::from(count)) as usize;
             let bumps = field(width, height, |s, t| heights[place(t, height) * width as usize + place(s, width)]);
-            let first = bumps.normals(1.0, Difference::Central, Border::Repeat);
+            let first = bumps.normals(1.0, Difference::Central, HeightWrap::Repeat);
             let whole = first.means.iter().sum::<DVec3>() / first.means.len() as f64;
             let levels = first.levels();
             assert_eq!(levels.len() as u32, 32 - width.max(height).leading_zeros());
@@ -306,7 +306,7 @@ mod tests {
     fn a_packed_map_is_read_again() {
         let mut random = fastrand::Rng::with_seed(3);
         let bumps = field(6, 4, |s, t| 0.5 + 0.3 * (TAU * (s + 2.0 * t)).sin());
-        let first = bumps.normals(2.0, Difference::Central, Border::Repeat);
+        let first = bumps.normals(2.0, Difference::Central, HeightWrap::Repeat);
         let bytes: Vec<u8> = first.unsigned(MipColors::UnitAndLength).concat();
         let back = NormalLevel::from_colors(6, 4, &bytes, false);
         for (own, back) in first.means.iter().zip(&back.means) {

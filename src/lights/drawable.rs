@@ -12,7 +12,7 @@ use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
     IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
-use crate::scene::{Object, Scene};
+use crate::scene::{Object, Photo, Scene, photos_of};
 
 /// A range of triangles with one material and one transform.
 #[derive(Clone, Debug)]
@@ -28,6 +28,8 @@ pub struct Drawable {
     pub world_from_model: DMat4,
     /// Wave that moves its vertices in the vertex stage.
     pub wave: Option<Wave>,
+    /// Its photograph: index into [`Scene::photos`].
+    pub photo: Option<usize>,
     pub lit: bool,
     pub casts_shadow: bool,
     /// See [`crate::scene::Object::closed`]; false for waves, whose triangles may cross.
@@ -43,12 +45,15 @@ pub fn items(scene: &Scene, moved: Option<&Derived>) -> Vec<Drawable> {
 /// would discard completely are left out. With `moved`, which keeps moved meshes, vertices that a wave moves are moved already.
 pub fn items_of(objects: &[Object], moved: Option<&Derived>) -> Vec<Drawable> {
     let mut materials = Materials::default();
+    let photos = photos_of(objects);
     let mut items: Vec<Drawable> = Vec::new();
     for (index, object) in objects.iter().enumerate() {
         let (mesh, wave) = match (object.wave, moved) {
             (Some(wave), Some(derived)) => (wave.moved_once(&object.mesh, derived), None),
             (wave, _) => (object.mesh.clone(), wave),
         };
+        let is_own = |photo: &&Arc<Photo>| object.photo.as_ref().is_some_and(|own| Arc::ptr_eq(own, photo));
+        let photo = photos.iter().position(|photo| is_own(photo));
         let mut last_material: Option<Option<usize>> = None;
         for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let bounds = wave.map_or(part.bounds, |wave| wave.bounds(part.bounds));
@@ -72,6 +77,7 @@ pub fn items_of(objects: &[Object], moved: Option<&Derived>) -> Vec<Drawable> {
                 material,
                 world_from_model: object.world_from_model,
                 wave,
+                photo,
                 lit: object.lit,
                 casts_shadow: object.casts_shadow,
                 closed: object.closed && object.wave.is_none(),

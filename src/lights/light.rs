@@ -27,9 +27,9 @@ pub struct LightView<'a> {
     pub camera: &'a CameraView<'a>,
     /// Facts that earlier plans found from meshes.
     pub derived: &'a Derived,
-    /// Into [`Scene::lights`].
+    /// Into [`Scene::lights`]; beyond them, their number and that of a photograph.
     pub index: usize,
-    /// That light, or what a part of its lens sends.
+    /// That light, the photograph's camera, or what a part of its lens sends.
     pub source: &'a Light,
     /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
     pub shown_whole: bool,
@@ -42,6 +42,24 @@ pub struct LightView<'a> {
 impl<'a> LightView<'a> {
     pub fn light(&self) -> &'a Light {
         self.source
+    }
+
+    /// Number of the photograph whose camera it is.
+    pub fn photo(&self) -> Option<usize> {
+        self.index.checked_sub(self.scene.lights.len())
+    }
+
+    /// The light in messages and labels: by its number, or the photograph whose camera it is.
+    pub fn name(&self) -> String {
+        name_of(self.scene, self.index)
+    }
+}
+
+/// Light `index` of a scene in messages and labels. Numbers beyond its lights are those of photographs.
+pub fn name_of(scene: &Scene, index: usize) -> String {
+    match index.checked_sub(scene.lights.len()) {
+        None => format!("light {index}"),
+        Some(photo) => format!("photograph {photo}"),
     }
 }
 
@@ -81,9 +99,9 @@ impl FrustumView<'_> {
 /// compositions that draw a light in parts.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
-    /// Index into [`Scene::lights`].
+    /// Index into [`Scene::lights`]; beyond them, their number and that of a photograph.
     pub index: usize,
-    /// That light, or what a part of its lens sends.
+    /// That light, the photograph's camera, or what a part of its lens sends.
     pub source: Arc<Light>,
     pub shade: ShadeSource,
     /// Generation of `light_coord_@`; `None`: neither the shade nor the light's reach needs it.

@@ -13,6 +13,7 @@ pub mod guard;
 pub mod light;
 pub mod map;
 mod notes;
+pub mod photo;
 pub mod projected;
 pub mod projector;
 pub mod sides;

@@ -4,11 +4,13 @@ use glam::DMat4;
 
 use super::matrices::Matrices;
 use super::pictures::{Pictures, PlannedLight};
-use super::{Error, Plan, Request, Subject, ViewRequest, lens};
+use super::{Error, Plan, Request, Subject, ViewRequest, lens, photos};
 use crate::compositions::passes::Passes;
 use crate::geometry::Derived;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
+use crate::lights::light::name_of;
+use crate::lights::photo;
 use crate::lights::projected::note_projected;
 use crate::lights::{CameraView, Drawable, LightView, Notes};
 use crate::math::frustum::{self, Overlap};
@@ -47,6 +49,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
         .enumerate()
         .map(|(index, shadow)| planned_light(&view(index), shadow, request, &mut list, &mut notes))
         .collect();
+    let photos = photos::describe(scene, &items, request, derived, &mut list, &mut notes)?;
     let terms = || lights.iter().filter_map(|light| light.term.as_ref());
     let counts = terms().filter_map(|term| term.counting.as_ref());
     let counted = counts.clone().any(|counting| !counting.volumes.is_empty());
@@ -54,6 +57,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     let passes = Passes {
         scene,
         items: &items,
+        photos: &photos,
         derived,
         kept,
         counted,
@@ -77,14 +81,16 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     let described = || lights.iter().filter_map(PlannedLight::described);
     let maps = described().filter_map(|term| term.map_info).collect();
     let Notes { left_out, chosen, warnings } = notes;
-    let matrices = Matrices::new(scene, described());
+    let of_photos = photos.iter().flatten().map(|photo| &photo.term);
+    let matrices = Matrices::new(scene, described().chain(of_photos));
     Ok(Plan { list, picture: buffers.color, views, left_out, chosen, warnings, maps, matrices })
 }
 
 /// The lights' shadow settings, in the scene's order.
 fn shadows(scene: &Scene) -> Result<Vec<&LightShadow>, Error> {
     let lights = scene.lights.iter().enumerate();
-    lights.map(|(light, source)| LightShadow::of(&source.shadow).ok_or(Error::Unread { light })).collect()
+    let unread = |index| Error::Unread { light: name_of(scene, index) };
+    lights.map(|(index, source)| LightShadow::of(&source.shadow).ok_or_else(|| unread(index))).collect()
 }
 
 /// Describes a light if it reaches something visible or a view shows it.
@@ -148,8 +154,17 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
     if source.ambient != [0.0; 3] {
         return None; // ambient light is not bound by the cone
     }
+    let photos = view.scene.photos();
+    let is_covered = |item: &Drawable| {
+        let photo = item.photo.and_then(|photo| photos.get(photo));
+        photo.is_some_and(|photo| photo::covers(photo, item, &view.camera.viewer))
+    };
     let Some(light_clip) = reach(source) else {
-        return view.camera.visible.is_empty().then_some("nothing that is seen is there for it to light");
+        if view.camera.visible.is_empty() {
+            return Some("nothing that is seen is there for it to light");
+        }
+        let covered = view.camera.visible.iter().all(|item| is_covered(item));
+        return covered.then_some("all that is seen shows photographs alone");
     };
     let camera_clip = view.camera.clip_from_world;
     let corners = |clip: &DMat4| frustum::corners(&clip.inverse());
@@ -160,8 +175,12 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
         return None; // the air between is seen
     }
     let touched =
-        |item: &&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
-    if view.camera.visible.iter().any(touched) { None } else { Some("its cone reaches nothing visible") }
+        |item: &&&Drawable| frustum::overlap(&(light_clip * item.world_from_model), &item.bounds) != Overlap::Outside;
+    let mut touched = view.camera.visible.iter().filter(touched).peekable();
+    if touched.peek().is_none() {
+        return Some("its cone reaches nothing visible");
+    }
+    touched.all(|item| is_covered(item)).then_some("what its cone reaches shows photographs alone")
 }
 
 /// `clip_from_world` of the region that the light can reach: its cone's pyramid, from its position or its lens. Near and far bound the

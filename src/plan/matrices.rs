@@ -26,11 +26,11 @@ pub struct Matrices {
 /// Making of one light's texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightMatrices {
-    /// Index into the scene's lights.
+    /// Index into the scene's lights, or number of a photograph.
     pub index: usize,
     /// Name of the light, as in [`crate::scene::Light::name`].
     pub name: String,
-    /// `spot`, `point` or `directional`.
+    /// `spot`, `point`, `directional` or `photograph`.
     pub kind: &'static str,
     /// `None`: the light is drawn without texture coordinates.
     pub coordinates: Option<Coordinates>,
@@ -55,15 +55,16 @@ const SET_UPS: [(SetUp, &str); 4] =
 impl Matrices {
     /// Matrices of the lights that have a term in `terms`.
     pub(super) fn new<'t>(scene: &Scene, terms: impl Iterator<Item = &'t LightTerm>) -> Self {
-        let lights = terms.filter_map(|term| {
-            let source = scene.lights.get(term.index)?;
-            Some(LightMatrices {
-                index: term.index,
-                name: source.name.clone(),
-                kind: source.kind.name(),
+        let lights = terms.map(|term| {
+            let photo = term.index.checked_sub(scene.lights.len());
+            let (source, is_photo) = (&term.source, photo.is_some());
+            LightMatrices {
+                index: photo.unwrap_or(term.index),
+                name: scene.lights.get(term.index).unwrap_or(source).name.clone(),
+                kind: if is_photo { "photograph" } else { source.kind.name() },
                 coordinates: term.coordinates.clone(),
                 faces: term.map_info.map_or_else(Vec::new, |map| faces(&source.kind, map.shape)),
-            })
+            }
         });
         Self { eye_from_world: scene.camera.view_from_world(), moved: DVec3::ZERO, lights: lights.collect() }
     }
@@ -183,7 +184,10 @@ impl Text {
     }
 
     fn light(&mut self, light: &LightMatrices, eye_from_world: DMat4) {
-        self.line(&format!("\nLight {} \"{}\" ({})", light.index, light.name.escape_default(), light.kind));
+        match light.kind {
+            "photograph" => self.line(&format!("\nPhotograph {}: its camera is the light", light.index)),
+            kind => self.line(&format!("\nLight {} \"{}\" ({kind})", light.index, light.name.escape_default())),
+        }
         let Some(coordinates) = &light.coordinates else {
             self.line("  no texture coordinates: nothing is looked up by them, and nothing bounds its reach");
             return;

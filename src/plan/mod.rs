@@ -4,6 +4,7 @@ mod after_pass;
 mod compose;
 mod lens;
 pub mod matrices;
+mod photos;
 mod pictures;
 mod print;
 mod prune;
@@ -119,11 +120,11 @@ pub struct Plan {
 pub enum Error {
     /// A light's shadow settings are raw: the scene was loaded without techniques.
     #[error(
-        "light {light}: its [light.shadow] was not read by glumbra's techniques: load the scene with glumbra::load, or read the table with techniques::read"
+        "{light}: its shadow settings were not read by glumbra's techniques: load the scene with glumbra::load, or read the table with techniques::read"
     )]
     Unread {
-        /// Index into the scene's lights.
-        light: usize,
+        /// Light or photograph, by its number.
+        light: String,
     },
     /// The lights cannot be joined into passes.
     #[error(transparent)]

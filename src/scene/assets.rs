@@ -30,8 +30,16 @@ impl Model {
     }
 }
 
+/// A file's only pose, and its warnings.
+fn still((mesh, warnings): (Mesh, Vec<geometry::Warning>)) -> (Model, Vec<geometry::Warning>) {
+    (Model::Still(Arc::new(mesh)), warnings)
+}
+
 /// A pose of a file's model, bit for bit.
 type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
+
+/// Files in memory, each by its name.
+type Files = &'static [(&'static str, &'static [u8])];
 
 /// Meshes and textures loaded so far.
 #[derive(Default)]
@@ -41,16 +49,17 @@ pub(super) struct Assets {
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
-    /// Pictures in memory, by the names that the scene file has for them.
-    embedded: &'static [(&'static str, &'static [u8])],
+    /// Pictures and OBJ files in memory, by the names that the scene file has for them.
+    pictures: Files,
+    files: Files,
     /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
 }
 
 impl Assets {
-    /// Assets with pictures in memory, each by its name in the scene file.
-    pub fn with_pictures(embedded: &'static [(&'static str, &'static [u8])]) -> Self {
-        Self { embedded, ..Self::default() }
+    /// Assets with pictures and OBJ files in memory, each by its name in the scene file.
+    pub fn with_files(pictures: Files, models: Files) -> Self {
+        Self { pictures, files: models, ..Self::default() }
     }
 
     /// A built-in mesh, or one of a file named from `origin`, in a pose if its model is key-framed.
@@ -59,7 +68,8 @@ impl Assets {
         let model = match self.primitive(name) {
             Some(model) => model,
             None if is_model(&path) => {
-                self.model(&path).map_err(|source| Error::Asset { origin: origin.clone(), source })?
+                let bytes = embedded(self.files, name, origin);
+                self.model_in(&path, bytes).map_err(|source| Error::Asset { origin: origin.clone(), source })?
             }
             None => {
                 let hint = suggest(name, geometry::PRIMITIVES.iter().copied());
@@ -90,16 +100,21 @@ impl Assets {
 
     /// A file's model.
     pub fn model(&mut self, path: &Path) -> Result<Model, geometry::Error> {
+        self.model_in(path, None)
+    }
+
+    fn model_in(&mut self, path: &Path, embedded: Option<&[u8]>) -> Result<Model, geometry::Error> {
         let key = canonical(path);
         if let Some(model) = self.models.get(&key) {
             return Ok(model.clone());
         }
-        let (model, warnings) = if has_extension(path, "md2") {
-            let (model, warnings) = md2::Model::load(path)?;
-            (Model::KeyFramed(Arc::new(model)), warnings)
-        } else {
-            let (mesh, warnings) = geometry::load_obj(path)?;
-            (Model::Still(Arc::new(mesh)), warnings)
+        let (model, warnings) = match embedded {
+            _ if has_extension(path, "md2") => {
+                let (model, warnings) = md2::Model::load(path)?;
+                (Model::KeyFramed(Arc::new(model)), warnings)
+            }
+            Some(bytes) => still(geometry::decode_obj(path, bytes)?),
+            None => still(geometry::load_obj(path)?),
         };
         self.warnings.extend(warnings.iter().map(ToString::to_string));
         self.models.insert(key, model.clone());
@@ -118,18 +133,13 @@ impl Assets {
         if let Some(texture) = self.textures.get(&key) {
             return Ok(texture.clone());
         }
-        let texture = match self.embedded_picture(name, origin) {
+        let texture = match embedded(self.pictures, name, origin) {
             Some(bytes) => geometry::decode_texture(&path, bytes),
             None => geometry::load_texture(&path),
         };
         let texture = Arc::new(texture.map_err(|source| Error::Asset { origin: origin.clone(), source })?);
         self.textures.insert(key, texture.clone());
         Ok(texture)
-    }
-
-    fn embedded_picture(&self, name: &str, origin: &Origin) -> Option<&'static [u8]> {
-        let by_the_file = matches!(origin, Origin::File { .. });
-        self.embedded.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
     }
 
     fn primitive(&mut self, name: &str) -> Option<Model> {
@@ -140,6 +150,12 @@ impl Assets {
         self.models.insert(PathBuf::from(name), model.clone());
         Some(model)
     }
+}
+
+/// The file in memory that a scene file names.
+fn embedded(files: Files, name: &str, origin: &Origin) -> Option<&'static [u8]> {
+    let by_the_file = matches!(origin, Origin::File { .. });
+    files.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
 }
 
 /// A file's name is relative to the scene file that names it; on the command line, to the current folder.

@@ -8,12 +8,13 @@ use super::{Error, Origin};
 use crate::geometry;
 
 /// The keys that name files, by the tables that have them.
-const KEYS: [(&str, &str); 5] = [
+const KEYS: [(&str, &str); 6] = [
     ("light", "image"),
     ("light.beam", "shield"),
     ("object", "mesh"),
     ("object.material", "decal"),
     ("object.material", "alpha"),
+    ("object.material.photo", "image"),
 ];
 
 /// Makes each file's name an absolute path. `model`: the file around which the scene is supplied, which is named as it was

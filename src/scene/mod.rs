@@ -9,6 +9,7 @@ mod files;
 mod model;
 mod overrides;
 mod parse;
+mod photo;
 mod print;
 mod projected;
 mod ranges;
@@ -25,9 +26,10 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, Camera, Dust, DustBlend, Focus, Frustum, Image, Law, Light, LightKind, LightShape, Object,
-    PicturePasses, Point, Scene, Shading, Spot,
+    Background, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind, LightShape, Object,
+    Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
+pub use photo::photos_of;
 pub use projected::{
     BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
 };
@@ -54,7 +56,7 @@ pub struct Loaded {
     pub warnings: Vec<String>,
 }
 
-/// A scene file and the pictures that it names, compiled into a program. Its meshes are built in.
+/// A scene file and the pictures and meshes that it names, compiled into a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Embedded {
     /// The file's name, for messages.
@@ -63,6 +65,8 @@ pub struct Embedded {
     pub text: &'static str,
     /// Pictures, each with its name in the file.
     pub pictures: &'static [(&'static str, &'static [u8])],
+    /// OBJ files without material libraries, each with its name in the file.
+    pub meshes: &'static [(&'static str, &'static [u8])],
 }
 
 /// Loads a scene that is part of the program; otherwise as [`load`].
@@ -71,7 +75,7 @@ pub struct Embedded {
 ///
 /// As [`load`].
 pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
-    let mut assets = Assets::with_pictures(embedded.pictures);
+    let mut assets = Assets::with_files(embedded.pictures, embedded.meshes);
     let mut root = parse::document(Path::new(embedded.path), embedded.text)?;
     overrides::apply(&mut root, overrides)?;
     let scene = resolve::scene(&root, &mut assets, shadows)?;
@@ -157,6 +161,7 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
     let object = reader.tables("object")?.first().map(|object| resolve::object::read(object, assets)).transpose()?;
+    let object = object.map(|(object, _)| object);
     let bounds = object.as_ref().map_or(bounds, Object::world_bounds);
     check_size(path, &bounds)?;
     let floor = match &object {

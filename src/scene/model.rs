@@ -23,7 +23,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The textures of lights, objects and meshes; one that is used twice comes twice.
+    /// The textures of lights, objects, meshes and photographs; one that is used twice comes twice.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
         let of_lights = self.lights.iter().filter_map(Light::spot).flat_map(|spot| {
             let of_beam = spot.beam.iter().flat_map(|beam| [Some(&*beam.map), beam.shield.as_deref()]);
@@ -33,7 +33,8 @@ impl Scene {
             self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
         let of_materials =
             materials.flat_map(|material| material.decal.as_deref().into_iter().chain(material.alpha.as_deref()));
-        of_lights.chain(of_materials)
+        let of_photos = self.objects.iter().filter_map(|object| object.photo.as_ref()?.image());
+        of_lights.chain(of_materials).chain(of_photos.map(|image| &**image))
     }
 }
 
@@ -266,6 +267,9 @@ pub struct Object {
     pub wave: Option<Wave>,
     /// Replaces every material of the mesh.
     pub material: Option<Arc<Material>>,
+    /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
+    /// one need one depth map.
+    pub photo: Option<Arc<Photo>>,
     /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,
     /// True if it is drawn into shadow maps.
@@ -273,4 +277,26 @@ pub struct Object {
     /// Declared and checked by the scene: the mesh is closed and its faces look outwards, so that no back face is ever seen
     /// from outside of it.
     pub closed: bool,
+}
+
+/// A photograph of objects, and the camera that took it.
+#[derive(Clone, Debug)]
+pub struct Photo {
+    /// The camera as a spotlight that projects the photograph back: its frustum is the camera's, its image the photograph,
+    /// its shadow settings those of the depth map that tells what the camera saw. It lights nothing.
+    pub projector: Light,
+    /// Content of points that the photograph does not show.
+    pub hidden: Hidden,
+}
+
+/// Content of points that a photograph does not show: beyond its frame, behind its eye, or hidden from its eye.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// The photograph all the same, without a test of depth: what lies behind something shows its colours. Beyond the frame
+    /// those of the frame's edge; behind the eye the material's own colour, lit.
+    Smear,
+    /// Grey, 128 of 255.
+    Grey,
+    /// The material's own colour, lit.
+    Leave,
 }

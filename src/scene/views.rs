@@ -53,6 +53,11 @@ impl Scene {
         }
         ends.into_iter().for_each(|end| *end -= origin);
         scene.objects.iter_mut().for_each(|object| object.world_from_model.w_axis -= origin.extend(0.0));
+        let moved: Vec<_> = self.photos().into_iter().map(|photo| (photo, Arc::new(photo.moved(-origin)))).collect();
+        for photo in scene.objects.iter_mut().filter_map(|object| object.photo.as_mut()) {
+            let found = moved.iter().find(|(own, _)| Arc::ptr_eq(own, photo)).map(|(_, moved)| moved.clone());
+            found.into_iter().for_each(|moved| *photo = moved);
+        }
         Some(scene)
     }
 }

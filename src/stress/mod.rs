@@ -8,6 +8,7 @@ mod case;
 mod judge;
 pub mod named;
 mod page;
+mod photos;
 mod plot;
 pub mod projected;
 pub mod random;

@@ -1,15 +1,17 @@
-//! Random scenes whose spotlights have images, beams and laws of distance, and the judgement of their colours: each pixel
+//! Random scenes whose spotlights have images, beams and laws of distance, and photographs on objects, and the judgement of their colours: each pixel
 //! against its colour in f64, without shadows, which the other rows judge.
 
 use fastrand::Rng;
 
 use super::case::{Case, files_named_in};
+use super::photos::with_photos;
 use super::random;
 use super::results::{CaseRow, Verdict};
 use super::rows::RowSettings;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
+use crate::report::measure::colors::color_options;
 use crate::scene::Scene;
 use crate::techniques;
 use crate::truth;
@@ -35,6 +37,7 @@ pub fn case(seed: u64, index: u64) -> Case {
             add_keys(&mut rng, planes, line.contains("frustum"), &mut toml);
         }
     }
+    let toml = with_photos(seed, index, &toml);
     let (name, why) = (format!("projected-{seed}-{index}"), String::from("a random scene in projected light"));
     Case { name, why, files: files_named_in(&toml), toml, ..plain }
 }
@@ -83,7 +86,7 @@ pub fn color_row(scene: &Scene, renderer: &mut Renderer) -> CaseRow {
     let row = CaseRow::new(0, &settings);
     let mut scene = scene.clone();
     scene.lights.iter_mut().for_each(|light| light.shadow = techniques::unshadowed());
-    let colors = match truth::color(&scene, &vec![None; scene.lights.len()], &truth::Options::default()) {
+    let colors = match truth::color(&scene, &vec![None; scene.lights.len()], &color_options(&scene)) {
         Ok(colors) => colors,
         Err(error) => return CaseRow { verdict: Verdict::Refused, why: error.to_string(), ..row },
     };

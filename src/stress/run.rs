@@ -77,7 +77,10 @@ fn draw_rows(
     result: &mut CaseResult,
 ) -> Result<(), String> {
     let loaded = case.load(folder)?;
-    let scene = loaded.scene;
+    let pictured = loaded.scene;
+    // Shadows are judged without photographs, which show none.
+    let mut scene = pictured.clone();
+    scene.objects.iter_mut().for_each(|object| object.photo = None);
     let mut shares = Vec::new();
     for (light, source) in scene.lights.iter().enumerate() {
         let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;
@@ -98,7 +101,7 @@ fn draw_rows(
         }
     }
     if options.technique.is_none() && case.name.starts_with("projected") {
-        let mut row = color_row(&scene, renderer);
+        let mut row = color_row(&pictured, renderer);
         row.add_warnings(&loaded.warnings);
         result.rows.push(row);
     }

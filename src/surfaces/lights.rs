@@ -104,7 +104,7 @@ impl<'a> Variants<'a> {
 
 /// Sampler of a light's image. Nothing beyond the image's border is read: outside of it there is no light, by the test of
 /// reach, at every mipmap level.
-fn image_sampler(filter: ImageFilter) -> Sampler {
+pub fn image_sampler(filter: ImageFilter) -> Sampler {
     let filter = match filter {
         ImageFilter::Nearest => Filter::Nearest,
         ImageFilter::Linear => Filter::Linear,
@@ -263,13 +263,21 @@ fn eye_position(source: &Light, viewer: &Viewer) -> Vec4 {
 }
 
 fn add_texgen(parts: &mut LightParts, generated: &texgen::Texgen) {
+    let (defines, uniforms) = texgen_parts(parts.index, generated);
+    parts.defines.extend(defines);
+    parts.uniforms.extend(uniforms);
+}
+
+/// Defines and uniforms of texture coordinate generation for light `index`.
+pub fn texgen_parts(index: usize, generated: &texgen::Texgen) -> (Vec<Define>, Vec<Uniform>) {
     let rows = generated.eye_planes.as_mat4().transpose();
     let planes: Vec<Vec4> = vec![rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
-    parts.uniforms.push(Uniform::of_light("eye_planes", parts.index, planes));
-    if generated.texture_matrix != DMat4::IDENTITY {
-        parts.defines.push(Define::flag("TEXTURE_MATRIX").of_light(parts.index));
-        parts.uniforms.push(Uniform::of_light("texture_matrix", parts.index, generated.texture_matrix.as_mat4()));
+    let mut uniforms = vec![Uniform::of_light("eye_planes", index, planes)];
+    if generated.texture_matrix == DMat4::IDENTITY {
+        return (Vec::new(), uniforms);
     }
+    uniforms.push(Uniform::of_light("texture_matrix", index, generated.texture_matrix.as_mat4()));
+    (vec![Define::flag("TEXTURE_MATRIX").of_light(index)], uniforms)
 }
 
 /// Adds the light's colour, attenuation and what is projected through its frustum, without a surface that they fall on.

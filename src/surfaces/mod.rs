@@ -5,27 +5,35 @@ mod explain;
 mod guarded;
 mod lights;
 mod partition;
+mod photo;
 mod variant;
+
+use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::Mat3;
 
 use self::lights::{LightParts, Variants};
-use crate::geometry::Derived;
+use crate::geometry::{Derived, Material};
 use crate::lights::light::Addition;
+use crate::lights::photo::PhotoTerm;
 use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
 use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
 use crate::scene::Scene;
 pub use explain::explain_guards;
 pub use guarded::MOST_CLIP_PLANES;
 
-/// The batches that draw `items` as `viewer` sees them, lit by `terms`; `ending` decides what a fragment shows.
+/// The batches that draw `items` as `viewer` sees them, lit by `terms` or showing one of `photos`; `ending` decides what a
+/// fragment shows.
 ///
-/// `None` where a light's transform has no inverse.
+/// `None` where the transform of a light or of a photograph has no inverse.
+#[allow(clippy::too_many_arguments, reason = "a pass knows its scene, viewer, lights and photographs apart")]
 pub fn batches(
     scene: &Scene,
     items: &[Drawable],
     viewer: &Viewer,
     terms: &[LightTerm],
+    photos: &[Option<PhotoTerm>],
     ending: &Ending,
     derived: &Derived,
     list: &mut PassList,
@@ -44,13 +52,21 @@ pub fn batches(
     for piece in &pieces {
         let item = &piece.item;
         let lights = lights.iter().zip(&piece.reaches).filter_map(|(variants, reach)| variants.of(*reach));
-        let lights: Vec<&LightParts> = lights.collect();
+        let photo = photo::parts(photos, item, viewer, ending, adds, list)?;
+        let covered = photo.as_ref().is_some_and(|photo| photo.covers);
+        // Light falls on none of a covered item's own colour.
+        let lights: Vec<&LightParts> = lights.filter(|_| !covered).collect();
         if adds && lights.is_empty() {
             continue;
         }
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
-        let surface = variant::of(scene, item, [one_sided, ambient], &lights, viewer, ending, list);
+        let own = if covered { without_decal(item) } else { Cow::Borrowed(item) };
+        let surface = variant::of(scene, &own, [one_sided, ambient], &lights, viewer, ending, list);
+        let surface = match photo {
+            Some(photo) => photo.on(surface),
+            None => surface,
+        };
         let clip_planes = piece.clip_planes.len() as u8;
         let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
         let cull = culls.then_some(Face::Back);
@@ -76,6 +92,15 @@ pub fn batches(
         }
     }
     Some(batches)
+}
+
+/// The item without a decal that nothing shows: one without holes.
+fn without_decal(item: &Drawable) -> Cow<'_, Drawable> {
+    if item.needs_alpha_test() || item.decal().is_none() {
+        return Cow::Borrowed(item);
+    }
+    let material = Arc::new(Material { decal: None, ..Material::clone(&item.material) });
+    Cow::Owned(Drawable { material, ..item.clone() })
 }
 
 fn draw_uniforms(viewer: &Viewer, item: &Drawable, program: &Program) -> Vec<Uniform> {

@@ -16,6 +16,9 @@ use crate::scene::Scene;
 /// The vertex stage needs positions in eye space.
 pub const EYE_SPACE: Define = Define::flag("EYE_SPACE");
 
+/// The fragment stage gets positions in eye space.
+pub const EYE_POSITION: Define = Define::flag("EYE_POSITION");
+
 /// Features that an item's picture depends on.
 #[derive(Clone, Copy)]
 struct Needs {
@@ -228,7 +231,7 @@ fn defines(
         (Define::flag("WAVE"), item.wave.is_some()),
         (Define::flag("ANY_LIGHT"), shows_light && !lights.is_empty()),
         (EYE_SPACE, needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
-        (Define::flag("EYE_POSITION"), needs.position),
+        (EYE_POSITION, needs.position),
         (Define::flag("NORMALS"), needs.normals),
         (Define::flag("EYE_NORMAL"), per_fragment),
         (Define::flag("TWO_SIDED"), per_fragment && !needs.one_sided),

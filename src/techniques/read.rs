@@ -10,7 +10,8 @@ use crate::lights::guard::Guard;
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{
-    self, Embedded, LightKind, Loaded, Object, ReadShadow, Reader, Scene, Settings, SettingsError, Shadow, suggest,
+    self, Embedded, Entry, LightKind, Loaded, Object, ReadShadow, Reader, Scene, Settings, SettingsError, Shadow,
+    Value, suggest,
 };
 
 /// A light's technique, and the keys that it has read.
@@ -56,6 +57,11 @@ impl ReadShadow for Techniques {
     fn read(&self, written: Settings, kind: &LightKind, objects: &[Object]) -> Result<Shadow, SettingsError> {
         read(written, kind, objects)
     }
+
+    /// As [`read_photo`].
+    fn read_photo(&self, written: Settings, kind: &LightKind, objects: &[Object]) -> Result<Shadow, SettingsError> {
+        read_photo(written, kind, objects)
+    }
 }
 
 /// Loads a scene (.toml), or a model (.obj, .md2) with a scene supplied around it, with its lights' shadow settings.
@@ -97,6 +103,32 @@ pub fn read(written: Settings, kind: &LightKind, objects: &[Object]) -> Result<S
     keys.finish()?;
     settings.check(kind, objects)?;
     Ok(Shadow::new(written, LightShadow { technique, common, settings }))
+}
+
+/// Technique that finds what a photograph's eye saw, where none is written.
+const PHOTO_TECHNIQUE: &str = "shadow-map";
+
+/// Reads `map` of a photograph: the keys of `[light.shadow]`, of a shadow map where no `technique` is written.
+///
+/// # Errors
+///
+/// As [`read`]; a technique that counts in the stencil buffer; keys of light.
+fn read_photo(mut written: Settings, kind: &LightKind, objects: &[Object]) -> Result<Shadow, SettingsError> {
+    if written.get("technique").is_none() {
+        let (name, origin) = (String::from(PHOTO_TECHNIQUE), written.origin.clone());
+        written.set("technique", Entry { value: Value::String(name), origin });
+    }
+    let shadow = read(written, kind, objects)?;
+    let keys = shadow.written().read();
+    keys.refuse(&["guard", "dimming"], "is no key of a photograph's map, which lights nothing")?;
+    match LightShadow::of(&shadow).and_then(|read| read.settings.counts_by()) {
+        None => Ok(shadow),
+        Some(counting) => {
+            let why =
+                format_args!("needs a depth map that the shader looks up, and {counting} counts in the stencil buffer");
+            Err(keys.error("technique", why))
+        }
+    }
 }
 
 /// Refuses keys of a light with a lens that its lens points cannot have.

@@ -14,7 +14,7 @@ use super::primary::SeenPoint;
 use super::slab::Segment;
 use super::world::Triangle;
 use super::{Error, Options, Tracer, Truth};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 
 /// One light of one scene, prepared for queries of single pixels.
 pub struct Surroundings<'a> {
@@ -85,6 +85,11 @@ impl<'a> Surroundings<'a> {
     /// As [`super::trace`], but never [`Error::TooAmbiguous`].
     pub fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
         Ok(Self { tracer: Tracer::new(scene, light, options)?, scene, options: options.clone() })
+    }
+
+    /// The same for a light that the scene does not have.
+    pub(super) fn of_light(scene: &'a Scene, light: &Light, options: &Options) -> Result<Self, Error> {
+        Ok(Self { tracer: Tracer::of_light(scene, light, options)?, scene, options: options.clone() })
     }
 
     /// The truth of every pixel, as [`super::trace`] finds it.

@@ -8,6 +8,7 @@
 
 mod bounds;
 mod lamp;
+mod photo;
 mod projected;
 mod surface;
 
@@ -18,6 +19,7 @@ use super::{Error, Options, Tracer};
 use crate::scene::Scene;
 pub use bounds::Bounds;
 use lamp::{Source, Wash};
+use photo::Photograph;
 use surface::{Shaded, SurfaceTable};
 
 /// The picture in f64. Row 0 is the top.
@@ -72,12 +74,13 @@ impl ColorPixel {
 ///
 /// # Errors
 ///
-/// As [`super::trace`]; a scene without lights. There is no limit on ambiguous pixels: each has its bounds.
+/// As [`super::trace`]. There is no limit on ambiguous pixels: each has its bounds.
 pub fn color(scene: &Scene, shadows: &[Option<f64>], options: &Options) -> Result<ColorTruth, Error> {
     let count = scene.lights.len().max(1);
     let tracers = (0..count).map(|light| Tracer::new(scene, light, options)).collect::<Result<Vec<_>, _>>()?;
     let sources: Vec<Source<'_>> = scene.lights.iter().map(Source::new).collect();
-    let painter = Painter { scene, tracers, sources, shadows, surfaces: SurfaceTable::new(scene) };
+    let photos = photo::of_scene(scene, options)?;
+    let painter = Painter { scene, tracers, sources, photos, shadows, surfaces: SurfaceTable::new(scene) };
     let [width, height] = scene.image.size;
     let at = |index: u32| painter.pixel(index % width, index / width);
     let pixels = (0..width * height).into_par_iter().map(at).collect();
@@ -90,6 +93,7 @@ struct Painter<'a> {
     /// One for each light.
     tracers: Vec<Tracer<'a>>,
     sources: Vec<Source<'a>>,
+    photos: Vec<Photograph<'a>>,
     shadows: &'a [Option<f64>],
     surfaces: SurfaceTable,
 }
@@ -130,6 +134,9 @@ impl Painter<'_> {
             });
         }
         let rgb = [0, 1, 2].map(|k| diffuse[k].times(surface.decal[k]).plus(specular[k]).clamped());
+        let of = |photo: &std::sync::Arc<crate::scene::Photo>| self.photos.iter().find(|known| known.is(photo));
+        let photo = self.scene.objects[seen.triangle.object as usize].photo.as_ref().and_then(of);
+        let rgb = photo.map_or(rgb, |photo| photo.on(&seen, [x, y], &surface, rgb));
         ColorPixel { rgb, is_known: true }
     }
 

@@ -47,7 +47,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 pub use answers::{Answer, Hit, Pixel, Reason, Truth};
 pub use around::{Around, Blocker, Nearer, Surroundings};
 use beam::Beam;
@@ -80,11 +80,20 @@ pub struct Options {
     /// sides are pixels of [`Reason::GrazingLight`] on surfaces that shading keeps dark either way: walls under an
     /// overhead sun are undecided by nature, and show less than a 256th of the light.
     pub most_ambiguous: f64,
+    /// For colours: texels a side of photographs' depth maps. What their eyes see is in doubt within two texels of an edge.
+    /// `None`: the exact rays.
+    pub photo_map_size: Option<u32>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { subpixel_bits: 8, position_roundings: 4.0, depth_buffer_bits: None, most_ambiguous: 0.03 }
+        Self {
+            subpixel_bits: 8,
+            position_roundings: 4.0,
+            depth_buffer_bits: None,
+            most_ambiguous: 0.03,
+            photo_map_size: None,
+        }
     }
 }
 
@@ -197,7 +206,10 @@ struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
         let missing = || Error::NoLight { index: light, count: scene.lights.len() };
-        let light = scene.lights.get(light).ok_or_else(missing)?;
+        Self::of_light(scene, scene.lights.get(light).ok_or_else(missing)?, options)
+    }
+
+    fn of_light(scene: &'a Scene, light: &Light, options: &Options) -> Result<Self, Error> {
         let world = World::new(scene)?;
         let (center, radius) = world.ball();
         let lamp = Lamp::new(light, center, radius);

@@ -1,6 +1,7 @@
 //! The files themselves. No function is used whose last bit differs between platforms: sums, products, quotients and square
 //! roots only.
 
+mod facade;
 mod knight;
 mod knight_skin;
 mod noise;
@@ -23,6 +24,10 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     std::fs::create_dir_all(folder.join("textures"))?;
     let (positions, triangles) = statue::sculpt();
     std::fs::write(folder.join("meshes/dense.obj"), obj_text(&positions, &triangles))?;
+    for (name, text) in facade::meshes() {
+        std::fs::write(folder.join("meshes").join(name), text)?;
+    }
+    facade::bricks().save(folder.join("textures/bricks.png"))?;
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
     slide::slide().save(folder.join("textures/slide.png"))?;

@@ -1,5 +1,5 @@
-//! Makes the files in `data/` that no one drew: `meshes/dense.obj` and the pictures in `textures/`. A test makes them anew
-//! and compares.
+//! Makes the files in `data/` that no one drew: `meshes/dense.obj`, `meshes/facade-*.obj` and the pictures in `textures/`. A
+//! test makes them anew and compares.
 //!
 //! `cargo run --release --example generate_data [FOLDER]`; the default folder is `data`.
 

@@ -62,12 +62,15 @@ fn generated_files_are_what_the_generator_makes() {
     let folder = tempfile::tempdir().unwrap();
     made::write_all(folder.path()).unwrap();
     let both = |name: &str| [root().join("data").join(name), folder.path().join(name)];
-    let [committed, made] = both("meshes/dense.obj").map(|path| std::fs::read(path).unwrap());
-    assert!(committed == made, "data/meshes/dense.obj is not what generate_data makes");
+    for name in ["dense", "facade-wall", "facade-stone", "facade-wood", "facade-glass", "facade-iron"] {
+        let name = format!("meshes/{name}.obj");
+        let [committed, made] = both(&name).map(|path| std::fs::read(path).unwrap());
+        assert!(committed == made, "data/{name} is not what generate_data makes");
+    }
     let [committed, made] = both("meshes/knight.md2").map(|path| std::fs::read(path).unwrap());
     assert!(committed == made, "data/meshes/knight.md2 is not what generate_data makes");
     // Pixels, not bytes: the packing of PNGs may change with the library.
-    for name in ["floor", "spot", "barn-doors", "head-light", "knight", "knight-height", "knight-gloss"]
+    for name in ["bricks", "floor", "spot", "barn-doors", "head-light", "knight", "knight-height", "knight-gloss"]
         .map(|name| format!("textures/{name}.png"))
     {
         let [committed, made] = both(&name).map(|path| geometry::load_texture(&path).unwrap().rgba);

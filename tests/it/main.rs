@@ -42,6 +42,7 @@ mod md2;
 mod mistakes;
 mod mutated;
 mod oracle;
+mod photos;
 mod placement;
 mod plan_listings;
 mod planes;

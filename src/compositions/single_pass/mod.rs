@@ -20,12 +20,12 @@ impl Composition for SinglePass {
         scene.shading.passes == PicturePasses::One && terms.iter().all(|term| term.counting.is_none())
     }
 
-    fn needs_stencil(&self, _passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
-        groups::sizes(terms.iter().copied()).len() > 1
+    fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
+        groups::sizes(terms.iter().copied(), passes.has_photos()).len() > 1
     }
 
-    fn check(&self, _scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
-        groups::check(terms)
+    fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+        groups::check(scene, terms)
     }
 
     fn picture(

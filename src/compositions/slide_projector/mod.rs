@@ -102,8 +102,9 @@ impl Passes<'_> {
     /// Pass 1. Where pixels without a surface keep the scene's background, the surfaces bring the ambient light along.
     fn depth_and_ambient(&mut self, target: Target, lens: &CameraProjection) -> Result<(), Error> {
         let (label, state) = match self.scene.shading.background {
-            Background::Scene => ("depth and ambient light", DrawState::OPAQUE),
-            Background::Ambient => ("depth", DrawState::DEPTH_ONLY),
+            Background::Ambient if !self.has_photos() => ("depth", DrawState::DEPTH_ONLY),
+            // A photograph has all of its light.
+            Background::Scene | Background::Ambient => ("depth and ambient light", DrawState::OPAQUE),
         };
         let onto = Onto { state: lens.of_surfaces(state), ..self.first(label, target, lens, self.unlit_background()) };
         self.surfaces(&onto, &[], &ending(true, false))
@@ -123,7 +124,9 @@ impl Passes<'_> {
 
     /// Pass 3. SEG's has no depth test; without one a hidden surface's colour would be multiplied in, too.
     fn own_colors(&mut self, target: Target, lens: &CameraProjection, once: Once) -> Result<(), Error> {
-        let white = |item: &crate::lights::Drawable| item.material.diffuse == [1.0; 3] && item.decal().is_none();
+        let white = |item: &crate::lights::Drawable| {
+            item.material.diffuse == [1.0; 3] && item.decal().is_none() && item.photo.is_none()
+        };
         if !self.keep_all && CameraView::new(self.scene, self.items).visible.iter().all(|item| white(item)) {
             self.notes.left_out("pass \"surfaces' colours\"", "all surfaces in view are white");
             return Ok(());

@@ -29,8 +29,12 @@ pub const CREASE_DEGREES: f64 = 60.0;
 /// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the file's origin, for
 /// their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
-    let bytes = text::read(path)?;
-    let text = text::decode(&bytes, path)?;
+    decode_obj(path, &text::read(path)?)
+}
+
+/// The same for the `bytes` of an OBJ file, which is called `path` in messages and next to which its material libraries lie.
+pub fn decode_obj(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Warning>), Error> {
+    let text = text::decode(bytes, path)?;
     let scan = scan(&text, path)?;
     if u32::try_from(scan.places.count().max(text.len())).is_err() {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });

@@ -4,7 +4,7 @@ use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
 use crate::scene::{Law, Light, Scene, Shadow};
-use crate::techniques::LightShadow;
+use crate::techniques::{self, LightShadow};
 use crate::truth::{self, ColorTruth};
 
 /// Errors of a picture's colours, over the pixels whose colour is known.
@@ -23,15 +23,21 @@ pub struct ColorErrors {
 /// Codes that a picture may be off beyond the bounds of a colour: its own rounding, and that of tables.
 const ALLOWED_CODES: f64 = 2.0;
 
-/// Tests whether a light of the scene has an image, a beam or a law of distance, and nothing else decides colours:
+/// Tests whether a light of the scene has an image, a beam or a law of distance, or an object a photograph, and nothing else decides colours:
 /// [`truth::color`] knows no dust, no lens with a size and no slide projectors.
 pub fn has_projected_light(scene: &Scene) -> bool {
     let is_known = |light: &Light| {
         light.law == Law::Lit && light.dust.is_none() && light.spot().is_none_or(|spot| spot.lens().is_none())
     };
     let mut spots = scene.lights.iter().filter_map(|light| light.spot());
-    scene.lights.iter().all(is_known)
-        && spots.any(|spot| spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some())
+    let has_projected = spots.any(|spot| spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some());
+    scene.lights.iter().all(is_known) && (has_projected || !scene.photos().is_empty())
+}
+
+/// Options of [`truth::color`] for a scene: photographs are in doubt by the texels of the smallest of their depth maps.
+pub fn color_options(scene: &Scene) -> truth::Options {
+    let sizes = scene.photos().into_iter().map(|photo| techniques::map_size(&photo.projector.shadow));
+    truth::Options { photo_map_size: sizes.min(), ..truth::Options::default() }
 }
 
 /// Colours of the scene, in which light `measured` casts its shadow whatever its technique, and others by their own.
@@ -42,7 +48,7 @@ pub fn has_projected_light(scene: &Scene) -> bool {
 pub fn true_colors(scene: &Scene, measured: usize) -> Result<ColorTruth, truth::Error> {
     let lights = scene.lights.iter().enumerate();
     let shadows: Vec<_> = lights.map(|(index, light)| shadow_of(&light.shadow, index == measured)).collect();
-    truth::color(scene, &shadows, &truth::Options::default())
+    truth::color(scene, &shadows, &color_options(scene))
 }
 
 /// The diffuse light that a full shadow leaves; `None`: the light has no shadow. `always`: it has one, whatever its technique.

@@ -19,9 +19,9 @@ const LAWS: [(&str, Law); 2] = [("lit", Law::Lit), ("slide", Law::Slide)];
 const SHAPES: [(&str, LightShape); 2] = [("cone", LightShape::Cone), ("frustum", LightShape::Frustum)];
 
 /// Least and greatest width over height of a frustum.
-const ASPECTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+pub(super) const ASPECTS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-const FILTERS: [(&str, ImageFilter); 3] =
+pub(super) const FILTERS: [(&str, ImageFilter); 3] =
     [("nearest", ImageFilter::Nearest), ("linear", ImageFilter::Linear), ("trilinear", ImageFilter::Trilinear)];
 
 const INTERPOLATIONS: [(&str, Interpolation); 3] =

@@ -2,13 +2,18 @@
 
 use std::sync::Arc;
 
+use super::photo::{self, PhotoKeys};
 use crate::geometry::{Material, ObjectLinear};
 use crate::scene::Error;
 use crate::scene::assets::Assets;
 use crate::scene::settings::{Settings, SettingsError};
 
-/// Resolves the material of the object `owner`.
-pub(super) fn read(table: &Settings, owner: &str, assets: &mut Assets) -> Result<Arc<Material>, Error> {
+/// Resolves the material of the object `owner`, and reads its photograph.
+pub(super) fn read(
+    table: &Settings,
+    owner: &str,
+    assets: &mut Assets,
+) -> Result<(Arc<Material>, Option<PhotoKeys>), Error> {
     let fallback = Material::default();
     let mut reader = table.read();
     let diffuse = reader.colour("diffuse", 1.0)?.unwrap_or(fallback.diffuse);
@@ -18,12 +23,14 @@ pub(super) fn read(table: &Settings, owner: &str, assets: &mut Assets) -> Result
     let opacity = reader.number("opacity", 0.0..=1.0)?.map_or(fallback.opacity, |value| value as f32);
     let (decal, alpha) = (reader.file("decal")?, reader.file("alpha")?);
     let texgen = reader.table("texgen")?.map(object_linear).transpose()?;
+    let photo = reader.table("photo")?;
     reader.finish()?;
     let mut load = |file: Option<(&str, &_)>| file.map(|(name, origin)| assets.texture(name, origin)).transpose();
     let (decal, alpha) = (load(decal)?, load(alpha)?);
+    let photo = photo.map(|table| photo::read(table, assets)).transpose()?;
     let name = format!("material of {owner}");
     let material = Material { name, ambient, diffuse, specular, shininess, opacity, decal, alpha, texgen, ..fallback };
-    Ok(Arc::new(material))
+    Ok((Arc::new(material), photo))
 }
 
 /// `texgen = { s, t, scale }`: GL_OBJECT_LINEAR planes in the mesh's own space and a texture matrix that scales.

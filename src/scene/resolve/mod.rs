@@ -6,6 +6,7 @@ mod falloff;
 mod light;
 mod material;
 pub(super) mod object;
+mod photo;
 pub(super) mod pose;
 
 use super::assets::Assets;
@@ -40,7 +41,9 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
     let lights =
         lights.iter().enumerate().map(|(i, table)| light::read(table, i, assets)).collect::<Result<Vec<_>, _>>()?;
     let objects = objects.iter().map(|table| object::read(table, assets)).collect::<Result<Vec<_>, _>>()?;
-    if lights.is_empty() {
+    let (mut objects, photos): (Vec<_>, Vec<_>) = objects.into_iter().unzip();
+    photo::complete(photos, &mut objects, shadows)?;
+    if lights.is_empty() && objects.iter().any(|object| object.photo.is_none()) {
         assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
     }
     let complete = |light: light::LightKeys| light.complete(&objects, shadows);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use super::material;
+use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
 use crate::geometry::{Material, Mesh, Wave};
 use crate::scene::assets::Assets;
@@ -12,8 +13,8 @@ use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
 use crate::scene::{Error, Object};
 
-/// Resolves one object.
-pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Object, Error> {
+/// Resolves one object, and reads its photograph.
+pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<(Object, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
     let (mesh, mesh_origin) =
         reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh, or an .obj or .md2 file"))?;
@@ -26,7 +27,8 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let closed = reader.boolean("closed")?.unwrap_or(false);
     let material = reader.table("material")?;
     reader.finish()?;
-    let material = material.map(|table| material::read(table, &name, assets)).transpose()?;
+    let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
+    let photo = photo.flatten();
     let mesh = assets.mesh(mesh, mesh_origin, &pose)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
@@ -34,10 +36,10 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<Ob
     let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
     let wave = wave.map(|wave| wave.relative_to(mesh.origin));
     let material = material.map(|material| relative_to(material, mesh.origin));
-    let object = Object { name, mesh, world_from_model, wave, material, lit, casts_shadow, closed };
+    let object = Object { name, mesh, world_from_model, wave, material, photo: None, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     warn_of_clear(&object, table, assets);
-    Ok(object)
+    Ok((object, photo))
 }
 
 /// Warns of parts that the alpha test discards completely.

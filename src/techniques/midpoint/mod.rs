@@ -160,7 +160,7 @@ impl ShadowSettings for Settings {
         let map = match first {
             Some(first) => single::fill(view, first, midpoint, &settings.map, list),
             None => {
-                let what = format!("the nearest layer in texels with one layer alone, light {}", view.index);
+                let what = format!("the nearest layer in texels with one layer alone, {}", view.name());
                 notes.left_out(what, "nothing lies behind it that it could shadow");
                 midpoint
             }
@@ -197,7 +197,7 @@ fn forecast_of<'a>(
 fn note_shared(view: &FrustumView<'_>, [_, _, width, height]: [u32; 4], size: u32, notes: &mut Notes) {
     let share = f64::from(width) * f64::from(height) / (f64::from(size) * f64::from(size));
     if share < 1.0 {
-        let what = format!("{:.1} % of the texels of light {}'s two layers", 100.0 * (1.0 - share), view.index);
+        let what = format!("{:.1} % of the texels of {}'s two layers", 100.0 * (1.0 - share), view.name());
         notes.left_out(what, "no texel there can have a second layer");
     }
 }
@@ -224,12 +224,12 @@ fn is_clamped(view: &FrustumView<'_>, layers: &Layers<'_>) -> bool {
 fn note_chosen(view: &FrustumView<'_>, layers: &Layers<'_>, notes: &mut Notes) {
     if let Some(name) = &layers.beyond_far {
         let why = format!("{name} reaches beyond the far plane: it is a second layer at depth 1");
-        notes.chosen(format!("both layers of light {}'s map", view.index), "GL_DEPTH_CLAMP", why);
+        notes.chosen(format!("both layers of {}'s map", view.name()), "GL_DEPTH_CLAMP", why);
     }
     let mut names: Vec<&str> = layers.receivers.iter().map(|item| item.label.as_str()).collect();
     names.dedup();
     if !names.is_empty() {
-        let of = format!("the second layer of light {}'s map", view.index);
+        let of = format!("the second layer of {}'s map", view.name());
         let why = "they cast nothing, but are shadowed: the middle lies before them";
         notes.chosen(of, format!("with {}", names.join(", ")), why);
     }

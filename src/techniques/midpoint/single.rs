@@ -41,7 +41,7 @@ pub fn fill(
         draws: vec![whole_target("every texel")],
     };
     list.passes.push(Pass {
-        label: format!("light {}: single layer", view.index),
+        label: format!("{}: single layer", view.name()),
         redraw: Redraw::WhenChanged,
         work: Work::Draw(DrawPass {
             target: Target { color: None, depth: Some(map), level: 0, face: None },

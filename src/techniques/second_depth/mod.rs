@@ -127,7 +127,7 @@ impl ShadowSettings for SecondDepthSettings {
         let offset = PolygonOffset { factor: 0.0, units: 0.0 };
         let layer = DepthLayer::plain("second depth", "map", offset, &casters);
         let map = depth::draw(view, &layer, settings, list, notes);
-        notes.left_out(format!("faces towards light {} in its map", view.index), "the far sides cast the same shadow");
+        notes.left_out(format!("faces towards {} in its map", view.name()), "the far sides cast the same shadow");
         let forecast = forecast::Map {
             settings,
             offset: forecast::NO_OFFSET,

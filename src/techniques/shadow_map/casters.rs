@@ -71,5 +71,5 @@ fn is_nearer(projector: &Projector, item: &Drawable) -> bool {
 }
 
 pub fn in_the_map(item: &Drawable, view: &LightView<'_>) -> String {
-    format!("{} in the map of light {}", item.label, view.index)
+    format!("{} in the map of {}", item.label, view.name())
 }

@@ -96,7 +96,7 @@ pub fn draw(
         ..*layer
     };
     let received = self::batches(view, &received, settings, list);
-    let label = format!("light {}: {name}", view.index);
+    let label = format!("{}: {name}", view.name());
     notes.left_out(format!("colour attachment and colour writes of \"{label}\""), "only its depth is read");
     let clamped = is_clamped(view, layer, "depth", notes);
     let (plain, cleared) = state(settings, layer.offset, clamped);
@@ -140,7 +140,7 @@ pub fn map_clip_from_world(view: &FrustumView<'_>, settings: &Settings) -> DMat4
 pub fn desc(view: &LightView<'_>, name: &str, settings: &Settings, storage: Storage) -> ImageDesc {
     let is_unsized = settings.is_unsized && storage != Storage::Renderbuffer;
     let format = if is_unsized { Format::UnsizedDepth } else { Format::Depth(settings.format) };
-    ImageDesc { label: format!("light {} {name}", view.index), size: [settings.size; 2], format, storage }
+    ImageDesc { label: format!("{} {name}", view.name()), size: [settings.size; 2], format, storage }
 }
 
 /// Tests whether the layer is drawn under GL_DEPTH_CLAMP, so that casters before the near plane are drawn at that plane's
@@ -149,7 +149,7 @@ pub fn is_clamped(view: &FrustumView<'_>, layer: &DepthLayer<'_>, what: &str, no
     let Some(item) = clamps_near(view, layer) else { return layer.clamped };
     let Rays::From { near, .. } = view.projector.rays else { return layer.clamped };
     let why = format!("{} may come nearer than the near plane at {near}: it casts from there", item.label);
-    let chosen = Chosen { of: format!("{what} of light {}'s map", view.index), choice: "GL_DEPTH_CLAMP".into(), why };
+    let chosen = Chosen { of: format!("{what} of {}'s map", view.name()), choice: "GL_DEPTH_CLAMP".into(), why };
     if !notes.chosen.contains(&chosen) {
         notes.chosen.push(chosen);
     }

@@ -21,7 +21,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Set
     if view.light().dust.is_some() {
         if settings.fit != Fit::None {
             let why = "the light's beam is seen in the air, all of it";
-            notes.chosen(format!("map of light {}", view.index), "of the whole frustum", why);
+            notes.chosen(format!("map of {}", view.name()), "of the whole frustum", why);
         }
         return Crop::WHOLE;
     }
@@ -34,7 +34,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Set
     casters.retain(|item| {
         let idle = unseen.shadows_nothing(item);
         if idle {
-            let what = format!("{} in the map of light {}", item.label, view.index);
+            let what = format!("{} in the map of {}", item.label, view.name());
             notes.left_out(what, "it is flat, and nothing lies behind it");
         }
         !idle
@@ -50,7 +50,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Set
     let fitted = widened(needed, settings).within(Crop::WHOLE);
     let share = fitted.half().element_product();
     notes.left_out(
-        format!("{:.1} % of light {}'s frustum in its map", 100.0 * (1.0 - share), view.index),
+        format!("{:.1} % of {}'s frustum in its map", 100.0 * (1.0 - share), view.name()),
         format!("nothing that is seen there can be shadowed: {:.2} times the texels a pixel", 1.0 / share),
     );
     fitted

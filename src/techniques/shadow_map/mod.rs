@@ -180,6 +180,6 @@ pub(super) fn one_view<'a>(view: &LightView<'a>, settings: &Settings, notes: &mu
 /// Term of a light in whose frustum nothing casts a visible shadow.
 pub(super) fn without_casters(view: &LightView<'_>, notes: &mut Notes) -> LightTerm {
     let why = "no caster in the light's frustum shadows what is seen";
-    notes.left_out(format!("the map of light {}", view.index), why);
+    notes.left_out(format!("the map of {}", view.name()), why);
     LightTerm::unshadowed(view.light(), view.index)
 }

@@ -30,12 +30,7 @@ pub fn simplified(
         let after = mesh.triangle_count() as u32;
         if after < before {
             notes.left_out(
-                format!(
-                    "{} of {before} triangles of {} in the map of light {}",
-                    before - after,
-                    item.label,
-                    view.index
-                ),
+                format!("{} of {before} triangles of {} in the map of {}", before - after, item.label, view.name()),
                 "no texel shows them: the surface moves by less than half of one",
             );
             item.indices = 0..mesh.indices.len() as u32;

@@ -55,6 +55,15 @@ impl Bounds {
         }
     }
 
+    /// `one` where this value is 1, `other` where it is 0; both where it may be either.
+    pub(super) fn chosen(self, one: Self, other: Self) -> Self {
+        if self.least == self.most {
+            return if self.value > 0.5 { one } else { other };
+        }
+        let value = if self.value > 0.5 { one.value } else { other.value };
+        Self { least: one.least.min(other.least), value, most: one.most.max(other.most), jumps: true }
+    }
+
     pub(super) fn scaled(self, factor: f64) -> Self {
         self.times(Self::exactly(factor))
     }

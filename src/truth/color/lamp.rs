@@ -94,6 +94,27 @@ impl<'a> Source<'a> {
         self.spot.as_ref().map_or(Bounds::exactly(1.0), |lantern| lantern.reach(surface))
     }
 
+    /// 1 before the spotlight, 0 behind it.
+    pub fn is_ahead(&self, surface: &Shaded<'_>) -> Bounds {
+        let Some(lantern) = &self.spot else { return Bounds::exactly(1.0) };
+        let (depth, _) = lantern.place(surface.position);
+        let ahead = f64::from(u8::from(depth > 0.0));
+        let moved = surface.spread[0].length() + surface.spread[1].length() + surface.error;
+        if depth.abs() <= moved { Bounds::anything(ahead) } else { Bounds::exactly(ahead) }
+    }
+
+    /// The spotlight's image alone, that of its edge beyond its frame.
+    pub fn photograph(&self, surface: &Shaded<'_>) -> [Bounds; 3] {
+        let Some(lantern) = &self.spot else { return [Bounds::exactly(1.0); 3] };
+        let (depth, across) = lantern.place(surface.position);
+        if depth <= 0.0 || !across.is_finite() {
+            return [Bounds::anything(0.5); 3];
+        }
+        let place = lantern.image_place(surface, depth, across);
+        // The filter goes on inwards from the frame's edge, however far beyond it the place lies.
+        lantern.image(&Place { st: place.st.clamp(DVec2::ZERO, DVec2::ONE), ..place })
+    }
+
     /// The factor of image, beam and law of distance.
     pub fn projected(&self, surface: &Shaded<'_>) -> [Bounds; 3] {
         self.spot.as_ref().map_or([Bounds::exactly(1.0); 3], |lantern| lantern.projected(surface))
@@ -151,13 +172,18 @@ impl<'a> Lantern<'a> {
             // Out of reach, but for a doubtful border.
             return [Bounds::anything(1.0); 3];
         }
-        let error = self.error(surface, depth, across);
-        let pixel = surface.beside.map(|way| 0.5 * (self.place(surface.position + way).1 - across).abs());
-        let place = Place { st: 0.5 + 0.5 * across, error: 0.5 * error, pixel };
+        let place = self.image_place(surface, depth, across);
         let image = self.image(&place);
         let beam = self.beam(&place);
         let falloff = self.falloff(depth, surface);
         [0, 1, 2].map(|k: usize| image[k].times(beam[k]).times(falloff))
+    }
+
+    /// The place in its image of a point at such a distance along its axis and place across it.
+    fn image_place(&self, surface: &Shaded<'_>, depth: f64, across: DVec2) -> Place {
+        let error = self.error(surface, depth, across);
+        let pixel = surface.beside.map(|way| 0.5 * (self.place(surface.position + way).1 - across).abs());
+        Place { st: 0.5 + 0.5 * across, error: 0.5 * error, pixel }
     }
 
     /// The image, where no lens stands before it.

@@ -45,6 +45,7 @@ pub fn object(name: &str, mesh: Mesh) -> Object {
         world_from_model: DMat4::IDENTITY,
         wave: None,
         material: None,
+        photo: None,
         lit: true,
         casts_shadow: true,
         closed: false,

@@ -212,6 +212,10 @@ impl<'a> Forecast<'a> {
 
     /// Index of the map that the light reaches a point by; `None`: it does not reach it, or lies behind its surface.
     fn face_of(&self, point: &Seen) -> Option<usize> {
+        // A photograph counts on what has it alone.
+        if self.view.photo().is_some_and(|photo| self.items.placed[point.item].item.photo != Some(photo)) {
+            return None;
+        }
         let index = self.texels.iter().position(|texels| is_in(texels.projector(), point.point))?;
         let is_lit = self.is_in_cone(point.point) && point.normal.dot(to_light(point.point, &self.rays())) > 0.0;
         is_lit.then_some(index)

@@ -35,12 +35,12 @@ impl Forecast<'_> {
         if pixels < FEWEST_PIXELS || count + DEVIATIONS * count.sqrt() <= MOST_WRONG * f64::from(self.reached) {
             return;
         }
-        let (index, percent) = (self.view.index, self.percent(wrong.len()));
+        let (of, percent) = (self.view.name(), self.percent(wrong.len()));
         let rounded: Vec<&Wrong> = wrong.iter().copied().filter(|wrong| wrong.is_rounded).collect();
         let widest = rounded.iter().max_by(|a, b| a.code.total_cmp(&b.code));
         if let Some(widest) = widest.filter(|_| 2 * rounded.len() > wrong.len()) {
             notes.warnings.push(format!(
-                "light {index}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about \
+                "{of}: one code of {} is up to {:.2} units wide at {:.2} units from the light, so that about \
                  {percent:.1} % of what it reaches is wrong, as near behind its caster as that: move `near` away, or take a \
                  format of more bits",
                 name(self.map.settings.format),
@@ -60,9 +60,7 @@ impl Forecast<'_> {
                 "it grazes much of that, whose depth changes within a texel of its map: raise `size`, or move the light",
             )
         };
-        notes
-            .warnings
-            .push(format!("light {index}: about {percent:.1} % of what it reaches gets the wrong shade: {why}"));
+        notes.warnings.push(format!("{of}: about {percent:.1} % of what it reaches gets the wrong shade: {why}"));
     }
 
     /// Warns of points before the near plane.
@@ -70,9 +68,9 @@ impl Forecast<'_> {
         let before = || self.wrong.iter().filter(|wrong| wrong.is_before_near && !wrong.is_close);
         let (Rays::From { near, .. }, Some(first)) = (self.rays(), before().next()) else { return };
         notes.warnings.push(format!(
-            "light {}'s near plane at {near}: {:.2} % of what it reaches lies before it in a shadow, such as that of {}, and is \
+            "{}'s near plane at {near}: {:.2} % of what it reaches lies before it in a shadow, such as that of {}, and is \
              lit there: a map has no depths before its near plane",
-            self.view.index,
+            self.view.name(),
             self.percent(before().count()),
             self.items.placed[first.item].item.label
         ));
@@ -91,9 +89,9 @@ impl Forecast<'_> {
                 (true, false) => ("dark by mistake", "on it: it shades itself"),
             };
             notes.warnings.push(format!(
-                "{} in the map of light {}: {what} are {:.2} % of what the light reaches, {why}",
+                "{} in the map of {}: {what} are {:.2} % of what the light reaches, {why}",
                 self.items.placed[item].item.label,
-                self.view.index,
+                self.view.name(),
                 self.percent(count)
             ));
         }
