@@ -68,7 +68,8 @@ Views for --aov:
   volume          the shadow volumes over the scene: outsides orange, insides blue
   silhouette      the casters' possible silhouettes, as the light sees them
   truth           the ray tracer's own picture: lit and shadowed, or colours where the light is projected
-  difference      the picture against the truth; colours 16 times as far apart as they are, gray where truth is not certain
+  difference      the picture against the truth; colours 16 times as far apart as they are, black where the error of a
+                  sample at an edge explains it, gray where truth is not certain
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
 
 Examples:

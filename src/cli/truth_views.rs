@@ -17,6 +17,9 @@ use crate::views::View;
 /// Factor of a difference of colours in a PNG, so that a code of 255 is visible.
 const LOUDER: f32 = 16.0;
 
+/// Width of a colour's bounds in codes up to which its value counts, and not its bounds.
+const SMOOTH_CODES: f64 = 8.0;
+
 /// Value of `--aov`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aov {
@@ -91,7 +94,8 @@ impl Aov {
     }
 }
 
-/// Colours in f64, or the picture's differences from them, channel by channel. Where they are not known: gray, and alpha 0.
+/// Colours in f64, or the picture's differences from them, channel by channel. At edges, and where images are filtered by
+/// mipmaps, a colour has bounds, and within them there is no difference. Where it is not known: gray, and alpha 0.
 fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) -> Result<Pixels, Error> {
     let shadows: Vec<_> = scene.lights.iter().map(|light| shadow_of(&light.shadow, false)).collect();
     let request = ColorRequest { float_picture: is_exact, ..ColorRequest::default() };
@@ -107,9 +111,12 @@ fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) 
             let [red, green, blue] = AMBIGUOUS.map(|code| f32::from(code) / 255.0);
             return [red, green, blue, 0.0];
         }
+        let is_smooth = pixel.is_smooth(SMOOTH_CODES);
         let value = |k: usize| {
-            let due = pixel.rgb[k].value as f32;
-            if is_difference { factor * (drawn[k] - due).abs() } else { due }
+            let due = pixel.rgb[k];
+            let [least, most] = if is_smooth { [due.value; 2] } else { [due.least, due.most] };
+            let off = (least as f32 - drawn[k]).max(drawn[k] - most as f32).max(0.0);
+            if is_difference { factor * off } else { due.value as f32 }
         };
         [value(0), value(1), value(2), 1.0]
     };

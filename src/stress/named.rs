@@ -51,7 +51,7 @@ struct Sweep {
     values: Vec<f64>,
 }
 
-/// What of a case is judged.
+/// Part of a case that is judged.
 #[derive(Clone, Copy, Default, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Judgement {

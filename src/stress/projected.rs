@@ -9,7 +9,7 @@ use super::case::{Case, files_named_in};
 use super::pictures::noise;
 use super::random;
 
-/// What a scene shows. The number of a scene decides.
+/// Kind of a scene, by its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Beams,

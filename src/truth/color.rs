@@ -26,7 +26,7 @@ use super::primary::SeenPoint;
 use super::world::World;
 use super::{Error, Options, Tracer, lens_points};
 use crate::scene::{Background, Law, Light, PicturePasses, Scene};
-use air::Air;
+use air::DustyBeam;
 pub use bounds::Bounds;
 pub use known::why_no_colors;
 use lamp::{Source, Wash};
@@ -127,10 +127,10 @@ struct Painter<'a> {
     scene: &'a Scene,
     lights: Vec<Shining<'a>>,
     /// Beams in dusty air, in the order of their lights.
-    airs: Vec<Air<'a>>,
+    airs: Vec<DustyBeam<'a>>,
     /// The tracer that grants the largest error looks for surfaces.
     looking: Tracer<'a>,
-    surfaces: SurfaceTable,
+    surfaces: SurfaceTable<'a>,
     clamps: bool,
 }
 
@@ -181,7 +181,7 @@ impl<'a> Painter<'a> {
                 Ok((source, traced))
             };
             let points = places.into_iter().map(point).collect::<Result<Vec<_>, Error>>()?;
-            airs.extend(Air::new(light, shadow.is_some(), request.slices, own));
+            airs.extend(DustyBeam::new(light, shadow.is_some(), request.slices, own));
             lights.push(Shining { points, left: shadow.unwrap_or(0.0), has_lens: lens.is_some() });
         }
         let (surfaces, clamps) = (SurfaceTable::new(scene), !request.float_picture);
@@ -200,7 +200,7 @@ impl<'a> Painter<'a> {
             _ => return ColorPixel::UNKNOWN,
         };
         let seen = seen.as_ref();
-        let through = |behind: [Bounds; 3], air: &Air<'_>| {
+        let through = |behind: [Bounds; 3], air: &DustyBeam<'_>| {
             let haze = air.before(x, y, seen);
             [0, 1, 2].map(|k: usize| self.stored(behind[k].times(haze.passes).plus(haze.color[k])))
         };

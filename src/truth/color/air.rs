@@ -12,7 +12,7 @@ use crate::truth::Tracer;
 use crate::truth::primary::SeenPoint;
 
 /// A beam in dusty air.
-pub(super) struct Air<'a> {
+pub(super) struct DustyBeam<'a> {
     source: Source<'a>,
     dust: Dust,
     is_shadowed: bool,
@@ -33,7 +33,7 @@ pub(super) struct Haze {
 
 const CLEAR: Haze = Haze { color: [Bounds::NONE; 3], passes: Bounds::ALL };
 
-impl<'a> Air<'a> {
+impl<'a> DustyBeam<'a> {
     /// `None`: the light has no dust, or the camera sees nothing of its beam. `slices`: in place of its own.
     pub fn new(light: &'a Light, is_shadowed: bool, slices: Option<u32>, tracer: Tracer<'a>) -> Option<Self> {
         let dust = light.dust.filter(|dust| dust.density > 0.0)?;

@@ -64,7 +64,7 @@ impl Bounds {
         self.times(Self::exactly(factor))
     }
 
-    /// What is left to 1, of a value in [0, 1].
+    /// The rest to 1, of a value in [0, 1].
     pub(super) fn complement(self) -> Self {
         Self { least: 1.0 - self.most, value: 1.0 - self.value, most: 1.0 - self.least, jumps: self.jumps }
     }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
-use super::projected::{Place, Wrapped, nearest, window};
+use super::projected::{Picture, Place, Wrapped, nearest, window};
 use super::surface::Sample;
 use super::unit;
 use crate::scene::{BeamProfile, FalloffLaw, ImageFilter, LightBeam, LightShape, Spot};
@@ -19,6 +19,8 @@ pub(super) struct Lantern<'a> {
     half: DVec2,
     /// Place of the lens point over the focal distance.
     shift: DVec2,
+    image: Option<Picture<'a>>,
+    shield: Option<Picture<'a>>,
 }
 
 impl<'a> Lantern<'a> {
@@ -33,7 +35,9 @@ impl<'a> Lantern<'a> {
         let aside = spot.lens().map_or(DVec2::ZERO, |focus| focus.radius * lens_point);
         let shift = spot.lens().map_or(DVec2::ZERO, |focus| aside / focus.distance);
         let position = frustum.position + aside.x * right + aside.y * up;
-        Self { spot, position, ahead, right, up, half, shift }
+        let image = spot.image.as_deref().map(Picture::new);
+        let shield = spot.beam.as_ref().and_then(|beam| beam.shield.as_deref()).map(Picture::new);
+        Self { spot, position, ahead, right, up, half, shift, image, shield }
     }
 
     /// Way from the light's own place to that of its lens point.
@@ -105,7 +109,7 @@ impl<'a> Lantern<'a> {
     /// The image, where no lens stands before it.
     fn image(&self, place: &Place) -> [Bounds; 3] {
         let has_lens = self.spot.beam.as_ref().is_some_and(|beam| beam.lens != 0.0);
-        match (&self.spot.image, self.spot.image_filter) {
+        match (&self.image, self.spot.image_filter) {
             (Some(image), _) if !has_lens => match self.spot.image_filter {
                 ImageFilter::Nearest => nearest(image, place),
                 ImageFilter::Linear => window(image, Wrapped::Clamped, place, false),
@@ -120,8 +124,8 @@ impl<'a> Lantern<'a> {
     fn beam(&self, place: &Place) -> [Bounds; 3] {
         const GRID: i32 = 3;
         let Some(beam) = &self.spot.beam else { return [Bounds::exactly(1.0); 3] };
-        let image = self.spot.image.as_deref().filter(|_| beam.lens != 0.0);
-        let pictures = || beam.shield.as_deref().into_iter().chain(image);
+        let image = self.image.as_ref().filter(|_| beam.lens != 0.0);
+        let pictures = self.shield.iter().chain(image);
         let reach = place.error;
         let mut intensity = Bounds::exactly(self.intensity(beam, place.st));
         for (i, j) in (-GRID..=GRID).flat_map(|i| (-GRID..=GRID).map(move |j| (i, j))) {
@@ -131,7 +135,7 @@ impl<'a> Lantern<'a> {
         }
         let (st, stretch) = self.through_lens(beam, place.st);
         let source = Place { st, error: reach * stretch, pixel: place.pixel };
-        pictures().fold([intensity; 3], |color, picture| {
+        pictures.fold([intensity; 3], |color, picture| {
             let texels = window(picture, Wrapped::Clamped, &source, false);
             [0, 1, 2].map(|k: usize| color[k].times(texels[k]))
         })

@@ -1,11 +1,13 @@
 //! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal.
 
+use std::collections::HashMap;
+
 use glam::{DMat3, DVec2, DVec3};
 
 use super::bounds::Bounds;
-use super::projected::{Place, Wrapped, window};
+use super::projected::{Picture, Place, Wrapped, window};
 use super::unit;
-use crate::geometry::Material;
+use crate::geometry::{Material, Texture};
 use crate::scene::{Object, Scene};
 use crate::truth::primary::SeenPoint;
 use crate::truth::wave;
@@ -38,17 +40,30 @@ pub(super) struct Shaded<'a> {
 }
 
 /// Values that are the same all over an object.
-pub(super) struct SurfaceTable {
+pub(super) struct SurfaceTable<'a> {
     /// Matrix of normals of each object: the inverse transpose of its linear part.
     normals: Vec<DMat3>,
     fallback: Material,
+    /// Decals by their addresses.
+    decals: HashMap<usize, Picture<'a>>,
 }
 
-impl SurfaceTable {
-    pub fn new(scene: &Scene) -> Self {
+/// A decal's key.
+fn key(texture: &Texture) -> usize {
+    std::ptr::from_ref(texture) as usize
+}
+
+impl<'a> SurfaceTable<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
         let normal = |object: &Object| DMat3::from_mat4(object.world_from_model).inverse().transpose();
         let normals = scene.objects.iter().map(normal).collect();
-        Self { normals, fallback: Material::default() }
+        let materials = scene.objects.iter().flat_map(|object| {
+            let own = object.material.as_deref().into_iter();
+            own.chain(&object.mesh.materials)
+        });
+        let decals = materials.filter_map(|material| material.decal.as_deref());
+        let decals = decals.map(|decal| (key(decal), Picture::new(decal))).collect();
+        Self { normals, fallback: Material::default(), decals }
     }
 
     /// The surface that a pixel shows; `None`: the mesh breaks its own rules.
@@ -87,8 +102,31 @@ impl SurfaceTable {
             corners: triangle.corners,
             corner_normals: corner_normals.map(unit),
             weights: at,
-            decal: decal(object, material, seen.position, beside, &texcoord),
+            decal: self.decal(object, material, seen.position, beside, &texcoord),
         })
+    }
+
+    /// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
+    fn decal(
+        &self,
+        object: &Object,
+        material: &Material,
+        position: DVec3,
+        beside: [DVec3; 2],
+        texcoord: &dyn Fn(DVec3) -> DVec2,
+    ) -> [Bounds; 3] {
+        let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
+        let decal = material.decal.as_deref().filter(|_| has_texcoords);
+        let Some(picture) = decal.and_then(|decal| self.decals.get(&key(decal))) else {
+            return [Bounds::exactly(1.0); 3];
+        };
+        let placement = &material.decal_placement;
+        let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
+        let place = |point: DVec3| scale * texcoord(point) + offset;
+        let st = place(position);
+        let step = beside.map(|way| (place(position + way) - st).abs());
+        let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
+        window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
     }
 }
 
@@ -123,25 +161,4 @@ fn texcoord(object: &Object, material: &Material, index: usize) -> DVec2 {
     }
     let own = object.mesh.texcoords.as_ref().and_then(|all| all.get(index));
     DVec2::from_array(own.copied().unwrap_or_default().map(f64::from))
-}
-
-/// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
-fn decal(
-    object: &Object,
-    material: &Material,
-    position: DVec3,
-    beside: [DVec3; 2],
-    texcoord: &dyn Fn(DVec3) -> DVec2,
-) -> [Bounds; 3] {
-    let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
-    let Some(picture) = material.decal.as_deref().filter(|_| has_texcoords) else {
-        return [Bounds::exactly(1.0); 3];
-    };
-    let placement = &material.decal_placement;
-    let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
-    let place = |point: DVec3| scale * texcoord(point) + offset;
-    let st = place(position);
-    let step = beside.map(|way| (place(position + way) - st).abs());
-    let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
-    window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
 }

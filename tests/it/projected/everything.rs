@@ -165,7 +165,7 @@ fn random_scenes_of_every_kind_have_the_colours_of_f64() {
     let mut failures = Vec::new();
     for kind in KINDS {
         let (mut smooth, mut bounded, mut worst) = (0, 0, 0.0_f64);
-        for round in 0..16 {
+        for round in 0..8 {
             if only.as_ref().is_some_and(|only| *only != format!("{kind:?}-{round}")) {
                 continue;
             }
@@ -186,7 +186,7 @@ fn random_scenes_of_every_kind_have_the_colours_of_f64() {
             }
         }
         println!("{kind:?}: {smooth} smooth, {bounded} bounded, worst {worst:.2} codes");
-        assert!(only.is_some() || smooth > 30_000, "{kind:?}: {smooth} smooth, {bounded} bounded");
+        assert!(only.is_some() || smooth > 15_000, "{kind:?}: {smooth} smooth, {bounded} bounded");
     }
     assert!(failures.is_empty(), "{} scenes:\n{}", failures.len(), failures.join("\n"));
 }
@@ -205,7 +205,7 @@ fn what_is_drawn_otherwise_is_seen() {
             change_spots(scene, |spot| spot.focus.iter_mut().for_each(|focus| focus.radius *= 1.5));
         }),
         (Kind::Lens, "another focal plane", |scene| {
-            change_spots(scene, |spot| spot.focus.iter_mut().for_each(|focus| focus.distance *= 1.5));
+            change_spots(scene, |spot| spot.focus.iter_mut().for_each(|focus| focus.distance *= 0.25));
         }),
         (Kind::Dust, "denser air", |scene| change_dust(scene, |dust| dust.density *= 1.15)),
         (Kind::Dust, "other thicknesses", |scene| {

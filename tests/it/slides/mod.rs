@@ -391,7 +391,8 @@ fn a_slide_of_sixteen_million_texels_is_drawn() {
         let plan = renderer.plan(&scene, &Request::default()).unwrap();
         let bytes = plan.summary().image_bytes;
         let texels = 4 * u64::from(side) * u64::from(side);
-        let most = if filter == "linear" { texels } else { texels / 3 * 4 + 64 };
+        // All levels are there for each filter: together a third of the largest.
+        let most = texels / 3 * 4 + 64;
         println!("{filter}: {bytes} bytes of images after {:.1} s", start.elapsed().as_secs_f64());
         assert!((texels..=most + (1 << 20)).contains(&bytes), "{filter}: {bytes} bytes");
         renderer.draw(&plan).unwrap();
