@@ -18,7 +18,8 @@ pub fn with_photos(seed: u64, index: u64, toml: &str) -> String {
         out.push_str(block);
         if !block.contains("material = ") && rng.f64() < SHARE {
             let photo = &photos[rng.usize(0..photos.len())];
-            out.push_str(&format!("material = {{ {photo} }}\n"));
+            out.push_str(if block.ends_with('\n') { "" } else { "\n" });
+            out.push_str(&format!("material = {{ {photo} }}"));
         }
     }
     out

@@ -3,7 +3,7 @@
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
-use crate::scene::{Law, Light, Scene, Shadow};
+use crate::scene::{Law, Light, PicturePasses, Scene, Shadow, Spot};
 use crate::techniques::{self, LightShadow};
 use crate::truth::{self, ColorTruth};
 
@@ -23,15 +23,16 @@ pub struct ColorErrors {
 /// Codes that a picture may be off beyond the bounds of a colour: its own rounding, and that of tables.
 const ALLOWED_CODES: f64 = 2.0;
 
-/// Tests whether a light of the scene has an image, a beam or a law of distance, or an object a photograph, and nothing else decides colours:
-/// [`truth::color`] knows no dust, no lens with a size and no slide projectors.
+/// Tests whether the scene's light is more than lit or shadowed: a light has an image, a beam, a law of distance, a lens or
+/// dust, or is a slide projector; or an object shows a photograph.
 pub fn has_projected_light(scene: &Scene) -> bool {
-    let is_known = |light: &Light| {
-        light.law == Law::Lit && light.dust.is_none() && light.spot().is_none_or(|spot| spot.lens().is_none())
+    let is_more = |light: &Light| {
+        let is_projected = |spot: &Spot| {
+            spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some() || spot.lens().is_some()
+        };
+        light.law == Law::Slide || light.dust.is_some() || light.spot().is_some_and(is_projected)
     };
-    let mut spots = scene.lights.iter().filter_map(|light| light.spot());
-    let has_projected = spots.any(|spot| spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some());
-    scene.lights.iter().all(is_known) && (has_projected || !scene.photos().is_empty())
+    scene.shading.passes == PicturePasses::Slide || scene.lights.iter().any(is_more) || !scene.photos().is_empty()
 }
 
 /// Options of [`truth::color`] for a scene: photographs are in doubt by the texels of the smallest of their depth maps.
@@ -77,7 +78,7 @@ pub fn compare_colors(
         compared += 1;
         squares += (0..3).map(|k| (codes[k] - 255.0 * pixel.rgb[k].value).powi(2)).sum::<f64>();
         most = most.max(pixel.error_codes(codes));
-        beyond += usize::from(pixel.excess_codes(codes) > ALLOWED_CODES);
+        beyond += usize::from(pixel.excess_codes(codes) > ALLOWED_CODES + truth.between_passes_codes);
     }
     let count = compared as f64;
     Ok((compared > 0).then(|| ColorErrors {

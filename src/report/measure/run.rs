@@ -93,7 +93,18 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     let start = Instant::now();
     let truth = truth::trace(&scene, options.light, &truth::Options::default())?;
     let trace_ms = start.elapsed().as_secs_f64() * 1e3;
-    let colors = colors::has_projected_light(&scene).then(|| colors::true_colors(&scene, options.light)).transpose()?;
+    let mut notes = left_out;
+    let colors = match colors::has_projected_light(&scene).then(|| colors::true_colors(&scene, options.light)) {
+        None => None,
+        Some(Ok(colors)) => Some(colors),
+        Some(Err(error @ truth::Error::Colors { .. })) => {
+            let why = format!("{}: {error}", path.display());
+            warnings.push(why.clone());
+            notes.push(why);
+            None
+        }
+        Some(Err(error)) => return Err(error.into()),
+    };
     let report = SceneReport {
         path: path.to_owned(),
         path_bytes: bytes_of(path),
@@ -107,7 +118,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
-    Ok(Sweep { scene, truth, colors, report, warnings, notes: left_out, rows })
+    Ok(Sweep { scene, truth, colors, report, warnings, notes, rows })
 }
 
 /// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.

@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::bounds::Bounds;
 use super::lamp::Source;
 use super::surface::Shaded;
@@ -41,7 +43,7 @@ pub(super) fn of_scene<'a>(scene: &'a Scene, options: &Options) -> Result<Vec<Ph
         let around = Surroundings::of_light(scene, &photo.projector, options)?;
         let tangents = photo.projector.frustum().map_or(0.0, |frustum| frustum.tangents().max_element());
         let reach = options.photo_map_size.map_or(0.0, |size| REACH_TEXELS * 2.0 * tangents / f64::from(size));
-        Ok(Photograph { photo, source: Source::new(&photo.projector), around, reach })
+        Ok(Photograph { photo, source: Source::through(&photo.projector, DVec2::ZERO), around, reach })
     };
     scene.photos().into_iter().map(of).collect()
 }
@@ -54,20 +56,20 @@ impl Photograph<'_> {
     /// The surface's colour in the pixel, where its own is `own`.
     pub fn on(&self, seen: &SeenPoint<'_>, [x, y]: [u32; 2], surface: &Shaded<'_>, own: [Bounds; 3]) -> [Bounds; 3] {
         let (shown, hidden) = match self.photo.hidden {
-            Hidden::Smear => (self.source.is_ahead(surface), own),
+            Hidden::Smear => (self.source.is_ahead(&surface.at), own),
             Hidden::Leave => (self.is_shown(seen, [x, y], surface), own),
             Hidden::Grey => (self.is_shown(seen, [x, y], surface), [Bounds::exactly(GREY); 3]),
         };
         if shown.least == shown.most && shown.value == 0.0 {
             return hidden;
         }
-        let color = self.source.photograph(surface);
+        let color = self.source.photograph(&surface.at);
         [0, 1, 2].map(|k: usize| shown.chosen(color[k], hidden[k]))
     }
 
     /// 1 where the photograph's eye sees the point within its frame.
     fn is_shown(&self, seen: &SeenPoint<'_>, [x, y]: [u32; 2], surface: &Shaded<'_>) -> Bounds {
-        let inside = self.source.reach(surface);
+        let inside = self.source.reach(&surface.at);
         if inside.most == 0.0 {
             return inside;
         }

@@ -1,5 +1,7 @@
 //! Pictures that are projected: GL's filters in f64, with bounds over the texels that a sample may meet.
 
+use std::sync::OnceLock;
+
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
@@ -18,6 +20,28 @@ pub(super) enum Wrapped {
     Clamped,
 }
 
+/// A picture, and the least and the greatest of its texels once they are known.
+pub(super) struct Picture<'a> {
+    texture: &'a Texture,
+    extremes: OnceLock<(DVec3, DVec3)>,
+}
+
+impl<'a> Picture<'a> {
+    pub fn new(texture: &'a Texture) -> Self {
+        Self { texture, extremes: OnceLock::new() }
+    }
+
+    fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.texture.width), f64::from(self.texture.height))
+    }
+
+    /// The value, and the picture's own extremes as bounds.
+    fn any(&self, value: DVec3) -> [Bounds; 3] {
+        let (least, most) = self.extremes.get_or_init(|| extremes(self.texture));
+        [0, 1, 2].map(|k| Bounds::around(value[k], [least[k], most[k]]).jumping())
+    }
+}
+
 /// A place in a picture.
 pub(super) struct Place {
     pub st: DVec2,
@@ -28,8 +52,8 @@ pub(super) struct Place {
 }
 
 /// The linearly filtered colour at a place, and its bounds; with `mipmapped`, over the texels of a pixel's footprint.
-pub(super) fn window(picture: &Texture, wrap: Wrapped, place: &Place, mipmapped: bool) -> [Bounds; 3] {
-    let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
+pub(super) fn window(picture: &Picture<'_>, wrap: Wrapped, place: &Place, mipmapped: bool) -> [Bounds; 3] {
+    let (size, texture) = (picture.size(), picture.texture);
     let footprint = place.pixel.map(|step| step * size);
     let widest = footprint[0].length().max(footprint[1].length());
     // A filter of mipmaps averages texels up to twice as wide as the footprint, two of them each way.
@@ -37,10 +61,9 @@ pub(super) fn window(picture: &Texture, wrap: Wrapped, place: &Place, mipmapped:
     let reach = if averages { DVec2::splat(4.0 * widest + 2.0) } else { DVec2::splat(REACH) };
     let reach = reach + place.error * size;
     let at = place.st * size - 0.5;
-    let value = bilinear(picture, wrap, at);
+    let value = bilinear(texture, wrap, at);
     if !reach.is_finite() || reach.max_element() * 2.0 >= MOST_TEXELS {
-        let (least, most) = extremes(picture);
-        return [0, 1, 2].map(|k| Bounds::around(value[k], [least[k], most[k]]).jumping());
+        return picture.any(value);
     }
     let (low, high) = ((at - reach).floor(), (at + reach).ceil());
     let mut bounds = value.to_array().map(Bounds::exactly);
@@ -48,7 +71,7 @@ pub(super) fn window(picture: &Texture, wrap: Wrapped, place: &Place, mipmapped:
     while y <= high.y {
         let mut x = low.x;
         while x <= high.x {
-            let color = texel(picture, wrap, x, y);
+            let color = texel(texture, wrap, x, y);
             bounds = widened(bounds, color);
             x += 1.0;
         }
@@ -58,21 +81,20 @@ pub(super) fn window(picture: &Texture, wrap: Wrapped, place: &Place, mipmapped:
 }
 
 /// The colour of the texel that holds the place, and bounds over those that may.
-pub(super) fn nearest(picture: &Texture, place: &Place) -> [Bounds; 3] {
-    let size = DVec2::new(f64::from(picture.width), f64::from(picture.height));
+pub(super) fn nearest(picture: &Picture<'_>, place: &Place) -> [Bounds; 3] {
+    let (size, texture) = (picture.size(), picture.texture);
     let (at, error) = (place.st * size, place.error * size + 1.0 / 128.0);
-    let value = texel(picture, Wrapped::Clamped, at.x.floor(), at.y.floor());
+    let value = texel(texture, Wrapped::Clamped, at.x.floor(), at.y.floor());
     let sides = [at - error, at + error].map(DVec2::floor);
     if (sides[1] - sides[0]).max_element() > MOST_TEXELS {
-        let (least, most) = extremes(picture);
-        return [0, 1, 2].map(|k| Bounds::around(value[k], [least[k], most[k]]).jumping());
+        return picture.any(value);
     }
     let mut bounds = value.to_array().map(Bounds::exactly);
     let mut y = sides[0].y;
     while y <= sides[1].y {
         let mut x = sides[0].x;
         while x <= sides[1].x {
-            let color = texel(picture, Wrapped::Clamped, x, y);
+            let color = texel(texture, Wrapped::Clamped, x, y);
             bounds = widened(bounds, color);
             x += 1.0;
         }

@@ -1,25 +1,34 @@
-//! The visible point of a surface as lighting needs it: material, interpolated normal, decal.
+//! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal.
+
+use std::collections::HashMap;
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::bounds::Bounds;
-use super::projected::{Place, Wrapped, window};
+use super::projected::{Picture, Place, Wrapped, window};
 use super::unit;
-use crate::geometry::Material;
+use crate::geometry::{Material, Texture};
 use crate::scene::{Object, Scene};
 use crate::truth::primary::SeenPoint;
+use crate::truth::wave;
 
-/// A point of a surface.
-pub(super) struct Shaded<'a> {
-    pub material: &'a Material,
-    /// True if normals count; false: the diffuse colour as it is.
-    pub lit: bool,
+/// A point that a pixel shows.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
     pub position: DVec3,
     /// Ways that a pixel's sample may move the point, and the radius of the ball that it may lie in besides.
     pub spread: [DVec3; 2],
     pub error: f64,
     /// Ways that the point moves by from a pixel to those beside it.
     pub beside: [DVec3; 2],
+}
+
+/// A point of a surface.
+pub(super) struct Shaded<'a> {
+    pub material: &'a Material,
+    /// True if normals count; false: the diffuse colour as it is.
+    pub lit: bool,
+    pub at: Sample,
     /// Unit vector, interpolated, on the side that is seen.
     pub normal: DVec3,
     pub corners: [DVec3; 3],
@@ -31,23 +40,36 @@ pub(super) struct Shaded<'a> {
 }
 
 /// Values that are the same all over an object.
-pub(super) struct SurfaceTable {
+pub(super) struct SurfaceTable<'a> {
     /// Matrix of normals of each object: the inverse transpose of its linear part.
     normals: Vec<DMat3>,
     fallback: Material,
+    /// Decals by their addresses.
+    decals: HashMap<usize, Picture<'a>>,
 }
 
-impl SurfaceTable {
-    pub fn new(scene: &Scene) -> Self {
+/// A decal's key.
+fn key(texture: &Texture) -> usize {
+    std::ptr::from_ref(texture) as usize
+}
+
+impl<'a> SurfaceTable<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
         let normal = |object: &Object| DMat3::from_mat4(object.world_from_model).inverse().transpose();
         let normals = scene.objects.iter().map(normal).collect();
-        Self { normals, fallback: Material::default() }
+        let materials = scene.objects.iter().flat_map(|object| {
+            let own = object.material.as_deref().into_iter();
+            own.chain(&object.mesh.materials)
+        });
+        let decals = materials.filter_map(|material| material.decal.as_deref());
+        let decals = decals.map(|decal| (key(decal), Picture::new(decal))).collect();
+        Self { normals, fallback: Material::default(), decals }
     }
 
-    /// The surface that a pixel shows; `None` where the mesh moves in the vertex stage.
+    /// The surface that a pixel shows; `None`: the mesh breaks its own rules.
     pub fn at<'s>(&'s self, seen: &SeenPoint<'_>, scene: &'s Scene, subpixel: f64) -> Option<Shaded<'s>> {
         let triangle = &seen.triangle;
-        let object = scene.objects.get(triangle.object as usize).filter(|object| object.wave.is_none())?;
+        let object = scene.objects.get(triangle.object as usize)?;
         let first = 3 * triangle.index as usize;
         let indices: [usize; 3] = object
             .mesh
@@ -64,7 +86,7 @@ impl SurfaceTable {
         let weights = |point: DVec3| barycentric(&triangle.corners, point);
         let at = weights(seen.position);
         let matrix = self.normals[triangle.object as usize];
-        let corner_normals = indices.map(|index| matrix * DVec3::from_array(object.mesh.normals[index].map(f64::from)));
+        let corner_normals = indices.map(|index| matrix * normal_at(object, index));
         let smooth = unit(mix(&corner_normals, at));
         let behind = smooth.dot(seen.position - scene.camera.eye) > 0.0 && smooth.dot(seen.normal) < 0.0;
         let beside = seen.spread.map(|way| way / subpixel);
@@ -75,17 +97,44 @@ impl SurfaceTable {
         Some(Shaded {
             material,
             lit: object.lit,
-            position: seen.position,
-            spread: seen.spread,
-            error: seen.error,
-            beside,
+            at: Sample { position: seen.position, spread: seen.spread, error: seen.error, beside },
             normal: if behind { -smooth } else { smooth },
             corners: triangle.corners,
             corner_normals: corner_normals.map(unit),
             weights: at,
-            decal: decal(object, material, seen.position, beside, &texcoord),
+            decal: self.decal(object, material, seen.position, beside, &texcoord),
         })
     }
+
+    /// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
+    fn decal(
+        &self,
+        object: &Object,
+        material: &Material,
+        position: DVec3,
+        beside: [DVec3; 2],
+        texcoord: &dyn Fn(DVec3) -> DVec2,
+    ) -> [Bounds; 3] {
+        let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
+        let decal = material.decal.as_deref().filter(|_| has_texcoords);
+        let Some(picture) = decal.and_then(|decal| self.decals.get(&key(decal))) else {
+            return [Bounds::exactly(1.0); 3];
+        };
+        let placement = &material.decal_placement;
+        let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
+        let place = |point: DVec3| scale * texcoord(point) + offset;
+        let st = place(position);
+        let step = beside.map(|way| (place(position + way) - st).abs());
+        let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
+        window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
+    }
+}
+
+/// A vertex's normal in model space, as its wave turns it.
+fn normal_at(object: &Object, index: usize) -> DVec3 {
+    let own = DVec3::from_array(object.mesh.normals[index].map(f64::from));
+    let place = DVec3::from_array(object.mesh.positions[index].map(f64::from));
+    object.wave.map_or(own, |wave| wave::turned(own, place, &wave))
 }
 
 fn mix(corners: &[DVec3; 3], weights: [f64; 3]) -> DVec3 {
@@ -112,25 +161,4 @@ fn texcoord(object: &Object, material: &Material, index: usize) -> DVec2 {
     }
     let own = object.mesh.texcoords.as_ref().and_then(|all| all.get(index));
     DVec2::from_array(own.copied().unwrap_or_default().map(f64::from))
-}
-
-/// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
-fn decal(
-    object: &Object,
-    material: &Material,
-    position: DVec3,
-    beside: [DVec3; 2],
-    texcoord: &dyn Fn(DVec3) -> DVec2,
-) -> [Bounds; 3] {
-    let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
-    let Some(picture) = material.decal.as_deref().filter(|_| has_texcoords) else {
-        return [Bounds::exactly(1.0); 3];
-    };
-    let placement = &material.decal_placement;
-    let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
-    let place = |point: DVec3| scale * texcoord(point) + offset;
-    let st = place(position);
-    let step = beside.map(|way| (place(position + way) - st).abs());
-    let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
-    window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
 }
