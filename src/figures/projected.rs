@@ -58,7 +58,7 @@ const SMEAR: &str = "object.material.photo.hidden=smear";
 
 /// From the photograph's own place, and from above on its side.
 const OWN: [&str; 3] = ["camera.eye=[-3.2, 1.7, 15.0]", "camera.target=[-0.1, 4.15, 0.0]", "camera.fov_y=38"];
-const ABOVE: [&str; 2] = ["camera.eye=[-8.2, 7.6, 10.2]", "camera.target=[-0.1, 3.9, 0.0]"];
+const ABOVE: [&str; 2] = ["camera.eye=[-8.2, 7.6, 10.2]", "camera.target=[-0.1, 4.1, 0.0]"];
 
 pub const PHOTOGRAPH: Figure = Figure {
     name: "segal-facade",

@@ -17,10 +17,10 @@ fn panel(number: usize, more: &[&str]) -> Scene {
 #[test]
 fn the_committed_photograph_is_the_scene_s_own() {
     let mut studio = Studio::new();
-    let picture = studio.draw(&panel(0, &["image.size=[720, 600]"]));
+    let picture = studio.draw(&panel(0, &["image.size=[800, 600]"]));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/textures/facade.png");
     let committed = image::open(path).unwrap().to_rgb8();
-    assert_eq!(committed.dimensions(), (720, 600));
+    assert_eq!(committed.dimensions(), (800, 600));
     let codes = committed.pixels().map(|pixel| pixel.0.map(i32::from));
     let apart = |(a, b): ([i32; 3], &[i32; 3])| (0..3).map(|k| (a[k] - b[k]).abs()).max().unwrap_or(0);
     let differ = codes.zip(&picture).map(apart).filter(|codes| *codes > 2).count();
