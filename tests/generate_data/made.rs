@@ -26,6 +26,7 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     slide::slide().save(folder.join("textures/slide.png"))?;
     textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
     textures::head_light().save(folder.join("textures/head-light.png"))?;
+    textures::checker().save(folder.join("textures/checker.png"))?;
     Ok(())
 }
 
