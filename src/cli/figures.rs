@@ -12,7 +12,7 @@ use crate::frame::Renderer;
 use crate::output;
 
 /// Draws the figures of the shadow documents (data/documents.md) that show a result, from our own scenes, as contact sheets
-/// with captions.
+/// with captions, graphs and shares of wrong pixels.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct FiguresArgs {

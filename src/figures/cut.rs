@@ -1,4 +1,4 @@
-//! A cut through shadow maps along one of their rows: depth against place, as a graph, and where it runs in the picture.
+//! A cut through shadow maps along one of their rows or columns: depth against place, as a graph, and where it runs in the picture.
 
 use glam::{DVec3, DVec4};
 
@@ -10,16 +10,16 @@ use crate::output::canvas::Color;
 use crate::scene::Scene;
 use crate::views::View;
 
-/// A cut along a row of a spotlight's map.
+/// A cut along a row or a column of a spotlight's map.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut {
-    /// Place of the row from the map's upper edge, in [0, 1].
-    pub row: f64,
-    /// The part of the row, from its left end, in [0, 1].
-    pub columns: [f64; 2],
-    /// Distances from the light along its axis at the upper and the lower edge of the graph, in world units.
-    pub distances: [f64; 2],
-    pub ticks: &'static [f64],
+    /// True for a column.
+    pub is_upright: bool,
+    /// Place of the row from the map's upper edge, of the column from its left one, in [0, 1].
+    pub at: f64,
+    /// The part that is shown, from the left or the upper edge, in [0, 1].
+    pub part: [f64; 2],
+    /// Lines, of the first surface first.
     pub lines: &'static [CutLine],
     /// Line of the map that the first line is compared with: what lies behind it is marked; `None`: no marks.
     pub map: Option<usize>,
@@ -43,6 +43,9 @@ pub struct CutLine {
 
 /// A line's distances, one a texel of the part of the row; `None`: nothing there.
 pub type Distances = Vec<Option<f64>>;
+
+/// Share of the graph's height above which neighbours are no longer one surface.
+const JUMP: f64 = 0.06;
 
 /// Color of what lies behind the map.
 const BEHIND: Color = measure::FALSE_SHADOW;
@@ -69,13 +72,20 @@ pub fn lines(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<
     Ok(all)
 }
 
-/// The part of the map's row.
+/// The texels of the part, as columns and rows of a map of this size.
+fn texels(cut: &Cut, [width, height]: [u32; 2]) -> Vec<[u32; 2]> {
+    let (along, across) = if cut.is_upright { (height, width) } else { (width, height) };
+    let line = ((cut.at * f64::from(across)) as u32).min(across.saturating_sub(1));
+    let [start, end] = cut.part.map(|part| (part * f64::from(along)).round() as u32);
+    (start..end).map(|place| if cut.is_upright { [line, place] } else { [place, line] }).collect()
+}
+
+/// Distances in the part.
 fn row(drawing: &mut Drawing<'_>, scene: &Scene, cut: &Cut) -> Result<Distances, Error> {
-    let ([width, height], depths) = drawing.depths(scene, View::LightDepth)?;
+    let (size, depths) = drawing.depths(scene, View::LightDepth)?;
     let range = range_of(scene);
-    let first = ((cut.row * f64::from(height)) as u32).min(height.saturating_sub(1)) * width;
-    let [start, end] = cut.columns.map(|part| (part * f64::from(width)).round() as u32);
-    Ok((start..end).map(|column| distance(range, *depths.get((first + column) as usize)?)).collect())
+    let depth = |[column, row]: [u32; 2]| distance(range, *depths.get((row * size[0] + column) as usize)?);
+    Ok(texels(cut, size).into_iter().map(depth).collect())
 }
 
 fn range_of(scene: &Scene) -> [f64; 2] {
@@ -89,26 +99,49 @@ fn across(index: usize, count: usize, part: f64) -> f64 {
 
 /// The graph of a cut; the light is above it.
 pub fn graph<'a>(cut: &'a Cut, distances: &[Distances]) -> Graph<'a> {
+    let ([top, bottom], ticks) = scale_of(distances);
     let mut lines: Vec<Line<'_>> = Vec::new();
     for (line, own) in cut.lines.iter().zip(distances) {
-        let [top, bottom] = cut.distances;
-        let shown = |distance: &Option<f64>| distance.filter(|distance| (top..=bottom).contains(distance));
-        let points = own.iter().enumerate().flat_map(|(index, distance)| {
+        let shown = |distance: Option<f64>| distance.filter(|distance| (top..=bottom).contains(distance));
+        let mut points = Vec::new();
+        for (index, distance) in own.iter().enumerate() {
             let parts: &[f64] = if line.in_steps { &[0.0, 1.0] } else { &[0.5] };
-            let at = |part: &f64| shown(distance).map(|distance| [across(index, own.len(), *part), distance]);
-            parts.iter().map(at).collect::<Vec<_>>()
-        });
+            let before = index.checked_sub(1).and_then(|before| own[before]);
+            let jumps = before.zip(*distance).is_some_and(|(before, own)| (before - own).abs() > JUMP * (bottom - top));
+            if jumps && !line.in_steps {
+                points.push(None);
+            }
+            points.extend(parts.iter().map(|part| Some([across(index, own.len(), *part), shown(*distance)?])));
+        }
         let pen = Pen { color: line.color, width: line.width, is_dashed: line.is_dashed };
-        lines.push(Line { name: line.name, pen, points: points.collect(), dots: 0.0 });
+        lines.push(Line { name: line.name, pen, points, dots: 0.0 });
     }
     if let Some((surface, map)) = distances.first().zip(cut.map.and_then(|map| distances.get(map))) {
         let pen = Pen { color: BEHIND, width: 4.0, is_dashed: false };
         lines.push(Line { name: cut.behind, pen, points: behind(surface, map), dots: 0.0 });
     }
     let axis = |label, range, ticks| Axis { label, range, ticks, is_logarithmic: false };
-    let columns = axis("place along a row of the map, in % of the part that is shown", [0.0, 100.0], vec![0.0, 25.0, 50.0, 75.0, 100.0]);
-    let [top, bottom] = cut.distances;
-    Graph { axes: [columns, axis("distance from the light", [bottom, top], cut.ticks.to_vec())], lines }
+    let label = match cut.is_upright {
+        true => "place along a column of the map, in % of the part that is shown",
+        false => "place along a row of the map, in % of the part that is shown",
+    };
+    let along = axis(label, [0.0, 100.0], vec![0.0, 25.0, 50.0, 75.0, 100.0]);
+    Graph { axes: [along, axis("distance from the light", [bottom, top], ticks)], lines }
+}
+
+/// Distances at the upper and the lower edge of a graph of all lines, and ticks between them.
+fn scale_of(distances: &[Distances]) -> ([f64; 2], Vec<f64>) {
+    let all = || distances.iter().flatten().flatten().copied();
+    let (least, greatest) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    if greatest <= least {
+        return ([0.0, 1.0], Vec::new());
+    }
+    let margin = 0.08 * (greatest - least);
+    let (top, bottom) = (least - margin, greatest + margin);
+    let steps = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
+    let step = steps.into_iter().find(|step| (bottom - top) / step <= 6.0).unwrap_or(10.0);
+    let ticks = (0..=7).map(|index| step * ((top / step).ceil() + f64::from(index)));
+    ([top, bottom], ticks.filter(|tick| *tick <= bottom).collect())
 }
 
 /// Points of a surface that lie behind the map.
@@ -126,16 +159,15 @@ pub fn trace(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<
     let more: Vec<String> = cut.lines.first().iter().flat_map(|line| line.set).map(|text| (*text).to_owned()).collect();
     let scene = drawing.figure.scene_with(panel, &more)?;
     let Some(frustum) = scene.lights.first().and_then(|light| light.frustum()) else { return Ok(Vec::new()) };
-    let ([width, height], depths) = drawing.depths(&scene, View::LightDepth)?;
+    let (map, depths) = drawing.depths(&scene, View::LightDepth)?;
     let (size, seen) = drawing.depths(&scene, View::Depth)?;
     let world_from_map = frustum.clip_from_world().inverse();
     let clip_from_world = scene.camera.clip_from_view(scene.aspect()) * scene.camera.view_from_world();
-    let row = ((cut.row * f64::from(height)) as u32).min(height.saturating_sub(1));
-    let [start, end] = cut.columns.map(|part| (part * f64::from(width)).round() as u32);
-    let place = |column: u32| {
-        let depth = *depths.get((row * width + column) as usize)?;
-        let [s, t] = [f64::from(column) + 0.5, f64::from(row) + 0.5];
-        let ndc = DVec3::new(2.0 * s / f64::from(width) - 1.0, 1.0 - 2.0 * t / f64::from(height), 2.0 * f64::from(depth) - 1.0);
+    let [width, height] = map.map(f64::from);
+    let place = |[column, row]: [u32; 2]| {
+        let depth = *depths.get((row * map[0] + column) as usize)?;
+        let [s, t] = [column, row].map(|place| f64::from(place) + 0.5);
+        let ndc = DVec3::new(2.0 * s / width - 1.0, 1.0 - 2.0 * t / height, 2.0 * f64::from(depth) - 1.0);
         let clip: DVec4 = clip_from_world * world_from_map.project_point3(ndc).extend(1.0);
         let [x, y] = [0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w];
         let is_inside = depth < 1.0 && clip.w > 0.0 && (0.0..1.0).contains(&x) && (0.0..1.0).contains(&y);
@@ -146,7 +178,7 @@ pub fn trace(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<
         let (own, nearest) = (distance(range, (0.5 + 0.5 * clip.z / clip.w) as f32)?, distance(range, nearest)?);
         (own < 1.005 * nearest).then_some([x as f32, y as f32])
     };
-    Ok((start..end).map(place).collect())
+    Ok(texels(cut, map).into_iter().map(place).collect())
 }
 
 /// Draws a trace over the picture.
@@ -163,5 +195,37 @@ pub fn draw_trace(painter: &mut Painter<'_>, trace: &[Option<Place>]) {
                 painter.line(&[*from, *to], pen);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UPRIGHT: Cut = Cut { is_upright: true, at: 0.5, part: [0.25, 0.75], lines: &[], map: None, behind: "" };
+
+    #[test]
+    fn window_depths_become_distances() {
+        // A perspective depth is (1 / near - 1 / d) / (1 / near - 1 / far).
+        for expected in [2.5, 3.0, 7.0, 10.9] {
+            let depth = (1.0 / 2.5 - 1.0 / expected) / (1.0 / 2.5 - 1.0 / 11.0);
+            let found = distance([2.5, 11.0], depth as f32).unwrap();
+            assert!((found - expected).abs() < 1e-5, "{found}, not {expected}");
+        }
+        assert_eq!(distance([2.5, 11.0], 1.0), None);
+    }
+
+    #[test]
+    fn a_cut_runs_along_its_row_or_column() {
+        assert_eq!(texels(&UPRIGHT, [4, 8]), [[2, 2], [2, 3], [2, 4], [2, 5]]);
+        assert_eq!(texels(&Cut { is_upright: false, ..UPRIGHT }, [4, 8]), [[1, 4], [2, 4]]);
+    }
+
+    #[test]
+    fn what_is_farther_than_its_texel_lies_behind_the_map() {
+        let surface: Distances = [4.9, 5.1, 5.9, 6.1].map(Some).to_vec();
+        let marked: Vec<bool> = behind(&surface, &vec![Some(5.0), Some(6.0)]).iter().map(Option::is_some).collect();
+        assert_eq!(marked, [false, true, false, true]);
+        assert!(behind(&surface, &vec![None, None]).iter().all(Option::is_none));
     }
 }

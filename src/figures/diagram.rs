@@ -2,7 +2,7 @@
 
 use super::letters::{TextStyle, Weight};
 use super::painter::{Align, Painter, Pen, Place};
-use crate::output::canvas::Color;
+use crate::output::canvas::{Canvas, Color};
 
 const INK: Color = [40, 42, 50];
 const FAINT: Color = [120, 124, 134];
@@ -55,26 +55,54 @@ pub fn draw_kernel(painter: &mut Painter<'_>, kernel: Kernel) {
     painter.disc(point, 2.6, LIGHT);
 }
 
+/// Draws a legend into the darkest corner of `picture`, or the upper left one: dark is what nothing is drawn on.
+pub fn draw_legend(painter: &mut Painter<'_>, picture: &Canvas, legend: &[(Color, String)]) {
+    const EDGE: f32 = 8.0;
+    const ROW: f32 = 17.0;
+    let style = TextStyle { weight: Weight::Regular, size: 12.0, color: [234, 235, 238] };
+    let widest = legend.iter().map(|(_, name)| painter.letters().width(&style, name)).fold(0.0, f32::max);
+    let room = [widest + 42.0, ROW * legend.len() as f32 + 12.0];
+    let [width, height] = painter.size();
+    let (right, bottom) = (width - room[0] - EDGE, height - room[1] - EDGE);
+    let corners = [[EDGE, EDGE], [right, EDGE], [EDGE, bottom], [right, bottom]];
+    let pixels_a_unit = picture.size()[0] as f32 / width;
+    let dark = |corner: &Place| {
+        let [left, top, right, bottom] = [corner[0], corner[1], corner[0] + room[0], corner[1] + room[1]]
+            .map(|side| (side * pixels_a_unit).max(0.0) as usize);
+        let row = 3 * picture.size()[0] as usize;
+        let pixels = (top..bottom).filter_map(|y| picture.bytes().get(y * row + 3 * left..y * row + 3 * right));
+        pixels.flat_map(|row| row.as_chunks::<3>().0).filter(|color| color.iter().all(|channel| *channel < 50)).count()
+    };
+    // The first of the best.
+    let [left, top] = corners.into_iter().rev().max_by_key(dark).unwrap_or([EDGE; 2]);
+    painter.fill([left, top], room, [24, 26, 30]);
+    for (index, (color, name)) in (0u8..).zip(legend) {
+        let base = top + 6.0 + ROW * f32::from(index);
+        painter.fill([left + 8.0, base + 3.0], [14.0, 11.0], *color);
+        painter.write([left + 30.0, base + 13.0], name, &style, Align::Left);
+    }
+}
+
 /// Draws a projected texture as the eye sees it [Segal 1992, Figure 1]: a point of an object, its place on the screen and its
 /// place in the texture.
 pub fn draw_geometry(painter: &mut Painter<'_>) {
     let [width, height] = painter.size();
     let at = |x: f32, y: f32| [x * width, y * height];
-    let (eye, light, point) = (at(0.09, 0.80), at(0.47, 0.07), at(0.74, 0.60));
+    let (eye, light, point) = (at(0.10, 0.80), at(0.40, 0.08), at(0.67, 0.62));
     draw_object(painter, point);
-    frustum(painter, eye, [at(0.235, 0.40), at(0.30, 0.52), at(0.30, 0.98), at(0.235, 0.86)], EYE);
-    frustum(painter, light, [at(0.435, 0.33), at(0.555, 0.245), at(0.705, 0.305), at(0.585, 0.39)], LIGHT);
+    frustum(painter, eye, [at(0.225, 0.42), at(0.29, 0.54), at(0.29, 0.96), at(0.225, 0.84)], EYE);
+    frustum(painter, light, [at(0.365, 0.35), at(0.485, 0.265), at(0.635, 0.325), at(0.515, 0.41)], LIGHT);
     let thin = |color| Pen { color, width: 1.6, is_dashed: false };
     painter.line(&[eye, point], thin(EYE));
     painter.arrow(light, point, thin(LIGHT));
     let on = |from: Place, share: f32| [0, 1].map(|k| from[k] + share * (point[k] - from[k]));
-    let (on_screen, on_texture) = (on(eye, 0.275), on(light, 0.465));
+    let (on_screen, on_texture) = (on(eye, 0.276), on(light, 0.478));
     for (place, color) in [(point, INK), (on_screen, EYE), (on_texture, LIGHT), (eye, EYE), (light, LIGHT)] {
         painter.disc(place, 5.0, [255, 255, 255]);
         painter.disc(place, 4.0, color);
     }
     label_geometry(painter, [eye, light, point, on_screen, on_texture]);
-    draw_world(painter, at(0.87, 0.93));
+    draw_world(painter, at(0.085, 0.27));
 }
 
 /// A plane between an apex and what it looks at, and the edges to its corners.
@@ -103,13 +131,14 @@ fn label_geometry(painter: &mut Painter<'_>, [eye, light, point, on_screen, on_t
     painter.write(beside(eye, 0.0, 41.0), "clip coordinates", &plain(EYE), Align::Middle);
     painter.write(beside(light, -12.0, 4.0), "light", &bold(LIGHT), Align::Right);
     painter.write(beside(light, -12.0, 21.0), "light coordinates", &plain(LIGHT), Align::Right);
-    painter.write(beside(point, 12.0, 18.0), "Q on the surface", &bold(INK), Align::Left);
-    painter.write(beside(point, 12.0, 35.0), "(x, y, z, w) of the eye", &plain(EYE), Align::Left);
-    painter.write(beside(point, 12.0, 52.0), "(xˡ, yˡ, zˡ, wˡ) of the light", &plain(LIGHT), Align::Left);
-    painter.write(beside(on_screen, 26.0, 40.0), "screen", &bold(EYE), Align::Left);
-    painter.write(beside(on_screen, 26.0, 57.0), "(x / w, y / w)", &plain(EYE), Align::Left);
-    painter.write(beside(on_texture, 66.0, -18.0), "texture: the slide", &bold(LIGHT), Align::Left);
-    painter.write(beside(on_texture, 66.0, -1.0), "(xˡ / wˡ, yˡ / wˡ)", &plain(LIGHT), Align::Left);
+    let side = 88.0;
+    painter.write(beside(point, side, 44.0), "Q on the surface", &bold(INK), Align::Left);
+    painter.write(beside(point, side, 62.0), "(x, y, z, w) of the eye", &plain(EYE), Align::Left);
+    painter.write(beside(point, side, 80.0), "(xˡ, yˡ, zˡ, wˡ) of the light", &plain(LIGHT), Align::Left);
+    painter.write(beside(on_screen, 38.0, 46.0), "screen", &bold(EYE), Align::Left);
+    painter.write(beside(on_screen, 38.0, 63.0), "(x / w, y / w)", &plain(EYE), Align::Left);
+    painter.write(beside(on_texture, 92.0, -12.0), "texture: the slide", &bold(LIGHT), Align::Left);
+    painter.write(beside(on_texture, 92.0, 5.0), "(xˡ / wˡ, yˡ / wˡ)", &plain(LIGHT), Align::Left);
 }
 
 /// The axes of the world.
@@ -120,5 +149,35 @@ fn draw_world(painter: &mut Painter<'_>, origin: Place) {
         painter.arrow(origin, [origin[0] + x, origin[1] + y], pen);
         painter.write([origin[0] + 1.25 * x, origin[1] + 1.25 * y + 4.0], name, &style, Align::Middle);
     }
-    painter.write([origin[0] - 46.0, origin[1] - 4.0], "world", &style, Align::Right);
+    painter.write([origin[0] + 14.0, origin[1] - 24.0], "world", &style, Align::Left);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A comparison by GL_LINEAR weighs texels by a hat; a kernel has `taps` of them, a texel apart around its point.
+    #[test]
+    fn a_kernel_weighs_as_its_comparisons_do_together() {
+        for taps in 1..=7 {
+            let kernel = Kernel { taps, is_linear: true };
+            for point in [0.0, 0.13, 0.5, 0.87] {
+                let mut sum = 0.0;
+                for texel in -6..=6 {
+                    let hat = |tap: u32| {
+                        let place = point + f64::from(tap) - 0.5 * f64::from(taps - 1);
+                        (1.0 - (f64::from(texel) - place).abs()).max(0.0)
+                    };
+                    let expected: f64 = (0..taps).map(hat).sum();
+                    let found = kernel.weight(f64::from(texel) - point);
+                    assert!(
+                        (found - expected).abs() < 1e-12,
+                        "{taps} taps at {point}, texel {texel}: {found}, {expected}"
+                    );
+                    sum += found;
+                }
+                assert!((sum - f64::from(taps)).abs() < 1e-12);
+            }
+        }
+    }
 }

@@ -8,7 +8,7 @@ use super::{Error, Figure, Letters, Measured, Panel, PanelStage, cut, diagram, s
 use crate::device::Pixels;
 use crate::figures::painter::Painter;
 use crate::frame::{self, Renderer};
-use crate::output::{self, canvas::Canvas, canvas::Color};
+use crate::output::{self, Keyed, canvas::Canvas, canvas::Color};
 use crate::plan::{Request, ViewRequest};
 use crate::scene::Scene;
 use crate::truth::{self, Truth};
@@ -99,7 +99,11 @@ impl<'a> Drawing<'a> {
 
     /// The picture, a view, or the image of the light.
     fn picture(&mut self, panel: &Panel, scale: u32) -> Result<Canvas, Error> {
-        draw_scene(&self.figure.scene_at(panel, scale)?, panel, self.renderer)
+        let Keyed { canvas, legend } = draw_scene(&self.figure.scene_at(panel, scale)?, panel, self.renderer)?;
+        match legend[..] {
+            [] => Ok(canvas),
+            _ => self.over(&canvas, |painter| diagram::draw_legend(painter, &canvas, &legend)),
+        }
     }
 
     /// Light where the ray tracer finds it: the picture without shadow and without light, put together pixel by pixel.
@@ -107,18 +111,18 @@ impl<'a> Drawing<'a> {
         let plain = Panel { stage: None, view: None, ..*panel };
         let mut scene = self.figure.scene_with(&plain, &["light.shadow.technique=none".to_owned()])?;
         scene.image.size = scene.image.size.map(|side| side * self.scale);
-        let lit = draw_scene(&scene, &plain, self.renderer)?;
+        let lit = draw_scene(&scene, &plain, self.renderer)?.canvas;
         for light in scene.lights.iter_mut().take(1) {
             (light.diffuse, light.specular) = ([0.0; 3], [0.0; 3]);
         }
-        let dark = draw_scene(&scene, &plain, self.renderer)?;
+        let dark = draw_scene(&scene, &plain, self.renderer)?.canvas;
         let truth = self.truth(panel, self.scale)?;
         Ok(measure::compose(truth, &lit, &dark))
     }
 
     fn mark_wrong(&mut self, panel: &Panel) -> Result<Canvas, Error> {
         let scene = self.figure.scene_at(panel, self.scale)?;
-        let picture = draw_scene(&scene, panel, self.renderer)?;
+        let picture = draw_scene(&scene, panel, self.renderer)?.canvas;
         let shade = frame::draw_shade(&scene, 0, self.renderer)?;
         Ok(measure::mark(self.truth(panel, self.scale)?, &shade, &picture))
     }
@@ -131,7 +135,7 @@ impl<'a> Drawing<'a> {
         let more = ["light.filter=linear".to_owned(), format!("image.size=[{}, {}]", size[0], size[1])];
         let scene = self.figure.scene_with(panel, &more)?;
         let plain = Panel { stage: None, ..*panel };
-        Ok(measure::average(&draw_scene(&scene, &plain, self.renderer)?, samples))
+        Ok(measure::average(&draw_scene(&scene, &plain, self.renderer)?.canvas, samples))
     }
 
     fn mark_faces(&mut self, panel: &Panel) -> Result<Canvas, Error> {
@@ -174,13 +178,13 @@ impl<'a> Drawing<'a> {
 }
 
 /// Draws what a panel shows of a scene, without marks.
-fn draw_scene(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas, Error> {
+fn draw_scene(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Keyed, Error> {
     let shade = panel.counts.map(|_| View::Shade);
     let views = panel.view.into_iter().chain(shade).map(|view| ViewRequest { view, light: 0 }).collect();
     let mut plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
     match panel.stage {
         Some(PanelStage::After(pass)) => plan = plan.after_pass(pass).map_err(frame::Error::from)?,
-        Some(PanelStage::Image) => return Ok(output::to_canvas(&image_of(scene), None)),
+        Some(PanelStage::Image) => return Ok(output::to_keyed(&image_of(scene), None, None)),
         _ => {}
     }
     renderer.draw(&plan)?;
@@ -189,11 +193,12 @@ fn draw_scene(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<C
         frame.picture = frame.picture.alpha_as_gray();
     }
     let shown = frame.views.first().unwrap_or(&frame.picture);
-    match (panel.counts, shown, frame.views.get(1)) {
-        (Some(one), Pixels::RgbaF32 { size, data }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
-            Ok(output::densities(*size, &where_lit(data, shade), one))
+    match (shown, frame.views.get(1)) {
+        (Pixels::RgbaF32 { size, data }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
+            let lit = Pixels::RgbaF32 { size: *size, data: where_lit(data, shade) };
+            Ok(output::to_keyed(&lit, panel.view, panel.counts))
         }
-        _ => Ok(output::to_canvas(shown, panel.view)),
+        _ => Ok(output::to_keyed(shown, panel.view, panel.counts)),
     }
 }
 

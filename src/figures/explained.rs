@@ -29,14 +29,14 @@ const SLOPED: &str = "light.shadow.offset={ factor = 1.1, units = 4.0 }";
 const LINE: CutLine =
     CutLine { name: "", set: &[], color: INK, width: 2.0, is_dashed: false, in_steps: false, is_other_layer: false };
 
-/// A few texels of the floor and the step, much enlarged.
+/// Some twenty texels of the block and of the floor before it, much enlarged.
 const STAIRS: Cut = Cut {
-    row: 0.62,
-    columns: [0.55, 0.65],
-    distances: [5.4, 6.2],
-    ticks: &[5.4, 5.6, 5.8, 6.0, 6.2],
+    is_upright: true,
+    // The middle of a texel.
+    at: 0.398_437_5,
+    part: [0.465, 0.565],
     lines: &[
-        CutLine { name: "surface", set: &["light.shadow.size=2560", NO_OFFSET], ..LINE },
+        CutLine { name: "surface", set: &["light.shadow.size=3072", NO_OFFSET], ..LINE },
         CutLine { name: "map", set: &[NO_OFFSET], color: BLUE, in_steps: true, ..LINE },
         CutLine { name: "map with its offset by slope", set: &[SLOPED], color: GREEN, in_steps: true, ..LINE },
     ],
@@ -64,15 +64,15 @@ pub const POLYGON_OFFSET: Figure = Figure {
             .note("Each polygon is pushed back by its own depth over a texel, and a few steps of rounding.")
             .wrong(),
         stage("the truth, by ray tracing", &[NO_OFFSET], PanelStage::Truth).note("Shadows begin where things touch."),
-        stage("what (a) has wrong", &[NO_OFFSET], PanelStage::Wrong).note("Orange: shadow where light belongs; blue: a leak."),
-        stage("a cut through the map: depths of sixteen texels", &[], PanelStage::Cut(&STAIRS))
+        stage("what (a) has wrong", &[NO_OFFSET], PanelStage::Wrong).note("Orange: shadow where light belongs. Blue: a leak; pale where the surface is turned away from the light, and dark all the same."),
+        stage("a cut through the map: depths of nineteen texels, the block's face and the floor before it", &[], PanelStage::Cut(&STAIRS))
             .note("The map is a stair along the surface. Half of each texel lies behind it, and by how much grows with the slope: an offset that follows the slope moves each stair just behind the surface.")
             .wide(),
         stage("what (c) has wrong", &[LARGE], PanelStage::Wrong).note("The leak runs along every contact."),
     ],
     caption: "The map is sampled at other points than the picture. Their depths differ by slope times distance, not by rounding \
               alone: one constant is too small for steep surfaces or too large for contacts. GL's polygon offset, factor × \
-              slope + units × r, is made for that; a map of 192 × 192 texels, nearest filter.",
+              slope + units × r, is made for that. Shares are of what faces the light; a map of 192 × 192 texels, nearest filter.",
 };
 
 const BY_UNITS: Sweep = Sweep {
@@ -107,7 +107,7 @@ pub const BIAS_SWEEP: Figure = Figure {
         panel("factor 1.1, 4 units", &[SLOPED], None).wrong(),
     ],
     caption: "Each point is a picture that was compared with ray-traced truth, pixel by pixel. What is left at the best bias \
-              are the map's own texels along the shadows' edges: 192 × 192 of them, with the nearest filter.",
+              are the map's own texels along the shadows' edges: 192 × 192 of them, with the nearest filter. Shares are of what faces the light.",
 };
 
 const NEAREST: [&str; 2] = ["light.shadow.technique=shadow-map", NO_OFFSET];
@@ -117,10 +117,9 @@ const FLOOR_ALONE: [&str; 4] =
     [NO_OFFSET, "object.1.casts_shadow=false", "object.2.casts_shadow=false", "object.3.casts_shadow=false"];
 
 const TWO_LAYERS: Cut = Cut {
-    row: 0.5,
-    columns: [0.12, 0.88],
-    distances: [3.6, 6.0],
-    ticks: &[4.0, 4.5, 5.0, 5.5, 6.0],
+    is_upright: false,
+    at: 0.56,
+    part: [0.12, 0.88],
     lines: &[
         CutLine { name: "first layer", set: &NEAREST, color: BLUE, ..LINE },
         CutLine { name: "midpoint", set: &MIDPOINT, color: GREEN, width: 3.0, ..LINE },
@@ -150,10 +149,10 @@ pub const WOO_LAYERS: Figure = Figure {
     ],
     caption: "A first pass keeps the nearest depths. A second one rejects them and keeps the nearest mean of both: halfway between \
               the first two layers. Lit surfaces lie before it by half the thickness of what casts, shadowed ones behind it, and \
-              no offset has to be found. The second layer of the graph is twice the midpoint less the first.",
+              no offset has to be found. The second layer of the graph is twice the midpoint less the first. Shares are of what faces the light.",
 };
 
-const EDGE_ON: [&str; 3] = ["camera.eye=[2.6, 1.5, 2.9]", "camera.target=[0.72, 0.12, -0.1]", "camera.fov_y=26"];
+const EDGE_ON: [&str; 3] = ["camera.eye=[1.6, 0.9, 3.0]", "camera.target=[0.5, 0.07, 1.05]", "camera.fov_y=12"];
 
 pub const SECOND_DEPTH: Figure = Figure {
     name: "hsm-second-depth",
@@ -165,7 +164,7 @@ pub const SECOND_DEPTH: Figure = Figure {
         panel("nearest depths, no offset", &NEAREST, None).note("Acne on all that is lit.").wrong(),
         panel("back faces, no offset", &BACKS, None).note("Front faces are far from what the map holds: no acne.").wrong(),
         stage("what (b) has wrong", &BACKS, PanelStage::Wrong)
-            .note("The error has moved to faces turned away from the light, which shading keeps dark, and to ledges."),
+            .note("The error has moved to faces turned away from the light (pale): shading keeps them dark. Of the rest, ledges leak (blue)."),
         panel(
             "a ledge, by back faces",
             &[BACKS[0], BACKS[1], EDGE_ON[0], EDGE_ON[1], EDGE_ON[2]],
@@ -180,12 +179,12 @@ pub const SECOND_DEPTH: Figure = Figure {
     ],
     caption: "Drawing back faces alone needs no offset where light falls: what a lit point is compared with is the far side of \
               the solid under it. It needs closed things, and it is exact only as far as their backs are from the next surface: a \
-              back that touches the floor is compared with the floor.",
+              back that touches the floor is compared with the floor. Shares are of what faces the light.",
 };
 
 /// A close view of the ball's shadow on a coarse map.
 const EDGE: [&str; 4] =
-    ["camera.eye=[0.5, 1.7, 2.0]", "camera.target=[-0.22, 0.0, -0.12]", "camera.fov_y=13", "light.shadow.size=128"];
+    ["camera.eye=[-2.4, 2.2, 1.2]", "camera.target=[-0.93, 0.0, 0.1]", "camera.fov_y=13", "light.shadow.size=128"];
 
 macro_rules! kernel {
     ($title:literal, $note:literal, $filter:literal, $kernel:literal, $taps:literal, $linear:literal) => {
@@ -205,12 +204,54 @@ pub const KERNELS: Figure = Figure {
     scene: LAYERS,
     columns: 3,
     panels: &[
-        kernel!("1, nearest", "One texel, one comparison: lit or not.", "light.shadow.filter=nearest", "light.shadow.kernel=1x1", 1, false),
-        kernel!("1, GL_LINEAR", "Four comparisons, weighed by place: a ramp of one texel.", "light.shadow.filter=linear", "light.shadow.kernel=1x1", 1, true),
-        kernel!("2 × 2, GL_LINEAR", "Four lookups, nine texels: a ramp of two.", "light.shadow.filter=linear", "light.shadow.kernel=2x2", 2, true),
-        kernel!("3 × 3, nearest", "Nine texels of one weight: nine steps, and no more.", "light.shadow.filter=nearest", "light.shadow.kernel=3x3", 3, false),
-        kernel!("3 × 3, GL_LINEAR", "Sixteen texels, smooth between them.", "light.shadow.filter=linear", "light.shadow.kernel=3x3", 3, true),
-        kernel!("5 × 5, GL_LINEAR", "Thirty-six texels: a ramp of five.", "light.shadow.filter=linear", "light.shadow.kernel=5x5", 5, true),
+        kernel!(
+            "1, nearest",
+            "One texel, one comparison: lit or not.",
+            "light.shadow.filter=nearest",
+            "light.shadow.kernel=1x1",
+            1,
+            false
+        ),
+        kernel!(
+            "1, GL_LINEAR",
+            "Four comparisons, weighed by place: a ramp of one texel.",
+            "light.shadow.filter=linear",
+            "light.shadow.kernel=1x1",
+            1,
+            true
+        ),
+        kernel!(
+            "2 × 2, GL_LINEAR",
+            "Four lookups, nine texels: a ramp of two.",
+            "light.shadow.filter=linear",
+            "light.shadow.kernel=2x2",
+            2,
+            true
+        ),
+        kernel!(
+            "3 × 3, nearest",
+            "Nine texels of one weight: nine steps, and no more.",
+            "light.shadow.filter=nearest",
+            "light.shadow.kernel=3x3",
+            3,
+            false
+        ),
+        kernel!(
+            "3 × 3, GL_LINEAR",
+            "Sixteen texels, smooth between them.",
+            "light.shadow.filter=linear",
+            "light.shadow.kernel=3x3",
+            3,
+            true
+        ),
+        kernel!(
+            "5 × 5, GL_LINEAR",
+            "Thirty-six texels: a ramp of five.",
+            "light.shadow.filter=linear",
+            "light.shadow.kernel=5x5",
+            5,
+            true
+        ),
     ],
     caption: "Depths are compared first, and the answers are averaged: never the depths. In the corners: how much each texel of the \
               map weighs for the orange point. One lookup by GL_LINEAR compares four texels; n × n of them, a texel apart, weigh a \
@@ -234,10 +275,18 @@ pub const MIPMAPS: Figure = Figure {
             .note("Texels of two mipmap levels, as large as the pixel is long: calm, and softer than it need be.")
             .against_fine(),
         stage("the mean of many samples a pixel", &[], PanelStage::Fine).note("What the filters are measured against."),
-        panel("texels of the image a pixel", &["light.shadow.technique=shadow-map", "light.shadow.size=512", "light.law=lit"], Some(View::TexelsPerPixel))
-            .note("Each colour is a factor of two, a level: 1 takes the image itself, 2 its first level."),
-        panel("trilinear, close to the border", &["camera.eye=[-4.3, 0.45, -5.2]", "camera.target=[-5.8, 0.0, -7.4]"], None)
-            .note("Beyond the image it is dark at every level: no border smears."),
+        panel(
+            "texels of the image a pixel",
+            &["light.shadow.technique=shadow-map", "light.shadow.size=512", "light.law=lit"],
+            Some(View::TexelsPerPixel),
+        )
+        .note("Each colour is a factor of two, a level: 1 takes the image itself, 2 its first level."),
+        panel(
+            "trilinear, close to the border",
+            &["camera.eye=[-4.3, 0.45, -5.2]", "camera.target=[-5.8, 0.0, -7.4]"],
+            None,
+        )
+        .note("Beyond the image it is dark at every level: no border smears."),
     ],
     caption: "Projecting shrinks an image as texturing does. A pixel far away covers many texels, and a filter that takes four of \
               them flickers when the eye moves. Mipmaps hold the means beforehand. The level follows from the texels between \

@@ -9,9 +9,7 @@ use plotters::prelude::{ChartBuilder, IntoDrawingArea, RGBColor, ShapeStyle};
 use plotters::style::text_anchor::HPos;
 use plotters::style::{Color as _, FontTransform, IntoFont};
 use plotters_backend::text_anchor::VPos;
-use plotters_backend::{
-    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
-};
+use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind};
 
 use super::letters::{TextStyle, Weight};
 use super::painter::{Align, Painter, Pen, Place};
@@ -120,8 +118,16 @@ impl Graph<'_> {
             .axis_desc_style(font(12))
             .label_style(font(11))
             .set_all_tick_mark_size(4 * FINE)
-            .axis_style(ShapeStyle { color: RGBColor(120, 124, 134).to_rgba(), filled: false, stroke_width: FINE as u32 })
-            .bold_line_style(ShapeStyle { color: RGBColor(222, 223, 227).to_rgba(), filled: false, stroke_width: FINE as u32 })
+            .axis_style(ShapeStyle {
+                color: RGBColor(120, 124, 134).to_rgba(),
+                filled: false,
+                stroke_width: FINE as u32,
+            })
+            .bold_line_style(ShapeStyle {
+                color: RGBColor(222, 223, 227).to_rgba(),
+                filled: false,
+                stroke_width: FINE as u32,
+            })
             .light_line_style(RGBColor(255, 255, 255).mix(0.0))
             .draw()
             .map_err(|error| error.to_string())?;
@@ -157,7 +163,7 @@ struct Plane {
 
 impl Plane {
     fn place(&self, graph: &Graph<'_>, point: [f64; 2]) -> Place {
-        let share = |axis: usize| graph.axes[axis].share(point[axis]).clamp(-0.02, 1.02) as f32;
+        let share = |axis: usize| graph.axes[axis].share(point[axis]).clamp(0.0, 1.0) as f32;
         let (x, y) = (share(0), share(1));
         [self.left + x * (self.right - self.left), self.bottom + y * (self.top - self.bottom)]
     }
@@ -167,7 +173,7 @@ impl Plane {
 fn number(value: f64) -> String {
     let exponent = value.abs().log10().round();
     let is_power = value > 0.0 && (10_f64.powf(exponent) / value - 1.0).abs() < 1e-9;
-    if is_power && exponent >= 4.0 {
+    if is_power && exponent >= 3.0 {
         let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
         return format!("10{}", digits[(exponent as usize).min(9)]);
     }

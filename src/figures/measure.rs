@@ -10,9 +10,12 @@ use crate::truth::{Answer, Truth};
 /// Marks of wrong pixels: shadow where light belongs, and light where none belongs.
 pub const FALSE_SHADOW: Color = [213, 94, 0];
 pub const LEAK: Color = [0, 114, 178];
+/// A leak that shading hides.
+const HIDDEN_LEAK: Color = [168, 205, 230];
 const SEAM: Color = [230, 60, 40];
 
-/// Wrong pixels in percent of those compared.
+/// Wrong pixels in percent of those compared, on surfaces whose visible side faces the light: on the others shading leaves no
+/// light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
     /// Shadow where light belongs.
@@ -29,8 +32,8 @@ impl Share {
     /// Pictures that cannot be compared.
     pub fn of(truth: &Truth, shade: &ShadeImage) -> Result<Self, metrics::Error> {
         // The band does not enter these shares.
-        let all = compare(truth, shade, &Band { texels: 1.0, map_size: [1024; 2] })?.all;
-        Ok(Self { false_shadow: all.false_shadow_percent, leak: all.leak_percent })
+        let facing = compare(truth, shade, &Band { texels: 1.0, map_size: [1024; 2] })?.facing;
+        Ok(Self { false_shadow: facing.false_shadow_percent, leak: facing.leak_percent })
     }
 
     /// Both together.
@@ -86,7 +89,13 @@ pub fn mark(truth: &Truth, shade: &ShadeImage, picture: &Canvas) -> Canvas {
         let is_drawn = shade.covered.get(index) == Some(&true);
         match pixel.answer {
             Answer::Lit if is_drawn && !is_lit => FALSE_SHADOW,
-            Answer::Shadowed if is_drawn && is_lit => LEAK,
+            Answer::Shadowed if is_drawn && is_lit => {
+                if pixel.hit.is_some_and(|hit| hit.faces_light()) {
+                    LEAK
+                } else {
+                    HIDDEN_LEAK
+                }
+            }
             _ => {
                 let gray = color.iter().map(|channel| u32::from(*channel)).sum::<u32>() / 3;
                 [(150 + gray * 2 / 5).min(255) as u8; 3]
@@ -113,7 +122,9 @@ pub fn mark_faces(truth: &Truth, light: DVec3, picture: &Canvas) -> Canvas {
         if differs(index + 1) && (index + 1) % width != 0 || differs(index + width) {
             return SEAM;
         }
-        std::array::from_fn(|k| ((3 * u32::from(color[k]) * u32::from(HUES[own][k]) / 255 + u32::from(color[k])) / 3).min(255) as u8)
+        std::array::from_fn(|k| {
+            ((3 * u32::from(color[k]) * u32::from(HUES[own][k]) / 255 + u32::from(color[k])) / 3).min(255) as u8
+        })
     });
     Canvas::of_bytes(picture.size(), bytes.collect())
 }

@@ -1,7 +1,9 @@
 //! A sheet or a part of one to draw on: areas, lines, circles and text, antialiased, in units that a scale makes pixels of.
 //! Knows letters; no figure.
 
-use tiny_skia::{Color as Paint8, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+use tiny_skia::{
+    Color as Paint8, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+};
 
 use super::letters::{Letters, TextStyle};
 use crate::output::canvas::{Canvas, Color};
@@ -105,7 +107,11 @@ impl<'a> Painter<'a> {
         let neck = [to[0] - head * x, to[1] - head * y];
         let half = 0.42 * head;
         self.line(&[from, neck], pen);
-        self.area(&[to, [neck[0] - half * y, neck[1] + half * x], [neck[0] + half * y, neck[1] - half * x]], pen.color, 1.0);
+        self.area(
+            &[to, [neck[0] - half * y, neck[1] + half * x], [neck[0] + half * y, neck[1] - half * x]],
+            pen.color,
+            1.0,
+        );
     }
 
     /// Writes a line; `place` is on its base line.
@@ -129,13 +135,19 @@ impl<'a> Painter<'a> {
         let (letters, pixels) = (self.letters, &mut self.pixels);
         letters.cover(&scaled, text, shift, |column, row, covered| {
             let (column, row) = if turned { (row, -column) } else { (column, row) };
-            mix(pixels, [origin[0] as i64 + i64::from(column), origin[1] as i64 + i64::from(row)], style.color, covered);
+            mix(
+                pixels,
+                [origin[0] as i64 + i64::from(column), origin[1] as i64 + i64::from(row)],
+                style.color,
+                covered,
+            );
         });
     }
 
     fn stroke(&mut self, path: &tiny_skia::Path, pen: Pen) {
         let dash = pen.is_dashed.then(|| StrokeDash::new(vec![5.0, 4.0], 0.0)).flatten();
-        let stroke = Stroke { width: pen.width, line_cap: LineCap::Butt, line_join: LineJoin::Round, dash, ..Stroke::default() };
+        let stroke =
+            Stroke { width: pen.width, line_cap: LineCap::Butt, line_join: LineJoin::Round, dash, ..Stroke::default() };
         self.pixels.stroke_path(path, &paint(pen.color, 1.0), &stroke, self.transform(), None);
     }
 

@@ -59,11 +59,11 @@ pub const FALLOFF: Figure = Figure {
     columns: 3,
     panels: &[
         panel(
-            "planar: (2 / d)², d along the axis",
-            &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"],
+            "planar: (3 / d)², d along the axis",
+            &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 3.0 }"],
             None,
         ),
-        panel("radial: (2 / d)², d to the light", &["light.attenuation=[0, 0, 0.25]"], None),
+        panel("radial: (3 / d)², d to the light", &["light.attenuation=[0, 0, 0.111111]"], None),
         panel(
             "planar, up and down: surfaces of equal light",
             &[

@@ -87,7 +87,8 @@ pub fn compose(figure: &Figure, drawn: &[Drawn], letters: &Letters, scale: u32) 
     let title = letters.wrap(&TITLE, figure.title, inner);
     let source = letters.wrap(&SOURCE, figure.source, inner);
     let head = MARGIN + 30.0 * title.len() as f32 + LINE * source.len() as f32 + 18.0;
-    let body: f32 = rows.iter().map(|row| PANEL[1] as f32 + text_height(row)).sum::<f32>() + GAP * (rows.len() - 1) as f32;
+    let body: f32 =
+        rows.iter().map(|row| PANEL[1] as f32 + text_height(row)).sum::<f32>() + GAP * (rows.len() - 1) as f32;
     let foot = 18.0 + CAPTION_LINE * caption.len() as f32 + MARGIN;
     let size = [(2.0 * MARGIN + inner) as u32, (head + body + foot).ceil() as u32];
     let mut sheet = Painter::new(letters, size, scale, PAPER)?;
@@ -103,7 +104,8 @@ pub fn compose(figure: &Figure, drawn: &[Drawn], letters: &Letters, scale: u32) 
         top += PANEL[1] as f32 + text_height(row) + GAP;
     }
     let mut base = top - GAP + 18.0;
-    sheet.line(&[[MARGIN, base - 0.5], [MARGIN + inner, base - 0.5]], Pen { color: RULE, width: 1.0, is_dashed: false });
+    sheet
+        .line(&[[MARGIN, base - 0.5], [MARGIN + inner, base - 0.5]], Pen { color: RULE, width: 1.0, is_dashed: false });
     base += 24.0;
     for line in caption {
         sheet.write([MARGIN, base], &line, &CAPTION, Align::Left);

@@ -27,7 +27,7 @@ pub fn measure(drawing: &mut Drawing<'_>, panel: &Panel, sweep: &Sweep) -> Resul
     Ok(shares)
 }
 
-/// The graph of both shares, and of their sum.
+/// The graph of both shares, and of their sum; no wrong pixel at all is drawn at the lower edge.
 pub fn graph<'a>(sweep: &'a Sweep, shares: &[Share]) -> Graph<'a> {
     let points = |share: fn(&Share) -> f64| {
         sweep.values.iter().zip(shares).map(|(value, own)| Some([*value, share(own)])).collect::<Vec<_>>()
@@ -36,13 +36,14 @@ pub fn graph<'a>(sweep: &'a Sweep, shares: &[Share]) -> Graph<'a> {
         let pen = Pen { color, width, is_dashed: false };
         Line { name, pen, points: points(share), dots: width + 1.0 }
     };
-    let greatest = shares.iter().map(Share::wrong).fold(0.1, f64::max);
-    let step = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|step| greatest / step <= 6.0).unwrap_or(50.0);
-    let count = (greatest / step).ceil();
+    let all = || shares.iter().flat_map(|share| [share.false_shadow, share.leak]).filter(|share| *share > 0.0);
+    let (least, greatest) = (all().fold(1.0, f64::min), shares.iter().map(Share::wrong).fold(1.0, f64::max));
+    let powers = least.log10().floor() as i32..=greatest.log10().ceil() as i32;
+    let ticks: Vec<f64> = powers.map(|power| 10_f64.powi(power)).collect();
     let ends = [sweep.values.first(), sweep.values.last()].map(|end| end.copied().unwrap_or(1.0));
     let x = Axis { label: sweep.label, range: ends, ticks: sweep.ticks.to_vec(), is_logarithmic: sweep.is_logarithmic };
-    let ticks = (0..=count as u32).map(|index| step * f64::from(index)).collect();
-    let y = Axis { label: "wrong pixels, in %", range: [0.0, step * count], ticks, is_logarithmic: false };
+    let range = [ticks.first(), ticks.last()].map(|end| end.copied().unwrap_or(1.0));
+    let y = Axis { label: "wrong, in % of what faces the light", range, ticks, is_logarithmic: true };
     let lines = vec![
         Line { dots: 0.0, ..line("both", [120, 124, 134], 1.5, Share::wrong) },
         line("false shadow (acne)", FALSE_SHADOW, 2.0, |share| share.false_shadow),

@@ -52,6 +52,7 @@ mod scenes;
 mod setup;
 mod shaders;
 mod shadow_settings;
+mod sheets;
 mod slides;
 mod stencil;
 mod stress;
