@@ -57,11 +57,11 @@ pub fn draw_kernel(painter: &mut Painter<'_>, kernel: Kernel) {
 
 /// Draws a legend into the darkest corner of `picture`, or the upper left one: dark is what nothing is drawn on.
 pub fn draw_legend(painter: &mut Painter<'_>, picture: &Canvas, legend: &[(Color, String)]) {
-    const EDGE: f32 = 8.0;
-    const ROW: f32 = 17.0;
-    let style = TextStyle { weight: Weight::Regular, size: 12.0, color: [234, 235, 238] };
+    const EDGE: f32 = 4.0;
+    const ROW: f32 = 14.5;
+    let style = TextStyle { weight: Weight::Regular, size: 11.5, color: [234, 235, 238] };
     let widest = legend.iter().map(|(_, name)| painter.letters().width(&style, name)).fold(0.0, f32::max);
-    let room = [widest + 42.0, ROW * legend.len() as f32 + 12.0];
+    let room = [widest + 36.0, ROW * legend.len() as f32 + 9.0];
     let [width, height] = painter.size();
     let (right, bottom) = (width - room[0] - EDGE, height - room[1] - EDGE);
     let corners = [[EDGE, EDGE], [right, EDGE], [EDGE, bottom], [right, bottom]];
@@ -77,9 +77,9 @@ pub fn draw_legend(painter: &mut Painter<'_>, picture: &Canvas, legend: &[(Color
     let [left, top] = corners.into_iter().rev().max_by_key(dark).unwrap_or([EDGE; 2]);
     painter.fill([left, top], room, [24, 26, 30]);
     for (index, (color, name)) in (0u8..).zip(legend) {
-        let base = top + 6.0 + ROW * f32::from(index);
-        painter.fill([left + 8.0, base + 3.0], [14.0, 11.0], *color);
-        painter.write([left + 30.0, base + 13.0], name, &style, Align::Left);
+        let base = top + 4.0 + ROW * f32::from(index);
+        painter.fill([left + 7.0, base + 2.0], [14.0, 10.5], *color);
+        painter.write([left + 28.0, base + 11.5], &name.replace('-', "−"), &style, Align::Left);
     }
 }
 

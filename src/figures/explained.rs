@@ -29,12 +29,12 @@ const SLOPED: &str = "light.shadow.offset={ factor = 1.1, units = 4.0 }";
 const LINE: CutLine =
     CutLine { name: "", set: &[], color: INK, width: 2.0, is_dashed: false, in_steps: false, is_other_layer: false };
 
-/// Some twenty texels of the block and of the floor before it, much enlarged.
+/// Eighteen whole texels of the block and of the floor before it, much enlarged.
 const STAIRS: Cut = Cut {
     is_upright: true,
     // The middle of a texel.
     at: 0.398_437_5,
-    part: [0.465, 0.565],
+    part: [0.468_75, 0.5625],
     lines: &[
         CutLine { name: "surface", set: &["light.shadow.size=3072", NO_OFFSET], ..LINE },
         CutLine { name: "map", set: &[NO_OFFSET], color: BLUE, in_steps: true, ..LINE },
@@ -65,7 +65,7 @@ pub const POLYGON_OFFSET: Figure = Figure {
             .wrong(),
         stage("the truth, by ray tracing", &[NO_OFFSET], PanelStage::Truth).note("Shadows begin where things touch."),
         stage("what (a) has wrong", &[NO_OFFSET], PanelStage::Wrong).note("Orange: shadow where light belongs. Blue: a leak; pale where the surface is turned away from the light, and dark all the same."),
-        stage("a cut through the map: depths of nineteen texels, the block's face and the floor before it", &[], PanelStage::Cut(&STAIRS))
+        stage("a cut through the map: depths of eighteen texels, the block's face and the floor before it", &[], PanelStage::Cut(&STAIRS))
             .note("The map is a stair along the surface. Half of each texel lies behind it, and by how much grows with the slope: an offset that follows the slope moves each stair just behind the surface.")
             .wide(),
         stage("what (c) has wrong", &[LARGE], PanelStage::Wrong).note("The leak runs along every contact."),
@@ -102,7 +102,7 @@ pub const BIAS_SWEEP: Figure = Figure {
             .wide(),
         panel("the best constant: 70 000 units", &["light.shadow.offset={ factor = 0.0, units = 70000.0 }"], None).wrong(),
         stage("an offset by slope", &[], PanelStage::Sweep(&BY_FACTOR))
-            .note("Acne is gone from a factor of one on: by then each texel lies behind the surface that it was drawn from.")
+            .note("From a factor of one on only edges are left: each texel lies behind the surface that it was drawn from.")
             .wide(),
         panel("factor 1.1, 4 units", &[SLOPED], None).wrong(),
     ],
@@ -152,7 +152,7 @@ pub const WOO_LAYERS: Figure = Figure {
               no offset has to be found. The second layer of the graph is twice the midpoint less the first. Shares are of what faces the light.",
 };
 
-const EDGE_ON: [&str; 3] = ["camera.eye=[1.6, 0.9, 3.0]", "camera.target=[0.5, 0.07, 1.05]", "camera.fov_y=12"];
+const EDGE_ON: [&str; 3] = ["camera.eye=[1.6, 0.9, 3.0]", "camera.target=[0.5, -0.05, 1.05]", "camera.fov_y=10"];
 
 pub const SECOND_DEPTH: Figure = Figure {
     name: "hsm-second-depth",

@@ -215,12 +215,21 @@ impl Figure {
     }
 }
 
-/// A page that lists the figures with their captions.
+/// Name of a panel by its place: (a), (b).
+fn letter_of(index: usize) -> String {
+    format!("({})", char::from(b'a' + (index % 26) as u8))
+}
+
+/// A page that lists the figures with their captions and panels.
 pub fn index(figures: &[&Figure]) -> String {
     let mut text =
         String::from("# Figures\n\nResults that the shadow documents (data/documents.md) show, from our own scenes.\n");
-    for Figure { name, title, source, caption, .. } in figures {
-        text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n");
+    for Figure { name, title, source, caption, panels, .. } in figures {
+        text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n\n");
+        for (index, panel) in panels.iter().enumerate() {
+            let between = if panel.note.is_empty() { "" } else { ". " };
+            text += &format!("- {} {}{between}{}\n", letter_of(index), panel.title, panel.note);
+        }
     }
     text
 }

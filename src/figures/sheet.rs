@@ -2,7 +2,7 @@
 
 use super::letters::{Letters, TextStyle, Weight};
 use super::painter::{Align, Painter, Pen};
-use super::{Figure, Panel};
+use super::{Figure, Panel, letter_of};
 use crate::output::canvas::{Canvas, Color};
 
 const PAPER: Color = [250, 250, 247];
@@ -58,7 +58,7 @@ fn rows<'a>(figure: &'a Figure, drawn: &'a [Drawn], letters: &Letters) -> Vec<Ve
             column = 0;
         }
         let width = width_of(panel.span) as f32;
-        let name = format!("({}) {}", char::from(b'a' + (index % 26) as u8), panel.title);
+        let name = format!("{} {}", letter_of(index), panel.title);
         let text = |text: &str, style: TextStyle| {
             letters.wrap(&style, text, width).into_iter().map(move |line| (line, style)).collect::<Vec<_>>()
         };
