@@ -2,17 +2,16 @@
 
 use glam::{DVec3, DVec4};
 
-use super::draw::Drawing;
-use super::graph::{Axis, Graph, Line};
-use super::painter::{Painter, Pen, Place};
-use super::{Error, Panel, measure};
+use super::graph::{Graph, GraphAxis, Line};
+use super::painter::{Painter, Pen, UnitPoint};
+use super::{Error, Figure, Panel, measure};
 use crate::output::canvas::Color;
 use crate::scene::Scene;
 use crate::views::View;
 
 /// A cut along a row or a column of a spotlight's map.
 #[derive(Clone, Copy, Debug)]
-pub struct Cut {
+pub struct MapCut {
     /// True for a column.
     pub is_upright: bool,
     /// Place of the row from the map's upper edge, of the column from its left one, in [0, 1].
@@ -47,6 +46,9 @@ pub type Distances = Vec<Option<f64>>;
 /// Share of the graph's height above which neighbours are no longer one surface.
 const JUMP: f64 = 0.06;
 
+/// Depths of a scene's map or of its picture, rows from the top, and their width and height.
+pub type Depths<'a> = &'a mut dyn FnMut(&Scene, View) -> Result<([u32; 2], Vec<f32>), Error>;
+
 /// Color of what lies behind the map.
 const BEHIND: Color = measure::FALSE_SHADOW;
 
@@ -56,12 +58,12 @@ fn distance([near, far]: [f64; 2], depth: f32) -> Option<f64> {
 }
 
 /// The distances of each of a cut's lines.
-pub fn lines(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<Distances>, Error> {
+pub fn lines(figure: &Figure, panel: &Panel, cut: &MapCut, depths: Depths<'_>) -> Result<Vec<Distances>, Error> {
     let mut all: Vec<Distances> = Vec::new();
     for line in cut.lines {
         let more: Vec<String> = line.set.iter().map(|text| (*text).to_owned()).collect();
-        let scene = drawing.figure.scene_with(panel, &more)?;
-        let mut own = row(drawing, &scene, cut)?;
+        let scene = figure.scene_with(panel, &more)?;
+        let mut own = row(&scene, cut, depths)?;
         if line.is_other_layer {
             let first = all.first().cloned().unwrap_or_default();
             let other = own.iter().zip(first).map(|(mean, first)| Some(2.0 * (*mean)? - first?));
@@ -73,7 +75,7 @@ pub fn lines(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<
 }
 
 /// The texels of the part, as columns and rows of a map of this size.
-fn texels(cut: &Cut, [width, height]: [u32; 2]) -> Vec<[u32; 2]> {
+fn texels(cut: &MapCut, [width, height]: [u32; 2]) -> Vec<[u32; 2]> {
     let (along, across) = if cut.is_upright { (height, width) } else { (width, height) };
     let line = ((cut.at * f64::from(across)) as u32).min(across.saturating_sub(1));
     let [start, end] = cut.part.map(|part| (part * f64::from(along)).round() as u32);
@@ -81,8 +83,8 @@ fn texels(cut: &Cut, [width, height]: [u32; 2]) -> Vec<[u32; 2]> {
 }
 
 /// Distances in the part.
-fn row(drawing: &mut Drawing<'_>, scene: &Scene, cut: &Cut) -> Result<Distances, Error> {
-    let (size, depths) = drawing.depths(scene, View::LightDepth)?;
+fn row(scene: &Scene, cut: &MapCut, depths: Depths<'_>) -> Result<Distances, Error> {
+    let (size, depths) = depths(scene, View::LightDepth)?;
     let range = range_of(scene);
     let depth = |[column, row]: [u32; 2]| distance(range, *depths.get((row * size[0] + column) as usize)?);
     Ok(texels(cut, size).into_iter().map(depth).collect())
@@ -98,7 +100,7 @@ fn across(index: usize, count: usize, part: f64) -> f64 {
 }
 
 /// The graph of a cut; the light is above it.
-pub fn graph<'a>(cut: &'a Cut, distances: &[Distances]) -> Graph<'a> {
+pub fn graph<'a>(cut: &'a MapCut, distances: &[Distances]) -> Graph<'a> {
     let ([top, bottom], ticks) = scale_of(distances);
     let mut lines: Vec<Line<'_>> = Vec::new();
     for (line, own) in cut.lines.iter().zip(distances) {
@@ -120,7 +122,7 @@ pub fn graph<'a>(cut: &'a Cut, distances: &[Distances]) -> Graph<'a> {
         let pen = Pen { color: BEHIND, width: 4.0, is_dashed: false };
         lines.push(Line { name: cut.behind, pen, points: behind(surface, map), dots: 0.0 });
     }
-    let axis = |label, range, ticks| Axis { label, range, ticks, is_logarithmic: false };
+    let axis = |label, range, ticks| GraphAxis { label, range, ticks, is_logarithmic: false };
     let label = match cut.is_upright {
         true => "place along a column of the map, in % of the part that is shown",
         false => "place along a row of the map, in % of the part that is shown",
@@ -155,12 +157,17 @@ fn behind(surface: &Distances, map: &Distances) -> Vec<Option<[f64; 2]>> {
 }
 
 /// Where the nearest surface along a cut is seen, in units of the picture; `None`: hidden.
-pub fn trace(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<Option<Place>>, Error> {
+pub fn trace(
+    figure: &Figure,
+    panel: &Panel,
+    cut: &MapCut,
+    depths: Depths<'_>,
+) -> Result<Vec<Option<UnitPoint>>, Error> {
     let more: Vec<String> = cut.lines.first().iter().flat_map(|line| line.set).map(|text| (*text).to_owned()).collect();
-    let scene = drawing.figure.scene_with(panel, &more)?;
+    let scene = figure.scene_with(panel, &more)?;
     let Some(frustum) = scene.lights.first().and_then(|light| light.frustum()) else { return Ok(Vec::new()) };
-    let (map, depths) = drawing.depths(&scene, View::LightDepth)?;
-    let (size, seen) = drawing.depths(&scene, View::Depth)?;
+    let (size, seen) = depths(&scene, View::Depth)?;
+    let (map, depths) = depths(&scene, View::LightDepth)?;
     let world_from_map = frustum.clip_from_world().inverse();
     let clip_from_world = scene.camera.clip_from_view(scene.aspect()) * scene.camera.view_from_world();
     let [width, height] = map.map(f64::from);
@@ -182,7 +189,7 @@ pub fn trace(drawing: &mut Drawing<'_>, panel: &Panel, cut: &Cut) -> Result<Vec<
 }
 
 /// Draws a trace over the picture.
-pub fn draw_trace(painter: &mut Painter<'_>, trace: &[Option<Place>]) {
+pub fn draw_trace(painter: &mut Painter<'_>, trace: &[Option<UnitPoint>]) {
     const FARTHEST: f32 = 12.0;
     for pen in [
         Pen { color: [255, 255, 255], width: 4.0, is_dashed: false },
@@ -202,7 +209,7 @@ pub fn draw_trace(painter: &mut Painter<'_>, trace: &[Option<Place>]) {
 mod tests {
     use super::*;
 
-    const UPRIGHT: Cut = Cut { is_upright: true, at: 0.5, part: [0.25, 0.75], lines: &[], map: None, behind: "" };
+    const UPRIGHT: MapCut = MapCut { is_upright: true, at: 0.5, part: [0.25, 0.75], lines: &[], map: None, behind: "" };
 
     #[test]
     fn window_depths_become_distances() {
@@ -218,7 +225,7 @@ mod tests {
     #[test]
     fn a_cut_runs_along_its_row_or_column() {
         assert_eq!(texels(&UPRIGHT, [4, 8]), [[2, 2], [2, 3], [2, 4], [2, 5]]);
-        assert_eq!(texels(&Cut { is_upright: false, ..UPRIGHT }, [4, 8]), [[1, 4], [2, 4]]);
+        assert_eq!(texels(&MapCut { is_upright: false, ..UPRIGHT }, [4, 8]), [[1, 4], [2, 4]]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Diagrams that no scene shows: a kernel's weights, and the frames that a projected texture is seen in.
 
-use super::letters::{TextStyle, Weight};
-use super::painter::{Align, Painter, Pen, Place};
+use super::letters::{FontWeight, TextStyle};
+use super::painter::{Align, Painter, Pen, UnitPoint};
 use crate::output::canvas::{Canvas, Color};
 
 const INK: Color = [40, 42, 50];
@@ -59,14 +59,14 @@ pub fn draw_kernel(painter: &mut Painter<'_>, kernel: Kernel) {
 pub fn draw_legend(painter: &mut Painter<'_>, picture: &Canvas, legend: &[(Color, String)]) {
     const EDGE: f32 = 4.0;
     const ROW: f32 = 14.5;
-    let style = TextStyle { weight: Weight::Regular, size: 11.5, color: [234, 235, 238] };
+    let style = TextStyle { weight: FontWeight::Regular, size: 11.5, color: [234, 235, 238] };
     let widest = legend.iter().map(|(_, name)| painter.letters().width(&style, name)).fold(0.0, f32::max);
     let room = [widest + 36.0, ROW * legend.len() as f32 + 9.0];
     let [width, height] = painter.size();
     let (right, bottom) = (width - room[0] - EDGE, height - room[1] - EDGE);
     let corners = [[EDGE, EDGE], [right, EDGE], [EDGE, bottom], [right, bottom]];
     let pixels_a_unit = picture.size()[0] as f32 / width;
-    let dark = |corner: &Place| {
+    let dark = |corner: &UnitPoint| {
         let [left, top, right, bottom] = [corner[0], corner[1], corner[0] + room[0], corner[1] + room[1]]
             .map(|side| (side * pixels_a_unit).max(0.0) as usize);
         let row = 3 * picture.size()[0] as usize;
@@ -95,7 +95,7 @@ pub fn draw_geometry(painter: &mut Painter<'_>) {
     let thin = |color| Pen { color, width: 1.6, is_dashed: false };
     painter.line(&[eye, point], thin(EYE));
     painter.arrow(light, point, thin(LIGHT));
-    let on = |from: Place, share: f32| [0, 1].map(|k| from[k] + share * (point[k] - from[k]));
+    let on = |from: UnitPoint, share: f32| [0, 1].map(|k| from[k] + share * (point[k] - from[k]));
     let (on_screen, on_texture) = (on(eye, 0.276), on(light, 0.478));
     for (place, color) in [(point, INK), (on_screen, EYE), (on_texture, LIGHT), (eye, EYE), (light, LIGHT)] {
         painter.disc(place, 5.0, [255, 255, 255]);
@@ -106,7 +106,7 @@ pub fn draw_geometry(painter: &mut Painter<'_>) {
 }
 
 /// A plane between an apex and what it looks at, and the edges to its corners.
-fn frustum(painter: &mut Painter<'_>, apex: Place, corners: [Place; 4], color: Color) {
+fn frustum(painter: &mut Painter<'_>, apex: UnitPoint, corners: [UnitPoint; 4], color: Color) {
     painter.area(&corners, color, 0.13);
     for index in 0..4 {
         painter.line(&[apex, corners[index]], Pen { color: FAINT, width: 0.8, is_dashed: true });
@@ -115,7 +115,7 @@ fn frustum(painter: &mut Painter<'_>, apex: Place, corners: [Place; 4], color: C
 }
 
 /// A slanted surface around the point.
-fn draw_object(painter: &mut Painter<'_>, [x, y]: Place) {
+fn draw_object(painter: &mut Painter<'_>, [x, y]: UnitPoint) {
     let corners = [[x - 110.0, y + 42.0], [x + 42.0, y + 78.0], [x + 118.0, y - 40.0], [x - 34.0, y - 76.0]];
     painter.area(&corners, [150, 156, 168], 0.35);
     for index in 0..4 {
@@ -123,10 +123,10 @@ fn draw_object(painter: &mut Painter<'_>, [x, y]: Place) {
     }
 }
 
-fn label_geometry(painter: &mut Painter<'_>, [eye, light, point, on_screen, on_texture]: [Place; 5]) {
-    let bold = |color| TextStyle { weight: Weight::SemiBold, size: 14.0, color };
-    let plain = |color| TextStyle { weight: Weight::Regular, size: 13.0, color };
-    let beside = |[x, y]: Place, right: f32, down: f32| [x + right, y + down];
+fn label_geometry(painter: &mut Painter<'_>, [eye, light, point, on_screen, on_texture]: [UnitPoint; 5]) {
+    let bold = |color| TextStyle { weight: FontWeight::SemiBold, size: 14.0, color };
+    let plain = |color| TextStyle { weight: FontWeight::Regular, size: 13.0, color };
+    let beside = |[x, y]: UnitPoint, right: f32, down: f32| [x + right, y + down];
     painter.write(beside(eye, 0.0, 24.0), "eye", &bold(EYE), Align::Middle);
     painter.write(beside(eye, 0.0, 41.0), "clip coordinates", &plain(EYE), Align::Middle);
     painter.write(beside(light, -12.0, 4.0), "light", &bold(LIGHT), Align::Right);
@@ -142,9 +142,9 @@ fn label_geometry(painter: &mut Painter<'_>, [eye, light, point, on_screen, on_t
 }
 
 /// The axes of the world.
-fn draw_world(painter: &mut Painter<'_>, origin: Place) {
+fn draw_world(painter: &mut Painter<'_>, origin: UnitPoint) {
     let pen = Pen { color: INK, width: 1.4, is_dashed: false };
-    let style = TextStyle { weight: Weight::Regular, size: 13.0, color: INK };
+    let style = TextStyle { weight: FontWeight::Regular, size: 13.0, color: INK };
     for (x, y, name) in [(36.0, 6.0, "x"), (0.0, -36.0, "y"), (-26.0, 13.0, "z")] {
         painter.arrow(origin, [origin[0] + x, origin[1] + y], pen);
         painter.write([origin[0] + 1.25 * x, origin[1] + 1.25 * y + 4.0], name, &style, Align::Middle);

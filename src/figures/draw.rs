@@ -22,9 +22,9 @@ const SAMPLES: u32 = 8;
 
 /// A figure that is being drawn.
 pub struct Drawing<'a> {
-    pub figure: &'a Figure,
-    pub letters: &'a Letters,
-    pub renderer: &'a mut Renderer,
+    figure: &'a Figure,
+    letters: &'a Letters,
+    renderer: &'a mut Renderer,
     scale: u32,
     /// The ray tracer's answers by scale and by the overrides that shadows do not read.
     truths: HashMap<(u32, Vec<&'static str>), Truth>,
@@ -48,11 +48,11 @@ impl<'a> Drawing<'a> {
             }
             Some(PanelStage::Marked(cut)) => self.mark_cut(panel, cut)?,
             Some(PanelStage::Cut(cut)) => {
-                let lines = cut::lines(self, panel, cut)?;
+                let lines = cut::lines(self.figure, panel, cut, &mut |scene, view| self.depths(scene, view))?;
                 self.on_card(panel, |painter| cut::graph(cut, &lines).draw(painter))?
             }
             Some(PanelStage::Sweep(sweep)) => {
-                let shares = sweep::measure(self, panel, sweep)?;
+                let shares = sweep::measure(self.figure, panel, sweep, |scene| self.wrong_in(panel, scene))?;
                 self.on_card(panel, |painter| sweep::graph(sweep, &shares).draw(painter))?
             }
             Some(PanelStage::Geometry) => self.on_card(panel, diagram::draw_geometry)?,
@@ -76,7 +76,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// The same of a scene that differs from the panel's by its light's shadow alone.
-    pub fn wrong_in(&mut self, panel: &Panel, scene: &Scene) -> Result<Share, Error> {
+    fn wrong_in(&mut self, panel: &Panel, scene: &Scene) -> Result<Share, Error> {
         let shade = frame::draw_shade(scene, 0, self.renderer)?;
         let name = self.figure.name;
         Share::of(self.truth(panel, 1)?, &shade).map_err(|reason| Error::Measure { figure: name, reason })
@@ -144,14 +144,14 @@ impl<'a> Drawing<'a> {
         Ok(measure::mark_faces(self.truth(panel, self.scale)?, light.unwrap_or_default(), &picture))
     }
 
-    fn mark_cut(&mut self, panel: &Panel, cut: &cut::Cut) -> Result<Canvas, Error> {
+    fn mark_cut(&mut self, panel: &Panel, cut: &cut::MapCut) -> Result<Canvas, Error> {
         let picture = self.picture(panel, self.scale)?;
-        let trace = cut::trace(self, panel, cut)?;
+        let trace = cut::trace(self.figure, panel, cut, &mut |scene, view| self.depths(scene, view))?;
         self.over(&picture, |painter| cut::draw_trace(painter, &trace))
     }
 
     /// Depths of the panel's map, or of its picture, rows from the top.
-    pub fn depths(&mut self, scene: &Scene, view: View) -> Result<([u32; 2], Vec<f32>), Error> {
+    fn depths(&mut self, scene: &Scene, view: View) -> Result<([u32; 2], Vec<f32>), Error> {
         let views = vec![ViewRequest { view, light: 0 }];
         let plan = self.renderer.plan(scene, &Request { views, ..Request::default() })?;
         self.renderer.draw(&plan)?;

@@ -1,7 +1,7 @@
 //! Figures that explain: what a bias does, which layers a map may hold, what a filter weighs. Most of their panels are measured
 //! by the ray tracer.
 
-use super::cut::{Cut, CutLine};
+use super::cut::{CutLine, MapCut};
 use super::diagram::Kernel;
 use super::panels::{embedded, panel, stage};
 use super::sweep::Sweep;
@@ -30,7 +30,7 @@ const LINE: CutLine =
     CutLine { name: "", set: &[], color: INK, width: 2.0, is_dashed: false, in_steps: false, is_other_layer: false };
 
 /// Eighteen whole texels of the block and of the floor before it, much enlarged.
-const STAIRS: Cut = Cut {
+const STAIRS: MapCut = MapCut {
     is_upright: true,
     // The middle of a texel.
     at: 0.398_437_5,
@@ -116,7 +116,7 @@ const MIDPOINT: [&str; 2] = ["light.shadow.technique=midpoint", "light.shadow.av
 const FLOOR_ALONE: [&str; 4] =
     [NO_OFFSET, "object.1.casts_shadow=false", "object.2.casts_shadow=false", "object.3.casts_shadow=false"];
 
-const TWO_LAYERS: Cut = Cut {
+const TWO_LAYERS: MapCut = MapCut {
     is_upright: false,
     at: 0.56,
     part: [0.12, 0.88],

@@ -11,8 +11,8 @@ use plotters::style::{Color as _, FontTransform, IntoFont};
 use plotters_backend::text_anchor::VPos;
 use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind};
 
-use super::letters::{TextStyle, Weight};
-use super::painter::{Align, Painter, Pen, Place};
+use super::letters::{FontWeight, TextStyle};
+use super::painter::{Align, Painter, Pen, UnitPoint};
 use crate::output::canvas::Color;
 
 /// Steps of the library's whole numbers in a unit.
@@ -21,7 +21,7 @@ const INK: Color = [40, 42, 50];
 
 /// An axis.
 #[derive(Clone, Debug)]
-pub struct Axis<'a> {
+pub struct GraphAxis<'a> {
     pub label: &'a str,
     /// Value at the left or the bottom, and at the other end; may fall.
     pub range: [f64; 2],
@@ -44,11 +44,11 @@ pub struct Line<'a> {
 /// A graph with its axes.
 #[derive(Clone, Debug)]
 pub struct Graph<'a> {
-    pub axes: [Axis<'a>; 2],
+    pub axes: [GraphAxis<'a>; 2],
     pub lines: Vec<Line<'a>>,
 }
 
-impl Axis<'_> {
+impl GraphAxis<'_> {
     /// Place from the left or the bottom, in [0, 1].
     fn share(&self, value: f64) -> f64 {
         let plane = |value: f64| if self.is_logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
@@ -58,7 +58,7 @@ impl Axis<'_> {
 }
 
 /// An axis as the library has it.
-struct Marked<'a>(&'a Axis<'a>);
+struct Marked<'a>(&'a GraphAxis<'a>);
 
 impl Ranged for Marked<'_> {
     type FormatOption = DefaultFormatting;
@@ -84,7 +84,7 @@ impl Graph<'_> {
         let Ok(plane) = self.draw_axes(painter) else { return };
         for line in &self.lines {
             for points in line.points.split(Option::is_none) {
-                let places: Vec<Place> = points.iter().flatten().map(|point| plane.place(self, *point)).collect();
+                let places: Vec<UnitPoint> = points.iter().flatten().map(|point| plane.place(self, *point)).collect();
                 painter.line(&places, line.pen);
                 if line.dots > 0.0 {
                     places.iter().for_each(|place| painter.disc(*place, line.dots, line.pen.color));
@@ -143,7 +143,7 @@ impl Graph<'_> {
     }
 
     fn draw_legend(&self, painter: &mut Painter<'_>, left: f32) {
-        let style = TextStyle { weight: Weight::Regular, size: 12.0, color: INK };
+        let style = TextStyle { weight: FontWeight::Regular, size: 12.0, color: INK };
         let mut x = left;
         for line in self.lines.iter().filter(|line| !line.name.is_empty()) {
             painter.line(&[[x, 17.0], [x + 20.0, 17.0]], Pen { width: line.pen.width.max(2.0), ..line.pen });
@@ -162,7 +162,7 @@ struct Plane {
 }
 
 impl Plane {
-    fn place(&self, graph: &Graph<'_>, point: [f64; 2]) -> Place {
+    fn place(&self, graph: &Graph<'_>, point: [f64; 2]) -> UnitPoint {
         let share = |axis: usize| graph.axes[axis].share(point[axis]).clamp(0.0, 1.0) as f32;
         let (x, y) = (share(0), share(1));
         [self.left + x * (self.right - self.left), self.bottom + y * (self.top - self.bottom)]
@@ -186,7 +186,7 @@ struct FineBackend<'p, 'a> {
     painter: &'p mut Painter<'a>,
 }
 
-fn units((x, y): BackendCoord) -> Place {
+fn units((x, y): BackendCoord) -> UnitPoint {
     [x as f32 / FINE as f32, y as f32 / FINE as f32]
 }
 
@@ -199,7 +199,7 @@ fn pen<S: BackendStyle>(style: &S) -> Pen {
 }
 
 fn text_style<S: BackendTextStyle>(style: &S) -> TextStyle {
-    TextStyle { weight: Weight::Regular, size: style.size() as f32 / FINE as f32, color: rgb(style.color()) }
+    TextStyle { weight: FontWeight::Regular, size: style.size() as f32 / FINE as f32, color: rgb(style.color()) }
 }
 
 type Done = Result<(), DrawingErrorKind<Infallible>>;
@@ -234,8 +234,8 @@ impl DrawingBackend for FineBackend<'_, '_> {
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Done {
         if style.color().alpha > 0.0 {
             // On the middles of pixels: axes and ticks are then sharp.
-            let middle = |[x, y]: Place| [x.floor() + 0.5, y.floor() + 0.5];
-            let points: Vec<Place> = path.into_iter().map(|point| middle(units(point))).collect();
+            let middle = |[x, y]: UnitPoint| [x.floor() + 0.5, y.floor() + 0.5];
+            let points: Vec<UnitPoint> = path.into_iter().map(|point| middle(units(point))).collect();
             self.painter.line(&points, pen(style));
         }
         Ok(())

@@ -6,7 +6,7 @@ use crate::output::canvas::Color;
 
 /// Thickness of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Weight {
+pub enum FontWeight {
     Regular,
     SemiBold,
 }
@@ -14,7 +14,7 @@ pub enum Weight {
 /// Look of a line of text; sizes are those of the font's em.
 #[derive(Clone, Copy, Debug)]
 pub struct TextStyle {
-    pub weight: Weight,
+    pub weight: FontWeight,
     pub size: f32,
     pub color: Color,
 }
@@ -85,8 +85,8 @@ impl Letters {
 
     fn scaled(&self, style: &TextStyle) -> ab_glyph::PxScaleFont<&FontRef<'static>> {
         let font = match style.weight {
-            Weight::Regular => &self.regular,
-            Weight::SemiBold => &self.semi_bold,
+            FontWeight::Regular => &self.regular,
+            FontWeight::SemiBold => &self.semi_bold,
         };
         let em = font.units_per_em().unwrap_or(1000.0);
         font.as_scaled(style.size * font.height_unscaled() / em)

@@ -24,7 +24,7 @@ use crate::scene::{self, Embedded, Scene};
 use crate::truth;
 use crate::views::View;
 
-pub use cut::{Cut, CutLine};
+pub use cut::{CutLine, MapCut};
 pub use diagram::Kernel;
 pub use letters::Letters;
 pub use measure::Share;
@@ -88,9 +88,9 @@ pub enum PanelStage {
     /// The picture with a kernel's weights in a corner.
     Kernel(Kernel),
     /// The picture, and where a cut runs through it.
-    Marked(&'static Cut),
+    Marked(&'static MapCut),
     /// A cut through shadow maps, as a graph.
-    Cut(&'static Cut),
+    Cut(&'static MapCut),
     /// Wrong shares over the values of a key, as a graph.
     Sweep(&'static Sweep),
     /// Light, texture, screen and eye.

@@ -9,7 +9,7 @@ use super::letters::{Letters, TextStyle};
 use crate::output::canvas::{Canvas, Color};
 
 /// A point, x to the right and y down, in units.
-pub type Place = [f32; 2];
+pub type UnitPoint = [f32; 2];
 
 /// Place of a text's own point: across, and up or down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +58,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Width and height in units.
-    pub fn size(&self) -> Place {
+    pub fn size(&self) -> UnitPoint {
         [self.pixels.width() as f32 / self.scale, self.pixels.height() as f32 / self.scale]
     }
 
@@ -70,37 +70,37 @@ impl<'a> Painter<'a> {
     }
 
     /// Copies a picture, pixel for pixel, its upper left corner at `place`.
-    pub fn paste(&mut self, place: Place, picture: &Canvas) {
+    pub fn paste(&mut self, place: UnitPoint, picture: &Canvas) {
         let corner = place.map(|side| (side * self.scale).round() as i64);
         copy(picture, &mut self.pixels, corner);
     }
 
     /// Fills a rectangle of `size` from its upper left corner.
-    pub fn fill(&mut self, [x, y]: Place, [width, height]: Place, color: Color) {
+    pub fn fill(&mut self, [x, y]: UnitPoint, [width, height]: UnitPoint, color: Color) {
         self.area(&[[x, y], [x + width, y], [x + width, y + height], [x, y + height]], color, 1.0);
     }
 
     /// Fills a polygon. `opacity` is in [0, 1].
-    pub fn area(&mut self, corners: &[Place], color: Color, opacity: f32) {
+    pub fn area(&mut self, corners: &[UnitPoint], color: Color, opacity: f32) {
         let Some(path) = outline(corners, true) else { return };
         let paint = paint(color, opacity);
         self.pixels.fill_path(&path, &paint, FillRule::Winding, self.transform(), None);
     }
 
     /// Draws a line through points.
-    pub fn line(&mut self, points: &[Place], pen: Pen) {
+    pub fn line(&mut self, points: &[UnitPoint], pen: Pen) {
         let Some(path) = outline(points, false) else { return };
         self.stroke(&path, pen);
     }
 
     /// Fills a circle.
-    pub fn disc(&mut self, [x, y]: Place, radius: f32, color: Color) {
+    pub fn disc(&mut self, [x, y]: UnitPoint, radius: f32, color: Color) {
         let Some(path) = PathBuilder::from_circle(x, y, radius) else { return };
         self.pixels.fill_path(&path, &paint(color, 1.0), FillRule::Winding, self.transform(), None);
     }
 
     /// Draws an arrow with a filled head.
-    pub fn arrow(&mut self, from: Place, to: Place, pen: Pen) {
+    pub fn arrow(&mut self, from: UnitPoint, to: UnitPoint, pen: Pen) {
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
         let length = x.hypot(y).max(f32::MIN_POSITIVE);
         let (x, y, head) = (x / length, y / length, 5.0 + 2.0 * pen.width);
@@ -115,12 +115,12 @@ impl<'a> Painter<'a> {
     }
 
     /// Writes a line; `place` is on its base line.
-    pub fn write(&mut self, place: Place, text: &str, style: &TextStyle, align: Align) {
+    pub fn write(&mut self, place: UnitPoint, text: &str, style: &TextStyle, align: Align) {
         self.write_turned(place, text, style, align, false);
     }
 
     /// The same from below to above, if `turned`.
-    pub fn write_turned(&mut self, place: Place, text: &str, style: &TextStyle, align: Align, turned: bool) {
+    pub fn write_turned(&mut self, place: UnitPoint, text: &str, style: &TextStyle, align: Align, turned: bool) {
         let scaled = TextStyle { size: style.size * self.scale, ..*style };
         let width = self.letters.width(&scaled, text);
         let back = match align {
@@ -162,7 +162,7 @@ fn paint(color: Color, opacity: f32) -> Paint<'static> {
     paint
 }
 
-fn outline(points: &[Place], is_closed: bool) -> Option<tiny_skia::Path> {
+fn outline(points: &[UnitPoint], is_closed: bool) -> Option<tiny_skia::Path> {
     let mut path = PathBuilder::new();
     for (index, [x, y]) in points.iter().enumerate() {
         if index == 0 { path.move_to(*x, *y) } else { path.line_to(*x, *y) }

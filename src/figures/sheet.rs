@@ -1,6 +1,6 @@
 //! Lays a figure's panels out: title and source on top, a grid of pictures with their names, the caption below.
 
-use super::letters::{Letters, TextStyle, Weight};
+use super::letters::{FontWeight, Letters, TextStyle};
 use super::painter::{Align, Painter, Pen};
 use super::{Figure, Panel, letter_of};
 use crate::output::canvas::{Canvas, Color};
@@ -17,12 +17,12 @@ const MEASURED: Color = [0, 92, 150];
 pub const PANEL: [u32; 2] = [400, 300];
 const MARGIN: f32 = 28.0;
 const GAP: f32 = 20.0;
-const TITLE: TextStyle = TextStyle { weight: Weight::SemiBold, size: 23.0, color: INK };
-const SOURCE: TextStyle = TextStyle { weight: Weight::Regular, size: 13.0, color: FAINT };
-const NAME: TextStyle = TextStyle { weight: Weight::SemiBold, size: 13.5, color: INK };
-const NOTE: TextStyle = TextStyle { weight: Weight::Regular, size: 13.0, color: [58, 61, 70] };
-const NUMBERS: TextStyle = TextStyle { weight: Weight::Regular, size: 13.0, color: MEASURED };
-const CAPTION: TextStyle = TextStyle { weight: Weight::Regular, size: 15.0, color: INK };
+const TITLE: TextStyle = TextStyle { weight: FontWeight::SemiBold, size: 23.0, color: INK };
+const SOURCE: TextStyle = TextStyle { weight: FontWeight::Regular, size: 13.0, color: FAINT };
+const NAME: TextStyle = TextStyle { weight: FontWeight::SemiBold, size: 13.5, color: INK };
+const NOTE: TextStyle = TextStyle { weight: FontWeight::Regular, size: 13.0, color: [58, 61, 70] };
+const NUMBERS: TextStyle = TextStyle { weight: FontWeight::Regular, size: 13.0, color: MEASURED };
+const CAPTION: TextStyle = TextStyle { weight: FontWeight::Regular, size: 15.0, color: INK };
 /// Between base lines.
 const LINE: f32 = 18.0;
 const CAPTION_LINE: f32 = 22.0;

@@ -1,10 +1,10 @@
 //! Wrong shares over the values of a key, as a graph.
 
-use super::draw::Drawing;
-use super::graph::{Axis, Graph, Line};
+use super::graph::{Graph, GraphAxis, Line};
 use super::measure::{FALSE_SHADOW, LEAK, Share};
 use super::painter::Pen;
-use super::{Error, Panel};
+use super::{Error, Figure, Panel};
+use crate::scene::Scene;
 
 /// Values of a key, and the graph of what they do.
 #[derive(Clone, Copy, Debug)]
@@ -17,12 +17,16 @@ pub struct Sweep {
     pub is_logarithmic: bool,
 }
 
-/// The shares for each value.
-pub fn measure(drawing: &mut Drawing<'_>, panel: &Panel, sweep: &Sweep) -> Result<Vec<Share>, Error> {
+/// The shares for each value, by `wrong` of a scene.
+pub fn measure(
+    figure: &Figure,
+    panel: &Panel,
+    sweep: &Sweep,
+    mut wrong: impl FnMut(&Scene) -> Result<Share, Error>,
+) -> Result<Vec<Share>, Error> {
     let mut shares = Vec::new();
     for value in sweep.values {
-        let scene = drawing.figure.scene_with(panel, &[sweep.set.replace("{}", &format!("{value:?}"))])?;
-        shares.push(drawing.wrong_in(panel, &scene)?);
+        shares.push(wrong(&figure.scene_with(panel, &[sweep.set.replace("{}", &format!("{value:?}"))])?)?);
     }
     Ok(shares)
 }
@@ -41,9 +45,14 @@ pub fn graph<'a>(sweep: &'a Sweep, shares: &[Share]) -> Graph<'a> {
     let powers = least.log10().floor() as i32..=greatest.log10().ceil() as i32;
     let ticks: Vec<f64> = powers.map(|power| 10_f64.powi(power)).collect();
     let ends = [sweep.values.first(), sweep.values.last()].map(|end| end.copied().unwrap_or(1.0));
-    let x = Axis { label: sweep.label, range: ends, ticks: sweep.ticks.to_vec(), is_logarithmic: sweep.is_logarithmic };
+    let x = GraphAxis {
+        label: sweep.label,
+        range: ends,
+        ticks: sweep.ticks.to_vec(),
+        is_logarithmic: sweep.is_logarithmic,
+    };
     let range = [ticks.first(), ticks.last()].map(|end| end.copied().unwrap_or(1.0));
-    let y = Axis { label: "wrong, in % of what faces the light", range, ticks, is_logarithmic: true };
+    let y = GraphAxis { label: "wrong, in % of what faces the light", range, ticks, is_logarithmic: true };
     let lines = vec![
         Line { dots: 0.0, ..line("both", [120, 124, 134], 1.5, Share::wrong) },
         line("false shadow (acne)", FALSE_SHADOW, 2.0, |share| share.false_shadow),
