@@ -22,7 +22,7 @@ pub struct MapCut {
     pub lines: &'static [CutLine],
     /// Line of the map that the first line is compared with: what lies behind it is marked; `None`: no marks.
     pub map: Option<usize>,
-    /// What the marks mean, for the legend.
+    /// Meaning of the marks, for the legend.
     pub behind: &'static str,
 }
 
@@ -156,7 +156,7 @@ fn behind(surface: &Distances, map: &Distances) -> Vec<Option<[f64; 2]>> {
     surface.iter().enumerate().map(point).collect()
 }
 
-/// Where the nearest surface along a cut is seen, in units of the picture; `None`: hidden.
+/// Places where the nearest surface along a cut is seen, in units of the picture; `None`: hidden.
 pub fn trace(
     figure: &Figure,
     panel: &Panel,

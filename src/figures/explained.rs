@@ -152,7 +152,7 @@ pub const WOO_LAYERS: Figure = Figure {
               no offset has to be found. The second layer of the graph is twice the midpoint less the first. Shares are of what faces the light.",
 };
 
-const EDGE_ON: [&str; 3] = ["camera.eye=[1.6, 0.9, 3.0]", "camera.target=[0.5, -0.05, 1.05]", "camera.fov_y=10"];
+const EDGE_ON: [&str; 3] = ["camera.eye=[1.6, 0.9, 3.0]", "camera.target=[0.5, 0.07, 1.05]", "camera.fov_y=12"];
 
 pub const SECOND_DEPTH: Figure = Figure {
     name: "hsm-second-depth",

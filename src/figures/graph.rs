@@ -153,7 +153,7 @@ impl Graph<'_> {
     }
 }
 
-/// Where the axes ended up, in units.
+/// Edges of the area between the axes, in units.
 struct Plane {
     left: f32,
     right: f32,

@@ -97,7 +97,7 @@ pub enum PanelStage {
     Geometry,
 }
 
-/// What a panel says of its picture.
+/// Number below a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measured {
     Nothing,

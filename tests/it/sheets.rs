@@ -49,7 +49,7 @@ fn renderer() -> Renderer {
     Renderer::new(&context::open(&ContextRequest::default()).unwrap())
 }
 
-/// What a panel shows of a scene, drawn without the figures' own code.
+/// A panel's picture of a scene, drawn without the figures' own code.
 fn drawn(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Canvas {
     let views = panel.view.map(|view| ViewRequest { view, light: 0 }).into_iter().collect();
     let mut plan = renderer.plan(scene, &Request { views, ..Request::default() }).unwrap();
@@ -70,10 +70,10 @@ fn a_larger_panel_is_drawn_larger() {
         let small = figure(name).picture(panel, 1, &mut renderer).unwrap();
         let large = figure(name).picture(panel, 2, &mut renderer).unwrap();
         let mut scene = figure(name).scene_of(panel).unwrap();
-        assert_eq!(small, drawn(&scene, panel, &mut renderer), "{name}, scale 1");
+        assert!(small == drawn(&scene, panel, &mut renderer), "{name}, scale 1");
         scene.image.size = scene.image.size.map(|side| 2 * side);
-        assert_eq!(large, drawn(&scene, panel, &mut renderer), "{name}, scale 2");
-        assert_ne!(large, small.fitted(large.size()), "{name}: enlarged");
+        assert!(large == drawn(&scene, panel, &mut renderer), "{name}, scale 2");
+        assert!(large != small.fitted(large.size()), "{name}: enlarged");
     }
     // A map that has as many texels as the picture pixels has so at each scale: what a pixel shows of it stays the same.
     let dueling = figure("hsm-6-dueling-frusta");
@@ -115,7 +115,7 @@ fn shares(name: &str, panels: &[usize], renderer: &mut Renderer) -> Vec<Share> {
     shares
 }
 
-/// What the captions say of offsets: without one acne, with a small constant some on steep surfaces, with a large one a leak
+/// Captions of offsets hold: without one acne, with a small constant some on steep surfaces, with a large one a leak
 /// at contacts, by slope least of all.
 #[test]
 fn offsets_do_what_their_sheet_says() {
@@ -163,7 +163,7 @@ fn the_picture_of_truth_is_the_truth() {
     assert!(volumes < 0.001 && slope < 0.02 && none > 0.1, "{volumes} {slope} {none}");
 }
 
-/// Of a projected image far away, filters with mipmaps come nearest to the mean of many samples.
+/// For a projected image far away, filters with mipmaps come nearest to the mean of many samples.
 #[test]
 fn mipmaps_come_nearest_to_many_samples() {
     let mut renderer = renderer();
