@@ -5,12 +5,12 @@ use crate::views::View;
 
 /// Pictures that the figures' scenes name.
 pub const PICTURES: &[(&str, &[u8])] = &[
+    ("../textures/checker.png", include_bytes!("../../data/textures/checker.png")),
     ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
     ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
     ("../textures/slide.png", include_bytes!("../../data/textures/slide.png")),
     ("../textures/barn-doors.png", include_bytes!("../../data/textures/barn-doors.png")),
     ("../textures/head-light.png", include_bytes!("../../data/textures/head-light.png")),
-    ("../textures/checker.png", include_bytes!("../../data/textures/checker.png")),
 ];
 
 /// The scene of a file in `data/figures/`.

@@ -21,12 +21,12 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     std::fs::create_dir_all(folder.join("textures"))?;
     let (positions, triangles) = statue::sculpt();
     std::fs::write(folder.join("meshes/dense.obj"), obj_text(&positions, &triangles))?;
+    textures::checker().save(folder.join("textures/checker.png"))?;
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
     slide::slide().save(folder.join("textures/slide.png"))?;
     textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
     textures::head_light().save(folder.join("textures/head-light.png"))?;
-    textures::checker().save(folder.join("textures/checker.png"))?;
     Ok(())
 }
 
