@@ -12,7 +12,7 @@ use crate::frame::Renderer;
 use crate::output;
 
 /// Draws the figures of the shadow documents (data/documents.md) that show a result, from our own scenes, as contact sheets
-/// with captions.
+/// with captions, graphs and shares of wrong pixels.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct FiguresArgs {
@@ -23,6 +23,10 @@ pub struct FiguresArgs {
     /// Draws this figure; may be given again
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
+
+    /// Pixels a side for each of scale 1, at which a panel has 400 by 300: pictures are drawn so large, not enlarged
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
+    scale: u32,
 
     /// Lists the figures and draws none
     #[arg(long)]
@@ -35,7 +39,8 @@ pub struct FiguresArgs {
 const HELP: &str = "\
 Examples:
   glumbra figures -o out/figures
-  glumbra figures --only hsm-6-dueling-frusta --only gdc-volumes -o out";
+  glumbra figures --only hsm-6-dueling-frusta --only gdc-volumes -o out
+  glumbra figures --scale 2 -o out/large      # for slides and print";
 
 /// Draws and writes.
 pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
@@ -59,7 +64,7 @@ pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
     let mut sheets = Vec::new();
     for figure in &chosen {
         bar.set_message(figure.name);
-        let sheet = figure.draw(&mut renderer, || bar.inc(1))?;
+        let sheet = figure.draw(arguments.scale, &mut renderer, || bar.inc(1))?;
         sheets.push((folder.join(format!("{}.png", figure.name)), sheet));
     }
     bar.finish_and_clear();

@@ -1,19 +1,34 @@
 //! Figures of the documents in data/documents.md that show a result, drawn from our own scenes as contact sheets with
-//! captions. A figure is data (`table.rs`): panels, each a scene with changes and a view. Knows scenes, plans and frames;
-//! no technique by more than a scene's keys, no GL.
+//! captions. A figure is data (`table.rs`, `projected.rs`, `explained.rs`): panels, each a scene with changes and a view, or
+//! a graph of what was measured. Knows scenes, plans, frames, truth and a report's measures; no technique by more than a
+//! scene's keys, no GL.
 
+mod cut;
+mod diagram;
+mod draw;
+mod explained;
+mod graph;
+mod letters;
+mod measure;
+mod painter;
 mod panels;
 mod projected;
 mod sheet;
+mod sweep;
 mod table;
 
-use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::output::{self, canvas::Canvas};
-use crate::plan::{Request, ViewRequest};
+use crate::report::measure::metrics;
 use crate::scene::{self, Embedded, Scene};
+use crate::truth;
 use crate::views::View;
 
+pub use cut::{CutLine, MapCut};
+pub use diagram::Kernel;
+pub use letters::Letters;
+pub use measure::Share;
+pub use sweep::Sweep;
 pub use table::FIGURES;
 
 /// One contact sheet.
@@ -35,6 +50,8 @@ pub struct Figure {
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
     pub title: &'static str,
+    /// A sentence or two below the title; may be empty.
+    pub note: &'static str,
     /// Overrides, as `--set` takes them.
     pub set: &'static [&'static str],
     /// View of the first light; `None`: the picture itself.
@@ -44,15 +61,50 @@ pub struct Panel {
     pub counts: Option<&'static str>,
     /// Something else than the finished picture.
     pub stage: Option<PanelStage>,
+    /// Number below the panel.
+    pub measured: Measured,
+    /// Side of the shadow map in texels at scale 1, where the map grows with the picture; `None`: the scene's own at any
+    /// scale.
+    pub map: Option<u32>,
+    /// Columns that the panel takes.
+    pub span: u32,
 }
 
-/// Part of how a picture comes about.
+/// Part of how a picture comes about, or something found from it.
 #[derive(Clone, Copy, Debug)]
 pub enum PanelStage {
     /// The picture as it stands after the pass of this label.
     After(&'static str),
     /// The image of the first light.
     Image,
+    /// The picture with the ray tracer's shadows.
+    Truth,
+    /// The wrong pixels of the picture, which is pale.
+    Wrong,
+    /// The picture by many samples a pixel.
+    Fine,
+    /// The picture with the faces of a point light's cube told apart.
+    Faces,
+    /// The picture with a kernel's weights in a corner.
+    Kernel(Kernel),
+    /// The picture, and where a cut runs through it.
+    Marked(&'static MapCut),
+    /// A cut through shadow maps, as a graph.
+    Cut(&'static MapCut),
+    /// Wrong shares over the values of a key, as a graph.
+    Sweep(&'static Sweep),
+    /// Light, texture, screen and eye.
+    Geometry,
+}
+
+/// Number below a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measured {
+    Nothing,
+    /// Shares of false shadow and of leak, by the ray tracer.
+    Wrong,
+    /// Difference from many samples a pixel.
+    AgainstFine,
 }
 
 /// Reason why a figure could not be drawn.
@@ -66,6 +118,14 @@ pub enum Error {
     Frame(#[from] frame::Error),
     #[error(transparent)]
     File(#[from] output::Error),
+    #[error("figure {figure}: {reason}")]
+    Truth { figure: &'static str, reason: truth::Error },
+    #[error("figure {figure}: {reason}")]
+    Measure { figure: &'static str, reason: metrics::Error },
+    #[error("the font that is compiled in cannot be read: {0}")]
+    Font(#[from] ab_glyph::InvalidFont),
+    #[error("figure {figure}: the sheet is too large for memory; take a smaller --scale")]
+    TooLarge { figure: &'static str },
     #[error("{folder}: cannot be made: {reason}", folder = .folder.display())]
     Folder { folder: std::path::PathBuf, reason: std::io::Error },
 }
@@ -92,68 +152,84 @@ impl Figure {
     ///
     /// An override that does not fit the scene.
     pub fn scene_of(&self, panel: &Panel) -> Result<Scene, Error> {
-        let overrides: Vec<String> = panel.set.iter().map(|text| (*text).to_owned()).collect();
+        self.scene_with(panel, &[])
+    }
+
+    /// A panel's scene with more overrides.
+    fn scene_with(&self, panel: &Panel, more: &[String]) -> Result<Scene, Error> {
+        let own = panel.set.iter().map(|text| (*text).to_owned());
+        let overrides: Vec<String> = own.chain(more.iter().cloned()).collect();
         Ok(crate::techniques::load_embedded(&self.scene, &overrides)?.scene)
     }
 
-    /// Draws the sheet; `tick` is called once a panel.
+    /// A panel's scene with `scale` times the pixels a side, and a map that grows with it where the panel says so.
     ///
     /// # Errors
     ///
-    /// A scene that cannot be planned, or a driver that cannot draw it.
-    pub fn draw(&self, renderer: &mut Renderer, mut tick: impl FnMut()) -> Result<Canvas, Error> {
+    /// An override that does not fit the scene.
+    pub fn scene_at(&self, panel: &Panel, scale: u32) -> Result<Scene, Error> {
+        let scene = self.scene_of(panel)?;
+        if scale <= 1 {
+            return Ok(scene);
+        }
+        let [width, height] = scene.image.size.map(|side| side * scale);
+        let size = format!("image.size=[{width}, {height}]");
+        let map = panel.map.map(|texels| format!("light.shadow.size={}", texels * scale));
+        self.scene_with(panel, &[size].into_iter().chain(map).collect::<Vec<_>>())
+    }
+
+    /// A panel's picture without its text, with `scale` times the pixels a side.
+    ///
+    /// # Errors
+    ///
+    /// As [`Figure::draw`].
+    pub fn picture(&self, panel: &Panel, scale: u32, renderer: &mut Renderer) -> Result<Canvas, Error> {
+        let letters = Letters::load()?;
+        Ok(draw::Drawing::new(self, scale, &letters, renderer).draw(panel)?.picture)
+    }
+
+    /// Shares of the wrong pixels of a panel at scale 1, in percent.
+    ///
+    /// # Errors
+    ///
+    /// As [`Figure::draw`].
+    pub fn wrong(&self, panel: &Panel, renderer: &mut Renderer) -> Result<Share, Error> {
+        let letters = Letters::load()?;
+        draw::Drawing::new(self, 1, &letters, renderer).wrong(panel)
+    }
+
+    /// Draws the sheet with `scale` pixels for each of scale 1 a side; `tick` is called once a panel.
+    ///
+    /// # Errors
+    ///
+    /// A scene that cannot be planned, or a driver that cannot draw it; a picture that the ray tracer cannot answer.
+    pub fn draw(&self, scale: u32, renderer: &mut Renderer, mut tick: impl FnMut()) -> Result<Canvas, Error> {
+        let letters = Letters::load()?;
+        let mut drawing = draw::Drawing::new(self, scale, &letters, renderer);
         let mut pictures = Vec::new();
         for panel in self.panels {
-            pictures.push(draw(&self.scene_of(panel)?, panel, renderer)?);
+            pictures.push(drawing.draw(panel)?);
             tick();
         }
-        Ok(sheet::compose(self, &pictures))
+        sheet::compose(self, &pictures, &letters, scale).ok_or(Error::TooLarge { figure: self.name })
     }
 }
 
-fn draw(scene: &Scene, panel: &Panel, renderer: &mut Renderer) -> Result<Canvas, Error> {
-    let shade = panel.counts.map(|_| View::Shade);
-    let views = panel.view.into_iter().chain(shade).map(|view| ViewRequest { view, light: 0 }).collect();
-    let mut plan = renderer.plan(scene, &Request { views, ..Request::default() })?;
-    match panel.stage {
-        Some(PanelStage::After(pass)) => plan = plan.after_pass(pass).map_err(frame::Error::from)?,
-        Some(PanelStage::Image) => return Ok(output::to_canvas(&image_of(scene), None)),
-        None => {}
-    }
-    renderer.draw(&plan)?;
-    let mut frame = renderer.read(&plan)?;
-    if plan.ends_in_alpha() {
-        frame.picture = frame.picture.alpha_as_gray();
-    }
-    let shown = frame.views.first().unwrap_or(&frame.picture);
-    match (panel.counts, shown, frame.views.get(1)) {
-        (Some(one), Pixels::RgbaF32 { size, data }, Some(Pixels::RgbaF32 { data: shade, .. })) => {
-            Ok(output::densities(*size, &where_lit(data, shade), one))
-        }
-        _ => Ok(output::to_canvas(shown, panel.view)),
-    }
+/// Name of a panel by its place: (a), (b).
+fn letter_of(index: usize) -> String {
+    format!("({})", char::from(b'a' + (index % 26) as u8))
 }
 
-/// The image of the first light, rows from the top down; of no size if it has none.
-fn image_of(scene: &Scene) -> Pixels {
-    let image = scene.lights.first().and_then(|light| light.spot()?.image.as_deref());
-    let (size, rgba) = image.map_or(([0; 2], &[][..]), |image| ([image.width, image.height], &image.rgba));
-    let rows = rgba.chunks_exact(4 * size[0].max(1) as usize).rev();
-    Pixels::Rgba8 { size, data: rows.flatten().copied().collect() }
-}
-
-/// `view` with nothing where the light does not reach.
-fn where_lit(view: &[f32], shade: &[f32]) -> Vec<f32> {
-    let pixels = view.as_chunks::<4>().0.iter().zip(shade.as_chunks::<4>().0);
-    pixels.flat_map(|(pixel, [shade, ..])| if *shade > 0.5 { *pixel } else { [0.0; 4] }).collect()
-}
-
-/// A page that lists the figures with their captions.
+/// A page that lists the figures with their captions and panels.
 pub fn index(figures: &[&Figure]) -> String {
     let mut text =
         String::from("# Figures\n\nResults that the shadow documents (data/documents.md) show, from our own scenes.\n");
-    for Figure { name, title, source, caption, .. } in figures {
-        text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n");
+    for Figure { name, title, source, caption, panels, .. } in figures {
+        text += &format!("\n## {title}\n\n*{source}*\n\n![{title}]({name}.png)\n\n{caption}\n\n");
+        for (index, panel) in panels.iter().enumerate() {
+            let between = if panel.note.is_empty() { "" } else { ". " };
+            text += &format!("- {} {}{between}{}\n", letter_of(index), panel.title, panel.note);
+        }
     }
     text
 }

@@ -21,7 +21,7 @@ pub const BEAMS: Figure = Figure {
     columns: 3,
     panels: &[
         panel(
-            "landing light: cos^90",
+            "landing light: cos⁹⁰",
             &["light.0.cone=44", "light.0.beam={ exponent = 90 }", "light.0.color=[2, 2, 1.9]"],
             None,
         ),
@@ -41,7 +41,7 @@ pub const BEAMS: Figure = Figure {
         ),
         panel("barn doors: a shield", &["light.0.color=[0, 0, 0]", "light.4.color=[1.6, 1.55, 1.4]"], None),
         panel(
-            "the same through a lens, r (1 + 0.3 r^2)",
+            "the same through a lens, r (1 + 0.3 r²)",
             &["light.0.color=[0, 0, 0]", "light.5.color=[1.6, 1.55, 1.4]"],
             None,
         ),
@@ -90,11 +90,11 @@ pub const FALLOFF: Figure = Figure {
     columns: 3,
     panels: &[
         panel(
-            "planar: (2 / d)^2, d along the axis",
-            &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 2.0 }"],
+            "planar: (3 / d)², d along the axis",
+            &["light.falloff={ by = 'z', law = 'inverse-square', d0 = 3.0 }"],
             None,
         ),
-        panel("radial: (2 / d)^2, d to the light", &["light.attenuation=[0, 0, 0.25]"], None),
+        panel("radial: (3 / d)², d to the light", &["light.attenuation=[0, 0, 0.111111]"], None),
         panel(
             "planar, up and down: surfaces of equal light",
             &[
@@ -105,7 +105,7 @@ pub const FALLOFF: Figure = Figure {
     ],
     caption: "A texture over the depth of the light's own projection makes light fade with the distance along its axis: the wall, \
               square to it, is evenly lit (a), and surfaces of equal light are planes (c). By the true distance (b) it darkens \
-              towards its corners, by the square of the cosine of the angle from the axis: a quarter at 60 degrees.",
+              towards its corners, by the square of the cosine of the angle from the axis: a quarter at 60°.",
 };
 
 pub const SWIMMING: Figure = Figure {
@@ -141,7 +141,7 @@ pub const DUST: Figure = Figure {
         panel("32 slices", &["light.dust.slices=32"], None),
         panel("128 slices", &[], None),
         panel("without the shadow test", &["light.shadow.technique=none"], None),
-        panel("without 1 / cos of the ray's angle: too thin", &["light.dust.thickness=axis"], None),
+        panel("without 1 / cos φ: too thin", &["light.dust.thickness=axis"], None),
     ],
     caption: "Planes across the view, from back to front, each with the light's shadow: the sum is the light that dust sends \
                   to the eye. Few slices show as bands; the error falls as 1 / slices. Without the shadow test the beam goes \
@@ -160,7 +160,7 @@ pub const FOCUS: Figure = Figure {
         panel("in focus at the near board", &["light.focus.distance=1.2"], None),
         panel("in focus at the far board", &["light.focus.distance=4.8"], None),
     ],
-    caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the                   slide is a disc elsewhere, of the lens's radius times |1 - d / F| at the distance d of the board, F of the                   plane: the boards stand at half, one and two times 2.4.",
+    caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the slide is a disc elsewhere, of the lens's radius times |1 − d / F| at the distance d of the board, F of the plane: the boards stand at half, one and two times 2.4.",
 };
 
 pub const SOFT_SHADOWS: Figure = Figure {
@@ -174,10 +174,10 @@ pub const SOFT_SHADOWS: Figure = Figure {
         panel("16 points: still apart far from their casters", &["light.focus.samples=16"], None),
         panel("256 points", &[], None),
         panel(
-            "a filter of 7 x 7 texels: as soft at the foot",
+            "a filter of 7 × 7 texels: as soft at the foot",
             &["light.focus.samples=1", "light.shadow.size=256", "light.shadow.kernel=7x7"],
             None,
         ),
     ],
-    caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns                   stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
+    caption: "A lamp with an area makes a penumbra that widens with the distance from caster to floor: sharp where columns stand, soft where the beam's shadow ends. Percentage-closer filtering blurs by as many texels everywhere.",
 };

@@ -35,9 +35,8 @@ macro_rules! from_the_light {
                 "light.cone=48",
                 "light.shape=frustum",
             ],
-            view: Some(View::TexelsPerPixel),
             counts: Some("1 pixel a texel"),
-            stage: None,
+            ..panel("", &[], Some(View::TexelsPerPixel)).map(300)
         }
     };
 }
@@ -58,7 +57,7 @@ pub const FIGURES: &[Figure] = &[
         columns: 2,
         panels: &[
             panel("unshadowed", &["light.shadow.technique=none"], None),
-            panel("shadowed by a depth map of 1024 x 1024", &[], None),
+            panel("shadowed by a depth map of 1024 × 1024", &[], None),
         ],
         caption: "Without shadows nothing tells whether the objects stand on the floor or float. The shadow map changes no \
                   geometry: one more texture in the same lit pass.",
@@ -77,6 +76,8 @@ pub const FIGURES: &[Figure] = &[
         caption: "What the light sees is lit: in its own view (b) no shadow is to be seen. The depth buffer of that view is the \
                   shadow map (c). Depths are stretched, near dark and far bright.",
     },
+    super::explained::POLYGON_OFFSET,
+    super::explained::BIAS_SWEEP,
     Figure {
         name: "hsm-4-comparison",
         title: "What is compared: a point's own distance and the map's",
@@ -100,12 +101,12 @@ pub const FIGURES: &[Figure] = &[
         columns: 3,
         panels: &[
             panel(
-                "64 x 64, NEAREST: 0 or 1",
+                "64 × 64, NEAREST: 0 or 1",
                 &["light.shadow.size=64", "light.shadow.filter=nearest", CLOSE[0], CLOSE[1], CLOSE[2]],
                 None,
             ),
-            panel("64 x 64, LINEAR: four comparisons", &["light.shadow.size=64", CLOSE[0], CLOSE[1], CLOSE[2]], None),
-            panel("1024 x 1024, LINEAR", &CLOSE, None),
+            panel("64 × 64, LINEAR: four comparisons", &["light.shadow.size=64", CLOSE[0], CLOSE[1], CLOSE[2]], None),
+            panel("1024 × 1024, LINEAR", &CLOSE, None),
         ],
         caption: "A linear filter on a depth texture weighs the results of four comparisons, never depths. It softens the \
                   steps of a coarse map to a ramp of one texel; finer shapes come only from more texels.",
@@ -121,31 +122,40 @@ pub const FIGURES: &[Figure] = &[
                 "the light over the eye's shoulder",
                 &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
                 None,
-            ),
+            )
+            .map(300),
             panel(
                 "texels of the map a pixel of the eye's view",
                 &[SQUARE[0], SQUARE[1], SQUARE[2], BESIDE[0], BESIDE[1], BESIDE[2], BESIDE[3]],
                 Some(View::TexelsPerPixel),
-            ),
+            )
+            .map(300),
             from_the_light!("camera.eye=[2.9, 3.9, 6.6]", "camera.target=[0.1, 0.3, -0.1]"),
             panel(
                 "the light opposite the eye",
                 &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
                 None,
-            ),
+            )
+            .map(300),
             panel(
                 "texels of the map a pixel of the eye's view",
                 &[SQUARE[0], SQUARE[1], SQUARE[2], AGAINST[0], AGAINST[1], AGAINST[2], AGAINST[3]],
                 Some(View::TexelsPerPixel),
-            ),
+            )
+            .map(300),
             from_the_light!("camera.eye=[-0.4, 4.0, -5.0]", "camera.target=[0.9, 0.0, 1.4]"),
         ],
-        caption: "A map of 300 x 300 texels, and as many pixels. Where eye and light look the same way, texels are spent evenly \
+        caption: "A map of 300 × 300 texels, and as many pixels. Where eye and light look the same way, texels are spent evenly \
                   (b, c). Where they face each other, the floor that is nearest to the eye is farthest from the light: it has \
                   the fewest texels where the most pixels look (e, warm), and far away texels crowd that no pixel needs (e, \
                   cold). In the light's view (f) the part that needs many more texels than it has, cold there, is small; the \
                   warm rest is what the eye hardly uses. Dark: what the eye does not see.",
     },
+    super::explained::CUBE_MAP,
+    super::explained::WOO_LAYERS,
+    super::explained::SECOND_DEPTH,
+    super::explained::KERNELS,
+    super::explained::MIPMAPS,
     Figure {
         name: "lec-dimming",
         title: "Dimming: how much diffuse light a shadow leaves",
@@ -157,12 +167,12 @@ pub const FIGURES: &[Figure] = &[
             panel("dimming 40 %", &["light.shadow.dimming=0.4"], None),
             panel("dimming 100 %: highlights alone are shadowed", &["light.shadow.dimming=1.0"], None),
         ],
-        caption: "diffuseShade = dimming + (1 - dimming) shade. Forty percent keep the shape of what lies in shadow; specular \
+        caption: "diffuseShade = dimming + (1 − dimming) shade. Forty percent keep the shape of what lies in shadow; specular \
                   light is taken away whole in every case.",
     },
     Figure {
         name: "lec-back-projection",
-        title: "Back projection: q <= 0 must not be lit",
+        title: "Back projection: q ≤ 0 must not be lit",
         source: "Hardware Shadow Mapping, \"Advantages and Limitations\"; lecture, \"Careful about Back Projecting Shadow Maps\"",
         scene: LAMP,
         columns: 2,
@@ -171,10 +181,11 @@ pub const FIGURES: &[Figure] = &[
             panel("failure: no guard", &["light.shadow.guard=none"], None),
         ],
         caption: "The lamp shines at the right wall. Behind it s/q and t/q are in [0, 1] again, with q below 0: without a \
-                  guard the projected picture appears on the left wall, too, turned by 180 degrees, with a shadow of the \
+                  guard the projected picture appears on the left wall, too, turned by 180°, with a shadow of the \
                   ball that stands on the other side (b). Of six guards, which all show (a), the plan takes what the scene \
                   needs: the left wall is drawn without the lamp, the floor below it with a test per fragment.",
     },
+    super::explained::GEOMETRY,
     Figure {
         name: "segal-3-slide",
         title: "A slide projector, and its three passes",
@@ -318,7 +329,7 @@ pub const FIGURES: &[Figure] = &[
             ),
         ],
         caption: "With the eye in one shadow volume the way into it lies behind the near plane and is not counted: every count is \
-                  one too low, -1 where 0 is right and 0 where 1 is, so that light and shadow change places. Caps on the near \
+                  one too low, −1 where 0 is right and 0 where 1 is, so that light and shadow change places. Caps on the near \
                   plane count the way in; z-fail counts behind the visible surface, where the eye's place does not matter.",
     },
     Figure {

@@ -31,14 +31,25 @@ fn rows(data: &[u8]) -> Vec<(Color, String, usize)> {
     rows
 }
 
-/// The picture of a stencil buffer, `size` pixels, rows from the top; small pictures go without a legend.
-pub fn colored(size: [u32; 2], data: &[u8]) -> Canvas {
-    const SWATCH: u32 = 10;
-    const STEP: u32 = LETTER[1] + 4;
+/// The picture of a stencil buffer, `size` pixels, rows from the top, without a legend.
+pub fn plain(size: [u32; 2], data: &[u8]) -> Canvas {
     let mut canvas = Canvas::new(size, [0; 3]);
     for (index, value) in (0u32..).zip(data) {
         canvas.set([index % size[0], index / size[0]], color(*value));
     }
+    canvas
+}
+
+/// Colours and their words.
+pub fn legend(data: &[u8]) -> Vec<(Color, String)> {
+    rows(data).into_iter().map(|(color, name, _)| (color, name)).collect()
+}
+
+/// The same with a legend, which counts pixels; small pictures go without.
+pub fn colored(size: [u32; 2], data: &[u8]) -> Canvas {
+    const SWATCH: u32 = 10;
+    const STEP: u32 = LETTER[1] + 4;
+    let mut canvas = plain(size, data);
     let rows = rows(data);
     let lines: Vec<String> = rows.iter().map(|(_, name, pixels)| format!("{name}: {pixels} px")).collect();
     let longest = lines.iter().map(|line| line.len() as u32).max().unwrap_or(0);

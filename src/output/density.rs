@@ -18,26 +18,37 @@ fn color(texels: f32) -> Color {
     std::array::from_fn(|k| (f32::from(a[k]) + part * (f32::from(b[k]) - f32::from(a[k]))).round() as u8)
 }
 
-/// The picture of such a view, `size` pixels, rows from the top; `one` is what the legend calls a density of 1. Small pictures
-/// go without a legend.
-pub fn colored(size: [u32; 2], data: &[f32], one: &str) -> Canvas {
-    const SWATCH: u32 = 10;
-    const STEP: u32 = LETTER[1] + 4;
+/// The picture of such a view, `size` pixels, rows from the top, without a legend.
+pub fn plain(size: [u32; 2], data: &[f32]) -> Canvas {
     let mut canvas = Canvas::new(size, OUTSIDE);
     for (index, pixel) in (0u32..).zip(data.chunks_exact(4)).filter(|(_, pixel)| pixel[3] > 0.0) {
         canvas.set([index % size[0], index / size[0]], color(pixel[0]));
     }
+    canvas
+}
+
+/// Colours and their words; `one` is what a density of 1 is called.
+pub fn legend(one: &str) -> [(Color, &str); 7] {
     let names = ["1/8 and less", "1/4", "1/2", one, "2", "4", "8 and more"];
-    let longest = names.iter().map(|name| name.len() as u32).max().unwrap_or(0);
+    std::array::from_fn(|row| (SCALE[row], names[row]))
+}
+
+/// The same with a legend; `one` is what the legend calls a density of 1. Small pictures go without.
+pub fn colored(size: [u32; 2], data: &[f32], one: &str) -> Canvas {
+    const SWATCH: u32 = 10;
+    const STEP: u32 = LETTER[1] + 4;
+    let mut canvas = plain(size, data);
+    let names = legend(one);
+    let longest = names.iter().map(|(_, name)| name.len() as u32).max().unwrap_or(0);
     let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * names.len() as u32 + 8);
     if width + 8 > size[0] || height + 8 > size[1] {
         return canvas;
     }
     let [left, top] = emptiest_corner(size, data, [width, height]);
     canvas.fill([left, top], [width, height], [24, 26, 30]);
-    for (row, (swatch, name)) in (0u32..).zip(SCALE.iter().zip(names)) {
+    for (row, (swatch, name)) in (0u32..).zip(names) {
         let top = top + 6 + STEP * row;
-        canvas.fill([left + 6, top], [SWATCH, SWATCH], *swatch);
+        canvas.fill([left + 6, top], [SWATCH, SWATCH], swatch);
         canvas.write([left + 6 + SWATCH + 6, top], name, [230, 230, 230]);
     }
     canvas

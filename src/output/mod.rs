@@ -191,10 +191,28 @@ pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
     canvas::Canvas::of_bytes(pixels.size(), rgb)
 }
 
-/// Densities in the first of four channels, where the fourth is not 0, as [`to_canvas`] colours texels per pixel; `one` is what
-/// the legend calls a density of 1.
-pub fn densities(size: [u32; 2], data: &[f32], one: &str) -> canvas::Canvas {
-    density::colored(size, data, one)
+/// A picture without its legend, and the legend.
+#[derive(Clone, Debug)]
+pub struct Keyed {
+    /// The picture.
+    pub canvas: canvas::Canvas,
+    /// Colours and their words; empty: colours mean nothing special.
+    pub legend: Vec<(canvas::Color, String)>,
+}
+
+/// The picture as [`to_canvas`] has it, with its legend apart. `one` is what a density of 1 is called; `None`: a texel a pixel.
+pub fn to_keyed(pixels: &Pixels, view: Option<View>, one: Option<&str>) -> Keyed {
+    match (pixels, view) {
+        (Pixels::RgbaF32 { size, data }, Some(View::TexelsPerPixel)) => {
+            let legend = density::legend(one.unwrap_or(density::ONE));
+            let legend = legend.into_iter().map(|(color, name)| (color, name.to_owned())).collect();
+            Keyed { canvas: density::plain(*size, data), legend }
+        }
+        (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
+            Keyed { canvas: counts::plain(*size, data), legend: counts::legend(data) }
+        }
+        _ => Keyed { canvas: to_canvas(pixels, view), legend: Vec::new() },
+    }
 }
 
 /// Writes canvases as PNG, and texts; all of them, or none.

@@ -28,6 +28,7 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
         std::fs::write(folder.join("meshes").join(name), text)?;
     }
     facade::bricks().save(folder.join("textures/bricks.png"))?;
+    textures::checker().save(folder.join("textures/checker.png"))?;
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
     slide::slide().save(folder.join("textures/slide.png"))?;

@@ -7,6 +7,7 @@ use super::noise::{hash, tiled_noise};
 
 const FLOOR_SIZE: u32 = 512;
 const SPOT_SIZE: u32 = 256;
+const CHECKER_SIZE: u32 = 512;
 const SHIELD_SIZE: u32 = 128;
 
 /// Four large tiles, each framed by strips of dark stone, with a star of two marbles in it; tiles without a seam.
@@ -27,6 +28,20 @@ pub fn barn_doors() -> RgbImage {
 /// The lens of a low beam: dark above a cut-off that rises to the right, brightest just below it.
 pub fn head_light() -> RgbImage {
     draw([SHIELD_SIZE; 2], head_light_color)
+}
+
+/// A board of 32 by 32 squares; those at the border are red where the others are blue.
+pub fn checker() -> RgbImage {
+    draw([CHECKER_SIZE; 2], checker_color)
+}
+
+fn checker_color(place: DVec2) -> DVec3 {
+    let [column, row] = [32.0 * place.x, 32.0 * place.y].map(|at| at.floor() as u32);
+    match (column + row).is_multiple_of(2) {
+        true => DVec3::new(0.94, 0.91, 0.83),
+        false if [column, row].iter().any(|at| [0, 31].contains(at)) => DVec3::new(0.62, 0.26, 0.18),
+        false => DVec3::new(0.16, 0.26, 0.38),
+    }
 }
 
 /// `color` at each texel, the mean of 4×4 samples; places in [0, 1).

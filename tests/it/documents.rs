@@ -171,8 +171,8 @@ fn names(cell: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn what_the_bibliography_names_exists() {
     let page = bibliography();
-    let table =
-        ["table.rs", "projected.rs"].map(|file| fs::read_to_string(root().join("src/figures").join(file)).unwrap());
+    let table = ["table.rs", "projected.rs", "explained.rs"]
+        .map(|file| fs::read_to_string(root().join("src/figures").join(file)).unwrap());
     let table = table.concat();
     let figures: Vec<&str> =
         table.lines().filter_map(|line| line.trim().strip_prefix("name: \"")?.strip_suffix("\",")).collect();

@@ -76,6 +76,8 @@ fn generated_files_are_what_the_generator_makes() {
         let [committed, made] = both(&name).map(|path| geometry::load_texture(&path).unwrap().rgba);
         assert!(committed == made, "data/{name} is not what generate_data makes");
     }
+    let [committed, made] = both("textures/checker.png").map(|path| geometry::load_texture(&path).unwrap().rgba);
+    assert!(committed == made, "data/textures/checker.png is not what generate_data makes");
 }
 
 #[test]

@@ -55,6 +55,7 @@ mod scenes;
 mod setup;
 mod shaders;
 mod shadow_settings;
+mod sheets;
 mod slides;
 mod stencil;
 mod stress;

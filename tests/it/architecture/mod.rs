@@ -14,8 +14,8 @@ use code::{Arrow, Code, File, Module};
 const ARROWS: &[(&str, &[&str])] = &[
     ("cli", &["viewer", "figures", "stress", "report", "fixed_function", "conformance"]),
     ("viewer", &["frame", "output"]),
-    ("figures", &["frame", "output"]),
-    // The measures and the plots of stress are a report's.
+    // The measures and the plots of both are a report's.
+    ("figures", &["report"]),
     ("stress", &["report"]),
     ("report", &["frame", "truth", "output"]),
     // A view decides the channels of its file.
