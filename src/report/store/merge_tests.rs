@@ -176,3 +176,14 @@ fn a_report_that_calls_itself_complete_is_counted() {
     std::fs::write(&path, serde_json::to_vec(&report).unwrap()).unwrap();
     assert!(!load(&path).unwrap().complete);
 }
+
+/// The first part alone has sweeps; the whole has them whatever the order of the parts.
+#[test]
+fn sweeps_of_one_part_are_those_of_the_whole() {
+    let mut whole = samples::report();
+    whole.scenes = vec![samples::projected_scene("scenes/main.toml", "f1")];
+    let mut parts = shards(&whole, 3);
+    parts[1..].iter_mut().for_each(|(_, part)| part.scenes[0].sweeps.clear());
+    parts.reverse();
+    assert_eq!(merge(parts).unwrap(), whole);
+}

@@ -2,7 +2,7 @@
 
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
-use super::{ScenePictures, claims};
+use super::{ScenePictures, claims, sweeps};
 use crate::report::measure::difference::LEGEND;
 use crate::report::measure::metrics::Band;
 use crate::report::measure::picks::{Goals, Picks, RowTimes, pareto, titles, unjudged};
@@ -38,11 +38,14 @@ pub(super) fn section(
             &format!("<p class=\"note\">{} of {} rows of the grid are here.</p>\n", scene.rows.len(), scene.grid_rows);
     }
     text += &answers(scene, number, goals);
-    text += "<h3>Error against time</h3>\n";
-    let links = Links { page: "", scene: number };
-    text += &plot(plots::error_against_time(scene, machine, links), "There is no row to plot.");
-    text += &plot(plots::error_against_map_size(scene, machine, links), "");
+    if scene.unshaded.is_none() {
+        text += "<h3>Error against time</h3>\n";
+        let links = Links { page: "", scene: number };
+        text += &plot(plots::error_against_time(scene, machine, links), "There is no row to plot.");
+        text += &plot(plots::error_against_map_size(scene, machine, links), "");
+    }
     text += &figures(scene, pictures);
+    text += &sweeps::section(scene, machine, pictures);
     text += &claims::section(scene);
     text += &saved_text(scene);
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
@@ -107,7 +110,11 @@ fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
         format!("<li><span class=\"color\" style=\"background:#{r:02x}{g:02x}{b:02x}\"></span>{}</li>", escape(name))
     };
     let legend: String = LEGEND.iter().map(item).collect();
-    format!("<div class=\"figures\">\n{figures}</div>\n<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n")
+    let legend = match pictures.truth.is_some() || !pictures.differences.is_empty() {
+        true => format!("<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n"),
+        false => String::new(),
+    };
+    format!("<div class=\"figures\">\n{figures}</div>\n{legend}")
 }
 
 /// Description of a difference picture.
@@ -125,7 +132,7 @@ fn difference_alt(scene: &SceneReport, index: usize) -> String {
     }
 }
 
-fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
+pub(super) fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
     match svg {
         Ok(Some(svg)) => format!("<div class=\"plot\">{}</div>\n", svg.trim()),
         Ok(None) if none.is_empty() => String::new(),
@@ -136,7 +143,8 @@ fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
 
 /// A row's band may be of its own map's size.
 fn band_text(scene: &SceneReport) -> String {
-    let bands = || scene.rows.iter().filter_map(Row::measured).map(|measured| measured.metrics.band);
+    let judged = || scene.rows.iter().filter_map(Row::measured).filter(|measured| measured.metrics.all.compared > 0);
+    let bands = || judged().map(|measured| measured.metrics.band);
     let by_area = |band: &Band| u64::from(band.map_size[0]) * u64::from(band.map_size[1]);
     let Some((least, greatest)) = bands().min_by_key(by_area).zip(bands().max_by_key(by_area)) else {
         return String::new();
