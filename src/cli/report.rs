@@ -359,7 +359,7 @@ fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &MeasureOption
         let (light, band) = (options.light, options.band_texels);
         let is_shaded = scene.unshaded.is_none() && !light_claims::has_lens(&sweep.scene, light);
         if is_shaded {
-            scene.claims = claims::measure(&sweep.scene, light, &sweep.truth, band, &mut renderer)?;
+            scene.claims = claims::measure(&run::in_clear_air(&sweep.scene), light, &sweep.truth, band, &mut renderer)?;
         }
         scene.claims.extend(light_claims::measure(&sweep.scene, light, &scene.sweeps, &mut renderer)?);
     }

@@ -157,9 +157,11 @@ fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layou
             (Grid::Own(_), _) => {}
         }
     }
+    // Dust is drawn with objects only, and does not go with every technique.
+    let planned = if source.dust.is_some() { scene } else { &bare };
     for setting in grid.settings(&source.kind)? {
         let settings = vary::over(source.shadow.written(), &setting);
-        match check_settings(&bare, light, &settings) {
+        match check_settings([&bare, planned], light, &settings) {
             Ok(shadow) => {
                 let row = row_of(layout.rows.len(), &settings, &shadow);
                 let shadow = techniques::read(settings, &source.kind, &scene.objects);
@@ -201,13 +203,14 @@ fn row_of(index: usize, settings: &Settings, shadow: &Shadow) -> Row {
     Row { index, technique, settings: settings_text, map_size, outcome: Outcome::Failed(String::new()) }
 }
 
-/// Reads `settings` for a scene without objects, and plans it: so every error of the settings alone is found here.
-fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<Shadow, String> {
+/// Reads `settings` for a scene without objects, and plans them in another: so every error of the settings alone is found
+/// here.
+fn check_settings([bare, planned]: [&Scene; 2], light: usize, settings: &Settings) -> Result<Shadow, String> {
     let shadow = techniques::read(settings.clone(), &bare.lights[light].kind, &bare.objects);
     let shadow = shadow.map_err(|error| error.to_string())?;
     let views = vec![ViewRequest { view: View::Shade, light }];
     let request = Request { views, sampled_warnings: false, ..Request::default() };
-    plan::make(&with_shadow(bare, light, &shadow), &request).map_err(|error| error.to_string())?;
+    plan::make(&with_shadow(planned, light, &shadow), &request).map_err(|error| error.to_string())?;
     Ok(shadow)
 }
 
@@ -343,8 +346,15 @@ impl Sweep {
 
 /// Draws the shade and compares it with the truth. A frame is not timed before that.
 fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
-    let shade = draw_shade(scene, light, renderer).map_err(|error| error.to_string())?;
+    let shade = draw_shade(&in_clear_air(scene), light, renderer).map_err(|error| error.to_string())?;
     metrics::compare(truth, &shade, band).map_err(|error| error.to_string())
+}
+
+/// The scene without dust, which no shade shows.
+pub fn in_clear_air(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.lights.iter_mut().for_each(|light| light.dust = None);
+    scene
 }
 
 /// Describes the machine that is measured on.

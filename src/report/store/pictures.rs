@@ -9,7 +9,7 @@ use crate::report::measure::colors::{draw_colors, errors_of, known_or_drawn};
 use crate::report::measure::difference::{self, difference_picture, truth_picture};
 use crate::report::measure::metrics;
 use crate::report::measure::picks::{Goals, Pick, Picks};
-use crate::report::measure::run::Sweep;
+use crate::report::measure::run::{Sweep, in_clear_air};
 use crate::report::measure::sweeps::MeasuredSweep;
 use crate::report::show::html::{DifferencePicture, ScenePictures};
 
@@ -46,7 +46,7 @@ pub fn of(
     let mut differences = Vec::new();
     for (row, caption) in rows_that_matter(report, goals) {
         let Some(scene) = sweep.scene_of(row.index) else { continue };
-        let shade = draw_shade(&scene, report.light, renderer)?;
+        let shade = draw_shade(&in_clear_air(&scene), report.light, renderer)?;
         let png = difference::to_png(&difference_picture(&sweep.truth, &shade)?)?;
         differences.push(DifferencePicture { row: row.index, caption, png });
     }
