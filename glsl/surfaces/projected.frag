@@ -9,6 +9,27 @@ uniform sampler2D beam_map_@;
 // A law of the distance along the light's axis, and how a coordinate of it is made: scale, then offset.
 uniform sampler1D falloff_@;
 uniform vec2 falloff_place_@;
+#ifdef FALLOFF_ENTRIES_@
+
+// The law's own table: all distances, then their factors.
+float falloff_of_@(float depth)
+{
+    int count = textureSize(falloff_@, 0) / 2;
+    int low = 0;
+    int high = count - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (texelFetch(falloff_@, middle, 0).r <= depth)
+            low = middle;
+        else
+            high = middle;
+    }
+    float from = texelFetch(falloff_@, low, 0).r;
+    float range = texelFetch(falloff_@, high, 0).r - from;
+    float part = range > 0.0 ? clamp((depth - from) / range, 0.0, 1.0) : 0.0;
+    return mix(texelFetch(falloff_@, count + low, 0).r, texelFetch(falloff_@, count + high, 0).r, part);
+}
+#endif
 #endif
 #ifdef IMAGE_GRADIENT_@
 vec2 image_st_@, image_dx_@, image_dy_@;
@@ -43,12 +64,18 @@ vec3 projected_@()
 #ifdef FALLOFF_@
     // q is the distance along the light's axis. Depth in the light's window space, r/q, is linear in 1/q
     // [Segal 1992, 3.2]; made of q it is free of a map's bias and crop.
+#ifdef FALLOFF_ENTRIES_@
+    beam *= falloff_of_@(clamp(light_coord_@.w, falloff_place_@.x, falloff_place_@.y));
+#else
 #ifdef FALLOFF_DEPTH_@
     float falloff_at = falloff_place_@.x / light_coord_@.w + falloff_place_@.y;
+#elif defined(FALLOFF_LOGARITHM_@)
+    float falloff_at = falloff_place_@.x * log2(light_coord_@.w) + falloff_place_@.y;
 #else
     float falloff_at = falloff_place_@.x * light_coord_@.w + falloff_place_@.y;
 #endif
     beam *= min(textureLod(falloff_@, falloff_at, 0.0).r, 1.0);
+#endif
 #endif
     return beam;
 }

@@ -12,6 +12,7 @@ mod report;
 pub mod sample;
 mod scene_args;
 mod stress;
+mod truth_views;
 mod tune;
 
 use std::process::ExitCode;
@@ -61,6 +62,10 @@ pub enum Error {
     Plan(#[from] crate::plan::Error),
     #[error(transparent)]
     Frame(#[from] crate::frame::Error),
+    #[error(transparent)]
+    Truth(#[from] crate::truth::Error),
+    #[error(transparent)]
+    Difference(#[from] crate::report::measure::metrics::Error),
     #[error(transparent)]
     Viewer(#[from] crate::viewer::Error),
     #[error(transparent)]

@@ -15,7 +15,7 @@ pub struct PlanArgs {
     scene: SceneArgs,
 
     /// Also plans this view, as `glumbra render --aov` would draw it
-    #[arg(long, value_name = "NAME", value_parser = parse_view)]
+    #[arg(long, value_name = "NAME", value_parser = |text: &str| parse_view(text, &[]))]
     aov: Vec<ViewRequest>,
 
     /// Plans for this many frames

@@ -9,11 +9,13 @@ use serde::Serialize;
 
 use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
-use super::scene_args::{SceneArgs, parse_view};
+use super::scene_args::SceneArgs;
+use super::truth_views::{Aov, parse_aov};
 use super::{ContextArgs, Error};
-use crate::frame::{Renderer, Times};
+use crate::device::Pixels;
+use crate::frame::{Frame, Renderer, Times};
 use crate::output::{self, Output};
-use crate::plan::{Request, Summary, ViewRequest};
+use crate::plan::{Request, Summary};
 use crate::scene::Scene;
 
 /// Renders a scene or a model to a picture.
@@ -28,8 +30,8 @@ pub struct RenderArgs {
     output: Option<PathBuf>,
 
     /// Also writes this view beside the picture (out.png: out.NAME.png); NAME@LIGHT for another light than the first
-    #[arg(long, value_name = "NAME", value_parser = parse_view)]
-    aov: Vec<ViewRequest>,
+    #[arg(long, value_name = "NAME", value_parser = parse_aov)]
+    aov: Vec<Aov>,
 
     /// Prints passes, times, bytes and what was left out as JSON
     #[arg(long)]
@@ -65,6 +67,8 @@ Views for --aov:
   stencil-colors  the same for the eye: green lit, red shadowed, with a legend
   volume          the shadow volumes over the scene: outsides orange, insides blue
   silhouette      the casters' possible silhouettes, as the light sees them
+  truth           the ray tracer's own picture: lit and shadowed, or colours where the light is projected
+  difference      the picture against the truth; colours 16 times as far apart as they are, gray where truth is not certain
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
 
 Examples:
@@ -115,14 +119,14 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let path = arguments.output.clone().unwrap_or_else(|| default_output(&arguments.scene.scene));
     let format = output::check_path(&path)?;
     let views = each_once(&arguments.aov);
-    let names = views.iter().map(|wanted| output::beside(&path, &view_name(wanted)));
+    let names = views.iter().map(|wanted| output::beside(&path, &wanted.file_name()));
     let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
     let start = Instant::now();
     let loaded = arguments.scene.load()?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
     refuse_to_overwrite(&files, &arguments.scene.scene, &loaded.scene)?;
     let request = Request {
-        views: views.clone(),
+        views: views.iter().filter_map(|wanted| wanted.drawn(&loaded.scene)).collect(),
         float_picture: format.is_exact(),
         frames: arguments.frames,
         ..Request::default()
@@ -146,7 +150,12 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     if plan.ends_in_alpha() {
         frame.picture = frame.picture.alpha_as_gray();
     }
-    let views = views.iter().zip(&frame.views).map(|(wanted, pixels)| (pixels, Some(wanted.view)));
+    let traced = trace(&views, &loaded.scene, &frame, format.is_exact())?;
+    let mut drawn = frame.views.iter();
+    let views = views.iter().zip(&traced).filter_map(|(wanted, traced)| {
+        let view = wanted.drawn(&loaded.scene).and_then(|wanted| Some((drawn.next()?, Some(wanted.view))));
+        traced.as_ref().map(|pixels| (pixels, None)).or(view)
+    });
     let pictures = [(&frame.picture, None)].into_iter().chain(views);
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
@@ -168,12 +177,22 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     Ok(())
 }
 
+/// Pictures of the views that the ray tracer makes; `None`: of those that were drawn.
+fn trace(views: &[Aov], scene: &Scene, frame: &Frame, is_exact: bool) -> Result<Vec<Option<Pixels>>, Error> {
+    let mut drawn = frame.views.iter();
+    let picture = |wanted: &Aov| {
+        let drawn = wanted.drawn(scene).and_then(|_| drawn.next());
+        wanted.picture(scene, frame, drawn, is_exact)
+    };
+    views.iter().map(picture).collect()
+}
+
 /// Views in the order of the arguments. A repeated one is one file.
-fn each_once(wanted: &[ViewRequest]) -> Vec<ViewRequest> {
-    let mut views: Vec<ViewRequest> = Vec::new();
+fn each_once(wanted: &[Aov]) -> Vec<Aov> {
+    let mut views: Vec<Aov> = Vec::new();
     for view in wanted {
         if views.contains(view) {
-            let name = output::beside(Path::new("PICTURE"), &view_name(view));
+            let name = output::beside(Path::new("PICTURE"), &view.file_name());
             super::say(format_args!("warning: --aov names {} twice; it is written once", name.display()));
         } else {
             views.push(*view);
@@ -197,11 +216,6 @@ fn refuse_to_overwrite(files: &[PathBuf], path: &Path, scene: &Scene) -> Result<
 
 fn default_output(scene: &Path) -> PathBuf {
     Path::new(scene.file_stem().unwrap_or(scene.as_os_str())).with_extension("png")
-}
-
-fn view_name(wanted: &ViewRequest) -> String {
-    let name = wanted.view.name();
-    if wanted.light == 0 { name.to_owned() } else { format!("{name}.{}", wanted.light) }
 }
 
 /// A bar on a terminal when there is time to look at it.

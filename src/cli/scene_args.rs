@@ -68,14 +68,14 @@ pub fn parse_size(text: &str) -> Result<[u32; 2], String> {
     Ok([side(width)?, side(height)?])
 }
 
-/// Reads `NAME` or `NAME@LIGHT`.
-pub fn parse_view(text: &str) -> Result<ViewRequest, String> {
+/// Reads `NAME` or `NAME@LIGHT` of a view that is drawn; `others`: names that may stand in its place.
+pub fn parse_view(text: &str, others: &[&'static str]) -> Result<ViewRequest, String> {
     let (name, light) = match text.split_once('@') {
         Some((name, light)) => (name, light.parse().map_err(|_| format!("'{light}' is no number of a light"))?),
         None => (text, 0),
     };
     match VIEWS.iter().find(|row| row.0 == name) {
         Some(row) => Ok(ViewRequest { view: row.1, light }),
-        None => Err(scene::suggest(name, VIEWS.iter().map(|row| row.0))),
+        None => Err(scene::suggest(name, VIEWS.iter().map(|row| row.0).chain(others.iter().copied()))),
     }
 }

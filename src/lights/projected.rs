@@ -41,13 +41,18 @@ fn note_beam(index: usize, beam: &LightBeam, cone_degrees: f64, notes: &mut Note
 
 fn note_falloff(index: usize, falloff: &Falloff, [near, far]: [f64; 2], notes: &mut Notes) {
     let table = &falloff.table;
-    let steps = match table.steps {
-        TableSteps::Depth => "even in window depth",
-        TableSteps::Distance => "even in distance",
-    };
     let (count, error) = (table.values.len(), table.error_codes);
-    let why = format!("off by at most {error:.2} codes between them");
-    notes.chosen(format!("falloff of light {index}"), format!("{count} steps {steps}"), why);
+    let choice = match table.steps {
+        TableSteps::Depth => format!("{count} steps even in window depth"),
+        TableSteps::Distance => format!("{count} steps even in distance"),
+        TableSteps::Logarithm => format!("{count} steps even in the logarithm of distance"),
+        TableSteps::Entries => format!("its own {} entries, searched for each fragment", count / 2),
+    };
+    let why = match table.steps {
+        TableSteps::Entries => String::from("it bends too sharply for even steps"),
+        _ => format!("off by at most {error:.2} codes between them"),
+    };
+    notes.chosen(format!("falloff of light {index}"), choice, why);
     if error >= FINE {
         notes.warnings.push(format!(
             "light {index}: its falloff is off by up to {error:.1} codes of 255 between {count} steps from near = {near:e} to \

@@ -82,7 +82,7 @@ pub enum FalloffLaw {
 /// near plane, the last at the far plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceTable {
-    /// At least two; values above 1 count as 1.
+    /// Factors, at least two; those above 1 count as 1. With [`TableSteps::Entries`] the distances come first.
     pub values: Arc<[f32]>,
     /// Quantity that the steps are even in.
     pub steps: TableSteps,
@@ -97,4 +97,8 @@ pub enum TableSteps {
     Depth,
     /// Distance along the light's axis.
     Distance,
+    /// Logarithm of that distance.
+    Logarithm,
+    /// No even steps: the distances of the law's own table, in front of their factors. What lies between is exact.
+    Entries,
 }

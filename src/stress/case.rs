@@ -24,6 +24,10 @@ pub struct Case {
     pub made: Vec<(String, Vec<u8>)>,
     /// Insides of `[light.shadow]` to draw; empty: every technique's rows.
     pub rows: Vec<String>,
+    /// True if each light's shade is judged, by the rows.
+    pub shades: bool,
+    /// True if the picture's colours are judged.
+    pub colors: bool,
     /// The stiff parameter that the case varies, and its value.
     pub sweep: Option<(String, f64)>,
     /// True if the scene cannot be drawn, and must be refused.

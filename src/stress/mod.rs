@@ -5,9 +5,11 @@
 //! derives the bound between right and wrong.
 
 mod case;
+mod colors;
 mod judge;
 pub mod named;
 mod page;
+mod pictures;
 mod plot;
 pub mod projected;
 pub mod random;
@@ -19,6 +21,7 @@ mod table;
 mod write;
 
 pub use case::Case;
+pub use colors::{rows as color_rows, rows_of as color_rows_of};
 pub use judge::{Judge, Judged, MOST_WRONG};
 pub use reduce::reduce;
 pub use results::{CaseResult, CaseRow, Verdict, tally};

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::case::{Case, FILES, files_named_in};
+use super::pictures::noise;
 
 const CASES: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/stress/cases.toml"));
 
@@ -14,7 +15,7 @@ macro_rules! scenes {
     };
 }
 
-scenes!("spot", "point", "sun", "room");
+scenes!("spot", "point", "sun", "room", "slide", "slide-dark", "alpha", "beam", "lens", "dust");
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +35,11 @@ struct Entry {
     #[serde(default)]
     files: Vec<Made>,
     #[serde(default)]
+    pictures: Vec<Noise>,
+    #[serde(default)]
     rows: Vec<String>,
+    #[serde(default)]
+    judged: Judgement,
     #[serde(default)]
     refused: bool,
 }
@@ -44,6 +49,25 @@ struct Entry {
 struct Sweep {
     parameter: String,
     values: Vec<f64>,
+}
+
+/// What of a case is judged.
+#[derive(Clone, Copy, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Judgement {
+    /// Each light's shade, by every technique.
+    #[default]
+    Shades,
+    /// The picture's colours.
+    Colors,
+}
+
+/// A picture of noise.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Noise {
+    name: String,
+    size: [u32; 2],
 }
 
 /// A mesh file whose coordinates are another's, scaled and then moved along all axes alike.
@@ -94,7 +118,8 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
     let (_, toml) = scene.ok_or_else(|| format!("no scene \"{}\"", entry.scene))?;
     let set = fill_all(&entry.set)?;
     let named = files_named_in(&format!("{toml}\n{}", set.join("\n")));
-    let made = entry.files.iter().map(|made| make(made, value)).collect::<Result<_, _>>()?;
+    let mut made = entry.files.iter().map(|made| make(made, value)).collect::<Result<Vec<_>, _>>()?;
+    made.extend(entry.pictures.iter().map(|picture| (picture.name.clone(), noise(picture.size, 1))));
     Ok(Case {
         name: sweep.map_or_else(|| entry.name.clone(), |(_, value)| format!("{}-{value:e}", entry.name)),
         is_random: false,
@@ -104,6 +129,8 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
         files: named,
         made,
         rows: fill_all(&entry.rows)?,
+        shades: entry.judged == Judgement::Shades,
+        colors: entry.judged == Judgement::Colors,
         sweep: sweep.map(|(parameter, value)| (parameter.clone(), value)),
         refused: entry.refused,
     })
@@ -114,6 +141,13 @@ fn fill(text: &str, value: f64) -> Result<String, String> {
     let mut out = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {
+        // A brace of an inline table that holds a formula.
+        if after.find('{').is_some_and(|inner| after.find('}').is_none_or(|end| inner < end)) {
+            out.push_str(before);
+            out.push('{');
+            rest = after;
+            continue;
+        }
         let Some((inside, after)) = after.split_once('}') else { return Err(format!("no }} in \"{text}\"")) };
         out.push_str(before);
         match formula(inside, value) {
@@ -171,6 +205,7 @@ mod tests {
         assert_eq!(fill("a=[{2*x}, {1/x}, {3+x}, {1-x}]", 4.0).unwrap(), "a=[8.0, 0.25, 7.0, -3.0]");
         assert_eq!(fill("size={x}, r={ axis = [1, 0, 0] }", 64.0).unwrap(), "size=64, r={ axis = [1, 0, 0] }");
         assert_eq!(fill("a=[{-0.5*x}]", 3.0).unwrap(), "a=[-1.5]");
+        assert_eq!(fill("a={ b = [{2*x}, 1], c = {x} }", 2.0).unwrap(), "a={ b = [4.0, 1], c = 2 }");
         assert!(fill("a={2*x", 1.0).is_err());
     }
 

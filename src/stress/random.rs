@@ -23,6 +23,8 @@ pub fn case(seed: u64, index: u64) -> Case {
         set: Vec::new(),
         made: Vec::new(),
         rows: Vec::new(),
+        shades: true,
+        colors: false,
         sweep: None,
         refused: false,
     }

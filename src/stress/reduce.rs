@@ -1,7 +1,9 @@
 //! A failing scene made small: what can be taken away or rounded while the picture stays silently wrong is.
 
 use super::case::{Case, files_named_in};
+use super::colors;
 use super::results::Verdict;
+use super::rows::row_of;
 use super::run::{StressOptions, draw_case};
 use crate::frame::Renderer;
 use crate::scene::{self, Entry, Settings, Value};
@@ -12,15 +14,37 @@ const MOST_TRIES: usize = 400;
 /// No side of a picture is made shorter, in pixels.
 const SHORTEST_SIDE: i64 = 16;
 
-/// Keys of objects and of the camera that a scene can do without.
-const SPARE_KEYS: [&str; 8] = ["rotate", "wave", "material", "casts_shadow", "name", "fov_y", "shape", "up"];
+/// Keys of objects, lights and the camera that a scene can do without.
+const SPARE_KEYS: [&str; 20] = [
+    "rotate",
+    "wave",
+    "material",
+    "casts_shadow",
+    "name",
+    "fov_y",
+    "filter",
+    "image",
+    "beam",
+    "falloff",
+    "aspect",
+    "shape",
+    "up",
+    "focus",
+    "dust",
+    "interpolate",
+    "background",
+    "ambient",
+    "color",
+    "shadow",
+];
 
 /// The smallest scene found on which `inside`, the inside of `[light.shadow]`, is silently wrong, with that setting in it.
 /// `None` where the case as it is does not fail.
 pub fn reduce(case: &Case, inside: &str, options: &StressOptions, renderer: &mut Renderer) -> Option<Case> {
     let folder = tempfile::tempdir().ok()?;
     let mut best = case.settings(folder.path()).ok()?;
-    let mut search = Search { case, inside, options, renderer, tries: 0 };
+    let by_color = colors::NAMES.contains(&row_of(inside).technique.as_str());
+    let mut search = Search { case, inside, by_color, options, renderer, tries: 0 };
     if !search.fails(&best) {
         return None;
     }
@@ -35,12 +59,14 @@ pub fn reduce(case: &Case, inside: &str, options: &StressOptions, renderer: &mut
             break;
         }
     }
-    Some(search.case_of(&with_shadow(best, inside)))
+    Some(search.case_of(&if by_color { best } else { with_shadow(best, inside) }))
 }
 
 struct Search<'a> {
     case: &'a Case,
     inside: &'a str,
+    /// True if the row is of the picture's colours, and no technique's.
+    by_color: bool,
     options: &'a StressOptions,
     renderer: &'a mut Renderer,
     tries: usize,
@@ -54,7 +80,9 @@ impl Search<'_> {
             toml,
             set: Vec::new(),
             name: format!("reduced-{}", self.case.name),
-            rows: vec![self.inside.to_owned()],
+            rows: if self.by_color { Vec::new() } else { vec![self.inside.to_owned()] },
+            shades: !self.by_color,
+            colors: self.by_color,
             refused: false,
             ..self.case.clone()
         }

@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::case::Case;
+use super::colors;
 use super::judge::{Judge, Judged};
-use super::projected::color_row;
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
 use super::rows::{RowSettings, row_of, rows};
 use crate::context::{self, ContextRequest};
@@ -79,7 +79,7 @@ fn draw_rows(
     let loaded = case.load(folder)?;
     let scene = loaded.scene;
     let mut shares = Vec::new();
-    for (light, source) in scene.lights.iter().enumerate() {
+    for (light, source) in scene.lights.iter().enumerate().filter(|_| case.shades) {
         let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;
         shares.push(decided(&judge.truth));
         // All settings of one light; of the others each technique's own.
@@ -97,10 +97,16 @@ fn draw_rows(
             result.rows.push(judged.row);
         }
     }
-    if options.technique.is_none() && case.name.starts_with("projected") {
-        let mut row = color_row(&scene, renderer);
-        row.add_warnings(&loaded.warnings);
-        result.rows.push(row);
+    if options.technique.is_none() && case.colors {
+        let (rows, known) = colors::rows(&scene, renderer);
+        shares.push(known);
+        for mut row in rows {
+            // Without lights there is a warning, and ambient light alone is what is meant here.
+            if !scene.lights.is_empty() {
+                row.add_warnings(&loaded.warnings);
+            }
+            result.rows.push(row);
+        }
     }
     result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     Ok(())

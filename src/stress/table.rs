@@ -2,6 +2,7 @@
 
 use comfy_table::{Cell, ContentArrangement, Table, presets};
 
+use super::colors;
 use super::results::{CaseResult, CaseRow, Verdict, random_defaults, tally};
 use crate::techniques::TABLE;
 
@@ -28,11 +29,11 @@ pub fn to_text(results: &[CaseResult], width: u16) -> String {
     text
 }
 
-/// Names of the techniques that have rows, in the order of the technique table.
+/// Names of the techniques that have rows, in the order of the technique table; then of what is judged by colours.
 pub fn techniques_of(results: &[CaseResult]) -> Vec<&'static str> {
     let has_rows =
         |name: &&str| results.iter().flat_map(|result| &result.rows).any(|row| row.settings.technique == *name);
-    TABLE.iter().map(|technique| technique.name()).filter(has_rows).collect()
+    TABLE.iter().map(|technique| technique.name()).chain(colors::NAMES).filter(has_rows).collect()
 }
 
 fn table(width: u16) -> Table {

@@ -306,9 +306,13 @@ fn add_projected(parts: &mut LightParts, spot: &Spot, list: &mut PassList) {
     }
     if let Some(falloff) = &spot.falloff {
         parts.defines.push(Define::flag("FALLOFF").of_light(index));
-        if falloff.table.steps == TableSteps::Depth {
-            parts.defines.push(Define::flag("FALLOFF_DEPTH").of_light(index));
-        }
+        let steps = match falloff.table.steps {
+            TableSteps::Distance => None,
+            TableSteps::Depth => Some("FALLOFF_DEPTH"),
+            TableSteps::Logarithm => Some("FALLOFF_LOGARITHM"),
+            TableSteps::Entries => Some("FALLOFF_ENTRIES"),
+        };
+        parts.defines.extend(steps.map(|steps| Define::flag(steps).of_light(index)));
         let place = falloff_place(&falloff.table, &spot.frustum).as_vec2();
         parts.uniforms.push(Uniform::of_light("falloff_place", index, place));
         let label = format!("distances of light {index}");
@@ -316,14 +320,16 @@ fn add_projected(parts: &mut LightParts, spot: &Spot, list: &mut PassList) {
     }
 }
 
-/// Scale and offset that make a distance, or its inverse, a texture coordinate at the centres of the first and the last
-/// texel for the near and far planes. The inverse stands for the depth in window space, z_t = (f - n f / d) / (f - n).
+/// Scale and offset that make a distance, its inverse or its binary logarithm a texture coordinate at the centres of the first and the last
+/// texel for the near and far planes; of entries, the planes' distances. The inverse stands for the depth in window space, z_t = (f - n f / d) / (f - n).
 fn falloff_place(table: &DistanceTable, frustum: &Frustum) -> DVec2 {
     let (near, far) = (frustum.near, frustum.far);
     let range = far - near;
     let share = match table.steps {
         TableSteps::Distance => DVec2::new(1.0, -near) / range,
         TableSteps::Depth => DVec2::new(-near * far, far) / range,
+        TableSteps::Logarithm => DVec2::new(1.0, -near.log2()) / (far / near).log2(),
+        TableSteps::Entries => return DVec2::new(near, far),
     };
     let count = table.values.len() as f64;
     (share * (count - 1.0) + DVec2::new(0.0, 0.5)) / count

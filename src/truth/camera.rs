@@ -49,6 +49,15 @@ impl Eye {
         self.ahead + across * self.right + above * self.up
     }
 
+    /// Planes that bound the view: unit normals that look inwards, and the eye's distance inside of each.
+    pub fn sides(&self) -> [(DVec3, f64); 6] {
+        let [width, height] = self.half_size;
+        let (right, up) = (self.right * width, self.up * height);
+        // Across a side: from the axis towards the eye's own half width.
+        let side = |way: DVec3| ((self.ahead * way.length_squared() - way).normalize(), 0.0);
+        [side(right), side(-right), side(up), side(-up), (self.ahead, -self.near), (-self.ahead, self.far)]
+    }
+
     /// Greatest difference that a depth buffer of 24 bits may make between two surfaces at the same depth: 2⁻²² of the
     /// range in window space, as measured on llvmpipe (rule GL-T3 of `glumbra check`), in world units along the axis.
     pub fn depth_error(&self, depth: f64, rise_per_pixel: f64) -> f64 {

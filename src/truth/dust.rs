@@ -104,7 +104,7 @@ impl Tracer<'_> {
     }
 
     /// Tests whether nothing that casts a shadow lies between a point of the air and the light.
-    fn reaches_air(&self, point: DVec3) -> bool {
+    pub(super) fn reaches_air(&self, point: DVec3) -> bool {
         let Some(place) = self.lamp.place() else { return true };
         let segment = Segment { origin: point, direction: place - point, start: 0.0, end: 1.0 };
         let mut is_clear = true;

@@ -62,6 +62,22 @@ impl Lamp {
         }
     }
 
+    /// Light from straight above, for a scene that has none.
+    pub fn above(center: DVec3, radius: f64) -> Self {
+        let travel = -DVec3::Y;
+        let (right, up) = travel.any_orthonormal_pair();
+        Self { source: Origin::Along { travel, center, radius }, shape: Shape::Square { right, up, center, radius } }
+    }
+
+    /// The same light from another place, if it has one.
+    pub fn moved(self, way: DVec3) -> Self {
+        let source = match self.source {
+            Origin::At(position) => Origin::At(position + way),
+            parallel @ Origin::Along { .. } => parallel,
+        };
+        Self { source, ..self }
+    }
+
     pub fn is_finite(&self) -> bool {
         let (Origin::At(vector) | Origin::Along { travel: vector, .. }) = self.source;
         vector.is_finite()

@@ -43,6 +43,7 @@ mod wave;
 mod world;
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -52,7 +53,7 @@ pub use answers::{Answer, Hit, Pixel, Reason, Truth};
 pub use around::{Around, Blocker, Nearer, Surroundings};
 use beam::Beam;
 use camera::Eye;
-pub use color::{Bounds, ColorPixel, ColorTruth, color};
+pub use color::{Bounds, ColorPixel, ColorRequest, ColorTruth, color, color_as, why_no_colors};
 use cutout::Alpha;
 pub use dust::{Air, dust, dust_at};
 pub use lens::{LensLight, lens, lens_points};
@@ -104,6 +105,9 @@ pub enum Error {
     /// The triangles of a mesh cannot be traced.
     #[error("mesh `{name}`: {what}")]
     Mesh { name: String, what: String },
+    /// The scene has something whose colour cannot be known.
+    #[error("no colours to compare with: {why}")]
+    Colors { why: String },
     /// More pixels are ambiguous than [`Options::most_ambiguous`] allows.
     #[error(
         "the ray tracer cannot decide {percent:.2} % of the drawn pixels (limit {most_percent} %; {reasons}): \
@@ -180,7 +184,8 @@ const ENOUGH: u32 = 1024;
 
 /// Everything that an answer for a pixel needs.
 struct Tracer<'a> {
-    world: World<'a>,
+    /// Shared by the tracers of a scene's lights.
+    world: Arc<World<'a>>,
     eye: Eye,
     lamp: Lamp,
     /// In pixels.
@@ -198,9 +203,13 @@ impl<'a> Tracer<'a> {
     fn new(scene: &'a Scene, light: usize, options: &Options) -> Result<Self, Error> {
         let missing = || Error::NoLight { index: light, count: scene.lights.len() };
         let light = scene.lights.get(light).ok_or_else(missing)?;
-        let world = World::new(scene)?;
+        let world = Arc::new(World::new(scene)?);
         let (center, radius) = world.ball();
-        let lamp = Lamp::new(light, center, radius);
+        Self::of_lamp(&world, scene, Lamp::new(light, center, radius), options)
+    }
+
+    /// The tracer of a lamp in a world that is there.
+    fn of_lamp(world: &Arc<World<'a>>, scene: &'a Scene, lamp: Lamp, options: &Options) -> Result<Self, Error> {
         let eye = Eye::new(scene);
         if !(eye.is_finite() && lamp.is_finite()) {
             return Err(Error::View);
@@ -209,6 +218,7 @@ impl<'a> Tracer<'a> {
         let subpixel = (-f64::from(options.subpixel_bits)).exp2();
         let depth_buffer_bits = options.depth_buffer_bits;
         let (errors, largest_error) = (Vec::new(), 0.0);
+        let world = Arc::clone(world);
         let mut tracer = Self { world, eye, lamp, subpixel, rounding, depth_buffer_bits, errors, largest_error };
         tracer.errors = tracer.world.placed.iter().map(|placed| tracer.error_of(placed, placed.reach)).collect();
         tracer.largest_error = tracer.errors.iter().copied().fold(0.0, f64::max);

@@ -13,6 +13,15 @@ pub(super) fn moved(place: DVec3, wave: &Wave) -> DVec3 {
     place + wave.reach * ((turns - turns.floor()) * TAU).sin()
 }
 
+/// Normal of a surface that a wave moves, at a point of it at rest; of unit length. The surface's tangents move by the
+/// columns of the wave's derivative; a normal goes by their cross products, which turn with a surface that folds over.
+pub(super) fn turned(normal: DVec3, place: DVec3, wave: &Wave) -> DVec3 {
+    let turns = wave.vector.dot(place) + wave.phase;
+    let swing = wave.reach * (TAU * (TAU * (turns - turns.floor())).cos());
+    let [x, y, z] = [0, 1, 2].map(|k| DVec3::AXES[k] + swing * wave.vector[k]);
+    (normal.x * y.cross(z) + normal.y * z.cross(x) + normal.z * x.cross(y)).normalize_or(normal)
+}
+
 /// Error of f32 in a vertex that a wave moves: the turns are a sum of four products, each with its factors rounded; a sine
 /// is good to 2^-20 on the least of drivers; the sum is rounded once more.
 pub(super) fn error(wave: &Wave, mesh: &Mesh, world_from_model: &DMat4) -> f64 {

@@ -318,6 +318,56 @@ fn the_second_lights_views_have_its_number() {
     assert_eq!(names(folder.path()), ["x.png", "x.shade.1.png", "x.shade.png"]);
 }
 
+/// The ray tracer's picture, and differences from it: as lit and shadowed, or in colours where the light is projected.
+#[test]
+fn truth_and_difference_stand_beside_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let views = ["--aov", "difference", "--aov", "shade", "--aov", "truth"];
+    render(folder.path(), &[&["-o", "x.png"], &views[..]].concat());
+    assert_eq!(names(folder.path()), ["x.difference.png", "x.png", "x.shade.png", "x.truth.png"]);
+    let open = |name: &str| image::open(folder.path().join(name)).unwrap().to_rgb8();
+    let blue = |name: &str| open(name).pixels().filter(|pixel| pixel.0 == [0x00, 0x72, 0xb2]).count();
+    let gray = |name: &str| open(name).pixels().filter(|pixel| pixel.0 == [0xf2; 3]).count();
+    assert!(gray("x.truth.png") > 500 && blue("x.difference.png") < 10);
+    let acne = ["-o", "x.png", "--aov", "difference", "--set", "light.shadow.offset={ factor = 0.0, units = 0.0 }"];
+    render(folder.path(), &acne);
+    assert!(blue("x.difference.png") > 200, "{}", blue("x.difference.png"));
+    // A slide: colours.
+    let slide = data("data/figures/slide.toml");
+    let draw = |more: &[&str]| {
+        let arguments = ["render", &slide, "--size", "96x64", "-o", "y.png", "--aov", "difference", "--aov", "truth"];
+        let done = glumbra(folder.path(), &[&arguments, more].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+    };
+    draw(&[]);
+    let [picture, truth, difference] = ["y.png", "y.truth.png", "y.difference.png"].map(open);
+    let apart = |a: u8, b: u8| i32::from(a).abs_diff(i32::from(b));
+    let ambiguous = |pixel: &image::Rgb<u8>| pixel.0 == [0xa6; 3];
+    let mut known = 0;
+    for ((is, due), difference) in picture.pixels().zip(truth.pixels()).zip(difference.pixels()) {
+        if ambiguous(due) {
+            continue;
+        }
+        known += 1;
+        for k in 0..3 {
+            // Sixteen times as far apart; both of the others are rounded.
+            let (found, stated) = (apart(is.0[k], due.0[k]), u32::from(difference.0[k]));
+            assert!((16 * found).min(255).abs_diff(stated) <= 16 + 1, "{is:?} {due:?} {difference:?}");
+        }
+    }
+    let bright = |picture: &image::RgbImage| {
+        picture.pixels().filter(|pixel| !ambiguous(pixel) && pixel.0.iter().any(|code| *code > 100)).count()
+    };
+    assert!(known > 4500 && bright(&difference) < 200, "{known} known, {} differ", bright(&difference));
+    draw(&["--set", "light.0.interpolate=affine"]);
+    assert!(bright(&open("y.difference.png")) > 300, "{}", bright(&open("y.difference.png")));
+    // What cannot be known is said.
+    let arguments = ["render", &slide, "--set", "light.0.frustum=shown", "-o", "z.png", "--aov", "truth"];
+    let done = glumbra(folder.path(), &arguments);
+    assert!(!done.status.success() && text(&done.stderr).contains("lines of its frustum"), "{}", text(&done.stderr));
+    assert!(!folder.path().join("z.png").exists());
+}
+
 #[test]
 fn the_picture_is_named_after_the_scene() {
     let folder = tempfile::tempdir().unwrap();

@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 use std::process::Command;
 
+use glumbra::context::ContextRequest;
+use glumbra::report::measure::grid::Grid;
+use glumbra::report::measure::run::{self, MeasureOptions};
 use glumbra::report::store::claimed::ClaimVerdict;
 use glumbra::report::store::merge;
 use glumbra::report::store::results::{Report, SceneReport};
@@ -91,7 +94,10 @@ fn a_slide_projector_is_measured_by_its_colours() {
     let row = scene.rows[0].measured().unwrap();
     assert_eq!(row.metrics.all.compared, 0);
     let colors = row.colors.unwrap();
-    assert!(colors.compared > 5000 && colors.flip.is_some_and(|flip| flip < 0.2), "{colors:?}");
+    // Against colours in f64: no pixel is beyond what the error of a sample explains.
+    assert!(scene.colors_from.as_ref().is_some_and(|from| from.contains("in f64")), "{:?}", scene.colors_from);
+    assert!(colors.compared > 5000 && colors.rmse_codes < 4.0 && colors.beyond_percent < 0.1, "{colors:?}");
+    assert!(colors.flip.is_some_and(|flip| flip < 0.05), "{colors:?}");
     assert!(out.contains("No setting is named: a slide projector casts no shadow"), "{out}");
     // The slide's texels are several pixels wide: the squares of the nearest filter are the larger error.
     let filters = &sweep(&scene, "image filters").series[0];
@@ -173,6 +179,33 @@ fn slices_of_dust_come_near_to_the_air_in_f64() {
     assert!(second[0] > 2.0 * second[3] && second[3] < 3.0, "{second:?}");
     // Shadow techniques are compared as ever, where they go with dust.
     assert!(scene.rows.len() > 3 && scene.rows[0].measured().unwrap().metrics.all.compared > 1000);
+}
+
+/// Noise has no colour of its own, and thousands of lens points take the ray tracer too long: both are compared with pictures
+/// of many samples, and it is said.
+#[test]
+fn what_the_ray_tracer_leaves_is_compared_with_a_drawn_picture() {
+    let from = |more: &str| {
+        let work = Work::new(&scene("", more));
+        let options = MeasureOptions {
+            light: 0,
+            runs: 1,
+            jobs: 1,
+            shard: (1, 1),
+            band_texels: 2.0,
+            context: ContextRequest::default(),
+        };
+        let sweep = run::prepare(&work.path("scene.toml"), &[], &Grid::Own(Vec::new()), &options).unwrap();
+        (sweep.report.colors_from.clone().unwrap(), sweep)
+    };
+    let shadow = "[light.shadow]\ntechnique = \"none\"\n";
+    let (noise, sweep) = from(&format!("[light.dust]\ndensity = 0.3\nslices = 16\njitter = true\n{shadow}"));
+    assert!(noise.contains("4096 slices of dust, because") && noise.contains("jitter"), "{noise}");
+    assert_eq!(sweep.scene.lights[0].dust.unwrap().slices, 16, "the scene is as written");
+    let (many, _) = from(&format!("focus = {{ distance = 3.0, radius = 0.2, samples = 4096 }}\n{shadow}"));
+    assert!(many.contains("4096 lens points, because") && many.contains("more than 16777216 samples"), "{many}");
+    let (few, _) = from(&format!("focus = {{ distance = 3.0, radius = 0.2, samples = 8 }}\n{shadow}"));
+    assert!(few.contains("in f64") && few.contains("the scene's own lens points"), "{few}");
 }
 
 /// A verdict on times follows from the range of their ratio, and is of this machine.

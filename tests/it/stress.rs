@@ -247,3 +247,64 @@ fn what_fails_is_reduced_to_a_scene_that_still_fails() {
     let again = stress::draw_case(&reduced, &options(), &mut renderer);
     assert!(again.fails(), "{}", reduced.toml);
 }
+
+/// Random scenes of beams, slide projectors, alpha shadows, lenses and dust, by their colours.
+#[test]
+fn random_projected_light_is_right_or_warned_of() {
+    let small = |index| {
+        let mut case = stress::projected::case(SEED, index);
+        case.toml = case.toml.replace("size = [160, 120]", "size = [80, 60]");
+        case.shades = false;
+        case
+    };
+    let results = run(&(0..72).map(small).collect::<Vec<_>>());
+    let failures = failures(&results).join("\n");
+    assert!(failures.is_empty(), "{failures}");
+    let rows: Vec<&CaseRow> = results.iter().flat_map(|result| &result.rows).collect();
+    let [right, alarms, _, refused, _] = tally(rows.iter().copied());
+    assert!(rows.len() > 150 && right * 10 > rows.len() * 8, "{right} of {} are right", rows.len());
+    // Beams whose maps cannot be fine enough, and coarse shadows, are warned of where hardly a pixel shows it.
+    assert!(alarms * 10 <= rows.len() && refused * 20 <= rows.len(), "{alarms} and {refused} of {}", rows.len());
+}
+
+/// A picture of projected light that was drawn otherwise: every kind of row says so.
+#[test]
+fn projected_light_that_is_broken_on_purpose_is_seen() {
+    type Change = fn(&mut Scene);
+    let focus: Change = |scene| change_spot(scene, |spot| spot.focus.as_mut().unwrap().radius *= 2.0);
+    let dust: Change = |scene| scene.lights[0].dust.as_mut().unwrap().density *= 1.3;
+    let turned: Change = |scene| change_spot(scene, |spot| spot.frustum.up = DVec3::new(0.1, 1.0, 0.1).normalize());
+    let dimmed: Change = |scene| scene.lights[5].diffuse = [0.0; 3];
+    let unshadowed: Change = |scene| scene.objects.iter_mut().for_each(|object| object.casts_shadow = false);
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    for (name, change, wrong) in [
+        ("projected-slide", turned, [true, true, false]),
+        ("projected-beam-cone-6e1", turned, [true, false, false]),
+        ("projected-lens-radius-1e0", focus, [true, true, true]),
+        ("projected-dust-2e-1", dust, [true, true, true]),
+        ("projected-dust-2e-1", unshadowed, [false, false, true]),
+        ("projected-lens-radius-1e0", unshadowed, [false, false, true]),
+        ("projected-alpha", dimmed, [true, true, true]),
+    ] {
+        let case = named::cases().unwrap().into_iter().find(|case| case.name == name).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let scene = case.load(folder.path()).unwrap().scene;
+        let mut drawn = scene.clone();
+        change(&mut drawn);
+        let (rows, known) = stress::color_rows_of(&scene, &drawn, &mut renderer);
+        assert!(known > 0.9, "{name}: {known}");
+        for (row, wrong) in rows.iter().zip(wrong) {
+            let is_wrong = row.verdict == Verdict::SilentlyWrong;
+            assert_eq!(is_wrong, wrong, "{name}: {row:?}");
+        }
+        let (rows, _) = stress::color_rows(&scene, &mut renderer);
+        assert!(rows.iter().all(|row| row.verdict == Verdict::Right), "{name}: {rows:?}");
+    }
+}
+
+fn change_spot(scene: &mut Scene, change: impl Fn(&mut glumbra::scene::Spot)) {
+    if let LightKind::Spot(spot) = &mut scene.lights[0].kind {
+        change(spot);
+    }
+}

@@ -6,7 +6,7 @@ use super::flip::flip;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
-use crate::scene::{Law, Light, PicturePasses, Scene, Shadow};
+use crate::scene::{Law, Light, PicturePasses, Scene, Shadow, Spot};
 use crate::techniques::LightShadow;
 use crate::truth::{self, Bounds, ColorPixel, ColorTruth};
 
@@ -38,35 +38,16 @@ pub struct DrawnColors {
     pub codes: Vec<[f64; 3]>,
 }
 
-/// Tests whether a light of the scene has an image, a beam or a law of distance, and the ray tracer has colours of all that
-/// the scene has.
+/// Tests whether the scene's light is more than lit or shadowed: a light has an image, a beam, a law of distance, a lens or
+/// dust, or is a slide projector.
 pub fn has_projected_light(scene: &Scene) -> bool {
-    is_projected(scene) && why_untraced(scene).is_none()
-}
-
-/// Tests whether light and shadow alone do not say what the picture's colours should be: a light has an image, a beam, a
-/// law of distance, a lens or dust, or is a slide projector.
-pub fn is_projected(scene: &Scene) -> bool {
-    let of_spot = |light: &Light| {
-        let spot = light.spot();
-        spot.is_some_and(|spot| {
+    let is_more = |light: &Light| {
+        let is_projected = |spot: &Spot| {
             spot.image.is_some() || spot.beam.is_some() || spot.falloff.is_some() || spot.lens().is_some()
-        })
+        };
+        light.law == Law::Slide || light.dust.is_some() || light.spot().is_some_and(is_projected)
     };
-    let is_projected = |light: &Light| of_spot(light) || light.dust.is_some() || light.law == Law::Slide;
-    scene.shading.passes == PicturePasses::Slide || scene.lights.iter().any(is_projected)
-}
-
-/// Reason why [`truth::color`] has no colours of the scene.
-pub fn why_untraced(scene: &Scene) -> Option<&'static str> {
-    let any = |is: fn(&Light) -> bool| scene.lights.iter().any(is);
-    if scene.shading.passes == PicturePasses::Slide || any(|light| light.law == Law::Slide) {
-        return Some("the ray tracer has no colours of slide projectors");
-    }
-    if any(|light| light.spot().is_some_and(|spot| spot.lens().is_some())) {
-        return Some("the ray tracer has no colours of light through a lens");
-    }
-    any(|light| light.dust.is_some()).then_some("the ray tracer has no colours of dusty air")
+    scene.shading.passes == PicturePasses::Slide || scene.lights.iter().any(is_more)
 }
 
 /// Reason why light number `light` has no shade that could be compared.
@@ -142,7 +123,7 @@ pub fn errors_of(truth: &ColorTruth, drawn: &DrawnColors) -> Option<(ColorErrors
         compared += 1;
         squares += (0..3).map(|k| (codes[k] - 255.0 * pixel.rgb[k].value).powi(2)).sum::<f64>();
         most = most.max(pixel.error_codes(codes));
-        beyond += usize::from(pixel.excess_codes(codes) > ALLOWED_CODES);
+        beyond += usize::from(pixel.excess_codes(codes) > ALLOWED_CODES + truth.between_passes_codes);
     }
     if compared == 0 {
         return None;
@@ -181,7 +162,7 @@ impl DrawnColors {
         let pixel =
             |(index, codes): (usize, &[f64; 3])| ColorPixel { rgb: codes.map(exactly), is_known: is_known(index) };
         let pixels = self.codes.iter().enumerate().map(pixel).collect();
-        ColorTruth { width: self.size[0], height: self.size[1], pixels }
+        ColorTruth { width: self.size[0], height: self.size[1], pixels, between_passes_codes: 0.0 }
     }
 }
 

@@ -148,11 +148,13 @@ fn copied_and_rendered(scene: &Scene, light: usize) -> Option<[Scene; 2]> {
     if !techniques::keys(read.technique).contains(&"transfer") || has_lens(scene, light) {
         return None;
     }
+    // What both share would hide the difference.
+    let clear = with_light(scene, light, |light| light.dust = None);
     let by = |transfer: &str| {
         let inside = format!("technique = \"{}\", transfer = \"{transfer}\"", read.technique.name());
         let table = vary::over(source.shadow.written(), &scene::shadow_settings(&inside).ok()?);
         let shadow = techniques::read(table, &source.kind, &scene.objects).ok()?;
-        Some(with_shadow(scene, light, &shadow))
+        Some(with_shadow(&clear, light, &shadow))
     };
     Some([by("copy")?, by("fbo")?])
 }

@@ -38,27 +38,52 @@ pub struct Samples {
 /// Samples for a row's colours.
 pub const MANY: Samples = Samples { lens_points: 1024, slices: 4096 };
 
+/// The most samples, over all pixels, whose rays are cast for a reference: minutes of one core.
+const MOST_RAYS: u64 = 1 << 24;
+
 /// The colours of a scene: by the ray tracer, in which light `measured` casts its shadow; else by a drawn picture.
 ///
 /// # Errors
 ///
 /// A truth that the ray tracer cannot find; an error of the plan or the device.
 pub fn reference(scene: &Scene, measured: usize, renderer: &mut Renderer) -> Result<Reference, Error> {
-    let Some(why) = colors::why_untraced(scene) else {
+    let Some(why) = truth::why_no_colors(scene).or_else(|| why_too_many(scene)) else {
         let colors = colors::true_colors(scene, measured)?;
-        return Ok(Reference { colors, from: String::from("each pixel's colour in f64, by casting rays") });
+        let own = if has_samples(scene) { ", with the scene's own lens points and slices" } else { "" };
+        return Ok(Reference { colors, from: format!("each pixel's colour in f64, by casting rays{own}") });
     };
     if !has_samples(scene) {
         let Some((drawn, side)) = supersampled(scene, renderer)? else {
             let colors = draw_colors(scene, false, renderer)?.to_truth(|_| false);
-            return Ok(Reference { colors, from: format!("{why}, and the picture is too large to draw it larger") });
+            return Ok(Reference {
+                colors,
+                from: format!("nothing: {why}, and the picture is too large to be averaged"),
+            });
         };
-        let from = format!("a picture drawn with {side} × {side} samples a pixel, because {why}");
+        let from = format!(
+            "a picture drawn with {side} × {side} samples a pixel, because the ray tracer has no colours: {why}"
+        );
         return Ok(Reference { colors: drawn.to_truth(|_| true), from });
     }
-    let from = format!("{}, because {why}", many_in_words(scene, MANY));
-    let drawn = draw_colors(&with_samples(scene, MANY), in_floats(scene), renderer)?;
+    let own = scene.lights.iter().filter_map(|light| Some(light.spot()?.lens()?.samples)).max().unwrap_or(0);
+    let many = Samples { lens_points: MANY.lens_points.max(own), ..MANY };
+    let from = format!("{}, because the ray tracer has no colours: {why}", many_in_words(scene, many));
+    let drawn = draw_colors(&with_samples(scene, many), in_floats(scene), renderer)?;
     Ok(Reference { colors: drawn.to_truth(|_| true), from })
+}
+
+/// Reason why the scene has too many samples to cast rays for all.
+fn why_too_many(scene: &Scene) -> Option<String> {
+    let [width, height] = scene.image.size.map(u64::from);
+    let of_light = |light: &Light| {
+        let lens = light.spot().and_then(|spot| spot.lens()).map_or(0, |focus| u64::from(focus.samples));
+        lens + light.dust.map_or(0, |dust| u64::from(dust.slices))
+    };
+    let samples: u64 = scene.lights.iter().map(of_light).sum();
+    let rays = samples * width * height;
+    (rays > MOST_RAYS).then(|| {
+        format!("{width} × {height} pixels of {samples} lens points and slices are more than {MOST_RAYS} samples to cast rays for")
+    })
 }
 
 /// Describes a picture of many samples.

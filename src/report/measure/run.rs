@@ -104,7 +104,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     let most_ambiguous = if unshaded.is_some() { 1.0 } else { sure.most_ambiguous };
     let truth = truth::trace(&scene, options.light, &truth::Options { most_ambiguous, ..sure })?;
     let trace_ms = start.elapsed().as_secs_f64() * 1e3;
-    let colors = if colors::is_projected(&scene) { Some(colors_of(path, &scene, options)?) } else { None };
+    let colors = if colors::has_projected_light(&scene) { Some(colors_of(path, &scene, options)?) } else { None };
     let report = SceneReport {
         path: path.to_owned(),
         path_bytes: bytes_of(path),

@@ -97,6 +97,7 @@ fn a_light_without_a_shade_has_colours_only() {
         report.scenes[0].unshaded = Some(String::from("it is a <slide>"));
     });
     assert!(page.contains("No setting is named: it is a &lt;slide&gt;."));
+    assert!(!page.contains("% wrong in") && !page.contains("to trace:"), "nothing is said of a shade");
     assert!(!page.contains("<h3>Error against time</h3>") && page.contains("<h3>Colours</h3>"));
 }
 

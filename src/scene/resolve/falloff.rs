@@ -86,43 +86,68 @@ fn distances(entry: &Entry, reader: &Reader<'_>) -> Result<Vec<[f64; 2]>, Settin
 }
 
 /// Makes the table of a law between a frustum's planes: the smallest that is fine enough, of even depths if they are no worse
-/// than even distances.
+/// than even distances. Where neither can be, of even logarithms, which have as many steps for each power of ten; where
+/// the law is a table that bends too sharply for any steps, that table itself.
 pub(super) fn tabulate(law: FalloffLaw, frustum: &Frustum) -> Falloff {
     let (near, far) = (frustum.near, frustum.far);
     let kinds: &[TableSteps] = match near / far < EVEN_DEPTHS {
         true => &[TableSteps::Distance],
         false => &[TableSteps::Depth, TableSteps::Distance],
     };
-    let mut best: Option<DistanceTable> = None;
+    let even = finest(&law, kinds, [near, far]);
+    let table = match even {
+        even if even.error_codes < FINE => even,
+        even => {
+            let logarithmic = finest(&law, &[TableSteps::Logarithm], [near, far]);
+            match &law {
+                FalloffLaw::Table(pairs) if logarithmic.error_codes >= FINE => entries(pairs),
+                _ if logarithmic.error_codes < even.error_codes => logarithmic,
+                _ => even,
+            }
+        }
+    };
+    Falloff { law, table: Arc::new(table) }
+}
+
+/// The law's own table.
+fn entries(pairs: &[[f64; 2]]) -> DistanceTable {
+    let column = |k: usize| pairs.iter().map(move |pair| pair[k] as f32);
+    DistanceTable { values: column(0).chain(column(1)).collect(), steps: TableSteps::Entries, error_codes: 0.0 }
+}
+
+/// The smallest table of these kinds that is fine enough, or the best.
+fn finest(law: &FalloffLaw, kinds: &[TableSteps], [near, far]: [f64; 2]) -> DistanceTable {
+    let steps = TableSteps::Distance;
+    let mut best = DistanceTable { values: [1.0; 2].into(), steps, error_codes: f64::INFINITY };
     for (size, steps) in SIZES.into_iter().flat_map(|size| kinds.iter().map(move |steps| (size, *steps))) {
         let place = |step: usize| distance(steps, step as f64 / (size - 1) as f64, near, far);
-        let values: Vec<f32> = (0..size).map(|step| unbounded(&law, place(step)) as f32).collect();
-        let error_codes = error_codes(&law, &values, steps, near, far);
-        if best.as_ref().is_none_or(|table| error_codes < table.error_codes) {
-            best = Some(DistanceTable { values: values.into(), steps, error_codes });
+        let values: Vec<f32> = (0..size).map(|step| unbounded(law, place(step)) as f32).collect();
+        let error_codes = error_codes(law, &values, steps, near, far);
+        if error_codes < best.error_codes {
+            best = DistanceTable { values: values.into(), steps, error_codes };
         }
         if error_codes < FINE {
             break;
         }
     }
-    let steps = TableSteps::Distance;
-    let none = || DistanceTable { values: [1.0; 2].into(), steps, error_codes: f64::INFINITY };
-    Falloff { law, table: Arc::new(best.unwrap_or_else(none)) }
+    best
 }
 
 /// The distance at a share of the steps.
 fn distance(steps: TableSteps, share: f64, near: f64, far: f64) -> f64 {
     match steps {
-        TableSteps::Distance => near + share * (far - near),
+        TableSteps::Distance | TableSteps::Entries => near + share * (far - near),
         TableSteps::Depth => far * near / (far - share * (far - near)),
+        TableSteps::Logarithm => near * (far / near).powf(share),
     }
 }
 
 /// The share of the steps at a distance.
 fn share_of(steps: TableSteps, distance: f64, near: f64, far: f64) -> f64 {
     match steps {
-        TableSteps::Distance => (distance - near) / (far - near),
+        TableSteps::Distance | TableSteps::Entries => (distance - near) / (far - near),
         TableSteps::Depth => (far - far * near / distance) / (far - near),
+        TableSteps::Logarithm => (distance / near).ln() / (far / near).ln(),
     }
 }
 
@@ -164,7 +189,7 @@ fn error_codes(law: &FalloffLaw, values: &[f32], steps: TableSteps, near: f64, f
         let found = (low + (at - cell as f64) * (high - low)).min(1.0);
         let rounding = match steps {
             TableSteps::Depth => (exact(share + DEPTH_ROUNDING) - exact(share - DEPTH_ROUNDING)).abs(),
-            TableSteps::Distance => 0.0,
+            TableSteps::Distance | TableSteps::Logarithm | TableSteps::Entries => 0.0,
         };
         (found - exact(share)).abs() + rounding
     });
@@ -194,12 +219,18 @@ mod tests {
         for (near, far) in [(0.5, 6.0), (0.01, 9.0), (1e-3, 10.0), (1e-5, 10.0), (1e-6, 1.0)] {
             for law in [bends.clone(), FalloffLaw::InverseSquare(0.5), FalloffLaw::Inverse(0.2)] {
                 let table = tabulate(law.clone(), &frustum(near, far)).table;
-                assert!(table.steps == TableSteps::Distance || near / far >= EVEN_DEPTHS, "{law:?} {near} {far}");
+                assert!(table.steps != TableSteps::Depth || near / far >= EVEN_DEPTHS, "{law:?} {near} {far}");
                 assert!(table.error_codes < FINE, "{law:?} {near} {far}: {} codes", table.error_codes);
             }
         }
-        // All of it happens within the first of the even steps.
-        let hard = tabulate(FalloffLaw::InverseSquare(1e-4), &frustum(1e-5, 10.0)).table;
-        assert!(hard.error_codes > FINE && hard.error_codes < 256.0, "{}", hard.error_codes);
+        // All of it happens within the first of even steps.
+        for (near, far, full) in [(1e-5, 10.0, 1e-4), (1e-9, 1e3, 1e-7), (1e-6, 1.0, 1e-6)] {
+            let table = tabulate(FalloffLaw::InverseSquare(full), &frustum(near, far)).table;
+            assert_eq!(table.steps, TableSteps::Logarithm);
+            assert!(table.error_codes < FINE, "{near} {far} {full}: {}", table.error_codes);
+        }
+        // It falls between two steps of any kind.
+        let hard = tabulate(FalloffLaw::Table(vec![[4.0, 1.0], [4.000_001, 0.0]]), &frustum(0.5, 6.0)).table;
+        assert_eq!((hard.steps, &hard.values[..]), (TableSteps::Entries, &[4.0, 4.000_001, 1.0, 0.0][..]));
     }
 }

@@ -14,6 +14,11 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// Nothing, exactly.
+    pub(super) const NONE: Self = Self { least: 0.0, value: 0.0, most: 0.0, jumps: false };
+    /// One, exactly.
+    pub(super) const ALL: Self = Self { least: 1.0, value: 1.0, most: 1.0, jumps: false };
+
     pub(super) fn exactly(value: f64) -> Self {
         Self { least: value, value, most: value, jumps: false }
     }
@@ -57,6 +62,11 @@ impl Bounds {
 
     pub(super) fn scaled(self, factor: f64) -> Self {
         self.times(Self::exactly(factor))
+    }
+
+    /// What is left to 1, of a value in [0, 1].
+    pub(super) fn complement(self) -> Self {
+        Self { least: 1.0 - self.most, value: 1.0 - self.value, most: 1.0 - self.least, jumps: self.jumps }
     }
 
     /// As a picture stores it.

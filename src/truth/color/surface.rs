@@ -1,4 +1,4 @@
-//! The visible point of a surface as lighting needs it: material, interpolated normal, decal.
+//! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -8,18 +8,25 @@ use super::unit;
 use crate::geometry::Material;
 use crate::scene::{Object, Scene};
 use crate::truth::primary::SeenPoint;
+use crate::truth::wave;
 
-/// A point of a surface.
-pub(super) struct Shaded<'a> {
-    pub material: &'a Material,
-    /// True if normals count; false: the diffuse colour as it is.
-    pub lit: bool,
+/// A point that a pixel shows.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
     pub position: DVec3,
     /// Ways that a pixel's sample may move the point, and the radius of the ball that it may lie in besides.
     pub spread: [DVec3; 2],
     pub error: f64,
     /// Ways that the point moves by from a pixel to those beside it.
     pub beside: [DVec3; 2],
+}
+
+/// A point of a surface.
+pub(super) struct Shaded<'a> {
+    pub material: &'a Material,
+    /// True if normals count; false: the diffuse colour as it is.
+    pub lit: bool,
+    pub at: Sample,
     /// Unit vector, interpolated, on the side that is seen.
     pub normal: DVec3,
     pub corners: [DVec3; 3],
@@ -44,10 +51,10 @@ impl SurfaceTable {
         Self { normals, fallback: Material::default() }
     }
 
-    /// The surface that a pixel shows; `None` where the mesh moves in the vertex stage.
+    /// The surface that a pixel shows; `None`: the mesh breaks its own rules.
     pub fn at<'s>(&'s self, seen: &SeenPoint<'_>, scene: &'s Scene, subpixel: f64) -> Option<Shaded<'s>> {
         let triangle = &seen.triangle;
-        let object = scene.objects.get(triangle.object as usize).filter(|object| object.wave.is_none())?;
+        let object = scene.objects.get(triangle.object as usize)?;
         let first = 3 * triangle.index as usize;
         let indices: [usize; 3] = object
             .mesh
@@ -64,7 +71,7 @@ impl SurfaceTable {
         let weights = |point: DVec3| barycentric(&triangle.corners, point);
         let at = weights(seen.position);
         let matrix = self.normals[triangle.object as usize];
-        let corner_normals = indices.map(|index| matrix * DVec3::from_array(object.mesh.normals[index].map(f64::from)));
+        let corner_normals = indices.map(|index| matrix * normal_at(object, index));
         let smooth = unit(mix(&corner_normals, at));
         let behind = smooth.dot(seen.position - scene.camera.eye) > 0.0 && smooth.dot(seen.normal) < 0.0;
         let beside = seen.spread.map(|way| way / subpixel);
@@ -75,10 +82,7 @@ impl SurfaceTable {
         Some(Shaded {
             material,
             lit: object.lit,
-            position: seen.position,
-            spread: seen.spread,
-            error: seen.error,
-            beside,
+            at: Sample { position: seen.position, spread: seen.spread, error: seen.error, beside },
             normal: if behind { -smooth } else { smooth },
             corners: triangle.corners,
             corner_normals: corner_normals.map(unit),
@@ -86,6 +90,13 @@ impl SurfaceTable {
             decal: decal(object, material, seen.position, beside, &texcoord),
         })
     }
+}
+
+/// A vertex's normal in model space, as its wave turns it.
+fn normal_at(object: &Object, index: usize) -> DVec3 {
+    let own = DVec3::from_array(object.mesh.normals[index].map(f64::from));
+    let place = DVec3::from_array(object.mesh.positions[index].map(f64::from));
+    object.wave.map_or(own, |wave| wave::turned(own, place, &wave))
 }
 
 fn mix(corners: &[DVec3; 3], weights: [f64; 3]) -> DVec3 {

@@ -2,6 +2,7 @@
 
 mod beams;
 mod colors;
+mod everything;
 mod images;
 mod swimming;
 

@@ -8,7 +8,7 @@ use crate::report::measure::metrics::Band;
 use crate::report::measure::picks::{Goals, Picks, RowTimes, pareto, titles, unjudged};
 use crate::report::numbers::{bytes, grouped, plain};
 use crate::report::show::plots::{self, Links};
-use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport};
+use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport, TruthSummary};
 
 pub(super) fn section(
     scene: &SceneReport,
@@ -18,20 +18,13 @@ pub(super) fn section(
     goals: &Goals,
 ) -> String {
     let [width, height] = scene.size;
-    let truth = &scene.truth;
     let times = RowTimes::of(scene);
     let mut text = format!(
-        "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles. The truth \
-         took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).</p>\n",
+        "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles.{}</p>\n",
         escape(&scene.path.display().to_string()),
         scene.light,
         grouped(scene.triangles),
-        plain(truth.trace_ms),
-        grouped(truth.drawn as u64),
-        grouped(truth.lit as u64),
-        grouped(truth.shadowed as u64),
-        grouped(truth.ambiguous as u64),
-        plain(truth.ambiguous_percent),
+        if scene.unshaded.is_none() { truth_text(&scene.truth) } else { String::new() },
     );
     if scene.rows.len() < scene.grid_rows {
         text +=
@@ -51,6 +44,18 @@ pub(super) fn section(
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
     text += &table::table(scene, number, &marks(scene, &times, goals));
     text + "</section>\n"
+}
+
+fn truth_text(truth: &TruthSummary) -> String {
+    format!(
+        " The truth took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).",
+        plain(truth.trace_ms),
+        grouped(truth.drawn as u64),
+        grouped(truth.lit as u64),
+        grouped(truth.shadowed as u64),
+        grouped(truth.ambiguous as u64),
+        plain(truth.ambiguous_percent),
+    )
 }
 
 /// Text on what the plan of the scene as written leaves out, and what that saves.
@@ -179,6 +184,9 @@ fn answers(scene: &SceneReport, number: usize, goals: &Goals) -> String {
     let picks = Picks::of(scene, goals);
     let warnings = unjudged(scene).or_else(|| picks.times.warning());
     text.extend(warnings.map(|warning| format!("<p class=\"note\">{}</p>\n", escape(&warning))));
+    if scene.unshaded.is_some() {
+        return text;
+    }
     format!("{text}<div class=\"cards\">\n{}</div>\n", cards(scene, &picks, number, goals))
 }
 
