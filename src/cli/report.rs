@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::report_light::{measure_light, print_sweeps};
 use super::scene_args::SceneChanges;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
@@ -15,12 +16,11 @@ use crate::frame::Renderer;
 use crate::report::measure::grid::{self, Grid};
 use crate::report::measure::picks::Goals;
 use crate::report::measure::run::{self, MeasureOptions, Sweep};
-use crate::report::measure::sweeps::{self, MeasuredSweep, SweepRequest};
+use crate::report::measure::sweeps::MeasuredSweep;
 use crate::report::measure::{claims, light_claims, picks};
 use crate::report::show::html::ReportPictures;
 use crate::report::store::journal::{self, Journal, Known};
 use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
-use crate::report::store::swept::SweepSeries;
 use crate::report::store::{fingerprint, merge, picture_files, pictures, write};
 
 /// Measures how wrong shadows and projected light are against ray-traced truth, and what they cost, over a grid of techniques
@@ -305,46 +305,6 @@ fn measure(
         scene.rows.sort_by_key(|row| row.index);
     }
     bar.finish_and_clear();
-    Ok(())
-}
-
-/// Measures the sweeps over keys of projected light on each scene.
-fn measure_light(
-    sweeps: &[Sweep],
-    report: &mut Report,
-    quick: bool,
-    options: &MeasureOptions,
-) -> Result<Vec<Vec<MeasuredSweep>>, Error> {
-    let context = context::open(&options.context)?;
-    let mut renderer = Renderer::new(&context);
-    let bar = super::spinner("projected light, {msg}");
-    let mut all = Vec::new();
-    for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
-        let (light, runs) = (options.light, options.runs);
-        let request = SweepRequest { scene: &sweep.scene, light, truth: &sweep.truth, quick, runs };
-        let tick = |what: &str| {
-            bar.set_message(format!("{}: {what}", sweep.report.path.display()));
-            bar.tick();
-        };
-        let measured = sweeps::measure(&request, &mut renderer, tick);
-        let measured = measured.map_err(|reason| run::Error::Reference { scene: scene.path.clone(), reason })?;
-        scene.sweeps = measured.iter().map(|measured| measured.sweep.clone()).collect();
-        all.push(measured);
-    }
-    bar.finish_and_clear();
-    Ok(all)
-}
-
-/// Prints each picture's errors and time, and the fits.
-fn print_sweeps(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()> {
-    for sweep in &scene.sweeps {
-        writeln!(out, "# {}, {}:", sweep.name, scene.path.display())?;
-        for (series, point) in sweep.series.iter().flat_map(|series| series.points.iter().map(move |p| (series, p))) {
-            writeln!(out, "#   {}: {}: {}", series.name, point.setting, point.numbers())?;
-        }
-        let fits = sweep.series.iter().filter_map(SweepSeries::fit_text);
-        fits.into_iter().try_for_each(|fit| writeln!(out, "#   {fit}"))?;
-    }
     Ok(())
 }
 
