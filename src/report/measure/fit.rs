@@ -53,7 +53,7 @@ mod tests {
         }
     }
 
-    /// Of many fits of scattered errors 95 in 100 must have the true exponent in their range.
+    /// Fits of scattered errors have the true exponent in their range 95 times in 100.
     #[test]
     fn the_range_holds_the_exponent_as_often_as_it_says() {
         let mut random = fastrand::Rng::with_seed(5);

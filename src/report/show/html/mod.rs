@@ -6,6 +6,7 @@
 mod claims;
 mod columns;
 mod scene;
+mod svg;
 mod sweeps;
 mod table;
 pub(crate) mod tags;

@@ -1,5 +1,6 @@
 //! One scene's section: pictures, plots, the settings to take, all rows.
 
+use super::svg::plot;
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
 use super::{ScenePictures, claims, sweeps};
@@ -134,15 +135,6 @@ fn difference_alt(scene: &SceneReport, index: usize) -> String {
             plain(measured.metrics.all.false_shadow_percent),
             plain(measured.metrics.all.leak_percent)
         ),
-    }
-}
-
-pub(super) fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
-    match svg {
-        Ok(Some(svg)) => format!("<div class=\"plot\">{}</div>\n", svg.trim()),
-        Ok(None) if none.is_empty() => String::new(),
-        Ok(None) => format!("<p class=\"note\">{}</p>\n", escape(none)),
-        Err(error) => format!("<p class=\"note\">{}</p>\n", escape(&error.to_string())),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Section of projected light: what colours are compared with, and for each sweep its plots, fits, numbers and pictures.
 
+use super::ScenePictures;
+use super::svg::plot;
 use super::tags::{escape, figure};
-use super::{ScenePictures, scene};
 use crate::report::measure::flip;
 use crate::report::numbers::{fixed, plain};
 use crate::report::show::plots::{self, Measure};
@@ -48,8 +49,7 @@ fn of_sweep(scene: &SceneReport, machine: &Machine, sweep: &LightSweep) -> Strin
         .map(|text| format!("<li>{}</li>\n", escape(&text)))
         .collect();
     let fits = if fits.is_empty() { fits } else { format!("<ul class=\"fits\">\n{fits}</ul>\n") };
-    let plots =
-        [Measure::Rmse, Measure::Flip].map(|measure| scene::plot(plots::sweep(scene, machine, sweep, measure), ""));
+    let plots = [Measure::Rmse, Measure::Flip].map(|measure| plot(plots::sweep(scene, machine, sweep, measure), ""));
     format!(
         "<h3>Sweep: {}</h3>\n<p><code>{}</code> [{}]. Pictures are compared with {}.{second}</p>\n{law}{fits}{}{}",
         escape(&sweep.name),
