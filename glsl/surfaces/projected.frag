@@ -26,7 +26,8 @@ float falloff_of_@(float depth)
     }
     float from = texelFetch(falloff_@, low, 0).r;
     float range = texelFetch(falloff_@, high, 0).r - from;
-    float part = range > 0.0 ? clamp((depth - from) / range, 0.0, 1.0) : 0.0;
+    // Distances that are one in float: a step.
+    float part = range > 0.0 ? clamp((depth - from) / range, 0.0, 1.0) : float(depth > from);
     return mix(texelFetch(falloff_@, count + low, 0).r, texelFetch(falloff_@, count + high, 0).r, part);
 }
 #endif

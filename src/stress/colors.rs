@@ -14,7 +14,7 @@ use crate::plan::Request;
 use crate::report::measure::colors::{has_projected_light, shadow_of};
 use crate::scene::{Law, PicturePasses, Scene, Spot};
 use crate::techniques;
-use crate::truth::{self, ColorRequest, ColorTruth};
+use crate::truth::{self, ColorPixel, ColorRequest, ColorTruth};
 
 /// Names of the rows, in a table's order.
 pub const NAMES: [&str; 5] = ["beam", "slide-projector", "alpha-shadows", "focus", "dust"];
@@ -148,11 +148,16 @@ fn finish(row: CaseRow, compared: usize, [wrong, beyond]: [usize; 2], warnings: 
     CaseRow { verdict, compared, wrong, beyond, why: warnings.join("; "), ..row }
 }
 
-/// Tests of each pixel whether it is beyond its bounds.
+/// Tests of each pixel whether it is beyond its bounds. What is brighter than 1, in floats, is off by as much more: it is
+/// the sum of many parts, or their product with a bright light.
 fn beyond(colors: &ColorTruth, picture: &[[f64; 3]]) -> Vec<bool> {
     let allowed = ALLOWED_CODES + colors.between_passes_codes;
     let pixels = colors.pixels.iter().zip(picture);
-    pixels.map(|(pixel, codes)| pixel.is_known && pixel.excess_codes(*codes) > allowed).collect()
+    let is_beyond = |pixel: &ColorPixel, codes: [f64; 3]| {
+        let bright = pixel.rgb.iter().map(|channel| channel.most).fold(1.0, f64::max);
+        pixel.is_known && pixel.excess_codes(codes) > allowed * bright
+    };
+    pixels.map(|(pixel, codes)| is_beyond(pixel, *codes)).collect()
 }
 
 /// Mean over known pixels of how far they are beyond their bounds and the roundings between passes, in codes.
@@ -164,7 +169,7 @@ fn mean_excess(colors: &ColorTruth, picture: &[[f64; 3]]) -> f64 {
 }
 
 /// Mean over pixels that both know.
-fn mean(one: &ColorTruth, other: &ColorTruth, value: impl Fn(&truth::ColorPixel, &truth::ColorPixel) -> f64) -> f64 {
+fn mean(one: &ColorTruth, other: &ColorTruth, value: impl Fn(&ColorPixel, &ColorPixel) -> f64) -> f64 {
     let known = one.pixels.iter().zip(&other.pixels).filter(|(one, other)| one.is_known && other.is_known);
     let (sum, count) = known.fold((0.0, 0), |(sum, count), (one, other)| (sum + value(one, other), count + 1));
     sum / f64::from(count.max(1))

@@ -81,7 +81,7 @@ fn scene(kind: Kind, random: &mut Random) -> (Scene, String) {
     let mut text = format!(
         "[image]\nsize = [96, 72]\nbackground = [0.2, 0.1, 0.3]\n[camera]\neye = {eye:?}\ntarget = [0.0, 0.4, 0.0]\nfov_y = 45.0\nnear = 0.1\nfar = 60.0\n\
          [shading]\nambient = [{:?}, 0.05, 0.09]\npasses = \"{passes}\"\nbackground = \"{background}\"\nlighting = \"{lighting}\"\n",
-        random.pick(&[0.06, 0.06, 1.2])
+        random.pick(&[0.06, 0.06, 0.9])
     );
     for number in 0..1 + random.below(3) {
         let more = match kind {
@@ -137,8 +137,10 @@ fn judge(truth: &ColorTruth, codes: &[[f64; 3]], admitted: f64) -> Judged {
         } else {
             judged.bounded += 1;
             pixel.excess_codes(*found)
-        } - admitted
-            - truth.between_passes_codes;
+        };
+        // What is brighter than 1, in floats, is off by as much more.
+        let bright = pixel.rgb.iter().map(|channel| channel.most).fold(1.0, f64::max);
+        let off = off / bright - admitted - truth.between_passes_codes;
         judged.worst = judged.worst.max(off);
         if off > ALLOWED {
             judged.wrong += 1;
@@ -336,5 +338,30 @@ fn scenes_without_light_have_colours_and_noise_has_none() {
         let scene = load(&light(more), &[]).scene;
         let error = truth::color(&scene, &[None], &options).unwrap_err().to_string();
         assert!(error.contains("light 0") && error.contains(why), "{error}");
+    }
+}
+
+/// A report says why it has no columns of colours; a scene whose colours are known has no such note.
+#[test]
+fn a_report_says_why_it_has_no_colours() {
+    use glumbra::report::measure::grid::Grid;
+    use glumbra::report::measure::run::{MeasureOptions, prepare};
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    for (jitter, expected) in [(true, 1), (false, 0)] {
+        let text = format!(
+            "[image]\nsize = [32, 24]\n[camera]\neye = [0, 3, 3]\ntarget = [0, 0, 0]\n[[object]]\nmesh = \"quad\"\n[[light]]\n\
+             kind = \"spot\"\nposition = [0, 2, 1]\ntarget = [0, 0, 0]\ncone = 40.0\ndust = {{ density = 0.1, jitter = {jitter} }}\n\
+             shadow = {{ technique = \"shadow-map\", size = 64 }}\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        let options =
+            MeasureOptions { light: 0, runs: 1, jobs: 1, shard: (1, 1), band_texels: 2.0, context: Default::default() };
+        let sweep = prepare(&path, &[], &Grid::Own(Vec::new()), &options).unwrap();
+        for said in [&sweep.notes, &sweep.warnings] {
+            let why = said.iter().filter(|note| note.contains("no colours to compare with") && note.contains("noise"));
+            assert_eq!(why.count(), expected, "{said:?}");
+        }
     }
 }

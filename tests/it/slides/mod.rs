@@ -380,7 +380,10 @@ fn a_slide_of_sixteen_million_texels_is_drawn() {
         let more = format!("color = [0.9, 0.8, 0.7]\nimage = {path:?}\nfilter = \"{filter}\"\naspect = 1.2\n");
         let light = projector([0.3, 1.2, -0.9], [0.0, 1.1, -2.0], 60.0, &more);
         let text = ROOM.replace("[camera]", "[shading]\npasses = \"slide\"\nambient = [0.1, 0.2, 0.15]\n[camera]");
-        let scene = load(&(text.replace("eye = [3.2, 2.6, 4.6]", "eye = [0.2, 1.4, -0.2]") + &light), folder.path());
+        let text = text
+            .replace("eye = [3.2, 2.6, 4.6]", "eye = [0.2, 1.4, -0.2]")
+            .replace("target = [-0.3, 0.7, -0.6]", "target = [0.2, 1.1, -2.0]");
+        let scene = load(&(text + &light), folder.path());
         if filter == "linear" {
             let lit = judge(&scene, "4096 texels a side", &mut renderer);
             assert!(lit > 2000, "{lit}");
