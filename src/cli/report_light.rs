@@ -29,7 +29,8 @@ pub(super) fn measure_light(
             bar.tick();
         };
         let measured = sweeps::measure(&request, &mut renderer, tick);
-        let measured = measured.map_err(|reason| run::Error::Reference { scene: scene.path.clone(), reason })?;
+        let measured =
+            measured.map_err(|reason| run::Error::Reference { scene: scene.path.clone(), reason: Box::new(reason) })?;
         scene.sweeps = measured.iter().map(|measured| measured.sweep.clone()).collect();
         all.push(measured);
     }

@@ -42,7 +42,7 @@ impl Work {
     fn new(scene: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
-        let code = |x: u32, y: u32| if (x / 2 + y / 2) % 2 == 0 { 230 } else { 20 };
+        let code = |x: u32, y: u32| if (x / 2 + y / 2).is_multiple_of(2) { 230 } else { 20 };
         let slide = RgbImage::from_fn(20, 20, |x, y| Rgb([code(x, y), code(x, 0), 120]));
         slide.save(folder.path().join("slide.png")).unwrap();
         Self { folder }

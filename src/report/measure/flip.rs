@@ -93,7 +93,8 @@ mod tests {
     #[test]
     fn detail_that_no_eye_resolves_counts_less() {
         let even = gray(96, |_, _| 128);
-        let checker = |square: u32| gray(96, |x, y| if (x / square + y / square) % 2 == 0 { 118 } else { 138 });
+        let checker =
+            |square: u32| gray(96, |x, y| if (x / square + y / square).is_multiple_of(2) { 118 } else { 138 });
         let [fine, coarse] = [1, 24].map(|square| flip(&even, &checker(square)).unwrap().mean());
         assert!(fine < 0.5 * coarse, "{fine} {coarse}");
     }

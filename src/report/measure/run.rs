@@ -39,7 +39,7 @@ pub enum Error {
     Truth(#[from] truth::Error),
     /// There are no colours to compare with.
     #[error("{scene}: no colours to compare with: {reason}", scene = .scene.display())]
-    Reference { scene: PathBuf, reason: reference::Error },
+    Reference { scene: PathBuf, reason: Box<reference::Error> },
     /// A grid of shadow settings for a light that casts no shadow.
     #[error("{scene}: light {light} has no [light.shadow] to sweep: {why}; leave out --grid", scene = .scene.display())]
     NoShade { scene: PathBuf, light: usize, why: &'static str },
@@ -128,7 +128,7 @@ fn colors_of(path: &Path, scene: &Scene, options: &MeasureOptions) -> Result<Ref
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
     let colors = reference::reference(scene, options.light, &mut renderer);
-    colors.map_err(|reason| Error::Reference { scene: path.to_owned(), reason })
+    colors.map_err(|reason| Error::Reference { scene: path.to_owned(), reason: Box::new(reason) })
 }
 
 /// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.
