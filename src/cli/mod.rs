@@ -9,6 +9,7 @@ mod pipeline;
 mod plan;
 mod render;
 mod report;
+mod report_light;
 pub mod sample;
 mod scene_args;
 mod stress;

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::report_light::{measure_light, print_sweeps};
 use super::scene_args::SceneChanges;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
@@ -15,13 +16,15 @@ use crate::frame::Renderer;
 use crate::report::measure::grid::{self, Grid};
 use crate::report::measure::picks::Goals;
 use crate::report::measure::run::{self, MeasureOptions, Sweep};
-use crate::report::measure::{claims, picks};
+use crate::report::measure::sweeps::MeasuredSweep;
+use crate::report::measure::{claims, light_claims, picks};
 use crate::report::show::html::ReportPictures;
 use crate::report::store::journal::{self, Journal, Known};
 use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
 use crate::report::store::{fingerprint, merge, picture_files, pictures, write};
 
-/// Measures how wrong shadows are against ray-traced truth, and what they cost, over a grid of techniques and settings.
+/// Measures how wrong shadows and projected light are against ray-traced truth, and what they cost, over a grid of techniques
+/// and settings.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = HELP)]
 pub struct ReportArgs {
@@ -125,7 +128,9 @@ A row is the scene's own [light.shadow] with the row's keys in place of its own,
 checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of
 [light.shadow]. Rows that could not be measured end in exit code 1, and the report holds the others.
 
-Without a grid file the report also measures, on each scene, what the techniques' documents claim.
+Without a grid file the report also measures, on each scene, what the techniques' documents claim, and sweeps the keys of
+projected light that the light has: focus.samples, dust.slices, the filter of its image. Colours are compared by RMSE, by the
+greatest difference, by the share of pixels beyond a bound and by FLIP.
 
 Ctrl-C leaves a report of the rows so far; --resume continues it.";
 
@@ -168,16 +173,19 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
     measure(&sweeps, &options, &stop, &mut journal, &mut report)?;
     report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
+    let mut swept = Vec::new();
     if arguments.grid.is_none() && options.shard.0 == 1 && !stop.load(Ordering::Relaxed) {
+        swept = measure_light(&sweeps, &mut report, arguments.quick, &options)?;
         measure_claims(&sweeps, &mut report, &options)?;
     }
-    let pictures = draw_pictures(&sweeps, &mut report, &options, &goals)?;
+    let pictures = draw_pictures((&sweeps, &swept), &mut report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Interrupted { folder });
     }
     journal.remove();
     let mut out = std::io::stdout().lock();
+    report.scenes.iter().try_for_each(|scene| print_sweeps(scene, &mut out))?;
     report.scenes.iter().try_for_each(|scene| print_claims(scene, &mut out))?;
     print_answers(&report, &goals, &folder, &mut out)?;
     check_failures(&report, folder)
@@ -309,7 +317,11 @@ fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &MeasureOption
         bar.set_message(scene.path.display().to_string());
         bar.tick();
         let (light, band) = (options.light, options.band_texels);
-        scene.claims = claims::measure(&sweep.scene, light, &sweep.truth, band, &mut renderer)?;
+        let is_shaded = scene.unshaded.is_none() && !light_claims::has_lens(&sweep.scene, light);
+        if is_shaded {
+            scene.claims = claims::measure(&run::in_clear_air(&sweep.scene), light, &sweep.truth, band, &mut renderer)?;
+        }
+        scene.claims.extend(light_claims::measure(&sweep.scene, light, &scene.sweeps, &mut renderer)?);
     }
     bar.finish_and_clear();
     Ok(())
@@ -325,7 +337,7 @@ fn print_claims(scene: &SceneReport, out: &mut impl Write) -> std::io::Result<()
 
 /// Draws the pictures, and the scene with everything that its plan leaves out.
 fn draw_pictures(
-    sweeps: &[Sweep],
+    (sweeps, swept): (&[Sweep], &[Vec<MeasuredSweep>]),
     report: &mut Report,
     options: &MeasureOptions,
     goals: &Goals,
@@ -333,9 +345,10 @@ fn draw_pictures(
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
     let mut pictures = ReportPictures::default();
-    for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
+    for (index, (sweep, scene)) in sweeps.iter().zip(&mut report.scenes).enumerate() {
         scene.saved = Some(sweep.saved(options, &mut renderer)?);
-        pictures.scenes.push(pictures::of(sweep, scene, goals, &mut renderer)?);
+        let swept = swept.get(index).map_or(&[][..], Vec::as_slice);
+        pictures.scenes.push(pictures::of(sweep, scene, swept, goals, &mut renderer)?);
     }
     Ok(pictures)
 }

@@ -1,10 +1,13 @@
 //! A made-up report for tests: times grow with the map, errors shrink with it.
 
+use super::measure::colors::ColorErrors;
+use super::measure::fit::PowerFit;
 use super::measure::metrics::{Band, EdgeDistance, ErrorSplit, Errors, Metrics, NotCompared};
 use super::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use super::store::results::{
     Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION,
 };
+use super::store::swept::{LightSweep, PointErrors, PointOutcome, SweepPoint, SweepSeries};
 
 /// One scene; row 0 as written, three techniques, one row that failed and one without an error.
 pub fn report() -> Report {
@@ -36,6 +39,7 @@ fn claimed(value: f64, verdict: ClaimVerdict) -> Claimed {
         first: side(value),
         relation: String::from("at most 0.5 ×"),
         second: side(1.0),
+        ratio_range: (value < 0.5).then_some([0.15, 0.25]),
         verdict,
     }
 }
@@ -70,11 +74,55 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
             ambiguous_percent: 1.0,
             trace_ms: 1_834.2,
         },
+        unshaded: None,
+        colors_from: None,
         saved: None,
+        sweeps: Vec::new(),
         claims: vec![claimed(0.2, ClaimVerdict::Holds), claimed(0.9, ClaimVerdict::Fails)],
         grid_rows: rows.len(),
         rows,
     }
+}
+
+/// A scene whose colours are compared, with a sweep: errors fall with the number of samples, the last could not be drawn.
+pub fn projected_scene(path: &str, fingerprint: &str) -> SceneReport {
+    let mut scene = scene(path, fingerprint);
+    scene.colors_from = Some(String::from("colours of <f64>"));
+    let colors = |rmse: f64| ColorErrors {
+        compared: 200_000,
+        rmse_codes: rmse,
+        most_codes: 9.0 * rmse,
+        beyond_percent: 2.0 * rmse,
+        flip: Some(0.01 * rmse),
+    };
+    if let Some(Row { outcome: Outcome::Measured(measured), .. }) = scene.rows.first_mut() {
+        measured.colors = Some(colors(0.5));
+    }
+    let point = |count: f64| SweepPoint {
+        setting: format!("focus.samples = {count}"),
+        label: count.to_string(),
+        count: Some(count),
+        outcome: match count < 256.0 {
+            true => PointOutcome::Measured(PointErrors {
+                errors: colors(8.0 / count.sqrt()),
+                second: Some(colors(9.0 / count.sqrt())),
+                frame: Spread { median: 2.0 * count, least: 1.9 * count, greatest: 2.4 * count, runs: 5 },
+            }),
+            false => PointOutcome::Failed(String::from("out of <memory>")),
+        },
+    };
+    let points = [1.0, 4.0, 16.0, 64.0, 256.0].map(point).to_vec();
+    let fit = Some(PowerFit { exponent: 0.5, range: [0.49, 0.51], points: 4 });
+    scene.sweeps = vec![LightSweep {
+        name: String::from("lens points"),
+        key: String::from("focus.samples"),
+        source: String::from("Papers & Pages"),
+        reference: String::from("a picture of <many> points"),
+        law: String::from("It falls."),
+        second_reference: Some(String::from("rays")),
+        series: vec![SweepSeries { name: String::from("lens points"), points, fit, expected: Some([0.5, 1.0]) }],
+    }];
+    scene
 }
 
 fn keys(size: u32, filter: &str, factor: &str) -> Vec<(String, String)> {

@@ -36,6 +36,7 @@ mod layers;
 mod left_out;
 mod licences;
 mod light_maps;
+mod light_reports;
 mod listing_drawn;
 mod many_lights;
 mod md2;

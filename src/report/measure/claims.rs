@@ -54,6 +54,7 @@ pub fn measure(
                 },
                 first,
                 second,
+                ratio_range: None,
             });
         }
     }

@@ -7,7 +7,8 @@ use crate::frame::{self, Renderer};
 use crate::pass::{DrawState, ImageId, Pass, Work};
 use crate::plan::Plan;
 use crate::report::store::fingerprint;
-use crate::report::store::results::{PassCost, Spread};
+use crate::report::store::results::PassCost;
+use crate::report::store::spread::Spread;
 
 /// Times of a plan's frames and passes.
 pub(super) struct Costs {
@@ -43,6 +44,17 @@ pub(super) fn costs(plan: &Plan, runs: usize, renderer: &mut Renderer) -> Result
         }
     });
     Ok(Costs { redrawn: Spread::of(&redrawn), kept: Spread::of(&kept), passes: passes.collect() })
+}
+
+/// Times of frames with everything drawn, after one to warm up.
+pub(super) fn redrawn(plan: &Plan, runs: usize, renderer: &mut Renderer) -> Result<Spread, frame::Error> {
+    renderer.draw_timed(plan, 1, false, || ())?;
+    let mut times = Vec::new();
+    for _ in 0..runs.max(1) {
+        renderer.device().forget();
+        times.extend(renderer.draw_timed(plan, 1, false, || ())?.frames_ms);
+    }
+    Ok(Spread::of(&times))
 }
 
 fn triangles(pass: &Pass) -> u64 {

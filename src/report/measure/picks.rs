@@ -265,6 +265,9 @@ pub fn titles(goals: &Goals) -> [String; 2] {
 
 /// Reason why no setting can be named, if too few pixels were compared.
 pub fn unjudged(scene: &SceneReport) -> Option<String> {
+    if let Some(why) = &scene.unshaded {
+        return Some(format!("No setting is named: {why}."));
+    }
     let most = scene.rows.iter().filter_map(Row::measured).map(|measured| measured.metrics.all.compared).max()?;
     (most < FEWEST_COMPARED).then(|| {
         format!(

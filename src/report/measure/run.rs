@@ -11,6 +11,7 @@ use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
 use super::metrics::{self, Band, Metrics};
 pub use super::options::MeasureOptions;
+use super::reference::{self, Reference};
 use crate::context;
 use crate::frame::{self, Renderer, draw_shade};
 use crate::plan::{self, Request, ViewRequest};
@@ -20,7 +21,7 @@ use crate::report::store::results::{
 };
 use crate::scene::{self, Loaded, Scene, Settings, SettingsError, Shadow, with_shadow};
 use crate::techniques::{self, LightShadow, vary};
-use crate::truth::{self, Answer, ColorTruth, Truth};
+use crate::truth::{self, Answer, Truth};
 use crate::views::View;
 
 /// Reason why a report cannot be started. Errors of a row are kept in that row.
@@ -36,6 +37,12 @@ pub enum Error {
     /// The ray tracer has no answer for the scene.
     #[error(transparent)]
     Truth(#[from] truth::Error),
+    /// There are no colours to compare with.
+    #[error("{scene}: no colours to compare with: {reason}", scene = .scene.display())]
+    Reference { scene: PathBuf, reason: Box<reference::Error> },
+    /// A grid of shadow settings for a light that casts no shadow.
+    #[error("{scene}: light {light} has no [light.shadow] to sweep: {why}; leave out --grid", scene = .scene.display())]
+    NoShade { scene: PathBuf, light: usize, why: &'static str },
     /// A row of the grid makes no valid scene.
     #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
     Row { scene: PathBuf, inline: String, reason: String },
@@ -53,8 +60,8 @@ pub struct Sweep {
     pub scene: Scene,
     /// The ray tracer's answer for the measured light.
     pub truth: Truth,
-    /// Colours in f64, if a light has an image, a beam or a law of distance.
-    colors: Option<ColorTruth>,
+    /// Colours to compare with, if light and shadow alone do not say what they should be.
+    pub colors: Option<Reference>,
     /// The scene's part of the report, still without rows.
     pub report: SceneReport,
     /// Warnings of loading the scene and laying out its grid.
@@ -90,21 +97,14 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
     }
     let Layout { rows, left_out } = layout(path, &scene, options.light, grid)?;
     warnings.extend(left_out.iter().cloned());
+    let unshaded = colors::why_unshaded(&scene, options.light);
     let start = Instant::now();
-    let truth = truth::trace(&scene, options.light, &truth::Options::default())?;
+    // Without a shade to compare, only the surfaces that are seen are of use.
+    let sure = truth::Options::default();
+    let most_ambiguous = if unshaded.is_some() { 1.0 } else { sure.most_ambiguous };
+    let truth = truth::trace(&scene, options.light, &truth::Options { most_ambiguous, ..sure })?;
     let trace_ms = start.elapsed().as_secs_f64() * 1e3;
-    let mut notes = left_out;
-    let colors = match colors::has_projected_light(&scene).then(|| colors::true_colors(&scene, options.light)) {
-        None => None,
-        Some(Ok(colors)) => Some(colors),
-        Some(Err(error @ truth::Error::Colors { .. })) => {
-            let why = format!("{}: {error}", path.display());
-            warnings.push(why.clone());
-            notes.push(why);
-            None
-        }
-        Some(Err(error)) => return Err(error.into()),
-    };
+    let colors = if colors::has_projected_light(&scene) { Some(colors_of(path, &scene, options)?) } else { None };
     let report = SceneReport {
         path: path.to_owned(),
         path_bytes: bytes_of(path),
@@ -113,12 +113,22 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
         size: scene.image.size,
         triangles: scene.objects.iter().map(|object| object.mesh.triangle_count() as u64).sum(),
         truth: summarise(&truth, trace_ms),
+        unshaded: unshaded.map(str::to_owned),
+        colors_from: colors.as_ref().map(|colors| colors.from.clone()),
         saved: None,
         claims: Vec::new(),
+        sweeps: Vec::new(),
         grid_rows: rows.len(),
         rows: Vec::new(),
     };
-    Ok(Sweep { scene, truth, colors, report, warnings, notes, rows })
+    Ok(Sweep { scene, truth, colors, report, warnings, notes: left_out, rows })
+}
+
+fn colors_of(path: &Path, scene: &Scene, options: &MeasureOptions) -> Result<Reference, Error> {
+    let context = context::open(&options.context)?;
+    let mut renderer = Renderer::new(&context);
+    let colors = reference::reference(scene, options.light, &mut renderer);
+    colors.map_err(|reason| Error::Reference { scene: path.to_owned(), reason: Box::new(reason) })
 }
 
 /// The rows of a scene's grid, and the parts of the standard grid that do not go with the scene's own keys.
@@ -134,9 +144,24 @@ fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layou
     let first = row_of(0, &vary::readable(source.shadow.written()), &source.shadow);
     let first = GridRow { row: first, shadow: Ok(source.shadow.clone()) };
     let mut layout = Layout { rows: vec![first], left_out: Vec::new() };
+    if let Some(why) = why_not_swept(scene, light) {
+        match (grid, colors::why_unshaded(scene, light)) {
+            (Grid::Standard { .. }, _) => {
+                let path = path.display();
+                layout.left_out.push(format!("{path}: the grid of shadow settings is left out: {why}"));
+                return Ok(layout);
+            }
+            (Grid::Own(settings), Some(why)) if !settings.is_empty() => {
+                return Err(Error::NoShade { scene: path.to_owned(), light, why });
+            }
+            (Grid::Own(_), _) => {}
+        }
+    }
+    // Dust is drawn with objects only, and does not go with every technique.
+    let planned = if source.dust.is_some() { scene } else { &bare };
     for setting in grid.settings(&source.kind)? {
         let settings = vary::over(source.shadow.written(), &setting);
-        match check_settings(&bare, light, &settings) {
+        match check_settings([&bare, planned], light, &settings) {
             Ok(shadow) => {
                 let row = row_of(layout.rows.len(), &settings, &shadow);
                 let shadow = techniques::read(settings, &source.kind, &scene.objects);
@@ -157,6 +182,18 @@ fn layout(path: &Path, scene: &Scene, light: usize, grid: &Grid) -> Result<Layou
     Ok(layout)
 }
 
+/// Reason why the standard grid has no place on this light.
+fn why_not_swept(scene: &Scene, light: usize) -> Option<String> {
+    let lens = || scene.lights.get(light).and_then(|light| light.spot()?.lens());
+    colors::why_unshaded(scene, light).map(str::to_owned).or_else(|| {
+        let samples = lens()?.samples;
+        Some(format!(
+            "light {light} has a lens, so that each of its rows would be drawn through {samples} lens points, and the shade of \
+             its middle says little of soft shadows. --grid sweeps what it names"
+        ))
+    })
+}
+
 /// A row that is not measured yet.
 fn row_of(index: usize, settings: &Settings, shadow: &Shadow) -> Row {
     let keys = settings.entries.iter().filter(|(key, _)| key != "technique");
@@ -166,13 +203,14 @@ fn row_of(index: usize, settings: &Settings, shadow: &Shadow) -> Row {
     Row { index, technique, settings: settings_text, map_size, outcome: Outcome::Failed(String::new()) }
 }
 
-/// Reads `settings` for a scene without objects, and plans it: so every error of the settings alone is found here.
-fn check_settings(bare: &Scene, light: usize, settings: &Settings) -> Result<Shadow, String> {
+/// Reads `settings` for a scene without objects, and plans them in another: so every error of the settings alone is found
+/// here.
+fn check_settings([bare, planned]: [&Scene; 2], light: usize, settings: &Settings) -> Result<Shadow, String> {
     let shadow = techniques::read(settings.clone(), &bare.lights[light].kind, &bare.objects);
     let shadow = shadow.map_err(|error| error.to_string())?;
     let views = vec![ViewRequest { view: View::Shade, light }];
     let request = Request { views, sampled_warnings: false, ..Request::default() };
-    plan::make(&with_shadow(bare, light, &shadow), &request).map_err(|error| error.to_string())?;
+    plan::make(&with_shadow(planned, light, &shadow), &request).map_err(|error| error.to_string())?;
     Ok(shadow)
 }
 
@@ -230,10 +268,43 @@ impl Sweep {
     fn outcome(&self, shadow: &Shadow, options: &MeasureOptions, renderer: &mut Renderer) -> Outcome {
         let scene = with_shadow(&self.scene, options.light, shadow);
         let band = Band { texels: options.band_texels, map_size: [techniques::map_size(shadow); 2] };
-        match measure(&scene, (&self.truth, self.colors.as_ref()), &band, options, renderer) {
+        match self.measure(&scene, &band, options, renderer) {
             Ok(measured) => Outcome::Measured(Box::new(measured)),
             Err(why) => Outcome::Failed(why),
         }
+    }
+
+    fn measure(
+        &self,
+        scene: &Scene,
+        band: &Band,
+        options: &MeasureOptions,
+        renderer: &mut Renderer,
+    ) -> Result<Measured, String> {
+        let metrics = match &self.report.unshaded {
+            None => check(scene, options.light, &self.truth, band, renderer)?,
+            Some(_) => Metrics::none(band),
+        };
+        let colors = self.colors.as_ref().map(|colors| compare_colors(scene, &colors.colors, renderer)).transpose();
+        let colors = colors.map_err(|error| error.to_string())?.flatten();
+        let request = Request { frames: 100, ..Request::default() };
+        let plan = renderer.plan(scene, &request).map_err(|error| error.to_string())?;
+        let costs = costs(&plan, options.runs, renderer).map_err(|error| error.to_string())?;
+        let summary = plan.summary();
+        Ok(Measured {
+            metrics,
+            colors,
+            frame_redrawn: costs.redrawn,
+            frame_kept: costs.kept,
+            passes: costs.passes,
+            image_bytes: summary.image_bytes,
+            buffer_bytes: summary.buffer_bytes,
+            draw_calls: summary.passes.iter().map(|pass| pass.draw_calls).sum(),
+            triangles: summary.passes.iter().map(|pass| pass.triangles).sum(),
+            work: work_of(&plan),
+            left_out: plan.left_out,
+            warnings: plan.warnings,
+        })
     }
 
     /// Draws the scene as written with and without the parts that its plan leaves out, and compares pixels, time and bytes.
@@ -273,40 +344,17 @@ impl Sweep {
     }
 }
 
-fn measure(
-    scene: &Scene,
-    (truth, colors): (&Truth, Option<&ColorTruth>),
-    band: &Band,
-    options: &MeasureOptions,
-    renderer: &mut Renderer,
-) -> Result<Measured, String> {
-    let metrics = check(scene, options.light, truth, band, renderer)?;
-    let colors = colors.map(|colors| compare_colors(scene, colors, renderer)).transpose();
-    let colors = colors.map_err(|error| error.to_string())?.flatten();
-    let request = Request { frames: 100, ..Request::default() };
-    let plan = renderer.plan(scene, &request).map_err(|error| error.to_string())?;
-    let costs = costs(&plan, options.runs, renderer).map_err(|error| error.to_string())?;
-    let summary = plan.summary();
-    Ok(Measured {
-        metrics,
-        colors,
-        frame_redrawn: costs.redrawn,
-        frame_kept: costs.kept,
-        passes: costs.passes,
-        image_bytes: summary.image_bytes,
-        buffer_bytes: summary.buffer_bytes,
-        draw_calls: summary.passes.iter().map(|pass| pass.draw_calls).sum(),
-        triangles: summary.passes.iter().map(|pass| pass.triangles).sum(),
-        work: work_of(&plan),
-        left_out: plan.left_out,
-        warnings: plan.warnings,
-    })
-}
-
 /// Draws the shade and compares it with the truth. A frame is not timed before that.
 fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
-    let shade = draw_shade(scene, light, renderer).map_err(|error| error.to_string())?;
+    let shade = draw_shade(&in_clear_air(scene), light, renderer).map_err(|error| error.to_string())?;
     metrics::compare(truth, &shade, band).map_err(|error| error.to_string())
+}
+
+/// The scene without dust, which no shade shows.
+pub fn in_clear_air(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.lights.iter_mut().for_each(|light| light.dust = None);
+    scene
 }
 
 /// Describes the machine that is measured on.

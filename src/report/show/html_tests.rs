@@ -12,7 +12,12 @@ fn page(change: impl FnOnce(&mut Report)) -> String {
     change(&mut report);
     let png = |name: &str| Some(name.as_bytes().to_vec());
     let difference = DifferencePicture { row: 5, caption: "5 < 6".to_owned(), png: b"difference".to_vec() };
-    let scene = ScenePictures { picture: png("picture"), truth: png("truth"), differences: vec![difference] };
+    let scene = ScenePictures {
+        picture: png("picture"),
+        truth: png("truth"),
+        differences: vec![difference],
+        light: Vec::new(),
+    };
     to_html(&report, &ReportPictures { scenes: vec![scene] }, &GOALS)
 }
 
@@ -50,10 +55,57 @@ fn tags_are_closed() {
     check_nesting(&to_html(&samples::report(), &ReportPictures::default(), &Goals::default()));
 }
 
+/// A page of projected light with all its pictures.
+fn projected_page() -> String {
+    use crate::report::store::light_pictures;
+    let mut report = samples::report();
+    report.scenes = vec![samples::projected_scene("scenes/main.toml", "f1")];
+    let names = light_pictures::names(&report.scenes[0]);
+    let light = names.iter().map(|picture| (picture.name.clone(), picture.name.clone().into_bytes())).collect();
+    let scene = ScenePictures { light, ..ScenePictures::default() };
+    to_html(&report, &ReportPictures { scenes: vec![scene] }, &GOALS)
+}
+
+#[test]
+fn projected_light_has_its_section() {
+    let page = projected_page();
+    check_nesting(&page);
+    for part in [
+        "Pictures are compared with colours of &lt;f64&gt;.",
+        "RMSE 0.5 codes of 1/255, at most 4.5 codes, 1 % of the pixels beyond",
+        "<h3>Sweep: lens points</h3>",
+        "RMSE ∝ count^-0.50, 95 % range 0.49 to 0.51, 4 points; expected 0.5 to 1: holds",
+        "<td colspan=\"8\" class=\"failure\">out of &lt;memory&gt;</td>",
+        "Lens points, FLIP against time: main.toml",
+        "focus.samples = 16: FLIP, mean 0.02",
+        "FLIP 0.25 and more",
+        "<dt>FLIP</dt>",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    // Colours and FLIP of row 0; the sweep's reference, its first picture, FLIP of the four that were drawn.
+    assert_eq!(page.matches("data:image/png;base64,").count(), 8);
+    assert!(!page.contains("<f64>") && !page.contains("<memory>") && !page.contains("<many>"));
+    let plain = self::page(|_| ());
+    assert!(!plain.contains("<h3>Colours</h3>") && !plain.contains("Sweep:"));
+}
+
+#[test]
+fn a_light_without_a_shade_has_colours_only() {
+    let page = page(|report| {
+        report.scenes[0] = samples::projected_scene("a.toml", "f");
+        report.scenes[0].unshaded = Some(String::from("it is a <slide>"));
+    });
+    assert!(page.contains("No setting is named: it is a &lt;slide&gt;."));
+    assert!(!page.contains("% wrong in") && !page.contains("to trace:"), "nothing is said of a shade");
+    assert!(!page.contains("<h3>Error against time</h3>") && page.contains("<h3>Colours</h3>"));
+}
+
 #[test]
 fn claims_are_told_with_their_verdicts() {
     let page = page(|_| ());
     assert!(page.contains("Published claims, on this scene"));
+    assert!(page.contains("0.2<div><small>0.15 to 0.25</small></div>"), "the range of a ratio");
     assert!(page.contains(">holds</td>") && page.contains(" class=\"failure\">does not hold</td>"));
     let without = self::page(|report| report.scenes[0].claims.clear());
     assert!(!without.contains("Published claims"));

@@ -124,3 +124,23 @@ fn every_point_has_its_error_bar() {
     assert_eq!(ends, 2 * (rows + front + 1));
     assert!(texts(&svg).iter().any(|text| text == "least to greatest run"));
 }
+
+#[test]
+fn a_sweep_has_its_points_its_bars_and_its_exponent() {
+    let report = samples::report();
+    let mut scene = samples::projected_scene("scenes/main.toml", "f");
+    let of = |scene: &SceneReport, measure| sweep(scene, &report.machine, &scene.sweeps[0], measure).unwrap();
+    let [rmse, flip] = [Measure::Rmse, Measure::Flip].map(|measure| of(&scene, measure).unwrap());
+    let (rmse_texts, flip_texts) = (texts(&rmse).join("\n"), texts(&flip).join("\n"));
+    for text in [&rmse_texts, &flip_texts] {
+        for word in ["lens points", "main.toml", "in ms", "1", "4", "16", "64", "least to greatest run"] {
+            assert!(text.lines().any(|line| line.contains(word)), "{word} is not in:\n{text}");
+        }
+        assert!(!text.lines().any(|line| line == "256"), "what was not drawn is not plotted");
+    }
+    assert!(rmse_texts.contains("-0.50, 0.49 to 0.51") && rmse_texts.contains("codes of 1/255"), "{rmse_texts}");
+    assert!(!flip_texts.contains("0.49 to 0.51") && flip_texts.contains("mean of FLIP"), "{flip_texts}");
+    assert!(rmse.contains("<title>focus.samples = 16: RMSE 2 codes, 30.4 to 38.4 ms</title>"), "{rmse}");
+    scene.sweeps[0].series[0].points.clear();
+    assert_eq!(of(&scene, Measure::Rmse), None);
+}

@@ -23,6 +23,8 @@ pub struct Claimed {
     pub relation: String,
     /// Measurement on the relation's right.
     pub second: Measurement,
+    /// Range that holds the ratio of two times with a confidence of at least 95 %; `None`: the quantity is no time.
+    pub ratio_range: Option<[f64; 2]>,
     /// Result.
     pub verdict: ClaimVerdict,
 }
@@ -46,6 +48,8 @@ pub enum ClaimVerdict {
     Holds,
     /// They do not.
     Fails,
+    /// Times do not, on this machine.
+    FailsHere,
     /// One of the numbers is missing.
     Unknown,
 }
@@ -56,6 +60,7 @@ impl ClaimVerdict {
         match self {
             Self::Holds => "holds",
             Self::Fails => "does not hold",
+            Self::FailsHere => "not on this machine",
             Self::Unknown => "not known",
         }
     }
@@ -76,7 +81,11 @@ impl fmt::Display for Claimed {
             (Some(value), _) => plain(value),
             (None, why) => why.clone().unwrap_or_default(),
         };
-        let ratio = self.ratio().map_or_else(String::new, |ratio| format!(" ({} ×)", plain(ratio)));
+        let range = self.ratio_range.map_or_else(String::new, |range| {
+            let [least, greatest] = range.map(plain);
+            format!(", 95 % range {least} to {greatest} ×")
+        });
+        let ratio = self.ratio().map_or_else(String::new, |ratio| format!(" ({} ×{range})", plain(ratio)));
         write!(f, "{}: {}: {}: ", self.technique, self.says, self.verdict.name())?;
         write!(f, "{} against {}{ratio}, {}", text(&self.first), text(&self.second), self.quantity)
     }

@@ -7,6 +7,8 @@
 use std::fmt::Write;
 
 use super::results::{Measured, Outcome, PassCost, Report, Row, SceneReport, Spread};
+use super::swept::PointOutcome;
+use crate::report::measure::colors::ColorErrors;
 use crate::report::measure::metrics::{EdgeDistance, Errors};
 
 /// A header line, then the rows of each scene by index. Lines end in CR LF.
@@ -23,6 +25,52 @@ pub fn to_csv(report: &Report) -> String {
         }
     }
     text
+}
+
+/// The sweeps over the keys of projected light, one line for each picture; `None`: no scene has one.
+pub fn sweeps_to_csv(report: &Report) -> Option<String> {
+    const ERRORS: [&str; 5] = ["compared", "rmse_codes", "most_codes", "beyond_percent", "flip"];
+    let mut text = String::new();
+    let second = ERRORS.map(|name| format!("second_{name}"));
+    let first = ["scene", "sweep", "series", "setting", "count"].map(str::to_owned);
+    let times = ["redrawn_ms_median", "redrawn_ms_least", "redrawn_ms_greatest", "redrawn_runs", "failure"];
+    let names = first.into_iter().chain(ERRORS.map(str::to_owned)).chain(second).chain(times.map(str::to_owned));
+    push_line(&mut text, names);
+    for scene in &report.scenes {
+        for sweep in &scene.sweeps {
+            for (series, point) in sweep.series.iter().flat_map(|series| series.points.iter().map(move |p| (series, p)))
+            {
+                let first = [scene.path.display().to_string(), sweep.name.clone(), series.name.clone()];
+                let second = [point.setting.clone(), point.count.map_or_else(String::new, |count| count.to_string())];
+                push_line(&mut text, first.into_iter().chain(second).chain(point_cells(&point.outcome)));
+            }
+        }
+    }
+    report.scenes.iter().any(|scene| !scene.sweeps.is_empty()).then_some(text)
+}
+
+fn point_cells(outcome: &PointOutcome) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+    let errors = |errors: Option<ColorErrors>| {
+        let of = |part: fn(&ColorErrors) -> f64| number(errors.as_ref().map(part));
+        let compared = of(|errors| errors.compared as f64);
+        let flip = number(errors.and_then(|errors| errors.flip));
+        [
+            compared,
+            of(|errors| errors.rmse_codes),
+            of(|errors| errors.most_codes),
+            of(|errors| errors.beyond_percent),
+            flip,
+        ]
+    };
+    let (measured, why) = match outcome {
+        PointOutcome::Measured(measured) => (Some(measured), String::new()),
+        PointOutcome::Failed(why) => (None, why.clone()),
+    };
+    let both = [errors(measured.map(|m| m.errors)), errors(measured.and_then(|m| m.second))].concat();
+    let time = |of: fn(&Spread) -> f64| number(measured.map(|m| of(&m.frame)));
+    let times = [time(|s| s.median), time(|s| s.least), time(|s| s.greatest), time(|s| s.runs as f64), why];
+    both.into_iter().chain(times).collect()
 }
 
 /// Union of the keys of all rows, in order of occurrence.
@@ -85,6 +133,7 @@ fn measured_columns(measured: Option<&Measured>) -> Vec<(String, String)> {
     push("color_rmse_codes".to_owned(), colors.map(|c| c.rmse_codes.to_string()));
     push("color_most_codes".to_owned(), colors.map(|c| c.most_codes.to_string()));
     push("color_beyond_percent".to_owned(), colors.map(|c| c.beyond_percent.to_string()));
+    push("color_flip".to_owned(), colors.and_then(|c| c.flip).map(|flip| flip.to_string()));
     for (name, spread) in [("redrawn", measured.map(|m| &m.frame_redrawn)), ("kept", measured.map(|m| &m.frame_kept))] {
         let part =
             |what: &str, of: fn(&Spread) -> f64| (format!("{name}_ms_{what}"), spread.map(|s| of(s).to_string()));
@@ -243,6 +292,21 @@ mod tests {
         let cells = ["size", "filter", "offset.factor", "offset.units"].map(|key| cell(&format!("setting.{key}")));
         assert_eq!(cells, ["1024", "linear", "1.1", "4.0"]);
         assert!(!lines[0].iter().any(|column| column == "setting.offset"));
+    }
+
+    #[test]
+    fn sweeps_have_a_line_for_each_picture() {
+        let mut report = samples::report();
+        assert_eq!(sweeps_to_csv(&report), None);
+        report.scenes.push(samples::projected_scene("b.toml", "f2"));
+        let lines = parse(&sweeps_to_csv(&report).unwrap());
+        assert_eq!(lines.len(), 1 + 5);
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{lines:?}");
+        let cell =
+            |line: usize, name: &str| lines[line][lines[0].iter().position(|column| column == name).unwrap()].as_str();
+        let third = ["scene", "setting", "count", "rmse_codes", "second_rmse_codes", "redrawn_ms_median", "failure"];
+        assert_eq!(third.map(|name| cell(3, name)), ["b.toml", "focus.samples = 16", "16", "2", "2.25", "32", ""]);
+        assert_eq!(["rmse_codes", "failure"].map(|name| cell(5, name)), ["", "out of <memory>"]);
     }
 
     #[test]

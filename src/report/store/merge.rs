@@ -192,6 +192,9 @@ fn join_scene(scene: &SceneReport, parts: &[(PathBuf, Report)]) -> Result<SceneR
                     if known.claims.is_empty() {
                         known.claims.clone_from(&other.claims);
                     }
+                    if known.sweeps.is_empty() {
+                        known.sweeps.clone_from(&other.sweeps);
+                    }
                 }
             }
             for row in &other.rows {

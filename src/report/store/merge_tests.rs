@@ -152,7 +152,8 @@ fn damaged_files_are_refused_by_name() {
         ("cut", text[..text.len() / 2].to_owned(), "cut off"),
         ("empty", String::new(), "cut off"),
         ("other", "{\"a\": 1}".to_owned(), "no `version`"),
-        ("newer", text.replacen("\"version\":2", "\"version\":99", 1), "layout 99"),
+        ("newer", text.replacen("\"version\":3", "\"version\":99", 1), "layout 99"),
+        ("older", text.replacen("\"version\":3", "\"version\":2", 1), "layout 2, this glumbra reads 3: measure again"),
         ("type", text.replacen("\"cores\":2", "\"cores\":\"two\"", 1), "no report"),
         ("twice", serde_json::to_string(&twice).unwrap(), "row 3 stands twice"),
         ("outside", text.replacen("\"grid_rows\":94", "\"grid_rows\":9", 1), "outside its grid"),
@@ -175,4 +176,15 @@ fn a_report_that_calls_itself_complete_is_counted() {
     let path = folder.path().join("report.json");
     std::fs::write(&path, serde_json::to_vec(&report).unwrap()).unwrap();
     assert!(!load(&path).unwrap().complete);
+}
+
+/// The first part alone has sweeps; the whole has them whatever the order of the parts.
+#[test]
+fn sweeps_of_one_part_are_those_of_the_whole() {
+    let mut whole = samples::report();
+    whole.scenes = vec![samples::projected_scene("scenes/main.toml", "f1")];
+    let mut parts = shards(&whole, 3);
+    parts[1..].iter_mut().for_each(|(_, part)| part.scenes[0].sweeps.clear());
+    parts.reverse();
+    assert_eq!(merge(parts).unwrap(), whole);
 }

@@ -4,6 +4,7 @@
 use std::io::{Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
+use super::light_pictures;
 use super::pictures::rows_that_matter;
 use super::results::{Report, SceneReport};
 use crate::report::measure::picks::Goals;
@@ -34,6 +35,7 @@ pub(super) fn files(folder: &Path, report: &Report, pictures: &ReportPictures) -
         of_scene.picture.iter().for_each(|png| add("picture", png));
         of_scene.truth.iter().for_each(|png| add("truth", png));
         of_scene.differences.iter().for_each(|difference| add(&row(difference.row), &difference.png));
+        of_scene.light.iter().for_each(|(name, png)| add(name, png));
     }
     // A scene that occurs twice in a report has its pictures once.
     files.sort();
@@ -47,7 +49,8 @@ pub(super) fn is_picture(name: &str) -> bool {
         return false;
     };
     let is_row = what.strip_prefix("row-").is_some_and(|index| index.parse::<usize>().is_ok());
-    fingerprint.chars().all(|letter| letter.is_ascii_alphanumeric()) && (is_row || what == "picture" || what == "truth")
+    fingerprint.chars().all(|letter| letter.is_ascii_alphanumeric())
+        && (is_row || what == "picture" || what == "truth" || light_pictures::is_name(what))
 }
 
 fn row(index: usize) -> String {
@@ -74,7 +77,11 @@ pub fn of_parts(parts: &[PathBuf], report: &mut Report, goals: &Goals) -> Result
             picture: find(&folders, scene, "picture")?,
             truth: find(&folders, scene, "truth")?,
             differences: Vec::new(),
+            light: Vec::new(),
         };
+        for picture in light_pictures::names(scene) {
+            of_scene.light.extend(find(&folders, scene, &picture.name)?.map(|png| (picture.name, png)));
+        }
         let mut missing = Vec::new();
         for (measured, caption) in rows_that_matter(scene, goals) {
             match find(&folders, scene, &row(measured.index))? {
@@ -134,7 +141,8 @@ mod tests {
         let size = report.scenes[0].size;
         let difference = |row: &usize| DifferencePicture { row: *row, caption: String::new(), png: png(size) };
         let differences = rows.iter().map(difference).collect();
-        let of_scene = ScenePictures { picture: Some(png(size)), truth: Some(png(size)), differences };
+        let of_scene =
+            ScenePictures { picture: Some(png(size)), truth: Some(png(size)), differences, light: Vec::new() };
         let pictures = ReportPictures { scenes: vec![of_scene] };
         write::write_all(folder, &report, &pictures, &Goals::default()).unwrap();
         report

@@ -1,13 +1,16 @@
 //! The pictures of a report: the scene, the truth, and the errors of the rows that matter.
 
+use super::light_pictures;
 use super::results::{Row, SceneReport};
 use crate::device::Pixels;
 use crate::frame::{self, Renderer, draw_shade};
 use crate::plan::Request;
+use crate::report::measure::colors::{draw_colors, errors_of, known_or_drawn};
 use crate::report::measure::difference::{self, difference_picture, truth_picture};
 use crate::report::measure::metrics;
 use crate::report::measure::picks::{Goals, Pick, Picks};
-use crate::report::measure::run::Sweep;
+use crate::report::measure::run::{Sweep, in_clear_air};
+use crate::report::measure::sweeps::MeasuredSweep;
 use crate::report::show::html::{DifferencePicture, ScenePictures};
 
 /// Reason why a picture could not be drawn.
@@ -24,16 +27,26 @@ pub enum Error {
     Encode(#[from] image::ImageError),
 }
 
-/// Draws the pictures of one scene.
+/// Draws the pictures of one scene. `measured`: its sweeps of projected light.
 ///
 /// # Errors
 ///
 /// An error of the device; a picture that does not fit its truth.
-pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Renderer) -> Result<ScenePictures, Error> {
+pub fn of(
+    sweep: &Sweep,
+    report: &SceneReport,
+    measured: &[MeasuredSweep],
+    goals: &Goals,
+    renderer: &mut Renderer,
+) -> Result<ScenePictures, Error> {
+    let light = light(sweep, measured, renderer)?;
+    if report.unshaded.is_some() {
+        return Ok(ScenePictures { picture: Some(picture(sweep, renderer)?), light, ..ScenePictures::default() });
+    }
     let mut differences = Vec::new();
     for (row, caption) in rows_that_matter(report, goals) {
         let Some(scene) = sweep.scene_of(row.index) else { continue };
-        let shade = draw_shade(&scene, report.light, renderer)?;
+        let shade = draw_shade(&in_clear_air(&scene), report.light, renderer)?;
         let png = difference::to_png(&difference_picture(&sweep.truth, &shade)?)?;
         differences.push(DifferencePicture { row: row.index, caption, png });
     }
@@ -41,7 +54,37 @@ pub fn of(sweep: &Sweep, report: &SceneReport, goals: &Goals, renderer: &mut Ren
         picture: Some(picture(sweep, renderer)?),
         truth: Some(difference::to_png(&truth_picture(&sweep.truth))?),
         differences,
+        light,
     })
+}
+
+/// Pictures of projected light: the colours to compare with and FLIP of the scene as written; those of its sweeps.
+fn light(sweep: &Sweep, measured: &[MeasuredSweep], renderer: &mut Renderer) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let mut pictures = Vec::new();
+    let mut add =
+        |name: String, picture: &image::RgbImage| difference::to_png(picture).map(|png| pictures.push((name, png)));
+    if let Some(reference) = &sweep.colors {
+        let drawn = draw_colors(&sweep.scene, false, renderer)?;
+        add(light_pictures::COLORS.to_owned(), &known_or_drawn(&reference.colors, &drawn))?;
+        if let Some((_, Some(map))) = errors_of(&reference.colors, &drawn) {
+            add(light_pictures::FLIP.to_owned(), &map.picture())?;
+        }
+    }
+    for (index, sweep) in measured.iter().enumerate() {
+        add(light_pictures::reference_name(index), &sweep.reference)?;
+        let points = sweep.points.iter().enumerate().flat_map(|(series, points)| {
+            points.iter().enumerate().filter_map(move |(point, pictures)| Some(([series, point], pictures.as_ref()?)))
+        });
+        for (at, pictures) in points {
+            if at[1] == 0 {
+                add(light_pictures::drawn_name(index, at), &pictures.drawn)?;
+            }
+            if let Some(flip) = &pictures.flip {
+                add(light_pictures::flip_name(index, at), flip)?;
+            }
+        }
+    }
+    Ok(pictures)
 }
 
 /// The scene as written, the rows that reach the goals, and the most wrong one; each once.

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::claimed::Claimed;
+pub use super::spread::Spread;
+use super::swept::LightSweep;
 use crate::report::measure::colors::ColorErrors;
 use crate::report::measure::metrics::{FEWEST_COMPARED, Metrics};
 
@@ -27,7 +29,7 @@ pub struct Report {
 }
 
 /// The layout that this crate writes and reads.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Machine and driver that it was measured on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,12 +69,18 @@ pub struct SceneReport {
     pub triangles: u64,
     /// Summary of the ray tracer's answer.
     pub truth: TruthSummary,
+    /// Reason why no row's shade is compared, if the light casts no shadow by nature.
+    pub unshaded: Option<String>,
+    /// Source of the colours that pictures are compared with; `None`: colours are not compared.
+    pub colors_from: Option<String>,
     /// Parts that the plan leaves out of the scene as written, and the time that this saves.
     #[serde(default)]
     pub saved: Option<Saved>,
-    /// Claims of the techniques' documents, measured here.
+    /// Claims of the documents, measured here.
     #[serde(default)]
     pub claims: Vec<Claimed>,
+    /// Errors of pictures over the keys of projected light.
+    pub sweeps: Vec<LightSweep>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.
     pub grid_rows: usize,
     /// Rows by their index in the grid.
@@ -152,8 +160,8 @@ pub enum Outcome {
 pub struct Measured {
     /// Errors against the truth.
     pub metrics: Metrics,
-    /// Errors of the picture's colours, if a light has an image, a beam or a law of distance.
-    #[serde(default)]
+    /// Errors of the picture's colours, if a light has an image, a beam, a law of distance, a lens or dust, or is a slide
+    /// projector.
     pub colors: Option<ColorErrors>,
     /// Every pass drawn, the maps among them, in milliseconds from the first call to the end of glFinish.
     pub frame_redrawn: Spread,
@@ -177,31 +185,6 @@ pub struct Measured {
     pub left_out: Vec<crate::lights::LeftOut>,
     /// The plan's warnings, one sentence each.
     pub warnings: Vec<String>,
-}
-
-/// Times of several runs in milliseconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
-    /// The middle run, or the mean of the two middle ones.
-    pub median: f64,
-    /// The fastest run.
-    pub least: f64,
-    /// The slowest run.
-    pub greatest: f64,
-    /// Number of runs.
-    pub runs: usize,
-}
-
-impl Spread {
-    /// Statistics of at least one time.
-    pub fn of(times: &[f64]) -> Self {
-        let mut sorted = times.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);
-        let runs = sorted.len();
-        let median = if runs % 2 == 1 { at(runs / 2) } else { 0.5 * (at(runs / 2) + at((runs / 2).saturating_sub(1))) };
-        Self { median, least: at(0), greatest: at(runs.saturating_sub(1)), runs }
-    }
 }
 
 /// Cost of one pass when it is drawn and waited for.

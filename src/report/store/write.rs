@@ -1,4 +1,5 @@
-//! A report as files in a folder: `report.json`, `report.csv`, `report.html`, `plots/*.svg` and `pictures/*.png`.
+//! A report as files in a folder: `report.json`, `report.csv`, `sweeps.csv` where there are sweeps of projected light,
+//! `report.html`, `plots/*.svg` and `pictures/*.png`.
 //!
 //! Each is made in memory, written under another name, synced and renamed, so that a full disk or a kill leaves the older
 //! report or the newer one, never half of one.
@@ -13,7 +14,7 @@ use super::{csv, picture_files};
 use crate::output::atomic_write;
 use crate::report::measure::picks::Goals;
 use crate::report::show::html::{ReportPictures, to_html};
-use crate::report::show::plots::{self, Links};
+use crate::report::show::plots::{self, Links, Measure};
 
 /// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -59,7 +60,17 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goal
             let path = folder.join("plots").join(plot_name(index + 1, scene, kind));
             files.extend(svg.map(|svg| (path, svg.into_bytes())));
         }
+        for sweep in &scene.sweeps {
+            for (measure, kind) in [(Measure::Rmse, KINDS[2]), (Measure::Flip, KINDS[3])] {
+                let svg = plots::sweep(scene, &report.machine, sweep, measure).map_err(plot)?;
+                let kind = format!("{}-{kind}", sweep.name);
+                let path = folder.join("plots").join(plot_name(index + 1, scene, &kind));
+                files.extend(svg.map(|svg| (path, svg.into_bytes())));
+            }
+        }
     }
+    let sweeps = folder.join("sweeps.csv");
+    files.extend(csv::sweeps_to_csv(report).map(|text| (sweeps.clone(), text.into_bytes())));
     let kept_pictures = picture_files::files(folder, report, pictures);
     make_folder(&folder.join("plots"))?;
     if !kept_pictures.is_empty() {
@@ -68,12 +79,13 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goal
     files.extend(kept_pictures);
     write_files(&files)?;
     let written: HashSet<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
+    remove_stale(folder, &written, |name| name == "sweeps.csv")?;
     remove_stale(&folder.join("plots"), &written, is_plot)?;
     remove_stale(&picture_files::folder_in(folder), &written, picture_files::is_picture)
 }
 
 /// The plots of a scene.
-const KINDS: [&str; 2] = ["error-against-time", "error-against-map-size"];
+const KINDS: [&str; 4] = ["error-against-time", "error-against-map-size", "rmse-against-time", "flip-against-time"];
 
 fn is_plot(name: &str) -> bool {
     let is_numbered = name.split_once('-').is_some_and(|(number, _)| number.parse::<usize>().is_ok());
@@ -130,8 +142,10 @@ fn write_files(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Error> {
 fn plot_name(number: usize, scene: &SceneReport, kind: &str) -> String {
     let stem = scene.path.file_stem().unwrap_or_default().to_string_lossy();
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
-    let stem: String = stem.chars().take(60).map(|letter| if is_plain(letter) { letter } else { '_' }).collect();
-    format!("{number}-{stem}-{kind}.svg")
+    let plain = |text: &str| -> String {
+        text.chars().take(60).map(|letter| if is_plain(letter) { letter } else { '_' }).collect()
+    };
+    format!("{number}-{}-{}.svg", plain(&stem), plain(kind))
 }
 
 #[cfg(test)]
@@ -247,7 +261,12 @@ mod tests {
         let folder = std::env::var_os("GLUMBRA_SAMPLE").map_or(temporary.path().to_owned(), PathBuf::from);
         let png = to_png(&image::RgbImage::from_fn(512, 512, |x, y| image::Rgb([x as u8, y as u8, 90]))).unwrap();
         let difference = DifferencePicture { row: 5, caption: "size = 256".to_owned(), png: png.clone() };
-        let scene = ScenePictures { picture: Some(png.clone()), truth: Some(png), differences: vec![difference] };
+        let scene = ScenePictures {
+            picture: Some(png.clone()),
+            truth: Some(png),
+            differences: vec![difference],
+            ..ScenePictures::default()
+        };
         let goals = Goals { wrong_percent: 0.3, milliseconds: 10.0 };
         write_all(&folder, &samples::report(), &ReportPictures { scenes: vec![scene] }, &goals).unwrap();
         let page = fs::read_to_string(folder.join("report.html")).unwrap();

@@ -21,7 +21,7 @@ pub(super) fn section(scene: &SceneReport) -> String {
 fn row(claim: &Claimed) -> String {
     let class = match claim.verdict {
         ClaimVerdict::Holds => "",
-        ClaimVerdict::Fails | ClaimVerdict::Unknown => " class=\"failure\"",
+        ClaimVerdict::Fails | ClaimVerdict::FailsHere | ClaimVerdict::Unknown => " class=\"failure\"",
     };
     format!(
         "<tr><td><b>{}</b>: {}<div><small>{}</small></div></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
@@ -33,8 +33,18 @@ fn row(claim: &Claimed) -> String {
         measurement(&claim.first),
         escape(&claim.relation),
         measurement(&claim.second),
-        claim.ratio().map_or_else(|| String::from("–"), plain),
+        ratio(claim),
         claim.verdict.name()
+    )
+}
+
+/// The ratio, and its range below it.
+fn ratio(claim: &Claimed) -> String {
+    let ratio = claim.ratio().map_or_else(|| String::from("–"), plain);
+    let range = claim.ratio_range.map(|range| range.map(plain));
+    range.map_or_else(
+        || ratio.clone(),
+        |[least, greatest]| format!("{ratio}<div><small>{least} to {greatest}</small></div>"),
     )
 }
 

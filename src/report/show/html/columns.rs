@@ -33,7 +33,7 @@ pub(super) const GROUPS: [(&str, &str); 6] = [
     (
         "shade and colour",
         "Of the shade as it is, not only above or below one half; of the picture's colours, where a light has an image, a \
-         beam or a law of distance.",
+         beam, a law of distance, a lens or dust, or is a slide projector.",
     ),
     ("price", "What a frame with everything drawn takes."),
 ];
@@ -76,7 +76,7 @@ fn edge(distance: Option<EdgeDistance>, of: fn(&EdgeDistance) -> f64) -> Option<
 /// The column with error bars.
 pub(super) const REDRAWN: &str = "redrawn";
 
-pub(super) const COLUMNS: [Column; 30] = [
+pub(super) const COLUMNS: [Column; 31] = [
     column(0, "all", 3, "All that is wrong: false shadow and leak, inside the band and outside.", |m| {
         compared(m, |e| e.wrong_percent)
     }),
@@ -149,7 +149,7 @@ pub(super) const COLUMNS: [Column; 30] = [
         4,
         "colour: RMSE, codes",
         3,
-        "Root of the mean squared difference of the picture from its colours in f64, in 1/255.",
+        "Root of the mean squared difference of the picture from the colours to compare with, in 1/255.",
         |m| m.colors.map(|colors| colors.rmse_codes),
     ),
     column(4, "colour: most, codes", 1, "The pixel that is farthest from its colour.", |m| {
@@ -161,6 +161,13 @@ pub(super) const COLUMNS: [Column; 30] = [
         3,
         "Pixels more than two codes outside of what a sample's own error explains, edges of shadows and texels included.",
         |m| m.colors.map(|colors| colors.beyond_percent),
+    ),
+    column(
+        4,
+        "colour: FLIP",
+        4,
+        "Mean of FLIP, the difference that a viewer sees; pixels whose colour is not known count as equal.",
+        |m| m.colors.and_then(|colors| colors.flip),
     ),
     column(5, "images, KiB", 1, "Memory of the plan's images: maps, buffers, textures.", |m| {
         Some(m.image_bytes as f64 / 1024.0)

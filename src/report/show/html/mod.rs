@@ -6,6 +6,8 @@
 mod claims;
 mod columns;
 mod scene;
+mod svg;
+mod sweeps;
 mod table;
 pub(crate) mod tags;
 
@@ -29,6 +31,8 @@ pub struct ScenePictures {
     pub truth: Option<Vec<u8>>,
     /// Differences of the rows that matter most.
     pub differences: Vec<DifferencePicture>,
+    /// Pictures of projected light with their names: see [`crate::report::store::light_pictures::names`].
+    pub light: Vec<(String, Vec<u8>)>,
 }
 
 /// By [`crate::report::measure::difference::difference_picture`].
@@ -131,6 +135,11 @@ fn meaning() -> String {
          <dt>Not told apart</dt><dd>A row whose time may as well be the better one: the bars of both, from the least to the \
          greatest run of all rows of their work, meet. Rows do the same work where their passes differ in polygon offset \
          or in the values of uniforms alone.</dd>\n\
+         <dt>FLIP</dt><dd>The difference that a viewer sees where two pictures alternate in one place, at 67 pixels a degree: \
+         0 none, 1 black for white. It sees edges and points that RMSE weighs like noise, and overlooks detail that no eye \
+         resolves.</dd>\n\
+         <dt>95 % range of an exponent</dt><dd>Fits of a line to the logarithms of errors that scatter by a normal \
+         distribution have the exponent in their range 95 times in 100.</dd>\n\
          <dt>Facing</dt><dd>The visible side of the surface is turned to the light.</dd>\n\
          <dt>Pareto front</dt><dd>The settings than which no other is both faster and less wrong.</dd>\n</dl>\n\
          <p>A shade below one half counts as shadow. Row 0 is the scene as it is written.</p>\n{}</section>\n",

@@ -1,14 +1,15 @@
 //! One scene's section: pictures, plots, the settings to take, all rows.
 
+use super::svg::plot;
 use super::table::{self, Marks};
 use super::tags::{escape, figure, list};
-use super::{ScenePictures, claims};
+use super::{ScenePictures, claims, sweeps};
 use crate::report::measure::difference::LEGEND;
 use crate::report::measure::metrics::Band;
 use crate::report::measure::picks::{Goals, Picks, RowTimes, pareto, titles, unjudged};
 use crate::report::numbers::{bytes, grouped, plain};
 use crate::report::show::plots::{self, Links};
-use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport};
+use crate::report::store::results::{Cost, Machine, Measured, Row, SceneReport, TruthSummary};
 
 pub(super) fn section(
     scene: &SceneReport,
@@ -18,36 +19,44 @@ pub(super) fn section(
     goals: &Goals,
 ) -> String {
     let [width, height] = scene.size;
-    let truth = &scene.truth;
     let times = RowTimes::of(scene);
     let mut text = format!(
-        "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles. The truth \
-         took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).</p>\n",
+        "<section id=\"scene-{number}\">\n<h2>{}</h2>\n<p>Light {}, {width} × {height} pixels, {} triangles.{}</p>\n",
         escape(&scene.path.display().to_string()),
         scene.light,
         grouped(scene.triangles),
-        plain(truth.trace_ms),
-        grouped(truth.drawn as u64),
-        grouped(truth.lit as u64),
-        grouped(truth.shadowed as u64),
-        grouped(truth.ambiguous as u64),
-        plain(truth.ambiguous_percent),
+        if scene.unshaded.is_none() { truth_text(&scene.truth) } else { String::new() },
     );
     if scene.rows.len() < scene.grid_rows {
         text +=
             &format!("<p class=\"note\">{} of {} rows of the grid are here.</p>\n", scene.rows.len(), scene.grid_rows);
     }
     text += &answers(scene, number, goals);
-    text += "<h3>Error against time</h3>\n";
-    let links = Links { page: "", scene: number };
-    text += &plot(plots::error_against_time(scene, machine, links), "There is no row to plot.");
-    text += &plot(plots::error_against_map_size(scene, machine, links), "");
+    if scene.unshaded.is_none() {
+        text += "<h3>Error against time</h3>\n";
+        let links = Links { page: "", scene: number };
+        text += &plot(plots::error_against_time(scene, machine, links), "There is no row to plot.");
+        text += &plot(plots::error_against_map_size(scene, machine, links), "");
+    }
     text += &figures(scene, pictures);
+    text += &sweeps::section(scene, machine, pictures);
     text += &claims::section(scene);
     text += &saved_text(scene);
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
     text += &table::table(scene, number, &marks(scene, &times, goals));
     text + "</section>\n"
+}
+
+fn truth_text(truth: &TruthSummary) -> String {
+    format!(
+        " The truth took {} ms to trace: of {} drawn pixels {} are lit, {} shadowed, {} ambiguous ({} %).",
+        plain(truth.trace_ms),
+        grouped(truth.drawn as u64),
+        grouped(truth.lit as u64),
+        grouped(truth.shadowed as u64),
+        grouped(truth.ambiguous as u64),
+        plain(truth.ambiguous_percent),
+    )
 }
 
 /// Text on what the plan of the scene as written leaves out, and what that saves.
@@ -107,7 +116,11 @@ fn figures(scene: &SceneReport, pictures: &ScenePictures) -> String {
         format!("<li><span class=\"color\" style=\"background:#{r:02x}{g:02x}{b:02x}\"></span>{}</li>", escape(name))
     };
     let legend: String = LEGEND.iter().map(item).collect();
-    format!("<div class=\"figures\">\n{figures}</div>\n<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n")
+    let legend = match pictures.truth.is_some() || !pictures.differences.is_empty() {
+        true => format!("<ul class=\"legend\" aria-label=\"colours\">{legend}</ul>\n"),
+        false => String::new(),
+    };
+    format!("<div class=\"figures\">\n{figures}</div>\n{legend}")
 }
 
 /// Description of a difference picture.
@@ -125,18 +138,10 @@ fn difference_alt(scene: &SceneReport, index: usize) -> String {
     }
 }
 
-fn plot(svg: Result<Option<String>, plots::Error>, none: &str) -> String {
-    match svg {
-        Ok(Some(svg)) => format!("<div class=\"plot\">{}</div>\n", svg.trim()),
-        Ok(None) if none.is_empty() => String::new(),
-        Ok(None) => format!("<p class=\"note\">{}</p>\n", escape(none)),
-        Err(error) => format!("<p class=\"note\">{}</p>\n", escape(&error.to_string())),
-    }
-}
-
 /// A row's band may be of its own map's size.
 fn band_text(scene: &SceneReport) -> String {
-    let bands = || scene.rows.iter().filter_map(Row::measured).map(|measured| measured.metrics.band);
+    let judged = || scene.rows.iter().filter_map(Row::measured).filter(|measured| measured.metrics.all.compared > 0);
+    let bands = || judged().map(|measured| measured.metrics.band);
     let by_area = |band: &Band| u64::from(band.map_size[0]) * u64::from(band.map_size[1]);
     let Some((least, greatest)) = bands().min_by_key(by_area).zip(bands().max_by_key(by_area)) else {
         return String::new();
@@ -171,6 +176,9 @@ fn answers(scene: &SceneReport, number: usize, goals: &Goals) -> String {
     let picks = Picks::of(scene, goals);
     let warnings = unjudged(scene).or_else(|| picks.times.warning());
     text.extend(warnings.map(|warning| format!("<p class=\"note\">{}</p>\n", escape(&warning))));
+    if scene.unshaded.is_some() {
+        return text;
+    }
     format!("{text}<div class=\"cards\">\n{}</div>\n", cards(scene, &picks, number, goals))
 }
 

@@ -190,14 +190,29 @@ impl PlotCanvas<'_> {
         self.root.draw(&PathElement::new(places, color.stroke_width(2))).map_err(failed)
     }
 
-    /// Draws the line of zeros.
+    /// Gives a place of the sheet a tip.
+    pub fn tip(&mut self, at: Place, tip: &str) {
+        self.links += &format!(
+            "<g><title>{}</title><circle cx=\"{}\" cy=\"{}\" r=\"7\" fill=\"#000\" fill-opacity=\"0\"/></g>\n",
+            escape(tip),
+            at.0,
+            at.1
+        );
+    }
+
+    /// Draws the line of pictures without a wrong pixel.
     pub fn floor(&self, axis: &PlotAxis, height: f64) -> Result<(), Error> {
+        self.zeros(axis, height, "no wrong pixel")
+    }
+
+    /// Draws the line of zeros, and what they mean.
+    pub fn zeros(&self, axis: &PlotAxis, height: f64, meaning: &str) -> Result<(), Error> {
         let ends = [axis.range.start, axis.range.end].map(|x| self.place(x, height));
         let dashes = (ends[0].0..ends[1].0).step_by(10).map(|x| [(x, ends[0].1), ((x + 5).min(ends[1].0), ends[0].1)]);
         for dash in dashes {
             self.root.draw(&PathElement::new(dash.to_vec(), FAINT.stroke_width(1))).map_err(failed)?;
         }
-        self.text("no wrong pixel", (ends[0].0 + 8, ends[0].1 - 4), 12, Pos::new(HPos::Left, VPos::Bottom))
+        self.text(meaning, (ends[0].0 + 8, ends[0].1 - 4), 12, Pos::new(HPos::Left, VPos::Bottom))
     }
 
     /// Below and left of a point: on a front nothing lies there.

@@ -5,6 +5,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod canvas;
+mod sweeps;
 
 use std::path::Path;
 
@@ -13,6 +14,7 @@ use crate::report::numbers::{grouped, plain};
 use crate::report::store::results::{Machine, Measured, Row, SceneReport};
 use axis::PlotAxis;
 use canvas::{Marker, PlotCanvas, Words};
+pub use sweeps::{Measure, sweep};
 
 /// Reason why a plot could not be drawn.
 #[derive(Debug, thiserror::Error)]
