@@ -53,7 +53,7 @@ pub fn items_of(objects: &[Object], moved: Option<&Derived>) -> Vec<Drawable> {
             (wave, _) => (object.mesh.clone(), wave),
         };
         let is_own = |photo: &&Arc<Photo>| object.photo.as_ref().is_some_and(|own| Arc::ptr_eq(own, photo));
-        let photo = photos.iter().position(|photo| is_own(photo));
+        let photo = photos.iter().position(is_own);
         let mut last_material: Option<Option<usize>> = None;
         for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let bounds = wave.map_or(part.bounds, |wave| wave.bounds(part.bounds));
