@@ -84,7 +84,9 @@ impl Photograph<'_> {
             let thin = |gap: f64, own: f64| gap < slope(own + around.slope);
             let rises = around.rise > RISE * scale;
             let folds = around.nearer.iter().any(|near| near.by > scale * (FORGIVEN * near.slope + RISE));
-            around.edge || rises || folds || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
+            // What rises or folds may hide a point that is seen; one that is hidden has a blocker before it.
+            let hides = shade.value > 0.5 && (rises || folds);
+            around.edge || hides || around.blockers.iter().any(|blocker| thin(blocker.gap, blocker.slope))
         });
         inside.times(if doubtful { Bounds::anything(shade.value) } else { shade })
     }

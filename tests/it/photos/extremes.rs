@@ -95,11 +95,12 @@ fn what_a_depth_map_gets_wrong_is_a_fringe_of_two_texels() {
             let reaches = |texels: f64| {
                 around.around(x, y, texels * texel).is_none_or(|around| {
                     let allowed = |slope: f64| texels * texel * around.scale * (1.0 + around.slope + slope);
-                    let rises = around.rise > 0.25 * texels * texel * around.scale;
-                    let folds = around
-                        .nearer
-                        .iter()
-                        .any(|near| near.by > texels * texel * around.scale * (1.5 * near.slope + 0.1));
+                    let rises = picture[*pixel] == GREY && around.rise > 0.25 * texels * texel * around.scale;
+                    let folds = picture[*pixel] == GREY
+                        && around
+                            .nearer
+                            .iter()
+                            .any(|near| near.by > texels * texel * around.scale * (1.5 * near.slope + 0.1));
                     around.edge || rises || folds || around.blockers.iter().any(|near| near.gap < allowed(near.slope))
                 })
             };

@@ -105,7 +105,8 @@ fn from_elsewhere_it_is_the_direct_picture_where_its_eye_saw() {
             };
             let Some(around) = around.around(x, y, reach) else { continue };
             let thin = around.blockers.iter().any(|near| near.gap < 0.1);
-            let rises = around.rise > 0.25 * reach * around.scale;
+            // A point that is hidden has a blocker before it; one that is seen may be hidden by what rises beside it.
+            let rises = pixel.answer == Answer::Lit && around.rise > 0.25 * reach * around.scale;
             if around.edge || thin || rises {
                 continue;
             }
