@@ -11,7 +11,7 @@ use super::colors::{ALLOWED, SMOOTH, admitted, light, objects, picture};
 use super::{load, renderer};
 use crate::support::random::Random;
 
-/// What a scene has beside images, beams and laws of distance.
+/// Kind of a scene, by that which it has beside images, beams and laws of distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Slides,
