@@ -262,9 +262,9 @@ fn random_projected_light_is_right_or_warned_of() {
     assert!(failures.is_empty(), "{failures}");
     let rows: Vec<&CaseRow> = results.iter().flat_map(|result| &result.rows).collect();
     let [right, alarms, _, refused, _] = tally(rows.iter().copied());
-    assert!(rows.len() > 150 && right * 10 > rows.len() * 8, "{right} of {} are right", rows.len());
-    // Beams whose maps cannot be fine enough, and coarse shadows, are warned of where hardly a pixel shows it.
-    assert!(alarms * 10 <= rows.len() && refused * 20 <= rows.len(), "{alarms} and {refused} of {}", rows.len());
+    assert!(rows.len() > 150 && right * 10 > rows.len() * 7, "{right} of {} are right", rows.len());
+    // Beams whose maps cannot be fine enough (one in five here), and coarse shadows, are warned of where no pixel shows it.
+    assert!(alarms * 4 <= rows.len() && refused * 20 <= rows.len(), "{alarms} and {refused} of {}", rows.len());
 }
 
 /// A picture of projected light that was drawn otherwise: every kind of row says so.
