@@ -5,8 +5,8 @@
 //! maps four inputs, A to D, multiplies A by B and C by D, adds, scales, clamps to [-1, 1], and writes registers. All reads of
 //! a stage see the values from before it.
 //!
-//! [`parse`] reads a program from text, [`check`] raises what the extension would, [`interpret`] runs it on the CPU,
-//! [`glsl`] makes it GLSL.
+//! `parse` reads a program from text, `check` raises what the extension would, `run` is the CPU's interpreter, `fragment`
+//! makes GLSL.
 
 mod check;
 mod glsl;
@@ -136,7 +136,7 @@ pub struct Portion {
 pub struct GeneralStage {
     pub rgb: Option<Portion>,
     pub alpha: Option<Portion>,
-    /// The stage's own constants 0 and 1 [NV_register_combiners2]; else the program's.
+    /// The stage's own constants 0 and 1, as NV_register_combiners2 has them; else the program's.
     pub constants: [Option<[f32; 4]>; 2],
 }
 

@@ -42,7 +42,7 @@ struct Token {
     line: usize,
 }
 
-/// Reads a program. What the extension would refuse is not looked for: see [`super::check`].
+/// Reads a program. What the extension would refuse is not looked for: see `check`.
 ///
 /// # Errors
 ///

@@ -3,6 +3,7 @@
 
 mod facade;
 mod knight;
+mod knight_pose;
 mod knight_skin;
 mod noise;
 mod slide;
