@@ -24,7 +24,7 @@ pub struct FiguresArgs {
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
 
-    /// Pixels a side for each of scale 1, at which a panel has 400 by 300: pictures are drawn so large, not enlarged
+    /// Factor of the sheets' width and height; at 1 a panel has 400 by 300 pixels. Renders pictures at that size
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
     scale: u32,
 

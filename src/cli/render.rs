@@ -67,9 +67,10 @@ Views for --aov:
   stencil-colors  the same for the eye: green lit, red shadowed, with a legend
   volume          the shadow volumes over the scene: outsides orange, insides blue
   silhouette      the casters' possible silhouettes, as the light sees them
-  truth           the ray tracer's own picture: lit and shadowed, or colours where the light is projected
-  difference      the picture against the truth; colours 16 times as far apart as they are, black where the error of a
-                  sample at an edge explains it, gray where truth is not certain
+  truth           the ray tracer's picture: lit and shadowed; colours, of all lights, where light or a photograph is
+                  projected
+  difference      the picture's error against the truth; that of colours 16 times as large in a PNG; black where the
+                  bounds of a colour at an edge allow it; gray where the truth is not certain
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
 
 Examples:

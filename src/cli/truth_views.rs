@@ -17,7 +17,7 @@ use crate::views::View;
 /// Factor of a difference of colours in a PNG, so that a code of 255 is visible.
 const LOUDER: f32 = 16.0;
 
-/// Width of a colour's bounds in codes up to which its value counts, and not its bounds.
+/// Greatest width of a colour's bounds, in codes of 1/255, at which pictures are compared with its value, not its bounds.
 const SMOOTH_CODES: f64 = 8.0;
 
 /// Value of `--aov`.
@@ -79,6 +79,10 @@ impl Aov {
             Self::Truth { light } => (light, false),
             Self::Difference { light } => (light, true),
         };
+        let count = scene.lights.len();
+        if light > 0 && light >= count {
+            return Err(truth::Error::NoLight { index: light, count }.into());
+        }
         if has_projected_light(scene) {
             return colors(scene, &frame.picture, is_difference, is_exact).map(Some);
         }

@@ -1,5 +1,5 @@
-//! Rules: what the extension refuses by GL_INVALID_OPERATION, GL_INVALID_VALUE or GL_INVALID_ENUM, and reads of what was never
-//! written.
+//! Checks of a program by the rules of NV_register_combiners, which GL reports as GL_INVALID_OPERATION, GL_INVALID_VALUE
+//! or GL_INVALID_ENUM. A read of a spare register that no earlier stage writes is an error, too.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ const VARIABLES: [&str; 7] = ["A", "B", "C", "D", "E", "F", "G"];
 /// The first rule that is broken.
 pub fn check(program: &CombinerProgram, stages: usize) -> Result<(), String> {
     if !(1..=stages).contains(&program.stages.len()) {
-        return Err(format!("has {} general stages; 1 to {stages} are to be had", program.stages.len()));
+        return Err(format!("has {} general stages; a program has 1 to {stages}", program.stages.len()));
     }
     // Spares have no value before they are written.
     let mut written: BTreeSet<(Register, bool)> = BTreeSet::new();
@@ -98,10 +98,10 @@ fn check_outputs(portion: &Portion, is_rgb: bool) -> Result<(), String> {
         return Err(String::from("an alpha portion has no dot products"));
     }
     if has_dot && portion.outputs[2].is_some() {
-        return Err(String::from("has a dot product and a sum: beside a dot product no sum is to be had"));
+        return Err(String::from("has a dot product and a sum; a portion has only one of them"));
     }
     if portion.biased && matches!(portion.scale, Scale::Half | Scale::Four) {
-        return Err(String::from("a bias is to be had with a scale of one or two only"));
+        return Err(String::from("a bias needs a scale of one or two"));
     }
     Ok(())
 }

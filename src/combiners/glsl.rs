@@ -8,7 +8,7 @@ use super::{CombinerProgram, Component, Mapping, Portion, Precision, Register, S
 /// A register's RGB, or its alpha.
 type Part = (Register, bool);
 
-/// Stages and portions that write only what nothing reads, as "stage 2, alpha".
+/// Portions whose results nothing reads, each as "stage 2, alpha"; stages are counted from 0.
 pub fn unread(program: &CombinerProgram) -> Vec<String> {
     let kept = kept(program);
     let mut unread = Vec::new();
@@ -22,8 +22,9 @@ pub fn unread(program: &CombinerProgram) -> Vec<String> {
     unread
 }
 
-/// The function `vec4 combine(vec4 const0, …, vec4 tex3)`, with what it calls. It takes the constants, the fog, the two
-/// colours and the four textures, and returns the final combiner's colour. Constants that the program has are in the code.
+/// GLSL of the function `vec4 combine(vec4 const0, …, vec4 tex3)` and of those that it calls. Arguments: constants, fog,
+/// two colours, the four textures; result: RGBA of the final combiner in [0, 1]. The program's own constants replace the
+/// arguments. The macro `EXACT`, `precise` or nothing, must be defined.
 pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
     let mut code = String::from(match precision {
         Precision::Float => "float kept(float x) { return x; }\nvec3 kept(vec3 x) { return x; }\n",

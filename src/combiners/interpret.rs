@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{CombinerProgram, Component, GeneralStage, Mapping, Portion, Precision, Register, Variable};
 
-/// Values of registers, RGB and alpha; of those that are absent, zero.
+/// RGBA values of registers; an absent register is zero.
 pub type Registers = BTreeMap<Register, [f32; 4]>;
 
 /// The final combiner's colour and alpha, each in [0, 1]. `start`: the constants, the fog, the colours and the textures;

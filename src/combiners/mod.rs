@@ -124,7 +124,7 @@ pub struct Portion {
     pub inputs: [Variable; 4],
     /// Registers for A B, for C D, and for their sum.
     pub outputs: [Option<Register>; 3],
-    /// True if A B, or C D, is a dot product, written to all three channels. RGB only; no sum is to be had beside one.
+    /// True if A B, or C D, is a dot product, written to all three channels. RGB only, and without a sum.
     pub dots: [bool; 2],
     /// True if 1/2 is taken from each result before it is scaled.
     pub biased: bool,

@@ -1,4 +1,4 @@
-//! A cut through shadow maps along one of their rows or columns: depth against place, as a graph, and where it runs in the picture.
+//! A cut through shadow maps along a row or a column: a graph of depth over position, and the cut's line in the picture.
 
 use glam::{DVec3, DVec4};
 
@@ -36,11 +36,11 @@ pub struct CutLine {
     pub is_dashed: bool,
     /// Drawn as a level piece for each texel.
     pub in_steps: bool,
-    /// Twice this line less the first: the layer that a mean of both was made from.
+    /// True: draws twice this line's depths less the first line's, the second of two layers whose mean the map holds.
     pub is_other_layer: bool,
 }
 
-/// A line's distances, one a texel of the part of the row; `None`: nothing there.
+/// Distances along the light's axis, one for each texel of the cut; `None`: the far plane.
 pub type Distances = Vec<Option<f64>>;
 
 /// Share of the graph's height above which neighbours are no longer one surface.
@@ -94,7 +94,7 @@ fn range_of(scene: &Scene) -> [f64; 2] {
     scene.lights.first().and_then(|light| light.frustum()).map_or([1.0, 2.0], |frustum| [frustum.near, frustum.far])
 }
 
-/// Places of texels in hundredths of the part of the row.
+/// Position along the cut in percent of its length. `part`: position within the texel, in [0, 1].
 fn across(index: usize, count: usize, part: f64) -> f64 {
     100.0 * (index as f64 + part) / count.max(1) as f64
 }

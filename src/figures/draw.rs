@@ -26,7 +26,7 @@ pub struct Drawing<'a> {
     letters: &'a Letters,
     renderer: &'a mut Renderer,
     scale: u32,
-    /// The ray tracer's answers by scale and by the overrides that shadows do not read.
+    /// Ray-traced visibility, keyed by the scale and by the overrides of other keys than `light.shadow`.
     truths: HashMap<(u32, Vec<&'static str>), Truth>,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Light where the ray tracer finds it: the picture without shadow and without light, put together pixel by pixel.
+    /// The picture with ray-traced shadows: each pixel of the unshadowed picture where it is lit, else of the unlit one.
     fn true_picture(&mut self, panel: &Panel) -> Result<Canvas, Error> {
         let plain = Panel { stage: None, view: None, ..*panel };
         let mut scene = self.figure.scene_with(&plain, &["light.shadow.technique=none".to_owned()])?;

@@ -61,10 +61,12 @@ pub const POLYGON_OFFSET: Figure = Figure {
             .note("Enough for every slope, and too much for all else: shadows come away from what casts them.")
             .wrong(),
         panel("by slope: factor 1.1, 4 units", &[SLOPED], None)
-            .note("Each polygon is pushed back by its own depth over a texel, and a few steps of rounding.")
+            .note("Each polygon is pushed back by its change of depth across a texel, and by a few units for rounding.")
             .wrong(),
         stage("the truth, by ray tracing", &[NO_OFFSET], PanelStage::Truth).note("Shadows begin where things touch."),
-        stage("what (a) has wrong", &[NO_OFFSET], PanelStage::Wrong).note("Orange: shadow where light belongs. Blue: a leak; pale where the surface is turned away from the light, and dark all the same."),
+        stage("what (a) has wrong", &[NO_OFFSET], PanelStage::Wrong).note(
+            "Orange: false shadow. Blue: leak. Pale blue: leaks on faces turned from the light, kept dark by shading.",
+        ),
         stage("a cut through the map: depths of eighteen texels, the block's face and the floor before it", &[], PanelStage::Cut(&STAIRS))
             .note("The map is a stair along the surface. Half of each texel lies behind it, and by how much grows with the slope: an offset that follows the slope moves each stair just behind the surface.")
             .wide(),
@@ -178,7 +180,7 @@ pub const SECOND_DEPTH: Figure = Figure {
         stage("the truth, by ray tracing", &[EDGE_ON[0], EDGE_ON[1], EDGE_ON[2]], PanelStage::Truth),
     ],
     caption: "Drawing back faces alone needs no offset where light falls: what a lit point is compared with is the far side of \
-              the solid under it. It needs closed things, and it is exact only as far as their backs are from the next surface: a \
+              the solid under it. Casters must be closed, and their back faces must lie apart from the next surface: a \
               back that touches the floor is compared with the floor. Shares are of what faces the light.",
 };
 
@@ -272,7 +274,9 @@ pub const MIPMAPS: Figure = Figure {
             .note("Four texels a pixel: smooth nearby, chance again where a pixel covers more.")
             .against_fine(),
         panel("trilinear", &["light.filter=trilinear"], None)
-            .note("Texels of two mipmap levels, as large as the pixel is long: calm, and softer than it need be.")
+            .note(
+                "Two mipmap levels, chosen by the longer side of a pixel's footprint: no aliasing, but too much blur.",
+            )
             .against_fine(),
         stage("the mean of many samples a pixel", &[], PanelStage::Fine).note("What the filters are measured against."),
         panel(

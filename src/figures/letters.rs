@@ -65,8 +65,8 @@ impl Letters {
         lines
     }
 
-    /// Calls `ink` with each pixel that the line covers, relative to its origin at the left of the base line, and the share
-    /// that it covers of it, in [0, 1]. `shift` moves the letters by parts of a pixel.
+    /// Calls `ink` with column and row of each pixel that the text covers, from the left end of its base line, and the
+    /// covered share of the pixel, in [0, 1]. `shift`: offset of the letters in pixels.
     pub fn cover(&self, style: &TextStyle, text: &str, shift: [f32; 2], mut ink: impl FnMut(i32, i32, f32)) {
         let font = self.scaled(style);
         let mut x = shift[0];

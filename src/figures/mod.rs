@@ -56,10 +56,10 @@ pub struct Panel {
     pub set: &'static [&'static str],
     /// View of the first light; `None`: the picture itself.
     pub view: Option<View>,
-    /// Unit of the legend, in words, if the panel has the light's view of the eye instead of the eye's view of the light.
-    /// Points that the eye does not see are then dark.
+    /// Unit of the legend where the scene's light stands at the eye and its camera at the light, to count pixels of the
+    /// eye a texel. Points in shadow, which the eye does not see, are then dark.
     pub counts: Option<&'static str>,
-    /// Something else than the finished picture.
+    /// Picture that is shown in place of the finished frame or a view.
     pub stage: Option<PanelStage>,
     /// Number below the panel.
     pub measured: Measured,
@@ -70,7 +70,7 @@ pub struct Panel {
     pub span: u32,
 }
 
-/// Part of how a picture comes about, or something found from it.
+/// An intermediate picture, a comparison with the ray tracer, a graph or a diagram.
 #[derive(Clone, Copy, Debug)]
 pub enum PanelStage {
     /// The picture as it stands after the pass of this label.
@@ -79,7 +79,7 @@ pub enum PanelStage {
     Image,
     /// The picture with the ray tracer's shadows.
     Truth,
-    /// The wrong pixels of the picture, which is pale.
+    /// The picture, pale, with its wrong pixels in colour.
     Wrong,
     /// The picture by many samples a pixel.
     Fine,
@@ -198,7 +198,7 @@ impl Figure {
         draw::Drawing::new(self, 1, &letters, renderer).wrong(panel)
     }
 
-    /// Draws the sheet with `scale` pixels for each of scale 1 a side; `tick` is called once a panel.
+    /// Draws the sheet, `scale` times as wide and high as at scale 1. `tick` is called once for each panel.
     ///
     /// # Errors
     ///

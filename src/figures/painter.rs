@@ -1,4 +1,4 @@
-//! A sheet or a part of one to draw on: areas, lines, circles and text, antialiased, in units that a scale makes pixels of.
+//! Antialiased drawing on a sheet or a part of one: areas, lines, circles and text. A unit is `scale` pixels.
 //! Knows letters; no figure.
 
 use tiny_skia::{

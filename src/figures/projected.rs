@@ -1,5 +1,5 @@
-//! Figures of projected light: beams, laws of distance, coordinates that swim, focus and soft shadows, photographs [Segal 1992, 2 and 3],
-//! dusty air [LEC, "Combining Shadows with Atmospherics"].
+//! Figures of projected light: beams, laws of distance, affine texture coordinates, focus and soft shadows, photographs
+//! [Segal 1992, 2 and 3], dusty air [LEC, "Combining Shadows with Atmospherics"].
 
 use super::Figure;
 use super::panels::{embedded, panel};
@@ -160,7 +160,9 @@ pub const FOCUS: Figure = Figure {
         panel("in focus at the near board", &["light.focus.distance=1.2"], None),
         panel("in focus at the far board", &["light.focus.distance=4.8"], None),
     ],
-    caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. A point of the slide is a disc elsewhere, of the lens's radius times |1 − d / F| at the distance d of the board, F of the plane: the boards stand at half, one and two times 2.4.",
+    caption: "128 projectors stand on a disc; their frusta are sheared so that all slides agree in one plane. \
+              Elsewhere a point of the slide is a disc: its radius is the lens's times |1 − d / F|, d the distance \
+              of the board, F that of the plane. Here F is 2.4, and the boards stand at half, one and two times F.",
 };
 
 pub const SOFT_SHADOWS: Figure = Figure {

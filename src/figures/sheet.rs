@@ -23,7 +23,7 @@ const NAME: TextStyle = TextStyle { weight: FontWeight::SemiBold, size: 13.5, co
 const NOTE: TextStyle = TextStyle { weight: FontWeight::Regular, size: 13.0, color: [58, 61, 70] };
 const NUMBERS: TextStyle = TextStyle { weight: FontWeight::Regular, size: 13.0, color: MEASURED };
 const CAPTION: TextStyle = TextStyle { weight: FontWeight::Regular, size: 15.0, color: INK };
-/// Between base lines.
+/// Distance between base lines, in units.
 const LINE: f32 = 18.0;
 const CAPTION_LINE: f32 = 22.0;
 /// Longer lines of a caption are hard to read.

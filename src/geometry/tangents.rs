@@ -93,7 +93,7 @@ impl TangentBasis {
         Self { tangent, bitangent: normal.cross(tangent), normal }
     }
 
-    /// A vector of model space in tangent space: its components along T, B and N.
+    /// A vector of model space in tangent space: its dot products with T, B and N.
     pub fn tangent_from_model(&self, vector: DVec3) -> DVec3 {
         DVec3::new(vector.dot(self.tangent), vector.dot(self.bitangent), vector.dot(self.normal))
     }

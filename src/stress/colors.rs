@@ -148,8 +148,8 @@ fn finish(row: CaseRow, compared: usize, [wrong, beyond]: [usize; 2], warnings: 
     CaseRow { verdict, compared, wrong, beyond, why: warnings.join("; "), ..row }
 }
 
-/// Tests of each pixel whether it is beyond its bounds. What is brighter than 1, in floats, is off by as much more: it is
-/// the sum of many parts, or their product with a bright light.
+/// Tests each pixel against its bounds. Above 1, in float pictures, the tolerance grows with the colour: it is the sum of
+/// many parts, or their product with a bright light.
 fn beyond(colors: &ColorTruth, picture: &[[f64; 3]]) -> Vec<bool> {
     let allowed = ALLOWED_CODES + colors.between_passes_codes;
     let pixels = colors.pixels.iter().zip(picture);

@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 
-/// Shares of the photographed objects of scenes that have any.
+/// Share of the objects without a material that get a photograph, in scenes with photographs.
 const SHARE: f64 = 0.7;
 
 /// The scene's text, where chance gives its objects photographs from places beside the camera's.

@@ -70,7 +70,7 @@ pub fn parts(
         inputs: Vec::new(),
     };
     let flag = |name| Define::flag(name).of_light(term.index);
-    // All over the item, its place is decided by the colour of what is hidden.
+    // PHOTO_GREY sets photo to grey, with alpha 1: what is hidden, or, in a pass that needs no colour, the whole item.
     if covers && (*hidden == Hidden::Grey || wanted == Wanted::Place) {
         parts.defines.push(flag("PHOTO_GREY"));
     }

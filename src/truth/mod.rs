@@ -103,7 +103,7 @@ impl Default for Options {
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum Error {
     /// The scene does not have the light.
-    #[error("the scene has {count} lights, there is no light {index}")]
+    #[error("there is no light {index}: the scene's number of lights is {count}")]
     NoLight { index: usize, count: usize },
     /// Camera or light has a position that is not finite.
     #[error("the camera or the light has no usable position")]

@@ -359,6 +359,12 @@ fn truth_and_difference_stand_beside_the_picture() {
         picture.pixels().filter(|pixel| !ambiguous(pixel) && pixel.0.iter().any(|code| *code > 100)).count()
     };
     assert!(known > 4500 && bright(&difference) < 200, "{known} known, {} differ", bright(&difference));
+    for view in ["truth@7", "difference@7"] {
+        let done = glumbra(folder.path(), &["render", &slide, "--size", "96x64", "-o", "z.png", "--aov", view]);
+        let error = text(&done.stderr);
+        assert!(!done.status.success() && error.contains("there is no light 7"), "{view}: {error}");
+        assert!(names(folder.path()).iter().all(|name| !name.starts_with('z')));
+    }
     draw(&["--set", "light.0.interpolate=affine"]);
     assert!(bright(&open("y.difference.png")) > 300, "{}", bright(&open("y.difference.png")));
     // What cannot be known is said.

@@ -247,7 +247,7 @@ fn what_the_extension_refuses_names_its_place() {
         }
     }
     let talk = combiners::parse(TALK).unwrap();
-    assert!(combiners::check(&talk, 2).unwrap_err().starts_with("has 4 general stages; 1 to 2"));
+    assert!(combiners::check(&talk, 2).unwrap_err().starts_with("has 4 general stages; a program has 1 to 2"));
     for (text, line, expected) in [
         ("RC1.0\n", 1, "begins with \"RC1.0\", not with"),
         ("!!RC1.0\nout.rgb = tex9;", 2, "'tex9' is no register"),

@@ -314,7 +314,7 @@ fn scenes_name_frames() {
         ("frames = [0, 1.5]", "`object.frames` must be the number or the name of a frame"),
         ("frames = [0, 1]\nblend = 1.5", "`object.blend` must be in [0, 1], not 1.5"),
         ("blend = 0.5", "`object.blend` needs `frames`"),
-        ("frame = 1\nframes = [0, 1]", "`object.frame` and `frames` are both written"),
+        ("frame = 1\nframes = [0, 1]", "`object.frame` and `frames` exclude each other"),
         ("normals = \"smooth\"", "`object.normals` cannot be \"smooth\""),
     ] {
         let error = scene(folder.path(), keys).unwrap_err();

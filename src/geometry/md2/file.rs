@@ -1,6 +1,6 @@
-//! The bytes of an MD2 file: read with every mistake named by its offset, and written.
+//! MD2 files: reading, with errors that name a byte offset, and writing.
 //!
-//! Little-endian. A header of 17 integers names counts and offsets of six sections: skins' names, texture coordinates,
+//! Little-endian. A header of 17 integers has counts and offsets of five sections: skins' names, texture coordinates,
 //! triangles, frames, GL commands. A frame has a scale and an offset for its vertices, whose coordinates are bytes.
 
 use std::path::Path;
@@ -37,7 +37,7 @@ pub struct Triangle {
     pub texcoords: [u16; 3],
 }
 
-/// A pose.
+/// A key frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     pub scale: [f32; 3],

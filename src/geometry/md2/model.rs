@@ -21,7 +21,7 @@ const LEAST_VOLUME: f64 = 1e-3;
 pub struct Model {
     file: Md2,
     name: String,
-    /// Pairs of a vertex and a texture coordinate, each once: what is drawn as a vertex.
+    /// Distinct pairs of the file's vertex and texture coordinate: the vertices of the mesh.
     corners: Vec<[u16; 2]>,
     /// Three corners a triangle, counter-clockwise from outside.
     indices: Vec<u32>,
@@ -175,7 +175,7 @@ impl Model {
         (first + pose.blend * (second - first)).normalize_or_zero().as_vec3()
     }
 
-    /// Tests whether a triangle has three places in some frame.
+    /// Tests whether a triangle has an area in some frame.
     fn has_area(&self, triangle: &Triangle) -> bool {
         let [a, b, c] = triangle.vertices.map(usize::from);
         self.file.frames.iter().any(|frame| {

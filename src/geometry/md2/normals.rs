@@ -1,5 +1,5 @@
-//! Directions that MD2's vertices choose their normals from, by number: an icosahedron's corners, and points that divide each
-//! of its edges in four and its faces likewise, moved to the unit sphere.
+//! The 162 unit normals that MD2 vertices name by number: the corners of an icosahedron, with each edge divided in four
+//! and the faces likewise, moved to the unit sphere.
 
 use glam::DVec3;
 

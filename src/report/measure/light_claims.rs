@@ -50,10 +50,11 @@ pub fn has_lens(scene: &Scene, light: usize) -> bool {
 
 const TIME: &str = "time of a frame, ms";
 
-/// Ratio up to which a time counts as no more than another.
+/// Greatest end of a ratio's range at which the first time is no more than the second, unless all of it is above 1.
 const NO_MORE: f64 = 1.1;
 
-/// Tests whether the first time is more than the second. `None`: the runs cannot tell.
+/// Tests whether the first time is more than the second: all of the ratio's range is above 1. `None`: the range begins
+/// at 1 or below and ends above [`NO_MORE`].
 fn is_more(times: &PairedTimes) -> Option<bool> {
     let [least, greatest] = times.ratio_range;
     match (least > 1.0, greatest <= NO_MORE) {

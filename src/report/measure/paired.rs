@@ -69,7 +69,7 @@ fn middle(sorted: &[f64]) -> f64 {
     0.5 * (at(count / 2) + at(count.saturating_sub(1) / 2))
 }
 
-/// The narrowest range between two values of equal rank from either end that holds the median with at least 95 %.
+/// The narrowest interval between the k-th least and the k-th greatest value that covers the median with at least 95 %.
 fn range_of_median(sorted: &[f64]) -> [f64; 2] {
     let count = sorted.len();
     let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);

@@ -47,7 +47,7 @@ pub enum Error {
     #[error("{scene}: the grid's row {inline}: {reason}", scene = .scene.display())]
     Row { scene: PathBuf, inline: String, reason: String },
     /// The scene does not have the light.
-    #[error("the scene has {count} lights, there is no light {index}")]
+    #[error("there is no light {index}: the scene's number of lights is {count}")]
     NoLight { index: usize, count: usize },
     /// The shard is none of 1/N to N/N.
     #[error("--shard {index}/{count}: write I/N with 1 <= I <= N")]

@@ -30,7 +30,7 @@ pub enum Error {
     #[error(transparent)]
     Metrics(#[from] metrics::Error),
     /// The scene does not have the light.
-    #[error("the scene has {count} lights, there is no light {index}")]
+    #[error("there is no light {index}: the scene's number of lights is {count}")]
     NoLight { index: usize, count: usize },
     /// Too few pixels can be compared.
     #[error(

@@ -26,7 +26,7 @@ impl<'a> WrittenPose<'a> {
         };
         let blend = object.number("blend", 0.0..=1.0)?;
         if frame.is_some() && frames.is_some() {
-            return Err(object.error("frame", "and `frames` are both written: one says which frames are met"));
+            return Err(object.error("frame", "and `frames` exclude each other: write one of them"));
         }
         if blend.is_some() && frames.is_none() {
             return Err(object.error("blend", "needs `frames`: the two that it lies between"));

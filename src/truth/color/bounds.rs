@@ -9,7 +9,7 @@ pub struct Bounds {
     pub value: f64,
     /// The greatest.
     pub most: f64,
-    /// True if the value may jump within the bounds, or if it is only one of those that they allow.
+    /// True if the exact value may lie anywhere within the bounds, not near `value` alone: at edges, or under mipmaps.
     pub jumps: bool,
 }
 

@@ -55,7 +55,7 @@ impl<'a> Source<'a> {
         self.spot.as_ref().map_or(DVec3::ZERO, Lantern::way)
     }
 
-    /// Way to the light, of unit length; and what its attenuation leaves.
+    /// Unit vector to the light, and the factor of its attenuation.
     fn strength(&self, position: DVec3) -> (DVec3, f64) {
         let to_light = match (&self.light.kind, &self.spot) {
             (LightKind::Directional { direction }, _) => -*direction,

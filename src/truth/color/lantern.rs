@@ -45,8 +45,8 @@ impl<'a> Lantern<'a> {
         self.position - self.spot.frustum.position
     }
 
-    /// Distance along the axis, and place across it in half widths and half heights, from the middle: where the way from
-    /// the lens point goes on to, or came from, in the focal plane, as the light's middle sees it.
+    /// Depth of a point along the axis, and its normalized device coordinates, in [-1, 1] within the frustum. Through a
+    /// lens, of the point where the line from the lens point meets the focal plane, projected from the lens's centre.
     fn place(&self, point: DVec3) -> (f64, DVec2) {
         let away = point - self.position;
         let depth = away.dot(self.ahead);
@@ -112,7 +112,7 @@ impl<'a> Lantern<'a> {
         if depth.abs() <= moved { Bounds::anything(ahead) } else { Bounds::exactly(ahead) }
     }
 
-    /// The image alone, that of its edge beyond its frame.
+    /// The image without beam and law; beyond its border the colour of its edge, as by GL_CLAMP_TO_EDGE.
     pub fn photograph(&self, at: &Sample) -> [Bounds; 3] {
         let (depth, across) = self.place(at.position);
         if depth <= 0.0 || !across.is_finite() {

@@ -16,7 +16,7 @@ use crate::truth::wave;
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub position: DVec3,
-    /// Ways that a pixel's sample may move the point, and the radius of the ball that it may lie in besides.
+    /// Vectors by which the sample's place in its pixel may move the point. `error`: radius of a ball around it, besides.
     pub spread: [DVec3; 2],
     pub error: f64,
     /// Ways that the point moves by from a pixel to those beside it.
