@@ -42,8 +42,14 @@ void main()
     light /= dot(attenuation_@, vec3(1.0, away, away * away));
 #endif
 #ifdef OVER
-    // 1 - exp(-x), by its series where the difference would cancel.
+    // 1 - exp(-x), by its series where the difference would cancel: below 0.02. THIN: all depths are below, THICK: none.
+#ifdef THIN
+    float opacity = optical * (1.0 - 0.5 * optical * (1.0 - optical / 3.0));
+#elif defined(THICK)
+    float opacity = 1.0 - exp(-optical);
+#else
     float opacity = optical < 0.02 ? optical * (1.0 - 0.5 * optical * (1.0 - optical / 3.0)) : 1.0 - exp(-optical);
+#endif
 #ifdef HIDES_IN_SHADOW
     fragment = vec4(opacity * light, opacity);
 #else

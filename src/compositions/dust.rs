@@ -20,6 +20,9 @@ use crate::math::{Aabb, frustum};
 use crate::pass::{Batch, Blend, Clear, Compare, Define, DrawPass, DrawState, MeshRef, Redraw, Uniform, glsl};
 use crate::scene::{Dust, DustBlend, Scene, Spot};
 
+/// Optical depth below which the slices' shader takes the opacity by a series.
+const SERIES_BOUND: f64 = 0.02;
+
 /// The slices of a beam, as polygons in eye space.
 struct Slices {
     /// Farthest first.
@@ -193,8 +196,17 @@ fn set_slices(
     let half_width = half_height * scene.aspect();
     let ray = DVec4::new(2.0 * half_width / width, 2.0 * half_height / height, -half_width, -half_height);
     batch.uniforms.push(Uniform::new("ray_from_pixel", ray.as_vec4()));
-    batch.uniforms.push(Uniform::new("optical_depth", (dust.density * spacing) as f32));
+    let optical_depth = dust.density * spacing;
+    batch.uniforms.push(Uniform::new("optical_depth", optical_depth as f32));
     let defines = &mut batch.program.defines;
+    let most =
+        if dust.thickness_along_ray { optical_depth * half_width.hypot(half_height).hypot(1.0) } else { optical_depth };
+    // Well apart from the bound, so that rounding decides nothing.
+    if most < 0.99 * SERIES_BOUND {
+        defines.push(Define::flag("THIN"));
+    } else if optical_depth > 1.01 * SERIES_BOUND {
+        defines.push(Define::flag("THICK"));
+    }
     if dust.thickness_along_ray {
         defines.push(Define::flag("SECANT"));
     }
