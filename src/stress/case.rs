@@ -111,3 +111,10 @@ impl Case {
 fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     fs::write(path, bytes).map_err(|error| format!("{}: cannot be written: {error}", path.display()))
 }
+
+/// The value of a key of three numbers.
+pub(super) fn vector(toml: &str, key: &str) -> Option<glam::DVec3> {
+    let inside = toml.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = [")?.strip_suffix(']'))?;
+    let numbers: Vec<f64> = inside.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    Some(glam::DVec3::from_slice(numbers.get(..3)?))
+}

@@ -2,13 +2,15 @@
 
 use fastrand::Rng;
 
+use super::case::vector;
+
 /// Share of the objects without a material that get a photograph, in scenes with photographs.
 const SHARE: f64 = 0.7;
 
 /// The scene's text, where chance gives its objects photographs from places beside the camera's.
 pub fn with_photos(seed: u64, index: u64, toml: &str) -> String {
     let mut rng = Rng::with_seed(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index ^ 0x7068_6f74_6f00);
-    let camera = [vector(toml, "eye = "), vector(toml, "target = ")];
+    let camera = [vector(toml, "eye"), vector(toml, "target")].map(|found| found.map(|place| place.to_array()));
     let ([Some(eye), Some(target)], true) = (camera, rng.f64() < 0.25) else { return toml.to_owned() };
     let photos: Vec<String> = (0..rng.usize(1..=2)).map(|_| photo(&mut rng, eye, target)).collect();
     let mut blocks = toml.split("\n[[object]]\n");
@@ -40,12 +42,4 @@ fn photo(rng: &mut Rng, eye: [f64; 3], target: [f64; 3]) -> String {
          hidden = \"{hidden}\"{aspect} }}",
         20.0 + rng.f64() * 50.0
     )
-}
-
-/// The first vector that a line gives this key.
-fn vector(toml: &str, key: &str) -> Option<[f64; 3]> {
-    let line = toml.lines().find_map(|line| line.strip_prefix(key))?;
-    let numbers: Vec<f64> =
-        line.trim_matches(['[', ']']).split(',').filter_map(|number| number.trim().parse().ok()).collect();
-    numbers.try_into().ok()
 }

@@ -6,7 +6,7 @@
 use fastrand::Rng;
 use glam::DVec3;
 
-use super::case::{Case, files_named_in};
+use super::case::{Case, files_named_in, vector};
 use super::photos::with_photos;
 use super::pictures::noise;
 use super::random;
@@ -122,7 +122,7 @@ impl Draft {
             _ => lights.len(),
         };
         let first = lights.len();
-        for number in first..if first == 0 { 0 } else { most } {
+        for number in first..most {
             let again = lights[number % first].clone();
             let cone = format!(
                 "cone = {:.1}\nup = [{:.2}, 0.3, {:.2}]",
@@ -290,13 +290,6 @@ fn blocks(toml: &str) -> Vec<String> {
         }
     }
     blocks
-}
-
-/// The value of a key of three numbers.
-fn vector(toml: &str, key: &str) -> Option<DVec3> {
-    let inside = toml.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = [")?.strip_suffix(']'))?;
-    let numbers: Vec<f64> = inside.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
-    Some(DVec3::from_slice(numbers.get(..3)?))
 }
 
 #[cfg(test)]

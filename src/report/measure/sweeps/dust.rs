@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::colors::{DrawnColors, draw_colors};
-use super::super::reference::{Error, Samples, in_floats, many_in_words, with_light, with_samples};
+use super::super::reference::{Error, MANY, in_floats, many_in_words, with_light, with_samples};
 use super::{Experiment, SweepRequest, counted};
 use crate::frame::Renderer;
 use crate::report::store::swept::LightSweep;
@@ -20,7 +20,7 @@ pub(super) fn experiment(request: &SweepRequest<'_>, renderer: &mut Renderer) ->
     if !has_dust(scene) {
         return Ok(None);
     }
-    let many = Samples { lens_points: 1024, slices: 4096 };
+    let many = MANY;
     let in_floats = in_floats(scene);
     let reference = draw_colors(&with_samples(scene, many), in_floats, renderer)?.to_truth(|_| true);
     let layers = if request.quick { 128 } else { 512 };
