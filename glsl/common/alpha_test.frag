@@ -1,7 +1,5 @@
 // GL_ALPHA_TEST with GL_GEQUAL 0.5: holes in surfaces and, in the map, in their shadows. Of level 0 alone, so that they
 // are the same from everywhere.
-in vec2 st;
-
 uniform float opacity;
 #ifdef DECAL_ALPHA
 uniform sampler2D decal_alpha_map;

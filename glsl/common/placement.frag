@@ -1,3 +1,5 @@
+in vec2 st;
+
 // Where the surface's textures lie on its coordinates (MTL's -s and -o): scale in xy, offset in zw.
 #ifdef DECAL_PLACED
 uniform vec4 decal_placement;

@@ -33,9 +33,21 @@ vec3 waved_normal(vec3 normal)
                  - slope * dot(wave_reach, normal) * wave_vector.xyz;
     return waved * inversesqrt(max(dot(waved, waved), 1e-30));
 }
+
+// Another direction of the surface, by the same cofactors and as a share of the normal's length: a sum of both moves as a
+// normal does.
+vec3 waved_beside(vec3 direction, vec3 normal)
+{
+    float slope = WAVE_TURN * cos(wave_angle());
+    float folded = 1.0 + slope * dot(wave_vector.xyz, wave_reach);
+    vec3 waved = direction * folded - slope * dot(wave_reach, direction) * wave_vector.xyz;
+    vec3 beside = normal * folded - slope * dot(wave_reach, normal) * wave_vector.xyz;
+    return waved * inversesqrt(max(dot(beside, beside), 1e-30));
+}
 #else
 #define model_position position
 #define waved_normal(normal) (normal)
+#define waved_beside(direction, normal) (direction)
 #endif
 
 void set_position()

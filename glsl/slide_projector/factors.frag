@@ -6,9 +6,6 @@ in vec3 eye_position;
 uniform vec3 own_color;
 #endif
 #ifdef DECAL
-#ifndef ALPHA_TEST
-in vec2 st;
-#endif
 uniform sampler2D decal_map;
 #endif
 

@@ -37,15 +37,37 @@ Lit lighting_@(Surface surface)
 #else
     lit.ambient = vec3(0.0);
 #endif
-#if defined(UNLIT) || defined(NO_COSINE_@)
+#ifdef COMBINED
+    // Register combiners have the surface's part.
+    lit.diffuse = strength * light_diffuse_@ * material_diffuse;
+#ifdef SPECULAR
+    lit.specular = strength * light_specular_@ * material_specular;
+#else
+    lit.specular = vec3(0.0);
+#endif
+#elif defined(UNLIT) || defined(NO_COSINE_@)
     lit.diffuse = strength * light_diffuse_@ * material_diffuse;
     lit.specular = vec3(0.0);
 #else
     float n_dot_l = dot(surface.normal, l);
     lit.diffuse = strength * max(n_dot_l, 0.0) * light_diffuse_@ * material_diffuse;
+#ifdef BUMP
+    lit.diffuse *= bump_dim * above_horizon(dot(smooth_normal, l));
+#endif
 #ifdef SPECULAR
+#ifdef BUMP
+    vec3 sum = l + surface.to_viewer;
+    // Zero where the light is exactly behind the point.
+    vec3 h = dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0);
+#else
     vec3 h = normalize(l + surface.to_viewer);
+#endif
+#ifdef SELF_SHADOW
+    float gloss = pow(max(dot(surface.normal, h), 0.0), shininess);
+    gloss *= above_horizon(dot(smooth_normal, l)) * above_horizon(dot(smooth_normal, h));
+#else
     float gloss = n_dot_l > 0.0 ? pow(max(dot(surface.normal, h), 0.0), shininess) : 0.0;
+#endif
     lit.specular = strength * gloss * light_specular_@ * material_specular;
 #else
     lit.specular = vec3(0.0);

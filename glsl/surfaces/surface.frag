@@ -1,14 +1,14 @@
-#ifdef EYE_POSITION
+#if defined(EYE_POSITION) && !defined(TWO_SIDED)
 in vec3 eye_position;
 #endif
 #ifdef EYE_NORMAL
 in vec3 eye_normal;
 #endif
 #ifdef DECAL
-#ifndef ALPHA_TEST
-in vec2 st;
-#endif
 uniform sampler2D decal_map;
+#endif
+#ifdef GLOSS_MAP
+uniform sampler2D gloss_map;
 #endif
 
 EXACT out vec4 fragment;
@@ -25,14 +25,12 @@ Surface surface_here()
 #ifdef EYE_NORMAL
     surface.normal = normalize(eye_normal);
 #ifdef TWO_SIDED
-    // Seen from behind, whichever way the file winds it: both the normal and, so that smooth silhouettes and slivers
-    // keep theirs, the facet say so.
-    // By shares of the distance: products of lengths may be too small for a float.
-    vec3 way = abs(eye_position);
-    float unit = 1.0 / max(way.x, max(way.y, way.z));
-    vec3 facet = cross(unit * dFdx(eye_position), unit * dFdy(eye_position)); // towards the viewer
-    if (dot(surface.normal, eye_position) > 0.0 && dot(surface.normal, facet) < 0.0)
+    if (seen_from_behind(surface.normal))
         surface.normal = -surface.normal;
+#endif
+#ifdef BUMP
+    smooth_normal = surface.normal;
+    surface.normal = bumped(eye_normal);
 #endif
 #endif
     return surface;
@@ -46,15 +44,23 @@ void main()
     Surface surface = surface_here();
     ILLUMINATE(surface, lit)
 #endif
-#ifdef ADDED
+#ifdef SPECULAR_ALONE
+    EXACT vec3 color = vec3(0.0);
+#elif defined(ADDED)
     EXACT vec3 color = lit.diffuse; // ambient light is there
 #else
     EXACT vec3 color = lit.ambient + lit.diffuse;
 #endif
 #ifdef DECAL
-    color *= texture(decal_map, DECAL_ST).rgb;
+    vec4 decal = texture(decal_map, DECAL_ST);
+    color *= decal.rgb;
 #endif
 #ifdef SPECULAR
+#ifdef GLOSS_DECAL
+    lit.specular *= decal.a;
+#elif defined(GLOSS_MAP)
+    lit.specular *= texture(gloss_map, st).GLOSS_MAP;
+#endif
     color += lit.specular;
 #endif
 #ifdef PHOTOGRAPH

@@ -5,6 +5,14 @@ uniform mat4 eye_from_model;
 layout(location = 1) in vec3 normal;
 uniform mat3 eye_from_model_normal;
 #endif
+#if defined(BUMP) || defined(COMBINED)
+layout(location = 3) in vec3 tangent;
+layout(location = 4) in vec3 bitangent;
+#endif
+#ifdef BUMP
+out vec3 eye_tangent;
+out vec3 eye_bitangent;
+#endif
 #ifdef EYE_POSITION
 out vec3 eye_position;
 #endif
@@ -39,6 +47,18 @@ void main()
 #endif
 #ifdef EYE_NORMAL
     eye_normal = eye_from_model_normal * waved_normal(normal);
+#endif
+#if defined(BUMP) || defined(COMBINED)
+    // By the matrix of normals: that of T, B and N times a normal of tangent space is the surface's, however it is scaled.
+    vec3 t = eye_from_model_normal * waved_beside(tangent, normal);
+    vec3 b = eye_from_model_normal * waved_beside(bitangent, normal);
+#endif
+#ifdef BUMP
+    eye_tangent = t;
+    eye_bitangent = b;
+#endif
+#ifdef COMBINED
+    TANGENT_VECTORS(eye.xyz, mat3(t, b, eye_from_model_normal * waved_normal(normal)))
 #endif
 #ifdef PER_VERTEX
 #ifdef UNLIT

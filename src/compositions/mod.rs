@@ -21,6 +21,7 @@ pub mod projection;
 mod single_pass;
 mod slide_projector;
 mod stencil_counted;
+mod three_pass;
 
 use self::passes::Passes;
 use self::projection::CameraProjection;
@@ -80,6 +81,7 @@ pub trait Composition: Sync {
 /// Every composition.
 pub const TABLE: &[&dyn Composition] = &[
     &single_pass::SinglePass,
+    &three_pass::ThreePass,
     &stencil_counted::StencilCounted,
     &slide_projector::SlideProjector,
     &alpha_shadows::AlphaShadows,
@@ -145,6 +147,16 @@ pub enum Error {
         "`focus` of light {light}: lighting per vertex is clamped as a whole, not lens point by lens point. Leave out `lighting` of [shading], or `focus`"
     )]
     FocusPerVertex { light: usize },
+    /// A counted light beside bumps in three passes.
+    #[error(
+        "bump = \"three-pass\" multiplies the decal into the light of all pixels at once: light {light} is counted in the stencil buffer, and joins where its count is 0. Choose bump = \"one-pass\", which adds a light with its decal, or a technique with a map."
+    )]
+    CountedPortions { light: usize },
+    /// Photographs beside bumps in three passes.
+    #[error(
+        "bump = \"three-pass\" puts surfaces' colours together from light, decal and highlights, and a photograph is none of them. Choose bump = \"one-pass\" or \"reference\", or leave out `photo`."
+    )]
+    PhotoPortions,
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

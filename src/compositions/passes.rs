@@ -12,7 +12,7 @@ use crate::pass::{
     Batch, Chunk, Clear, DepthFormat, DrawPass, DrawState, FixedFunctionDesc, Format, ImageDesc, ImageId, Pass,
     PassList, Redraw, Storage, Target, Uniform, Work, glsl,
 };
-use crate::scene::Scene;
+use crate::scene::{Normalize, Scene};
 
 /// The batches that draw surfaces as a viewer sees them, lit by the terms or showing photographs. `None` where the transform
 /// of a light or of a photograph has no inverse.
@@ -139,7 +139,8 @@ impl Passes<'_> {
             (self.surface)(self.scene, &items, &onto.lens.camera, terms, self.photos, ending, self.derived, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
-        let Onto { target, viewport, clear, state, .. } = *onto;
+        let Onto { target, viewport, clear, mut state, .. } = *onto;
+        state.seamless = !self.keeps_seams(&batches);
         self.push(onto.label, redraw, DrawPass { target, viewport, clear, state, batches });
         Ok(())
     }
@@ -167,6 +168,13 @@ impl Passes<'_> {
     pub fn push(&mut self, label: &str, redraw: Redraw, mut pass: DrawPass) {
         CameraProjection::adapt(&pass.state, &mut pass.batches);
         self.list.passes.push(Pass { label: label.to_owned(), redraw, work: Work::Draw(pass) });
+    }
+
+    /// Tests whether batches look vectors up whose cube map is to show its seams.
+    fn keeps_seams(&self, batches: &[Batch]) -> bool {
+        let seams = matches!(self.scene.shading.bumps.normalize, Normalize::Cube { seamless: false, .. });
+        let is_of_vectors = |image: ImageId| matches!(self.list.desc(image).storage, Storage::UnitVectors);
+        seams && batches.iter().flat_map(|batch| &batch.inputs).any(|input| is_of_vectors(input.image))
     }
 
     fn singular(terms: &[LightTerm]) -> Error {

@@ -7,6 +7,7 @@ use glow::HasContext;
 use super::Error;
 use super::state::compare_code;
 use crate::context::{DEPTH_COMPONENT32, error_name};
+use crate::geometry::normal_cube;
 use crate::pass::{Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, Sampler, Storage, Wrap};
 
 /// A texture or renderbuffer, deleted on drop.
@@ -70,6 +71,7 @@ impl Drop for GpuImage {
 fn codes(format: Format) -> (u32, u32, u32) {
     match format {
         Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
+        Format::Rgba8Signed => (glow::RGBA8_SNORM, glow::RGBA, glow::BYTE),
         Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),
         Format::R32F => (glow::R32F, glow::RED, glow::FLOAT),
         Format::Depth(depth) => {
@@ -93,6 +95,8 @@ pub fn create(gl: &Rc<glow::Context>, desc: &ImageDesc) -> Result<GpuImage, Erro
         Storage::Texture => create_texture(gl, desc, None, 1)?,
         Storage::Cube(cube) => create_cube(gl, desc, cube)?,
         Storage::Mipmapped(levels) => create_texture(gl, desc, None, *levels)?,
+        Storage::Levels(levels) => create_levels(gl, desc, &levels.levels)?,
+        Storage::UnitVectors => create_unit_vectors(gl, desc)?,
         Storage::Line(texels) => create_line(gl, desc, texels.len(), bytemuck::cast_slice(texels))?,
         Storage::Values(values) => create_line(gl, desc, values.len(), bytemuck::cast_slice(values))?,
         Storage::Uploaded(texture) => create_texture(gl, desc, Some(&texture.rgba), 1)?,
@@ -140,6 +144,45 @@ fn create_texture(
         }
         gl.bind_texture(glow::TEXTURE_2D, None);
         Ok(ImageName::Texture(texture))
+    }
+}
+
+/// A texture whose levels have texels of their own.
+fn create_levels(gl: &glow::Context, desc: &ImageDesc, levels: &[Vec<[u8; 4]>]) -> Result<ImageName, Error> {
+    let (internal, format, kind) = codes(desc.format);
+    // SAFETY: the context is current; each level has the texels of its size.
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::Create)?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        for (level, texels) in levels.iter().enumerate() {
+            let [width, height] = desc.size.map(|side| (side >> level).max(1) as i32);
+            let pixels = glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(texels)));
+            gl.tex_image_2d(glow::TEXTURE_2D, level as i32, internal as i32, width, height, 0, format, kind, pixels);
+        }
+        gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, levels.len() as i32 - 1);
+        gl.bind_texture(glow::TEXTURE_2D, None);
+        Ok(ImageName::Texture(texture))
+    }
+}
+
+/// A cube map of unit vectors, of one level.
+fn create_unit_vectors(gl: &glow::Context, desc: &ImageDesc) -> Result<ImageName, Error> {
+    let (internal, format, kind) = codes(desc.format);
+    let side = desc.size[0];
+    // SAFETY: the context is current; a face has the texels of its size.
+    unsafe {
+        let texture = gl.create_texture().map_err(Error::Create)?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_CUBE_MAP, Some(texture));
+        for (index, face) in CubeFace::ALL.into_iter().enumerate() {
+            let texels = normal_cube::packed_face(index, side);
+            let (pixels, side) = (glow::PixelUnpackData::Slice(Some(bytemuck::cast_slice(&texels))), side as i32);
+            gl.tex_image_2d(face_code(face), 0, internal as i32, side, side, 0, format, kind, pixels);
+        }
+        gl.tex_parameter_i32(glow::TEXTURE_CUBE_MAP, glow::TEXTURE_MAX_LEVEL, 0);
+        gl.bind_texture(glow::TEXTURE_CUBE_MAP, None);
+        Ok(ImageName::Cube(texture))
     }
 }
 

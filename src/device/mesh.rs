@@ -91,6 +91,11 @@ impl GpuMesh {
                 Some(texcoords) => bytemuck::cast_slice(texcoords),
                 None => return Ok(None),
             },
+            Attribute::Tangent | Attribute::Bitangent => match &self.mesh.tangents {
+                Some(directions) if attribute == Attribute::Tangent => bytemuck::cast_slice(&directions.tangents),
+                Some(directions) => bytemuck::cast_slice(&directions.bitangents),
+                None => return Ok(None),
+            },
         };
         let buffer = upload(&self.gl, glow::ARRAY_BUFFER, bytes)?;
         self.attributes.insert(attribute, buffer);

@@ -94,7 +94,7 @@ impl Device {
                 flip_rows(&mut data, 4 * width as usize);
                 Pixels::Rgba8 { size: desc.size, data }
             }
-            Format::Rgba32F | Format::R32F => {
+            Format::Rgba32F | Format::R32F | Format::Rgba8Signed => {
                 let mut data = vec![0.0_f32; 4 * count];
                 self.read_into(desc.size, glow::RGBA, glow::FLOAT, bytemuck::cast_slice_mut(&mut data));
                 flip_rows(&mut data, 4 * width as usize);

@@ -58,6 +58,7 @@ fn set_depth(gl: &glow::Context, state: &DrawState) {
         gl.depth_mask(state.depth_write);
         gl.depth_range_f32(state.depth_range[0], state.depth_range[1]);
         enable(gl, glow::DEPTH_CLAMP, state.depth_clamp);
+        enable(gl, glow::TEXTURE_CUBE_MAP_SEAMLESS, state.seamless);
         for distance in 0..DrawState::MOST_CLIP_DISTANCES {
             enable(gl, glow::CLIP_DISTANCE0 + u32::from(distance), distance < state.clip_distances);
         }
@@ -76,10 +77,11 @@ fn set_blend(gl: &glow::Context, blend: Option<Blend>) {
         Some(Blend::Over) => (glow::SRC_ALPHA, glow::ONE_MINUS_SRC_ALPHA),
         Some(Blend::OverPremultiplied) => (glow::ONE, glow::ONE_MINUS_SRC_ALPHA),
         Some(Blend::AddByStoredAlpha) => (glow::DST_ALPHA, glow::ONE),
-        Some(Blend::Multiply) => (glow::DST_COLOR, glow::ZERO),
+        Some(Blend::Multiply | Blend::MultiplyAndStoreAlpha) => (glow::DST_COLOR, glow::ZERO),
     };
     let alpha = match blend {
         Some(Blend::OverPremultiplied) => (source, destination),
+        Some(Blend::MultiplyAndStoreAlpha) => (glow::ONE, glow::ZERO),
         _ => (glow::ZERO, glow::ONE),
     };
     unsafe {

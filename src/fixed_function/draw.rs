@@ -108,7 +108,7 @@ impl FixedFunction {
                 match attribute {
                     Attribute::Position => fixed.VertexPointer(3, float, 0, std::ptr::null()),
                     Attribute::Normal => fixed.NormalPointer(float, 0, std::ptr::null()),
-                    Attribute::Texcoord => {}
+                    Attribute::Texcoord | Attribute::Tangent | Attribute::Bitangent => {}
                 }
                 if *attribute == Attribute::Texcoord {
                     for (unit, _) in mesh_units(layer) {
@@ -116,8 +116,8 @@ impl FixedFunction {
                         fixed.TexCoordPointer(2, float, 0, std::ptr::null());
                         fixed.EnableClientState(raw::TEXTURE_COORD_ARRAY);
                     }
-                } else {
-                    fixed.EnableClientState(array(*attribute));
+                } else if let Some(array) = array(*attribute) {
+                    fixed.EnableClientState(array);
                 }
             }
             gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(buffers.indices));
@@ -187,10 +187,12 @@ fn mesh_units(layer: &Layer) -> impl Iterator<Item = (u32, &crate::fixed_functio
     (0..).zip(&layer.units).filter(|(_, unit)| unit.coordinates == UnitCoordinates::Mesh)
 }
 
-fn array(attribute: Attribute) -> u32 {
+/// The array of an attribute; `None`: fixed function has none.
+fn array(attribute: Attribute) -> Option<u32> {
     match attribute {
-        Attribute::Position => raw::VERTEX_ARRAY,
-        Attribute::Normal => raw::NORMAL_ARRAY,
-        Attribute::Texcoord => raw::TEXTURE_COORD_ARRAY,
+        Attribute::Position => Some(raw::VERTEX_ARRAY),
+        Attribute::Normal => Some(raw::NORMAL_ARRAY),
+        Attribute::Texcoord => Some(raw::TEXTURE_COORD_ARRAY),
+        Attribute::Tangent | Attribute::Bitangent => None,
     }
 }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::{Bump, Gloss};
+
 /// Colours are linear and as written (no colour management), each channel in [0, 1].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -28,6 +30,10 @@ pub struct Material {
     pub decal_placement: Placement,
     /// Placement of map_d on the same coordinates.
     pub alpha_placement: Placement,
+    /// Bumps of the surface, in its tangent space.
+    pub bump: Option<Arc<Bump>>,
+    /// Share of the specular light from place to place; `None`: all of it.
+    pub gloss: Option<Gloss>,
     /// Line that sets `opacity`, for messages: `file:line: statement`; empty: nowhere.
     pub opacity_origin: String,
 }
@@ -40,7 +46,15 @@ impl Material {
             _ => 1.0,
         };
         let map_channel = self.alpha.as_ref().map_or(0, |alpha| alpha.alpha_channel());
-        self.opacity * most(&self.decal, 3) * most(&self.alpha, map_channel)
+        let decal = if self.decal_joins_alpha_test() { most(&self.decal, 3) } else { 1.0 };
+        self.opacity * decal * most(&self.alpha, map_channel)
+    }
+}
+
+impl Material {
+    /// Tests whether the alpha test reads the decal's alpha: unless that is a gloss map.
+    pub fn decal_joins_alpha_test(&self) -> bool {
+        self.gloss != Some(Gloss::DecalAlpha) && self.decal.as_ref().is_some_and(|decal| decal.has_alpha)
     }
 }
 
@@ -85,6 +99,15 @@ pub struct ObjectLinear {
 }
 
 impl ObjectLinear {
+    /// (s, t) of a position in model space.
+    pub fn texcoord(&self, position: [f32; 3]) -> [f64; 2] {
+        let [x, y, z] = position.map(f64::from);
+        [self.s, self.t].map(|plane| {
+            let [a, b, c, d] = plane.map(f64::from);
+            f64::from(self.scale) * (a * x + b * y + c * z + d)
+        })
+    }
+
     /// The same coordinates for positions that are relative to `origin`, except for whole repeats of a texture.
     #[must_use]
     pub fn relative_to(&self, origin: DVec3) -> Self {
@@ -113,6 +136,8 @@ impl Default for Material {
             texgen: None,
             decal_placement: Placement::default(),
             alpha_placement: Placement::default(),
+            bump: None,
+            gloss: None,
             opacity_origin: String::new(),
         }
     }

@@ -28,12 +28,43 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// (s, t), t upwards as in GL and OBJ.
     pub texcoords: Option<Vec<[f32; 2]>>,
+    /// Directions of s and t at the vertices, for bump maps; `None`: the mesh has none, or no bump map needs them.
+    pub tangents: Option<MeshTangents>,
     pub indices: Vec<u32>,
     /// Ranges of `indices` that share a material; together they cover `indices`.
     pub parts: Vec<Part>,
     /// Materials that the parts' `material` indexes. Empty for built-in meshes.
     pub materials: Vec<Material>,
     pub bounds: Aabb,
+}
+
+/// Directions on a surface along which s and t grow, in model space: one for each vertex. From a file, by a built-in's formula,
+/// or from the skin ([`Mesh::with_bases`]).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshTangents {
+    /// Unit vectors along s.
+    pub tangents: Vec<[f32; 3]>,
+    /// Unit vectors along t.
+    pub bitangents: Vec<[f32; 3]>,
+}
+
+impl MeshTangents {
+    /// Makes them from tangents whose fourth component is the sense of the bitangent, 1 or -1, as glTF stores them:
+    /// B = w N × T.
+    pub fn from_signed(normals: &[[f32; 3]], signed: &[[f32; 4]]) -> Self {
+        let across = |(normal, [x, y, z, w]): (&[f32; 3], &[f32; 4])| {
+            (*w * Vec3::from_array(*normal).cross(Vec3::new(*x, *y, *z))).to_array()
+        };
+        let tangents = signed.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+        Self { tangents, bitangents: normals.iter().zip(signed).map(across).collect() }
+    }
+
+    /// The vertices of these old numbers, in this order.
+    #[must_use]
+    pub fn picked(&self, old: &[usize]) -> Self {
+        let pick = |all: &[[f32; 3]]| old.iter().map(|index| all[*index]).collect();
+        Self { tangents: pick(&self.tangents), bitangents: pick(&self.bitangents) }
+    }
 }
 
 /// A run of triangles with one material.

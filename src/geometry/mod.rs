@@ -1,5 +1,6 @@
 //! Meshes on the CPU: loading (OBJ and MTL, MD2), primitives, smooth normals, shadow volumes. No GL, no scene.
 
+pub mod bump;
 mod derived;
 mod error;
 mod map_options;
@@ -25,10 +26,11 @@ mod vertex_cache_order;
 pub mod volume;
 mod wave;
 
+pub use bump::{Bump, Gloss};
 pub use derived::{Derived, Most};
 pub use error::{Error, Warning};
 pub use material::{Material, ObjectLinear, Placement, Texture};
-pub use mesh::{Mesh, Part};
+pub use mesh::{Mesh, MeshTangents, Part};
 pub use obj::{CREASE_DEGREES, decode_obj, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
 pub use texture::{decode_texture, load_texture};

@@ -92,8 +92,12 @@ impl HeightField {
 ///
 /// Those of [`super::load_texture`].
 pub fn load_heights(path: &Path) -> Result<HeightField, Error> {
-    let bytes = text::read(path)?;
-    let picture = texture::decode(path, &bytes)?.flipv();
+    decode_heights(path, &text::read(path)?)
+}
+
+/// [`load_heights`] of a file that is in memory; `path` is its name.
+pub fn decode_heights(path: &Path, bytes: &[u8]) -> Result<HeightField, Error> {
+    let picture = texture::decode(path, bytes)?.flipv();
     let (width, height) = (picture.width(), picture.height());
     let heights = picture.into_luma16().into_raw().into_iter().map(|height| f32::from(height) / 65535.0).collect();
     Ok(HeightField { name: path.display().to_string(), width, height, heights })

@@ -4,9 +4,11 @@
 //! B = P_t / |P_t| lie in the triangle, N is its outward normal. On a mirrored skin (s, t) runs the other way around: T × B
 //! points inwards there, and N is turned outwards, while T and B stay, so that bumps stay bumps.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
-use super::Mesh;
+use super::{Mesh, MeshTangents};
 
 /// Area in (s, t), as a share of the product of two edges, below which a triangle has no direction on the skin.
 const LEAST_AREA: f64 = 1e-12;
@@ -60,10 +62,15 @@ impl Tangents {
     /// The bases of a mesh's corners. `None`: it has no texture coordinates.
     pub fn of_skin(mesh: &Mesh, fit: BasisFit) -> Option<Self> {
         let texcoords = mesh.texcoords.as_ref()?;
+        Some(Self::of_coordinates(mesh, |vertex| texcoords[vertex].map(f64::from), fit))
+    }
+
+    /// The same for any texture coordinates: those of a vertex by its number.
+    pub fn of_coordinates(mesh: &Mesh, texcoord: impl Fn(usize) -> [f64; 2], fit: BasisFit) -> Self {
         let mut found = Self::default();
         for triangle in mesh.indices.as_chunks::<3>().0 {
             let places = triangle.map(|index| DVec3::from_array(mesh.positions[index as usize].map(f64::from)));
-            let skin = triangle.map(|index| texcoords[index as usize].map(f64::from));
+            let skin = triangle.map(|index| texcoord(index as usize));
             let normals = triangle.map(|index| DVec3::from_array(mesh.normals[index as usize].map(f64::from)));
             match derivatives(places, skin) {
                 Some(derivatives) => {
@@ -82,7 +89,60 @@ impl Tangents {
                 }
             }
         }
-        Some(found)
+        found
+    }
+}
+
+/// Where a mesh's bases come from, and how many of its triangles need a word.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BasisCounts {
+    pub triangles: usize,
+    /// As in [`Tangents`]; 0 where the mesh brings its own directions.
+    pub mirrored: usize,
+    pub skewed: usize,
+    pub without: usize,
+}
+
+impl Mesh {
+    /// The same surface with a basis at each vertex: vertices whose triangles differ in theirs are split. A mesh that brings
+    /// its own directions keeps them, unless the fit asks for those of the skin or `texcoord` is not the mesh's own.
+    ///
+    /// `texcoord`: coordinates of a vertex by its number; `None`: the mesh's own. `None` is returned where there are none.
+    pub fn with_bases(
+        &self,
+        fit: BasisFit,
+        texcoord: Option<&dyn Fn(usize) -> [f64; 2]>,
+    ) -> Option<(Self, BasisCounts)> {
+        let triangles = self.triangle_count();
+        if self.tangents.is_some() && fit == BasisFit::Orthogonal && texcoord.is_none() {
+            return Some((self.clone(), BasisCounts { triangles, ..BasisCounts::default() }));
+        }
+        let bases = match texcoord {
+            Some(texcoord) => Tangents::of_coordinates(self, texcoord, fit),
+            None => Tangents::of_skin(self, fit)?,
+        };
+        let mut known = HashMap::new();
+        let (mut old, mut indices) = (Vec::new(), Vec::with_capacity(self.indices.len()));
+        let mut mesh = Self { normals: Vec::new(), ..self.clone() };
+        let mut directions = MeshTangents::default();
+        for (index, corner) in self.indices.iter().zip(&bases.corners) {
+            let [t, b, n] = [corner.tangent, corner.bitangent, corner.normal].map(|way| way.as_vec3().to_array());
+            let key = (*index, [t, b, n].map(|way| way.map(f32::to_bits)));
+            let vertex = *known.entry(key).or_insert(old.len() as u32);
+            if vertex as usize == old.len() {
+                old.push(*index as usize);
+                directions.tangents.push(t);
+                directions.bitangents.push(b);
+                mesh.normals.push(n);
+            }
+            indices.push(vertex);
+        }
+        mesh.positions = old.iter().map(|index| self.positions[*index]).collect();
+        mesh.texcoords = self.texcoords.as_ref().map(|all| old.iter().map(|index| all[*index]).collect());
+        mesh.indices = indices;
+        mesh.tangents = Some(directions);
+        let Tangents { mirrored, skewed, without, .. } = bases;
+        Some((mesh, BasisCounts { triangles, mirrored, skewed, without }))
     }
 }
 

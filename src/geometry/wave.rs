@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::derived::{Derived, Most};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, MeshTangents};
 use crate::math::Aabb;
 
 /// Moves a vertex p to `p + reach sin(2 pi (vector . p + phase))`, in model space.
@@ -64,8 +64,29 @@ impl Wave {
             let new = old * (1.0 + slope * self.vector.dot(self.reach)) - slope * self.reach.dot(old) * self.vector;
             *normal = new.try_normalize().unwrap_or(old).as_vec3().to_array();
         }
+        if let Some(tangents) = &mut mesh.tangents {
+            self.move_tangents(rest, tangents);
+        }
         mesh.update_bounds();
         mesh
+    }
+
+    /// Turns directions with the triangles, by the same cofactors as normals and as shares of the normal's length, so that a
+    /// bumped normal, a sum of the three, is moved as a normal is.
+    fn move_tangents(&self, rest: &Mesh, tangents: &mut MeshTangents) {
+        let MeshTangents { tangents, bitangents } = tangents;
+        for (index, position) in rest.positions.iter().enumerate() {
+            let slope = TAU * self.angle(*position).cos();
+            let turned = |old: [f32; 3]| {
+                let old = DVec3::from_array(old.map(f64::from));
+                old * (1.0 + slope * self.vector.dot(self.reach)) - slope * self.reach.dot(old) * self.vector
+            };
+            let length = turned(rest.normals[index]).length();
+            for direction in [&mut tangents[index], &mut bitangents[index]] {
+                let share = turned(*direction) / length;
+                *direction = if share.is_finite() { share.as_vec3().to_array() } else { *direction };
+            }
+        }
     }
 
     /// The positions of [`Wave::moved`] alone.

@@ -18,7 +18,7 @@ pub fn passes(item: &Drawable, triangle: u32, corners: &[DVec3; 3], point: DVec3
     let [ta, tb, tc] = vertices(item, triangle).map(|vertex| texcoord(item, vertex));
     let at = ta + v * (tb - ta) + w * (tc - ta);
     let material = &item.material;
-    let decal = item.decal().filter(|decal| decal.has_alpha);
+    let decal = item.decal().filter(|_| item.material.decal_joins_alpha_test());
     let decal = decal.map_or(1.0, |decal| lookup(decal, 3, &material.decal_placement, at));
     let alpha = material.alpha.as_ref();
     let alpha = alpha.map_or(1.0, |map| lookup(map, map.alpha_channel(), &material.alpha_placement, at));

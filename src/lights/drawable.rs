@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DMat4, Vec4};
 
 use super::Notes;
-use crate::geometry::{Derived, Material, Placement, Texture, Wave};
+use crate::geometry::{Bump, Derived, Gloss, Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
@@ -167,8 +167,18 @@ impl Drawable {
         self.material.decal.as_ref().filter(|_| self.has_texcoords())
     }
 
+    /// The bump map, where it has coordinates and bases.
+    pub fn bump(&self) -> Option<&Arc<Bump>> {
+        self.material.bump.as_ref().filter(|_| self.has_texcoords() && self.mesh.tangents.is_some())
+    }
+
+    /// The gloss, where there are coordinates for it.
+    pub fn gloss(&self) -> Option<&Gloss> {
+        self.material.gloss.as_ref().filter(|_| self.has_texcoords())
+    }
+
     fn decal_alpha(&self) -> bool {
-        self.decal().is_some_and(|decal| decal.has_alpha)
+        self.decal().is_some() && self.material.decal_joins_alpha_test()
     }
 }
 
@@ -201,14 +211,15 @@ fn placed_by(placement: &Placement, sampler: Sampler) -> Sampler {
     if placement.clamped { Sampler { wrap: Wrap::ClampToEdge, ..sampler } } else { sampler }
 }
 
-/// The alpha test of `item`, and texture coordinates where it or (with `decal`) the lit pass needs them.
-pub fn cutout(item: &Drawable, decal: bool, list: &mut PassList) -> Cutout {
+/// The alpha test of `item`, and texture coordinates where it, (with `decal`) the decal or (with `others`) other textures of
+/// the lit pass need them.
+pub fn cutout(item: &Drawable, [decal, others]: [bool; 2], list: &mut PassList) -> Cutout {
     let material = &item.material;
     let mut out = Cutout::default();
     let alpha_map = material.alpha.as_ref().filter(|_| item.has_texcoords());
     let tested = item.needs_alpha_test() && item.has_texcoords();
     let decal = item.decal().filter(|_| decal);
-    if !tested && decal.is_none() {
+    if !tested && decal.is_none() && !(others && item.has_texcoords()) {
         return out;
     }
     out.vertex.push(glsl!("common/decal.vert"));
@@ -264,7 +275,7 @@ pub fn cutout(item: &Drawable, decal: bool, list: &mut PassList) -> Cutout {
 pub fn depth_batches(items: &[&Drawable], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
     let mut batches: Vec<Batch> = Vec::new();
     for item in items {
-        let test = if item.needs_alpha_test() { cutout(item, false, list) } else { Default::default() };
+        let test = if item.needs_alpha_test() { cutout(item, [false; 2], list) } else { Default::default() };
         let mut vertex = vec![glsl!("common/position.vert")];
         vertex.extend(test.vertex);
         vertex.push(glsl!("common/depth.vert"));

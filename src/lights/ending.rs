@@ -7,6 +7,8 @@ use crate::pass::Chunk;
 pub enum Ending {
     /// The illumination formula.
     Lit,
+    /// Part of the illumination formula, for passes that put it together [GDC, "Three Passes"].
+    Portion(Portion),
     /// Factors of the colour, for passes that multiply them by blending.
     Factors(Factors),
     /// The shade of one light in alpha: its chunk has `main`, which calls `shade_@`.
@@ -16,6 +18,17 @@ pub enum Ending {
     /// A slice of one light's beam: `chunk` has `main`, and reads the light's shade, colour, image and attenuation. `place`
     /// has what moves the light's texture coordinates before all that.
     Slice { chunk: Chunk, place: Option<Chunk> },
+}
+
+/// Part of `(ambient + diffuse) decal + specular`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Portion {
+    /// Ambient and diffuse light, without the decal.
+    Diffuse,
+    /// The decal, with the gloss in alpha: its chunk has `main`.
+    Decal(Chunk),
+    /// Specular light, without the gloss.
+    Specular,
 }
 
 /// Factors of `color (ambient + light)`. The lights' part is there where a pass has lights.
@@ -32,6 +45,11 @@ pub struct Factors {
 impl Ending {
     /// Tests whether it shows light on surfaces; other endings show facts of one light, also where it does not reach.
     pub fn shows_light(&self) -> bool {
-        matches!(self, Self::Lit | Self::Factors(_))
+        matches!(self, Self::Lit | Self::Portion(_) | Self::Factors(_))
+    }
+
+    /// Tests whether it shows the illumination formula, or light that is a part of it.
+    pub fn is_lit(&self) -> bool {
+        matches!(self, Self::Lit | Self::Portion(Portion::Diffuse | Portion::Specular))
     }
 }

@@ -8,7 +8,7 @@ mod coordinates;
 mod crop;
 pub mod cut;
 pub mod drawable;
-mod ending;
+pub mod ending;
 pub mod guard;
 pub mod light;
 pub mod map;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::Compare;
 use crate::geometry::Texture;
+use crate::geometry::bump::TexelLevels;
 
 /// Index into [`super::PassList::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -37,6 +38,10 @@ pub enum Storage {
     Renderbuffer,
     /// A texture filled from the CPU, with mipmaps.
     Uploaded(Arc<Texture>),
+    /// A texture filled from the CPU, each level with texels of its own.
+    Levels(Arc<TexelLevels>),
+    /// A cube map of unit vectors, each through the middle of its texel.
+    UnitVectors,
     /// A 1D texture of these RGBA texels, of one level.
     Line(&'static [[u8; 4]]),
     /// A 1D texture of these values, red in 32-bit floats, of one level.
@@ -46,12 +51,12 @@ pub enum Storage {
 impl Storage {
     /// Number of faces of a cube map; otherwise 1.
     pub fn layers(&self) -> u64 {
-        if let Self::Cube(_) = self { 6 } else { 1 }
+        if let Self::Cube(_) | Self::UnitVectors = self { 6 } else { 1 }
     }
 
     /// Tests whether there are texels of smaller levels beside those of the image's size.
     pub fn is_mipmapped(&self) -> bool {
-        matches!(self, Self::Uploaded(_) | Self::Mipmapped(2..))
+        matches!(self, Self::Uploaded(_) | Self::Levels(_) | Self::Mipmapped(2..))
     }
 }
 
@@ -62,6 +67,8 @@ impl PartialEq for Storage {
             (Self::Mipmapped(a), Self::Mipmapped(b)) => a == b,
             (Self::Cube(a), Self::Cube(b)) => a == b,
             (Self::Uploaded(a), Self::Uploaded(b)) => Arc::ptr_eq(a, b),
+            (Self::Levels(a), Self::Levels(b)) => Arc::ptr_eq(a, b),
+            (Self::UnitVectors, Self::UnitVectors) => true,
             (Self::Line(a), Self::Line(b)) => a == b,
             (Self::Values(a), Self::Values(b)) => Arc::ptr_eq(a, b),
             _ => false,
@@ -111,6 +118,8 @@ impl CubeFace {
 pub enum Format {
     /// GL_RGBA8.
     Rgba8,
+    /// GL_RGBA8_SNORM.
+    Rgba8Signed,
     /// GL_RGBA32F.
     Rgba32F,
     /// One 32-bit float.
@@ -132,7 +141,7 @@ impl Format {
     /// Bytes of a texel as commonly stored; 24-bit depth takes four, and so does an unsized one.
     pub fn bytes(self) -> u64 {
         match self {
-            Self::Rgba8 => 4,
+            Self::Rgba8 | Self::Rgba8Signed => 4,
             Self::Rgba32F => 16,
             Self::R32F => 4,
             Self::Depth(DepthFormat::Depth16) => 2,
@@ -169,6 +178,7 @@ impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Rgba8 => "RGBA8",
+            Self::Rgba8Signed => "RGBA8_SNORM",
             Self::Rgba32F => "RGBA32F",
             Self::R32F => "R32F",
             Self::Depth(DepthFormat::Depth16) => "DEPTH_COMPONENT16",

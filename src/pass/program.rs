@@ -60,11 +60,15 @@ pub enum Attribute {
     Normal = 1,
     /// `texcoord`, vec2.
     Texcoord = 2,
+    /// `tangent`, vec3.
+    Tangent = 3,
+    /// `bitangent`, vec3.
+    Bitangent = 4,
 }
 
 impl Attribute {
-    /// All three, by location.
-    pub const ALL: [Self; 3] = [Self::Position, Self::Normal, Self::Texcoord];
+    /// All of them, by location.
+    pub const ALL: [Self; 5] = [Self::Position, Self::Normal, Self::Texcoord, Self::Tangent, Self::Bitangent];
 
     /// The name in GLSL.
     pub fn name(self) -> &'static str {
@@ -72,13 +76,15 @@ impl Attribute {
             Self::Position => "position",
             Self::Normal => "normal",
             Self::Texcoord => "texcoord",
+            Self::Tangent => "tangent",
+            Self::Bitangent => "bitangent",
         }
     }
 
     /// Number of floats for each vertex.
     pub fn components(self) -> i32 {
         match self {
-            Self::Position | Self::Normal => 3,
+            Self::Position | Self::Normal | Self::Tangent | Self::Bitangent => 3,
             Self::Texcoord => 2,
         }
     }

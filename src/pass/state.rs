@@ -107,6 +107,8 @@ pub enum Blend {
     AddByStoredAlpha,
     /// GL_DST_COLOR, GL_ZERO: the product of both; alpha stays as it is.
     Multiply,
+    /// GL_DST_COLOR, GL_ZERO for colours, GL_ONE, GL_ZERO for alpha: the product of both, and the fragment's alpha.
+    MultiplyAndStoreAlpha,
 }
 
 /// Channels of the colour buffer that fragments are written to (glColorMask). Clears write all of them.
@@ -152,6 +154,8 @@ pub struct DrawState {
     pub depth_range: [f32; 2],
     /// GL_DEPTH_CLAMP: no clipping at the near and far planes, depth clamped to the range [GL 4.6, 13.7].
     pub depth_clamp: bool,
+    /// GL_TEXTURE_CUBE_MAP_SEAMLESS: texels of neighbouring faces are averaged at a cube map's edges.
+    pub seamless: bool,
     /// Number of clip distances, from GL_CLIP_DISTANCE0, that the vertex stage writes; at most
     /// [`DrawState::MOST_CLIP_DISTANCES`].
     pub clip_distances: u8,
@@ -176,6 +180,7 @@ impl DrawState {
         polygon_offset: None,
         depth_range: [0.0, 1.0],
         depth_clamp: false,
+        seamless: true,
         clip_distances: 0,
         stencil: None,
         blend: None,

@@ -206,6 +206,7 @@ fn state_words(pass: &DrawPass) -> Vec<String> {
         Some(Blend::OverPremultiplied) => words.push(String::from("blend ONE ONE_MINUS_SRC_ALPHA")),
         Some(Blend::Over) => words.push(String::from("blend SRC_ALPHA ONE_MINUS_SRC_ALPHA")),
         Some(Blend::AddByStoredAlpha) => words.push(String::from("blend DST_ALPHA ONE")),
+        Some(Blend::MultiplyAndStoreAlpha) => words.push(String::from("blend DST_COLOR ZERO, alpha ONE ZERO")),
         Some(Blend::Multiply) => words.push(String::from("blend DST_COLOR ZERO")),
         None => {}
     }

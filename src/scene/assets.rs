@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::Error;
 use super::resolve::pose::WrittenPose;
 use super::settings::{Origin, SettingsError, suggest};
+use crate::geometry::normal_map::{self, HeightField};
 use crate::geometry::{self, Mesh, Texture, md2};
 
 /// Ends of the names of files that have a mesh.
@@ -140,6 +141,16 @@ impl Assets {
         let texture = Arc::new(texture.map_err(|source| Error::Asset { origin: origin.clone(), source })?);
         self.textures.insert(key, texture.clone());
         Ok(texture)
+    }
+
+    /// The heights of a picture file named from `origin`.
+    pub fn heights(&mut self, name: &str, origin: &Origin) -> Result<HeightField, Error> {
+        let path = file(name, origin);
+        let heights = match embedded(self.pictures, name, origin) {
+            Some(bytes) => normal_map::decode_heights(&path, bytes),
+            None => normal_map::load_heights(&path),
+        };
+        heights.map_err(|source| Error::Asset { origin: origin.clone(), source })
     }
 
     fn primitive(&mut self, name: &str) -> Option<Model> {

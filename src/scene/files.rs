@@ -8,13 +8,17 @@ use super::{Error, Origin};
 use crate::geometry;
 
 /// The keys that name files, by the tables that have them.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 10] = [
     ("light", "image"),
     ("light.beam", "shield"),
     ("object", "mesh"),
     ("object.material", "decal"),
     ("object.material", "alpha"),
+    ("object.material", "gloss"),
+    ("object.material.bump", "height"),
+    ("object.material.bump", "normal_map"),
     ("object.material.photo", "image"),
+    ("shading", "combiners"),
 ];
 
 /// Makes each file's name an absolute path. `model`: the file around which the scene is supplied, which is named as it was
@@ -24,7 +28,7 @@ pub(super) fn make_absolute(table: &mut Settings, model: Option<&Path>) -> Resul
     for (key, entry) in &mut table.entries {
         let names_file = KEYS.contains(&(path.as_str(), key.as_str()));
         match &mut entry.value {
-            Value::String(name) if names_file && !is_primitive(key, name) => {
+            Value::String(name) if names_file && !is_primitive(key, name) && !is_decal_alpha(key, name) => {
                 let found = match (&entry.origin, model) {
                     (Origin::BuiltIn, Some(model)) => model.to_owned(),
                     (origin, _) => file(name, origin),
@@ -47,6 +51,10 @@ pub(super) fn make_absolute(table: &mut Settings, model: Option<&Path>) -> Resul
 
 fn is_primitive(key: &str, name: &str) -> bool {
     key == "mesh" && geometry::PRIMITIVES.contains(&name)
+}
+
+fn is_decal_alpha(key: &str, name: &str) -> bool {
+    key == "gloss" && name == "decal-alpha"
 }
 
 fn absolute(path: &Path) -> Result<String, Error> {

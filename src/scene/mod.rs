@@ -26,8 +26,8 @@ use std::path::Path;
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind, LightShape, Object,
-    Photo, PicturePasses, Point, Scene, Shading, Spot,
+    Background, BumpMethod, BumpShading, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind,
+    LightShape, Normalize, Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
 pub use photo::photos_of;
 pub use projected::{
@@ -160,7 +160,8 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let mut reader = first.read();
     let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
-    let object = reader.tables("object")?.first().map(|object| resolve::object::read(object, assets)).transpose()?;
+    let object =
+        reader.tables("object")?.first().map(|object| resolve::object::read(object, false, assets)).transpose()?;
     let object = object.map(|(object, _)| object);
     let bounds = object.as_ref().map_or(bounds, Object::world_bounds);
     check_size(path, &bounds)?;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use super::{Falloff, ImageFilter, Interpolation, LightBeam, Shadow};
-use crate::geometry::{Material, Mesh, Texture, Wave};
+use crate::combiners::{CombinerProgram, Precision};
+use crate::geometry::tangents::BasisCounts;
+use crate::geometry::{Gloss, Material, Mesh, Texture, Wave};
 
 /// Everything that a frame shows. It knows no GL, and of a technique only the name.
 #[derive(Clone, Debug)]
@@ -31,8 +33,10 @@ impl Scene {
         });
         let materials =
             self.objects.iter().flat_map(|object| object.material.as_deref().into_iter().chain(&object.mesh.materials));
-        let of_materials =
-            materials.flat_map(|material| material.decal.as_deref().into_iter().chain(material.alpha.as_deref()));
+        let of_materials = materials.flat_map(|material| {
+            let gloss = if let Some(Gloss::Map(map)) = &material.gloss { Some(&**map) } else { None };
+            material.decal.as_deref().into_iter().chain(material.alpha.as_deref()).chain(gloss)
+        });
         let of_photos = self.objects.iter().filter_map(|object| object.photo.as_ref()?.image());
         of_lights.chain(of_materials).chain(of_photos.map(|image| &**image))
     }
@@ -73,8 +77,72 @@ pub struct Shading {
     pub per_vertex: bool,
     /// Passes that make the picture.
     pub passes: PicturePasses,
+    /// How bumps are lit.
+    pub bumps: BumpShading,
     /// Content of pixels without a surface, where projectors' light is multiplied in.
     pub background: Background,
+}
+
+/// How bump-mapped surfaces are lit [GDC, "Per-Pixel Lighting Math"].
+#[derive(Clone, Debug, PartialEq)]
+pub struct BumpShading {
+    /// Programs and passes.
+    pub method: BumpMethod,
+    /// True if light and highlights end where the light, or the half-angle vector, sinks below the smooth surface: factors
+    /// min(1, 8 L_z) and min(1, 8 H_z).
+    pub self_shadow: bool,
+    /// Normalisation of the interpolated vectors; the reference always computes it.
+    pub normalize: Normalize,
+    /// Accuracy of the register combiners.
+    pub precision: Precision,
+}
+
+impl Default for BumpShading {
+    fn default() -> Self {
+        Self {
+            method: BumpMethod::Reference,
+            self_shadow: true,
+            normalize: Normalize::default(),
+            precision: Precision::Float,
+        }
+    }
+}
+
+/// Programs and passes that light bumps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum BumpMethod {
+    /// Vectors per fragment, computed and normalised in floats; any number of lights in a pass.
+    #[default]
+    Reference,
+    /// Register combiners in one pass for each light [GDC, "Same Math in a Single Pass on GeForce3"].
+    OnePass(Arc<CombinerProgram>),
+    /// Register combiners in passes of their own for diffuse light, decal and highlights [GDC, "Three Passes"].
+    ThreePass {
+        /// Program of the first pass.
+        diffuse: Arc<CombinerProgram>,
+        /// Program of the third.
+        specular: Arc<CombinerProgram>,
+    },
+}
+
+/// Normalisation of interpolated vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normalize {
+    /// Computed in floats.
+    Exact,
+    /// Looked up in a cube map of `size` texels a side.
+    Cube {
+        /// Texels a side, a power of two in 1..=1024.
+        size: u32,
+        /// True if texels of neighbouring faces are averaged at the cube's edges (GL_TEXTURE_CUBE_MAP_SEAMLESS).
+        seamless: bool,
+    },
+}
+
+impl Default for Normalize {
+    fn default() -> Self {
+        Self::Cube { size: 64, seamless: true }
+    }
 }
 
 /// Passes in which light becomes a picture.
@@ -270,6 +338,8 @@ pub struct Object {
     /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
     /// one need one depth map.
     pub photo: Option<Arc<Photo>>,
+    /// What the tangent bases of a bump-mapped object are made of; `None`: it has no bump map.
+    pub bases: Option<BasisCounts>,
     /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,
     /// True if it is drawn into shadow maps.

@@ -201,7 +201,7 @@ fn beyond_fixed_function(spot: &Spot, ending: &Ending) -> Option<&'static str> {
     if spot.interpolation == Interpolation::Affine {
         return Some("coordinates interpolated without perspective, which interpolate = \"affine\" asks for");
     }
-    (*ending == Ending::Lit && spot.falloff.is_some()).then_some("a law of planar distance, in a table of floats")
+    (ending.is_lit() && spot.falloff.is_some()).then_some("a law of planar distance, in a table of floats")
 }
 
 /// Adds the guard that replaces the fragment's test of q.

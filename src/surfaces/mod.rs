@@ -1,6 +1,7 @@
 //! The lit pass: every visible surface once, with the light of every contributing light in one shader variant [LEC, "Advice
 //! for Shadowed Illumination Model"].
 
+mod bump;
 mod explain;
 mod guarded;
 mod lights;

@@ -62,6 +62,7 @@ fn part(item: &Drawable, plane: &ModelPlane) -> Parts {
         positions: item.mesh.positions.clone(),
         normals: item.mesh.normals.clone(),
         texcoords: item.mesh.texcoords.clone(),
+        tangents: item.mesh.tangents.clone(),
         indices: lists.concat(),
         bounds: item.bounds,
         ..Mesh::default()

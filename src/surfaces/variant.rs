@@ -2,9 +2,11 @@
 
 use glam::{Vec3, Vec4};
 
+use super::bump::{self, Bumps};
 use super::lights::{self, ADDED, LightParts};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
+use crate::lights::ending::Portion;
 use crate::lights::{Drawable, Ending, Factors, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
@@ -30,8 +32,17 @@ struct Needs {
     ambient: bool,
     /// True if no normal is seen from behind, so that none must be reversed.
     one_sided: bool,
+    /// True if register combiners light its bumps.
+    combined: bool,
     /// Ambient light of the scene.
     scene_ambient: [f32; 3],
+}
+
+impl Needs {
+    /// True if a normal may be seen from behind, which the fragment stage finds out.
+    fn is_two_sided(&self) -> bool {
+        self.normals && !self.per_vertex && !self.one_sided
+    }
 }
 
 /// The shader variant of an item, with its uniforms and inputs.
@@ -67,14 +78,30 @@ pub fn of(
     ending: &Ending,
     list: &mut PassList,
 ) -> Variant {
-    let lit = *ending == Ending::Lit;
+    let lit = ending.is_lit();
     let shows_light = ending.shows_light();
-    let decal = shows_decal(ending);
-    let cut = if decal || item.needs_alpha_test() { cutout(item, decal, list) } else { Cutout::default() };
-    let specular = lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
+    let shines = !matches!(ending, Ending::Portion(Portion::Diffuse));
+    let specular =
+        shines && lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
     let has_cosine = |light: &LightParts| item.lit && light.has_cosine;
     let normals = lit && lights.iter().any(|light| has_cosine(light));
     let per_vertex = lit && scene.shading.per_vertex && !lights.is_empty();
+    let bumps =
+        if normals && !per_vertex { Bumps::of(item, lights, &scene.shading.bumps, ending) } else { Bumps::None };
+    // The pass of highlights reads the gloss in alpha.
+    let gloss = match ending {
+        Ending::Lit => specular,
+        Ending::Portion(portion) => matches!(portion, Portion::Decal(_)),
+        Ending::Factors(_) | Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
+    };
+    let (gloss_defines, gloss_inputs) = if gloss { bump::gloss(item, list) } else { Default::default() };
+    let decal = shows_decal(ending);
+    let others = bumps.any() || !gloss_defines.is_empty();
+    let cut = if decal || others || item.needs_alpha_test() {
+        cutout(item, [decal, others], list)
+    } else {
+        Cutout::default()
+    };
     let lit_from_near = |light: &LightParts| light.has_position && (has_cosine(light) || light.has_attenuation);
     let two_sided = normals && !one_sided;
     let needs = Needs {
@@ -83,35 +110,60 @@ pub fn of(
         per_vertex,
         position: shows_light
             && !per_vertex
-            && (specular || two_sided || lights.iter().any(|light| lit_from_near(light))),
+            && ((specular && !bumps.are_combined())
+                || two_sided
+                || lights.iter().any(|light| lit_from_near(light) && (!bumps.are_combined() || light.has_attenuation))),
         ambient: lit && lights.iter().any(|l| l.has_ambient),
         one_sided,
+        combined: bumps.are_combined(),
         scene_ambient: if has_ambient { scene.shading.ambient } else { [0.0; 3] },
     };
+    let bump_map = item.bump().map(|bump| &**bump);
     let mut inputs = cut.inputs.clone();
+    inputs.extend(gloss_inputs);
+    inputs.extend(bumps.inputs(bump_map, &scene.shading.bumps, list));
     let mut uniforms = cut.uniforms.clone();
     for light in lights {
         inputs.extend(light.inputs.iter().cloned());
         uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
     }
     match ending {
-        Ending::Lit => uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty())),
+        Ending::Lit | Ending::Portion(Portion::Diffuse | Portion::Specular) => {
+            uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()))
+        }
         Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, &item.material, factors)),
-        Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => {}
+        Ending::Portion(Portion::Decal(_)) | Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => {}
     }
     let mut attributes = vec![Attribute::Position];
     if needs.normals {
         attributes.push(Attribute::Normal);
     }
     attributes.extend(cut.attributes.iter().copied());
+    if bumps.any() {
+        attributes.extend([Attribute::Tangent, Attribute::Bitangent]);
+    }
+    let mut defines = defines(item, lights, ending, needs, &cut, viewer);
+    defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
+    defines.extend(gloss_defines);
+    if *ending == Ending::Portion(Portion::Specular) {
+        defines.push(Define::flag("SPECULAR_ALONE"));
+    }
     let program = Program {
         label: String::from("surface"),
-        defines: defines(item, lights, ending, needs, &cut, viewer),
-        vertex: vertex(lights, ending, needs, &cut),
-        fragment: fragment(lights, ending, needs, &cut),
+        defines,
+        vertex: vertex(lights, ending, needs, &bumps, &cut),
+        fragment: fragment(scene, lights, ending, needs, &bumps, &cut),
         attributes,
     };
-    let meaning = if item.wave.is_some() { WAVES } else { meaning(scene, item, lights, viewer, ending, needs, &cut) };
+    let meaning = if item.wave.is_some() {
+        WAVES
+    } else if bumps.any() {
+        FixedFunctionDesc::Shader("bumps, lit per fragment")
+    } else if others {
+        FixedFunctionDesc::Shader("a gloss map")
+    } else {
+        meaning(scene, item, lights, viewer, ending, needs, &cut)
+    };
     Variant { program, meaning, uniforms, inputs }
 }
 
@@ -170,6 +222,7 @@ fn meaning(
                 FixedFunctionDesc::Sampled(shown)
             }
         }
+        (Ending::Portion(_), _) => FixedFunctionDesc::Shader("a part of the illumination formula"),
         (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
         (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
     }
@@ -208,7 +261,8 @@ fn factor_uniforms(scene: &Scene, material: &Material, factors: &Factors) -> Vec
 /// Tests whether the decal's colour is shown.
 fn shows_decal(ending: &Ending) -> bool {
     match ending {
-        Ending::Lit => true,
+        Ending::Lit | Ending::Portion(Portion::Decal(_)) => true,
+        Ending::Portion(Portion::Diffuse | Portion::Specular) => false,
         Ending::Factors(factors) => factors.color,
         Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
     }
@@ -222,19 +276,20 @@ fn defines(
     cut: &Cutout,
     viewer: &Viewer,
 ) -> Vec<Define> {
-    let (lit, shows_light) = (*ending == Ending::Lit, ending.shows_light());
+    let (lit, shows_light) = (ending.is_lit(), ending.shows_light());
     let decal = shows_decal(ending) && item.decal().is_some();
     let unlit = !item.lit || (!lights.is_empty() && !needs.normals);
     let factors = if let Ending::Factors(factors) = ending { Some(factors) } else { None };
+    let combined = needs.combined;
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
         (Define::flag("WAVE"), item.wave.is_some()),
         (Define::flag("ANY_LIGHT"), shows_light && !lights.is_empty()),
-        (EYE_SPACE, needs.per_vertex || needs.position || lights.iter().any(|light| light.has_coordinates)),
+        (EYE_SPACE, needs.per_vertex || needs.position || combined || lights.iter().any(|light| light.has_coordinates)),
         (EYE_POSITION, needs.position),
         (Define::flag("NORMALS"), needs.normals),
-        (Define::flag("EYE_NORMAL"), per_fragment),
-        (Define::flag("TWO_SIDED"), per_fragment && !needs.one_sided),
+        (Define::flag("EYE_NORMAL"), per_fragment && (!combined || !needs.one_sided)),
+        (Define::flag("TWO_SIDED"), needs.is_two_sided()),
         (Define::flag("UNLIT"), lit && unlit),
         (Define::flag("COLORLESS"), factors.is_some()),
         (Define::flag("AMBIENT_FACTOR"), factors.is_some_and(|factors| factors.ambient)),
@@ -272,7 +327,7 @@ fn is_in_view(item: &Drawable, viewer: &Viewer) -> bool {
     frustum::overlap(&(viewer.clip_from_world() * item.world_from_model), &item.bounds) == Overlap::Inside
 }
 
-fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, bumps: &Bumps, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = vec![glsl!("common/position.vert")];
     chunks.extend(cut.vertex.iter().cloned());
     if *ending == Ending::Lit && needs.per_vertex {
@@ -283,6 +338,9 @@ fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -
             chunks.push(glsl!("surfaces/texgen.vert").for_light(light.index));
         }
         chunks.extend(light.side.iter().map(|[vertex, _]| vertex.clone()));
+        if bumps.are_combined() {
+            chunks.push(glsl!("surfaces/tangent_vectors.vert").for_light(light.index));
+        }
         if needs.per_vertex {
             chunks.push(glsl!("surfaces/lighting.glsl").for_light(light.index));
             chunks.push(glsl!("surfaces/per_vertex.vert").for_light(light.index));
@@ -292,10 +350,21 @@ fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -
     chunks
 }
 
-fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout) -> Vec<Chunk> {
+fn fragment(
+    scene: &Scene,
+    lights: &[&LightParts],
+    ending: &Ending,
+    needs: Needs,
+    bumps: &Bumps,
+    cut: &Cutout,
+) -> Vec<Chunk> {
     let mut chunks = cut.fragment.clone();
     let of_one_light = match ending {
-        Ending::Lit | Ending::Factors(_) => None,
+        Ending::Portion(Portion::Decal(chunk)) => {
+            chunks.push(chunk.clone());
+            return chunks;
+        }
+        Ending::Lit | Ending::Portion(_) | Ending::Factors(_) => None,
         Ending::View { chunk, shade } => Some((chunk, *shade, None)),
         Ending::Alpha(chunk) => Some((chunk, true, None)),
         Ending::Slice { chunk, place } => Some((chunk, true, place.as_ref())),
@@ -314,6 +383,12 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
         return chunks;
     }
     chunks.push(glsl!("surfaces/material.glsl"));
+    if bumps.are_computed() {
+        chunks.push(glsl!("surfaces/bump.frag"));
+    }
+    if needs.is_two_sided() {
+        chunks.push(glsl!("surfaces/two_sided.frag"));
+    }
     for light in lights {
         chunks.extend(coordinates(light));
         chunks.push(light.reach.clone());
@@ -326,6 +401,10 @@ fn fragment(lights: &[&LightParts], ending: &Ending, needs: Needs, cut: &Cutout)
         });
         chunks.extend(light.side.iter().map(|[_, fragment]| fragment.clone()));
         chunks.push(glsl!("surfaces/illuminate.frag").for_light(light.index));
+    }
+    if let Some(combined) = bumps.combiner_chunks(scene.shading.bumps.precision, lights) {
+        chunks.extend(combined);
+        return chunks;
     }
     chunks.push(match ending {
         Ending::Factors(factors) => factors.chunk.clone(),

@@ -61,7 +61,7 @@ impl AlphaCutout {
     pub fn new(material: &Material, has_texcoords: bool) -> Option<Self> {
         let has_texcoords = has_texcoords || material.texgen.is_some();
         let mut textures = Vec::new();
-        if let Some(decal) = material.decal.as_ref().filter(|decal| has_texcoords && decal.has_alpha) {
+        if let Some(decal) = material.decal.as_ref().filter(|_| has_texcoords && material.decal_joins_alpha_test()) {
             textures.push(CutoutTexture { texture: decal.clone(), channel: 3, placement: material.decal_placement });
         }
         if let Some(alpha) = material.alpha.as_ref().filter(|_| has_texcoords) {

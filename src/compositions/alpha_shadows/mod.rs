@@ -25,7 +25,7 @@ impl Composition for AlphaShadows {
 
     fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
         let parts = first_parts(passes.scene, terms);
-        groups::sizes(&parts, passes.has_photos()).len() > 1
+        groups::sizes(&parts, groups::Room::of(passes.scene)).len() > 1
             || (!terms.is_empty() && Once::find(passes, &CameraProjection::of_scene(passes.scene)).0)
     }
 

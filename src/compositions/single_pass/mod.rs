@@ -17,11 +17,13 @@ impl Composition for SinglePass {
     }
 
     fn serves(&self, scene: &Scene, terms: &[&LightTerm]) -> bool {
-        scene.shading.passes == PicturePasses::One && terms.iter().all(|term| term.counting.is_none())
+        scene.shading.passes == PicturePasses::One
+            && terms.iter().all(|term| term.counting.is_none())
+            && !groups::three_passes(scene)
     }
 
     fn needs_stencil(&self, passes: &Passes<'_>, terms: &[&LightTerm]) -> bool {
-        groups::sizes(terms.iter().copied(), passes.has_photos()).len() > 1
+        groups::sizes(terms.iter().copied(), groups::Room::of(passes.scene)).len() > 1
     }
 
     fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {

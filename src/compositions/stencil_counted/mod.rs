@@ -6,6 +6,7 @@
 
 mod views;
 
+use super::groups;
 use super::parts::left_by_shadow;
 use super::passes::{Onto, Passes};
 use super::projection::CameraProjection;
@@ -56,9 +57,12 @@ impl Composition for StencilCounted {
         true
     }
 
-    fn check(&self, _scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
+    fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
         let cutting = terms.iter().find(|term| term.guard == Guard::ClipPlane);
         let counted = terms.iter().find(|term| term.counting.is_some());
+        if let Some(counted) = counted.filter(|_| groups::three_passes(scene)) {
+            return Err(Error::CountedPortions { light: counted.index });
+        }
         if let (Some(cutting), Some(counted)) = (cutting, counted) {
             return Err(Error::CutDepths { light: cutting.index, counted: counted.index });
         }

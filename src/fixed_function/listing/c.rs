@@ -117,7 +117,7 @@ pub fn face_name(face: CubeFace) -> &'static str {
 /// Binding target of a texture.
 pub fn binding(storage: &Storage) -> &'static str {
     match storage {
-        Storage::Cube(_) => "GL_TEXTURE_CUBE_MAP",
+        Storage::Cube(_) | Storage::UnitVectors => "GL_TEXTURE_CUBE_MAP",
         Storage::Line(_) | Storage::Values(_) => "GL_TEXTURE_1D",
         _ => "GL_TEXTURE_2D",
     }
@@ -127,6 +127,7 @@ pub fn binding(storage: &Storage) -> &'static str {
 pub fn format(format: Format) -> [&'static str; 3] {
     match format {
         Format::Rgba8 => ["GL_RGBA8", "GL_RGBA", "GL_UNSIGNED_BYTE"],
+        Format::Rgba8Signed => ["GL_RGBA8_SNORM", "GL_RGBA", "GL_BYTE"],
         Format::Rgba32F => ["GL_RGBA32F", "GL_RGBA", "GL_FLOAT"],
         Format::R32F => ["GL_R32F", "GL_RED", "GL_FLOAT"],
         Format::Depth(depth) => {

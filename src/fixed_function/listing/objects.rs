@@ -78,7 +78,7 @@ impl<'a> Objects<'a> {
         }
         out.line("\nvoid create(void)\n{");
         out.call("glDisable(GL_DITHER)");
-        if list.images.iter().any(|desc| matches!(desc.storage, Storage::Cube(_))) {
+        if list.images.iter().any(|desc| matches!(desc.storage, Storage::Cube(_) | Storage::UnitVectors)) {
             out.call("glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS)");
         }
         list.images.iter().enumerate().for_each(|(index, desc)| write_image(out, index, desc));
@@ -105,6 +105,15 @@ impl<'a> Objects<'a> {
             out.line(&format!("/*   mesh {index}: {name}, {vertices} vertices, {indices} indices{order} */"));
         }
         out.line("extern void bind_mesh(int mesh);");
+        let has_levels = |desc: &&ImageDesc| matches!(desc.storage, Storage::Levels(_) | Storage::UnitVectors);
+        if list.images.iter().any(|desc| has_levels(&desc)) {
+            out.line("/* a function that answers with the RGBA texels of one level, rows from the bottom up; of a cube map of unit");
+            out.line("   vectors, in place of the level, of a face, each through the middle of its texel: 255 (x / 2 + 1 / 2) */");
+            for (index, desc) in list.images.iter().enumerate().filter(|(_, desc)| has_levels(desc)) {
+                out.line(&format!("/*   image {index}: {} */", comment(&desc.label)));
+            }
+            out.line("extern const void *level_texels(int image, int level);");
+        }
         let uploads = |desc: &&ImageDesc| matches!(desc.storage, Storage::Uploaded(_));
         if list.images.iter().any(|desc| uploads(&desc)) {
             out.line("/* a function that answers with an image's RGBA8 texels, rows from the bottom up */");
@@ -180,6 +189,17 @@ fn write_image(out: &mut Text, index: usize, desc: &ImageDesc) {
         Storage::Uploaded(_) => {
             allocate(binding, 0, &format!("texels({index})"));
             return out.call(&format!("glGenerateMipmap({binding})"));
+        }
+        Storage::Levels(map) => {
+            (0..map.levels.len() as u32)
+                .for_each(|level| allocate(binding, level, &format!("level_texels({index}, {level})")));
+            map.levels.len() as u32
+        }
+        Storage::UnitVectors => {
+            for (number, face) in CubeFace::ALL.iter().enumerate() {
+                allocate(c::face_name(*face), 0, &format!("level_texels({index}, {number})"));
+            }
+            1
         }
         Storage::Line(texels) => {
             let bytes: Vec<String> = texels.iter().flatten().map(u8::to_string).collect();

@@ -111,11 +111,15 @@ fn set_blend(out: &mut Text, blend: Option<Blend>) {
         None => return,
         Some(Blend::Add) => "GL_ONE, GL_ONE",
         Some(Blend::AddByStoredAlpha) => "GL_DST_ALPHA, GL_ONE",
-        Some(Blend::Multiply) => "GL_DST_COLOR, GL_ZERO",
+        Some(Blend::Multiply | Blend::MultiplyAndStoreAlpha) => "GL_DST_COLOR, GL_ZERO",
         Some(Blend::Over) => "GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA",
         Some(Blend::OverPremultiplied) => "GL_ONE, GL_ONE_MINUS_SRC_ALPHA",
     };
-    let alpha = if blend == Some(Blend::OverPremultiplied) { factors } else { "GL_ZERO, GL_ONE" };
+    let alpha = match blend {
+        Some(Blend::OverPremultiplied) => factors,
+        Some(Blend::MultiplyAndStoreAlpha) => "GL_ONE, GL_ZERO",
+        _ => "GL_ZERO, GL_ONE",
+    };
     out.call("glBlendEquation(GL_FUNC_ADD)");
     out.call(&format!("glBlendFuncSeparate({factors}, {alpha})"));
 }

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::{Mesh, Part};
+use super::{Mesh, MeshTangents, Part};
 use crate::math::Aabb;
 
 /// The names that [`primitive`] knows.
@@ -156,7 +156,24 @@ fn torus(columns: u32, rows: u32) -> Mesh {
         }
     }
     builder.add_grid(0, columns, rows);
-    builder.finish("torus")
+    let mut mesh = builder.finish("torus");
+    mesh.tangents = Some(torus_tangents(columns, rows));
+    mesh
+}
+
+/// The unit derivatives of the torus's formula by s and t.
+fn torus_tangents(columns: u32, rows: u32) -> MeshTangents {
+    let mut tangents = MeshTangents::default();
+    for row in 0..=rows {
+        let (height, outwards) = turn(row, rows);
+        for column in 0..=columns {
+            let (sine, cosine) = turn(column, columns);
+            tangents.tangents.push(DVec3::new(cosine, 0.0, -sine).as_vec3().to_array());
+            let along_t = DVec3::new(-height * sine, outwards, -height * cosine);
+            tangents.bitangents.push(along_t.as_vec3().to_array());
+        }
+    }
+    tangents
 }
 
 /// Sine and cosine of a `step` of `steps` of a turn; the last is the first to the bit.

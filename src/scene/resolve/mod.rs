@@ -1,6 +1,7 @@
 //! [`Settings`] to a [`Scene`]: the keys of a scene, their allowed values, and their defaults.
 
 mod beam;
+mod bump;
 mod camera;
 mod falloff;
 mod light;
@@ -11,7 +12,7 @@ pub(super) mod pose;
 
 use super::assets::Assets;
 use super::settings::{Plain, Reader, Settings, SettingsError};
-use super::{Background, Error, Image, PicturePasses, ReadShadow, Scene, Shading};
+use super::{Background, BumpMethod, BumpShading, Error, Image, PicturePasses, ReadShadow, Scene, Shading};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_IMAGE_SIDE: i64 = 16384;
@@ -32,6 +33,7 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
     let mut reader = root.read();
     let image = image(reader.table("image")?)?;
     let shading = shading(reader.table("shading")?)?;
+    let is_per_vertex = shading.per_vertex;
     let camera = camera::read(reader.table("camera")?)?;
     let lights = reader.tables("light")?;
     let objects = reader.tables("object")?;
@@ -40,7 +42,8 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
 
     let lights =
         lights.iter().enumerate().map(|(i, table)| light::read(table, i, assets)).collect::<Result<Vec<_>, _>>()?;
-    let objects = objects.iter().map(|table| object::read(table, assets)).collect::<Result<Vec<_>, _>>()?;
+    let objects =
+        objects.iter().map(|table| object::read(table, is_per_vertex, assets)).collect::<Result<Vec<_>, _>>()?;
     let (mut objects, photos): (Vec<_>, Vec<_>) = objects.into_iter().unzip();
     photo::complete(photos, &mut objects, shadows)?;
     if lights.is_empty() && objects.iter().any(|object| object.photo.is_none()) {
@@ -82,9 +85,10 @@ fn size(reader: &mut Reader<'_>) -> Result<Option<[u32; 2]>, SettingsError> {
     Ok(Some(size.map(|side| side as u32)))
 }
 
-fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
+fn shading(table: Option<&Settings>) -> Result<Shading, Error> {
     let (passes, background) = Default::default();
-    let mut shading = Shading { ambient: DEFAULT_AMBIENT, per_vertex: false, passes, background };
+    let mut shading =
+        Shading { ambient: DEFAULT_AMBIENT, per_vertex: false, passes, bumps: BumpShading::default(), background };
     let Some(table) = table else {
         return Ok(shading);
     };
@@ -95,7 +99,13 @@ fn shading(table: Option<&Settings>) -> Result<Shading, SettingsError> {
     if let Some(per_vertex) = reader.choice("lighting", &[("per-fragment", false), ("per-vertex", true)])? {
         shading.per_vertex = per_vertex;
     }
+    shading.bumps = bump::shading(&mut reader)?;
     shading.passes = reader.choice("passes", &PASSES)?.unwrap_or_default();
+    if matches!(shading.bumps.method, BumpMethod::ThreePass { .. }) && shading.passes != PicturePasses::One {
+        return Err(reader
+            .error("bump", "cannot be \"three-pass\" beside `passes`: both name the picture's passes")
+            .into());
+    }
     shading.background = reader.choice("background", &BACKGROUNDS)?.unwrap_or_default();
     reader.finish()?;
     Ok(shading)

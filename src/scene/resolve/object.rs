@@ -7,6 +7,7 @@ use glam::{DMat4, DVec3};
 use super::material;
 use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
+use crate::geometry::tangents::BasisCounts;
 use crate::geometry::{Material, Mesh, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
@@ -14,7 +15,13 @@ use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
 use crate::scene::{Error, Object};
 
 /// Resolves one object, and reads its photograph.
-pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<(Object, Option<PhotoKeys>), Error> {
+///
+/// `is_per_vertex`: surfaces are lit per vertex, which no bump map survives.
+pub(in crate::scene) fn read(
+    table: &Settings,
+    is_per_vertex: bool,
+    assets: &mut Assets,
+) -> Result<(Object, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
     let (mesh, mesh_origin) =
         reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh, or an .obj or .md2 file"))?;
@@ -30,16 +37,39 @@ pub(in crate::scene) fn read(table: &Settings, assets: &mut Assets) -> Result<(O
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
     let mesh = assets.mesh(mesh, mesh_origin, &pose)?;
+    let (mesh, bases) = with_bases(mesh, material.as_deref(), is_per_vertex, table)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
     }
     let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
     let wave = wave.map(|wave| wave.relative_to(mesh.origin));
     let material = material.map(|material| relative_to(material, mesh.origin));
-    let object = Object { name, mesh, world_from_model, wave, material, photo: None, lit, casts_shadow, closed };
+    let object = Object { name, mesh, world_from_model, wave, material, photo: None, bases, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     warn_of_clear(&object, table, assets);
     Ok((object, photo))
+}
+
+/// The mesh with the bases that a bump map needs.
+fn with_bases(
+    mesh: Arc<Mesh>,
+    material: Option<&Material>,
+    is_per_vertex: bool,
+    table: &Settings,
+) -> Result<(Arc<Mesh>, Option<BasisCounts>), SettingsError> {
+    let Some((material, bump)) = material.and_then(|material| Some((material, material.bump.as_ref()?))) else {
+        return Ok((mesh, None));
+    };
+    let error = |message: &str| Err(table.read().error("material", message));
+    if is_per_vertex {
+        return error("has a `bump`, which lighting = \"per-vertex\" of [shading] cannot show: leave one of them out");
+    }
+    let generated = material.texgen.as_ref().map(|texgen| |vertex: usize| texgen.texcoord(mesh.positions[vertex]));
+    let texcoord = generated.as_ref().map(|generated| generated as &dyn Fn(usize) -> [f64; 2]);
+    match mesh.with_bases(bump.fit, texcoord) {
+        Some((based, counts)) => Ok((Arc::new(based), Some(counts))),
+        None => error("has a `bump`, and the mesh has no texture coordinates for it: give it vt lines, or a `texgen`"),
+    }
 }
 
 /// Warns of parts that the alpha test discards completely.

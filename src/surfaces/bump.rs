@@ -1,0 +1,141 @@
+//! Bump-mapped surfaces [GDC, "Per-Pixel Lighting Math"]: vectors computed per fragment, or register combiners. Knows
+//! materials and variants; of lights only their number.
+
+use std::sync::Arc;
+
+use super::lights::LightParts;
+use crate::combiners::{self, CombinerProgram, Precision};
+use crate::geometry::bump::{Bump, Gloss, NormalFormat, TexelLevels};
+use crate::geometry::normal_map::HeightWrap;
+use crate::lights::drawable::upload;
+use crate::lights::ending::Portion;
+use crate::lights::{Drawable, Ending};
+use crate::pass::{Chunk, Define, Filter, Format, ImageDesc, ImageId, Input, PassList, Sampler, Storage, Wrap, glsl};
+use crate::scene::{BumpMethod, BumpShading, Normalize};
+
+/// Bumps of an item in one pass.
+#[derive(Clone)]
+pub enum Bumps {
+    /// Flat, or nothing that depends on normals.
+    None,
+    /// Vectors per fragment.
+    Computed,
+    /// Register combiners, for one light.
+    Combined(Arc<CombinerProgram>),
+}
+
+impl Bumps {
+    /// The bumps of `item` where `lights` light it by its normals.
+    pub fn of(item: &Drawable, lights: &[&LightParts], shading: &BumpShading, ending: &Ending) -> Self {
+        if item.bump().is_none() {
+            return Self::None;
+        }
+        match (&shading.method, ending, lights) {
+            (BumpMethod::OnePass(program), Ending::Lit, [_]) => Self::Combined(program.clone()),
+            (BumpMethod::ThreePass { diffuse, .. }, Ending::Portion(Portion::Diffuse), [_]) => {
+                Self::Combined(diffuse.clone())
+            }
+            (BumpMethod::ThreePass { specular, .. }, Ending::Portion(Portion::Specular), [_]) => {
+                Self::Combined(specular.clone())
+            }
+            _ => Self::Computed,
+        }
+    }
+
+    pub fn any(&self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    pub fn are_combined(&self) -> bool {
+        matches!(self, Self::Combined(_))
+    }
+
+    pub fn are_computed(&self) -> bool {
+        matches!(self, Self::Computed)
+    }
+
+    /// Defines, beside those of other surfaces.
+    pub fn defines(&self, bump: Option<&Bump>, shading: &BumpShading, lights: &[&LightParts]) -> Vec<Define> {
+        let Some(bump) = bump.filter(|_| self.any()) else { return Vec::new() };
+        let flags = [
+            ("BUMP", self.are_computed()),
+            ("SELF_SHADOW", self.are_computed() && shading.self_shadow),
+            ("COMBINED", self.are_combined()),
+            ("NORMAL_SIGNED", bump.format == NormalFormat::Signed),
+            ("UNIT_VECTORS", self.are_combined() && shading.normalize != Normalize::Exact),
+        ];
+        let mut defines: Vec<Define> =
+            flags.into_iter().filter(|(_, set)| *set).map(|(name, _)| Define::flag(name)).collect();
+        if self.are_combined() {
+            let calls = lights.iter().map(|light| format!("set_tangent_vectors_{}(eye, basis);", light.index));
+            defines.push(Define::calls("TANGENT_VECTORS", "eye, basis", calls.collect()));
+        }
+        defines
+    }
+
+    /// Textures.
+    pub fn inputs(&self, bump: Option<&Bump>, shading: &BumpShading, list: &mut PassList) -> Vec<Input> {
+        let Some(bump) = bump.filter(|_| self.any()) else { return Vec::new() };
+        let mut inputs = vec![normal_map(bump, list)];
+        if let (Self::Combined(_), Normalize::Cube { size, .. }) = (self, shading.normalize) {
+            inputs.push(unit_vectors(size, list));
+        }
+        inputs
+    }
+
+    /// The chunk that ends the fragment stage of combined bumps, after that of their program.
+    pub fn combiner_chunks(&self, precision: Precision, lights: &[&LightParts]) -> Option<[Chunk; 2]> {
+        let (Self::Combined(program), [light]) = (self, lights) else { return None };
+        let text = combiners::fragment(program, precision);
+        let program = Chunk { name: "register combiners".into(), text: text.into() };
+        Some([program, glsl!("surfaces/combined.frag").for_light(light.index)])
+    }
+}
+
+/// Binds a normal map.
+pub fn normal_map(bump: &Bump, list: &mut PassList) -> Input {
+    let format = if bump.map.is_signed { Format::Rgba8Signed } else { Format::Rgba8 };
+    let image = level_image(&bump.map, format, list);
+    let wrap = if bump.border == HeightWrap::Clamp { Wrap::ClampToEdge } else { Wrap::Repeat };
+    Input {
+        name: "normal_map".into(),
+        image,
+        sampler: Sampler { filter: Filter::Trilinear, wrap, compare: None, lod_halves: None },
+    }
+}
+
+fn level_image(map: &Arc<TexelLevels>, format: Format, list: &mut PassList) -> ImageId {
+    let storage = Storage::Levels(map.clone());
+    match list.images.iter().position(|desc| desc.storage == storage) {
+        Some(index) => ImageId(index),
+        None => {
+            let label = format!("normals of {}", map.name);
+            list.image(ImageDesc { label, size: [map.width, map.height], format, storage })
+        }
+    }
+}
+
+/// Binds the cube map that normalises.
+fn unit_vectors(size: u32, list: &mut PassList) -> Input {
+    let label = String::from("unit vectors");
+    let desc = ImageDesc { label, size: [size; 2], format: Format::Rgba8, storage: Storage::UnitVectors };
+    let image = match list.images.iter().position(|known| *known == desc) {
+        Some(index) => ImageId(index),
+        None => list.image(desc),
+    };
+    let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
+    Input { name: "unit_vectors".into(), image, sampler }
+}
+
+/// Defines and textures of an item's gloss; none where all of it shines.
+pub fn gloss(item: &Drawable, list: &mut PassList) -> (Vec<Define>, Vec<Input>) {
+    match item.gloss() {
+        None => (Vec::new(), Vec::new()),
+        Some(Gloss::DecalAlpha) => (vec![Define::flag("GLOSS_DECAL")], Vec::new()),
+        Some(Gloss::Map(map)) => {
+            let channel = if map.has_alpha { "a" } else { "r" };
+            let input = upload("gloss_map", map, crate::lights::drawable::DECAL_SAMPLER, list);
+            (vec![Define::word("GLOSS_MAP", channel)], vec![input])
+        }
+    }
+}
