@@ -28,7 +28,8 @@ pub enum BasisFit {
     Skewed,
 }
 
-/// A corner's basis in model space: unit vectors along s, along t, and outwards.
+/// A corner's basis in model space: unit vectors along s, along t, and outwards. T and B are zero where the triangle has no
+/// direction on the skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentBasis {
     pub tangent: DVec3,
@@ -45,7 +46,7 @@ pub struct Tangents {
     pub mirrored: usize,
     /// Triangles whose T and B are more than 10 degrees off a right angle.
     pub skewed: usize,
-    /// Triangles without an area, or without one on the skin: their bases are any around the normal.
+    /// Triangles without an area, or without one on the skin: T and B are zero, and no bump tilts the normal.
     pub without: usize,
 }
 
@@ -82,8 +83,8 @@ impl Tangents {
                     found.without += 1;
                     let facet = (places[1] - places[0]).cross(places[2] - places[0]).try_normalize();
                     let around = |normal: DVec3| match (fit, facet) {
-                        (BasisFit::PerPolygon, Some(facet)) => TangentBasis::around(facet),
-                        _ => TangentBasis::around(normal),
+                        (BasisFit::PerPolygon, Some(facet)) => TangentBasis::flat(facet),
+                        _ => TangentBasis::flat(normal),
                     };
                     found.corners.extend(normals.map(around));
                 }
@@ -101,6 +102,8 @@ pub struct BasisCounts {
     pub mirrored: usize,
     pub skewed: usize,
     pub without: usize,
+    /// True if the mesh brought its own directions.
+    pub from_mesh: bool,
 }
 
 impl Mesh {
@@ -115,7 +118,7 @@ impl Mesh {
     ) -> Option<(Self, BasisCounts)> {
         let triangles = self.triangle_count();
         if self.tangents.is_some() && fit == BasisFit::Orthogonal && texcoord.is_none() {
-            return Some((self.clone(), BasisCounts { triangles, ..BasisCounts::default() }));
+            return Some((self.clone(), BasisCounts { triangles, from_mesh: true, ..BasisCounts::default() }));
         }
         let bases = match texcoord {
             Some(texcoord) => Tangents::of_coordinates(self, texcoord, fit),
@@ -142,15 +145,14 @@ impl Mesh {
         mesh.indices = indices;
         mesh.tangents = Some(directions);
         let Tangents { mirrored, skewed, without, .. } = bases;
-        Some((mesh, BasisCounts { triangles, mirrored, skewed, without }))
+        Some((mesh, BasisCounts { triangles, mirrored, skewed, without, from_mesh: false }))
     }
 }
 
 impl TangentBasis {
-    /// Any basis around a unit normal.
-    fn around(normal: DVec3) -> Self {
-        let tangent = normal.any_orthonormal_vector();
-        Self { tangent, bitangent: normal.cross(tangent), normal }
+    /// A normal without directions on the skin: T and B are zero, and no bump tilts it.
+    fn flat(normal: DVec3) -> Self {
+        Self { tangent: DVec3::ZERO, bitangent: DVec3::ZERO, normal }
     }
 
     /// A vector of model space in tangent space: its dot products with T, B and N.
@@ -183,7 +185,7 @@ impl Derivatives {
             }
             (BasisFit::Skewed, Some(tangent), Some(bitangent)) => TangentBasis { tangent, bitangent, normal },
             // A vertex's normal in the triangle's plane.
-            _ => TangentBasis::around(normal),
+            _ => TangentBasis::flat(normal),
         }
     }
 }

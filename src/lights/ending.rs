@@ -9,6 +9,10 @@ pub enum Ending {
     Lit,
     /// Part of the illumination formula, for passes that put it together [GDC, "Three Passes"].
     Portion(Portion),
+    /// A property of the surfaces, without light: its chunk has `main`.
+    Surface { chunk: Chunk, shown: SurfaceProperty },
+    /// A vector to one light in tangent space: its chunk has `main`. `half`: the half-angle vector.
+    TangentVector { chunk: Chunk, half: bool },
     /// Factors of the colour, for passes that multiply them by blending.
     Factors(Factors),
     /// The shade of one light in alpha: its chunk has `main`, which calls `shade_@`.
@@ -18,6 +22,19 @@ pub enum Ending {
     /// A slice of one light's beam: `chunk` has `main`, and reads the light's shade, colour, image and attenuation. `place`
     /// has what moves the light's texture coordinates before all that.
     Slice { chunk: Chunk, place: Option<Chunk> },
+}
+
+/// Property of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceProperty {
+    /// The normal that light counts with, bumps included, in world space.
+    Normal,
+    /// The normal map, in tangent space.
+    NormalMap,
+    /// Diffuse colour times decal.
+    Decal,
+    /// Share of specular light.
+    Gloss,
 }
 
 /// Part of `(ambient + diffuse) decal + specular`.

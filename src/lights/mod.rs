@@ -2,6 +2,7 @@
 //! it, the light term, guards, and the visible part of the scene. Knows no technique and no GL.
 
 pub mod alpha;
+pub mod bumps;
 pub mod camera_visibility;
 pub mod caster_culling;
 mod coordinates;

@@ -7,6 +7,7 @@ use super::pictures::{Pictures, PlannedLight};
 use super::{Error, Plan, Request, Subject, ViewRequest, lens, photos};
 use crate::compositions::passes::Passes;
 use crate::geometry::Derived;
+use crate::lights::bumps::note_bumps;
 use crate::lights::drawable::{items, note_clear};
 use crate::lights::guard::Guard;
 use crate::lights::light::name_of;
@@ -28,6 +29,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     let mut notes = Notes::default();
     note_clear(scene, &mut notes);
     note_projected(scene, &mut notes);
+    note_bumps(scene, &mut notes);
     for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {
         let why = "a technique of this scene needs its vertices: all passes draw the moved mesh";
         notes.chosen(object.name.clone(), "moved before it is drawn", why);

@@ -9,6 +9,7 @@ use crate::compositions::projection::CameraProjection;
 use crate::lights::guard::Guard;
 use crate::lights::{Ending, LightTerm, Viewer};
 use crate::pass::{Clear, DrawPass, Format, ImageId, Redraw};
+use crate::scene::BumpMethod;
 use crate::scene::LightKind;
 use crate::surfaces;
 use crate::views::{self, View, frustum_lines};
@@ -104,6 +105,10 @@ impl Pictures<'_> {
         if view == View::Depth {
             return Ok(picture.depth);
         }
+        if let Some(ending) = views::surface_pass(view) {
+            let label = format!("view: {name}");
+            return self.drawn_view(&label, &[], &ending);
+        }
         // A light that a view shows is described.
         let Some(term) = lights.get(wanted.light).and_then(|light| light.term.as_ref()) else {
             return Err(Error::NoSuchLight { view: format!("{name}@{}", wanted.light), count: lights.len() });
@@ -135,14 +140,20 @@ impl Pictures<'_> {
         {
             return Ok(image);
         }
-        let Some((ending, term)) = views::camera_pass(view, term) else {
+        let three_passes = matches!(self.passes.scene.shading.bumps.method, BumpMethod::ThreePass { .. });
+        let Some((ending, term)) = views::camera_pass(view, term, three_passes) else {
             return Err(compositions::Error::NoCount { view: name, light: wanted.light }.into());
         };
+        self.drawn_view(&label, &[term], &ending)
+    }
+
+    /// One pass of the surfaces, as floats.
+    fn drawn_view(&mut self, label: &str, terms: &[LightTerm], ending: &Ending) -> Result<ImageId, Error> {
         let scene = self.passes.scene;
         let lens = CameraProjection::of_scene(scene);
-        let buffers = self.passes.color_and_depth(&label, scene.image.size, Format::Rgba32F, false);
-        let onto = self.passes.first(&label, buffers.target(), &lens, [0.0; 4]);
-        self.passes.surfaces(&onto, &[term], &ending)?;
+        let buffers = self.passes.color_and_depth(label, scene.image.size, Format::Rgba32F, false);
+        let onto = self.passes.first(label, buffers.target(), &lens, [0.0; 4]);
+        self.passes.surfaces(&onto, terms, ending)?;
         Ok(buffers.color)
     }
 

@@ -160,8 +160,11 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let mut reader = first.read();
     let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
-    let object =
-        reader.tables("object")?.first().map(|object| resolve::object::read(object, false, assets)).transpose()?;
+    let object = reader
+        .tables("object")?
+        .first()
+        .map(|object| resolve::object::read(object, &Shading::default(), assets))
+        .transpose()?;
     let object = object.map(|(object, _)| object);
     let bounds = object.as_ref().map_or(bounds, Object::world_bounds);
     check_size(path, &bounds)?;

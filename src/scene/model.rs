@@ -69,7 +69,7 @@ pub struct Camera {
 }
 
 /// Settings of shading.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shading {
     /// GL_LIGHT_MODEL_AMBIENT, RGB; GL's default is 0.2.
     pub ambient: [f32; 3],
@@ -95,6 +95,8 @@ pub struct BumpShading {
     pub normalize: Normalize,
     /// Accuracy of the register combiners.
     pub precision: Precision,
+    /// True if the program of one pass is a file's, in place of the talk's.
+    pub has_own_program: bool,
 }
 
 impl Default for BumpShading {
@@ -104,6 +106,7 @@ impl Default for BumpShading {
             self_shadow: true,
             normalize: Normalize::default(),
             precision: Precision::Float,
+            has_own_program: false,
         }
     }
 }
@@ -123,6 +126,24 @@ pub enum BumpMethod {
         /// Program of the third.
         specular: Arc<CombinerProgram>,
     },
+}
+
+impl BumpShading {
+    /// Tests whether specular light has the exponent 8, by three squarings.
+    pub fn squares_eighth(&self) -> bool {
+        self.method != BumpMethod::Reference && !self.has_own_program
+    }
+}
+
+impl BumpMethod {
+    /// The value of `bump` in a scene file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Reference => "reference",
+            Self::OnePass(_) => "one-pass",
+            Self::ThreePass { .. } => "three-pass",
+        }
+    }
 }
 
 /// Normalisation of interpolated vectors.

@@ -185,7 +185,7 @@ fn light_parts(
     if term.addition == Addition::Clamped {
         parts.defines.push(ADDED);
     }
-    if ending.shows_light() {
+    if ending.shows_light() || matches!(ending, Ending::TangentVector { .. }) {
         add_lighting(&mut parts, source, spot, viewer, term, list);
     } else if let Ending::Slice { .. } = ending {
         add_beam(&mut parts, source, spot, viewer, list);

@@ -7,6 +7,7 @@ mod guarded;
 mod lights;
 mod partition;
 mod photo;
+mod property;
 mod variant;
 
 use std::borrow::Cow;
@@ -63,7 +64,10 @@ pub fn batches(
         let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
         let own = if covered { without_decal(item) } else { Cow::Borrowed(item) };
-        let surface = variant::of(scene, &own, [one_sided, ambient], &lights, viewer, ending, list);
+        let surface = match property::of(&own, one_sided, &lights, viewer, ending, list) {
+            Some(view) => view,
+            None => variant::of(scene, &own, [one_sided, ambient], &lights, viewer, ending, list),
+        };
         let surface = match photo {
             Some(photo) => photo.on(surface),
             None => surface,

@@ -92,7 +92,7 @@ pub fn of(
     let gloss = match ending {
         Ending::Lit => specular,
         Ending::Portion(portion) => matches!(portion, Portion::Decal(_)),
-        Ending::Factors(_) | Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
+        _ => false,
     };
     let (gloss_defines, gloss_inputs) = if gloss { bump::gloss(item, list) } else { Default::default() };
     let decal = shows_decal(ending);
@@ -132,7 +132,7 @@ pub fn of(
             uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()))
         }
         Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, &item.material, factors)),
-        Ending::Portion(Portion::Decal(_)) | Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => {}
+        _ => {}
     }
     let mut attributes = vec![Attribute::Position];
     if needs.normals {
@@ -222,6 +222,9 @@ fn meaning(
                 FixedFunctionDesc::Sampled(shown)
             }
         }
+        (Ending::Surface { .. } | Ending::TangentVector { .. }, _) => {
+            FixedFunctionDesc::Shader("a view of a surface's property")
+        }
         (Ending::Portion(_), _) => FixedFunctionDesc::Shader("a part of the illumination formula"),
         (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
         (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
@@ -263,6 +266,7 @@ fn shows_decal(ending: &Ending) -> bool {
     match ending {
         Ending::Lit | Ending::Portion(Portion::Decal(_)) => true,
         Ending::Portion(Portion::Diffuse | Portion::Specular) => false,
+        Ending::Surface { .. } | Ending::TangentVector { .. } => false,
         Ending::Factors(factors) => factors.color,
         Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
     }
@@ -364,6 +368,7 @@ fn fragment(
             chunks.push(chunk.clone());
             return chunks;
         }
+        Ending::Surface { .. } | Ending::TangentVector { .. } => return chunks,
         Ending::Lit | Ending::Portion(_) | Ending::Factors(_) => None,
         Ending::View { chunk, shade } => Some((chunk, *shade, None)),
         Ending::Alpha(chunk) => Some((chunk, true, None)),
@@ -405,6 +410,9 @@ fn fragment(
     if let Some(combined) = bumps.combiner_chunks(scene.shading.bumps.precision, lights) {
         chunks.extend(combined);
         return chunks;
+    }
+    if !matches!(ending, Ending::Factors(_)) {
+        chunks.push(glsl!("surfaces/point.frag"));
     }
     chunks.push(match ending {
         Ending::Factors(factors) => factors.chunk.clone(),

@@ -4,6 +4,8 @@ pub mod frustum_lines;
 
 use crate::pass::{Filter, ImageId, Input, Sampler, Shade, Wrap, glsl};
 
+use crate::lights::ending::{Portion, SurfaceProperty};
+use crate::lights::light::{Addition, Gain, ShadeSource};
 use crate::lights::{Ending, LightTerm};
 
 /// Content of a picture beside the main one.
@@ -20,6 +22,14 @@ pub enum View {
     StencilColors,
     Volume,
     Silhouette,
+    Normal,
+    NormalMap,
+    Decal,
+    Gloss,
+    TangentLight,
+    TangentHalf,
+    Diffuse,
+    Specular,
 }
 
 /// All views: name, view, whether it shows one light, and a description.
@@ -50,6 +60,29 @@ pub const VIEWS: &[(&str, View, bool, &str)] = &[
     ("stencil-colors", View::StencilColors, true, "the same for the eye: green lit, red shadowed, with a legend"),
     ("volume", View::Volume, true, "the shadow volumes over the scene: outsides orange, insides blue"),
     ("silhouette", View::Silhouette, true, "the casters' possible silhouettes as the light sees them"),
+    ("normal", View::Normal, false, "surfaces' normals in world space, bumps included, v as the colour v / 2 + 1 / 2"),
+    ("normal-map", View::NormalMap, false, "the surfaces' normal maps, in tangent space: flat is chalk blue"),
+    ("decal", View::Decal, false, "the surfaces' own colours, without light"),
+    ("gloss", View::Gloss, false, "the share of highlights that surfaces reflect: 1 white, 0 black"),
+    (
+        "tangent-light",
+        View::TangentLight,
+        true,
+        "the vector to the light in tangent space, as a colour; where there are bumps",
+    ),
+    (
+        "tangent-half",
+        View::TangentHalf,
+        true,
+        "the half-angle vector in tangent space, as a colour; where there are bumps",
+    ),
+    ("diffuse", View::Diffuse, true, "the light's diffuse part on the surfaces, without decal and shadow"),
+    (
+        "specular",
+        View::Specular,
+        true,
+        "the light's highlights, without shadow; with the gloss, except of bump = \"three-pass\", where blending weighs them",
+    ),
 ];
 
 impl View {
@@ -86,7 +119,9 @@ impl View {
 
 /// Ending of the fragments of a view from the camera, and the light's term with what the view reads. `None` for views
 /// without a camera pass of their own.
-pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> {
+///
+/// `three_passes`: highlights are shown as a pass of their own has them.
+pub fn camera_pass(view: View, term: &LightTerm, three_passes: bool) -> Option<(Ending, LightTerm)> {
     let mut term = term.clone();
     let ending = match view {
         View::Shade => Ending::View { chunk: glsl!("views/shade.frag"), shade: true },
@@ -98,6 +133,20 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
             term.shade.inputs.clear();
             term.shade.uniforms.clear();
             Ending::View { chunk: glsl!("views/distance.frag"), shade: false }
+        }
+        View::TangentLight | View::TangentHalf => {
+            term = unlit_by_shade(&term);
+            Ending::TangentVector { chunk: glsl!("views/tangent_vector.frag"), half: view == View::TangentHalf }
+        }
+        View::Diffuse => {
+            term = unlit_by_shade(&term);
+            term.gain = Gain { ambient: 0.0, diffuse: 1.0, specular: 0.0 };
+            Ending::Portion(Portion::Diffuse)
+        }
+        View::Specular => {
+            term = unlit_by_shade(&term);
+            term.gain = Gain { ambient: 0.0, diffuse: 0.0, specular: 1.0 };
+            if three_passes { Ending::Portion(Portion::Specular) } else { Ending::Lit }
         }
         View::ProjectedMap => {
             term.shade.uniforms.clear();
@@ -119,9 +168,30 @@ pub fn camera_pass(view: View, term: &LightTerm) -> Option<(Ending, LightTerm)> 
         | View::StencilCount
         | View::StencilColors
         | View::Volume
-        | View::Silhouette => return None,
+        | View::Silhouette
+        | View::Normal
+        | View::NormalMap
+        | View::Decal
+        | View::Gloss => return None,
     };
     Some((ending, term))
+}
+
+/// The light without its shadow, and without the scene's ambient light.
+fn unlit_by_shade(term: &LightTerm) -> LightTerm {
+    LightTerm { addition: Addition::Light, counting: None, dimming: 0.0, ..term.under(ShadeSource::lit()) }
+}
+
+/// Ending of the fragments of a view of the surfaces alone.
+pub fn surface_pass(view: View) -> Option<Ending> {
+    let shown = match view {
+        View::Normal => SurfaceProperty::Normal,
+        View::NormalMap => SurfaceProperty::NormalMap,
+        View::Decal => SurfaceProperty::Decal,
+        View::Gloss => SurfaceProperty::Gloss,
+        _ => return None,
+    };
+    Some(Ending::Surface { chunk: glsl!("views/surface.frag"), shown })
 }
 
 /// An input that reads a map's depths without comparison; the caller sets its name.

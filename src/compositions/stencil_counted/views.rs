@@ -39,7 +39,7 @@ impl Passes<'_> {
             _ => {}
         }
         let lit = once_counted(term);
-        let Some((ending, lit)) = views::camera_pass(view, &lit) else {
+        let Some((ending, lit)) = views::camera_pass(view, &lit, false) else {
             return Err(Error::NoCount { view: view.name(), light: term.index });
         };
         let shadowed = term.under(ShadeSource::dark());

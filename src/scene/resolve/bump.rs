@@ -127,6 +127,7 @@ pub(super) fn shading(reader: &mut Reader<'_>) -> Result<BumpShading, Error> {
         let message = "is of bump = \"reference\": the programs of register combiners have the factor";
         reader.refuse(&["self_shadow"], message)?;
     }
+    let has_own_program = combiners.is_some();
     let method = match (passes, combiners) {
         (1, Some((name, origin))) => BumpMethod::OnePass(load_combiners(name, origin)?),
         (1, None) => BumpMethod::OnePass(built_in(ONE_PASS)?),
@@ -137,7 +138,7 @@ pub(super) fn shading(reader: &mut Reader<'_>) -> Result<BumpShading, Error> {
         _ => BumpMethod::Reference,
     };
     let (normalize, precision) = (normalize.unwrap_or_default(), precision.unwrap_or_default());
-    Ok(BumpShading { method, self_shadow, normalize, precision })
+    Ok(BumpShading { method, self_shadow, normalize, precision, has_own_program })
 }
 
 /// A program of glumbra's own: its name and text.

@@ -33,7 +33,6 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
     let mut reader = root.read();
     let image = image(reader.table("image")?)?;
     let shading = shading(reader.table("shading")?)?;
-    let is_per_vertex = shading.per_vertex;
     let camera = camera::read(reader.table("camera")?)?;
     let lights = reader.tables("light")?;
     let objects = reader.tables("object")?;
@@ -42,8 +41,7 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
 
     let lights =
         lights.iter().enumerate().map(|(i, table)| light::read(table, i, assets)).collect::<Result<Vec<_>, _>>()?;
-    let objects =
-        objects.iter().map(|table| object::read(table, is_per_vertex, assets)).collect::<Result<Vec<_>, _>>()?;
+    let objects = objects.iter().map(|table| object::read(table, &shading, assets)).collect::<Result<Vec<_>, _>>()?;
     let (mut objects, photos): (Vec<_>, Vec<_>) = objects.into_iter().unzip();
     photo::complete(photos, &mut objects, shadows)?;
     if lights.is_empty() && objects.iter().any(|object| object.photo.is_none()) {

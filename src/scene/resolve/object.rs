@@ -12,14 +12,14 @@ use crate::geometry::{Material, Mesh, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
-use crate::scene::{Error, Object};
+use crate::scene::{Error, Object, Shading};
 
 /// Resolves one object, and reads its photograph.
 ///
-/// `is_per_vertex`: surfaces are lit per vertex, which no bump map survives.
+/// `shading`: how its surface will be lit.
 pub(in crate::scene) fn read(
     table: &Settings,
-    is_per_vertex: bool,
+    shading: &Shading,
     assets: &mut Assets,
 ) -> Result<(Object, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
@@ -37,7 +37,7 @@ pub(in crate::scene) fn read(
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
     let mesh = assets.mesh(mesh, mesh_origin, &pose)?;
-    let (mesh, bases) = with_bases(mesh, material.as_deref(), is_per_vertex, table)?;
+    let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
     }
@@ -50,18 +50,31 @@ pub(in crate::scene) fn read(
     Ok((object, photo))
 }
 
+/// Exponent of specular light that three squarings make.
+const COMBINED_SHININESS: f32 = 8.0;
+
 /// The mesh with the bases that a bump map needs.
 fn with_bases(
     mesh: Arc<Mesh>,
     material: Option<&Material>,
-    is_per_vertex: bool,
+    shading: &Shading,
     table: &Settings,
 ) -> Result<(Arc<Mesh>, Option<BasisCounts>), SettingsError> {
     let Some((material, bump)) = material.and_then(|material| Some((material, material.bump.as_ref()?))) else {
         return Ok((mesh, None));
     };
     let error = |message: &str| Err(table.read().error("material", message));
-    if is_per_vertex {
+    let shines = material.specular != [0.0; 3] && material.shininess != COMBINED_SHININESS;
+    if shines && shading.bumps.squares_eighth() {
+        let message = format_args!(
+            "has a `shininess` of {}, and the register combiners of bump = \"{}\" square three times: write shininess = 8, or \
+             choose bump = \"reference\"",
+            material.shininess,
+            shading.bumps.method.name()
+        );
+        return Err(table.read().error("material", message));
+    }
+    if shading.per_vertex {
         return error("has a `bump`, which lighting = \"per-vertex\" of [shading] cannot show: leave one of them out");
     }
     let generated = material.texgen.as_ref().map(|texgen| |vertex: usize| texgen.texcoord(mesh.positions[vertex]));
