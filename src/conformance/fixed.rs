@@ -13,8 +13,12 @@ use crate::math::spaces;
 const SIDE: u32 = 64;
 const FLAT: GlState = GlState { depth: None, ..GlState::WRITE };
 
-/// The pipeline, or a finding that says why there is none.
-fn pipeline<'a>(subject: &'a DriverUnderTest, findings: &mut Findings, what: &str) -> Option<&'a FixedBench> {
+/// The fixed-function pipeline, or a finding that says why there is none.
+pub(super) fn pipeline<'a>(
+    subject: &'a DriverUnderTest,
+    findings: &mut Findings,
+    what: &str,
+) -> Option<&'a FixedBench> {
     match &subject.fixed {
         Ok(fixed) => Some(fixed),
         Err(why) => {

@@ -5,10 +5,13 @@
 //! To add a rule: one row in the table, one function in the file of its kind.
 
 pub mod bench;
+mod blending;
 mod compare;
 mod coordinates;
 mod copies;
+mod cube_maps;
 mod depth;
+mod environment;
 mod filter;
 mod findings;
 mod fixed;

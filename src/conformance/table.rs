@@ -1,6 +1,9 @@
 //! The rules, as data.
 
-use super::{Rule, compare, coordinates, copies, depth, fixed, invariance, offset, raster, stencil, volumes};
+use super::{
+    Rule, blending, compare, coordinates, copies, cube_maps, depth, environment, fixed, invariance, offset, raster,
+    stencil, volumes,
+};
 
 /// Every rule, in the order of a report.
 pub const TABLE: &[Rule] = &[
@@ -219,5 +222,61 @@ pub const TABLE: &[Rule] = &[
         says: "A float becomes the nearest code, or the next; sums are exact, products and sRGB near.",
         tolerance: "half a code (sRGB 0.6), else a warning to 1 (products and sRGB 1.5); sums exact",
         check: copies::eight_bits,
+    },
+    Rule {
+        id: "GL-F5",
+        title: "stored alpha",
+        section: "17.3.6",
+        says: "The stored alpha is a factor, and alpha has factors of its own: a product of RGB leaves the source's alpha.",
+        tolerance: "half a code a product, else a warning to 1.5; what is copied is exact",
+        check: blending::stored_alpha,
+    },
+    Rule {
+        id: "GL-E1",
+        title: "texture environment",
+        section: "16.1 compat.",
+        says: "COMBINE has six functions, four operands and the scales 1, 2 and 4; each unit clamps to [0, 1].",
+        tolerance: "the nearest code of f32 sums; else a warning while each unit is off by half a code before its scale",
+        check: environment::functions,
+    },
+    Rule {
+        id: "GL-E2",
+        title: "dot product",
+        section: "16.1 compat.",
+        says: "DOT3_RGB is 4 ((a0 - 1/2)(b0 - 1/2) + ... + (a2 - 1/2)(b2 - 1/2)), scaled and clamped; DOT3_RGBA writes alpha too.",
+        tolerance: "as GL-E1, four times as much before the scale: the factor 4; both scales are the same where alpha is written",
+        check: environment::dot_product,
+    },
+    Rule {
+        id: "GL-E3",
+        title: "textures of other units",
+        section: "16.1 compat.",
+        says: "TEXTUREn is a source in every unit's environment.",
+        tolerance: "as GL-E1",
+        check: environment::crossbar,
+    },
+    Rule {
+        id: "GL-M1",
+        title: "cube map faces",
+        section: "8.13, table 8.19",
+        says: "The coordinate of the greatest magnitude selects the face; the others, divided by it, are s and t.",
+        tolerance: "either neighbour within 2^-7 texel of a texel's edge; either face where two coordinates are equal",
+        check: cube_maps::faces,
+    },
+    Rule {
+        id: "GL-M2",
+        title: "cube map seams",
+        section: "8.13.1, 8.14.2",
+        says: "A face is filtered alone, its edge texels repeated; TEXTURE_CUBE_MAP_SEAMLESS takes its neighbours' texels.",
+        tolerance: "a code at positions good to 2^-7 texel, else a warning to 2 at 2^-4, and for any texel as a corner's fourth",
+        check: cube_maps::seams,
+    },
+    Rule {
+        id: "GL-M3",
+        title: "normalisation by a cube map",
+        section: "8.13, 8.14",
+        says: "A cube map of n x n packed unit vectors gives the unit vector, whatever the length of the one that looks it up.",
+        tolerance: "1/n^2 between texels, 1/(2n) more where a texel has no neighbour, and a code, else a warning to 2",
+        check: cube_maps::normalization,
     },
 ];

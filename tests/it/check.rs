@@ -6,8 +6,10 @@ use std::process::{Command, Output};
 
 use assert_cmd::cargo::CommandCargoExt;
 use glumbra::conformance::bench::{GlFormat, Mutation};
+use glumbra::conformance::verify::cube;
 use glumbra::conformance::{self, DriverUnderTest, RuleOutcome, RuleVerdict, probe, waivers};
 use glumbra::context::{self, ContextRequest, Profile};
+use glumbra::geometry::normal_cube;
 
 /// All rules on the default context of a profile, with one mistake or none; known deviations waived.
 fn outcomes(profile: Profile, mutation: Option<Mutation>) -> Vec<RuleOutcome> {
@@ -24,7 +26,9 @@ fn with(outcomes: &[RuleOutcome], verdict: RuleVerdict) -> Vec<&'static str> {
 
 #[test]
 fn without_a_mistake_no_rule_fails() {
-    for (profile, untestable) in [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["GL-C6", "GL-T1"])] {
+    for (profile, untestable) in
+        [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["GL-C6", "GL-T1", "GL-E1", "GL-E2", "GL-E3"])]
+    {
         let outcomes = outcomes(profile, None);
         let failing: Vec<_> = outcomes
             .iter()
@@ -40,7 +44,7 @@ fn without_a_mistake_no_rule_fails() {
 
 /// Each mistake, and exactly the rules that it turns red. Where a unit of polygon offset is one code, GL-O2 cannot tell one
 /// unit less from a rounded code.
-const MUTATIONS: [(Mutation, &[&str]); 14] = [
+const MUTATIONS: [(Mutation, &[&str]); 25] = [
     (Mutation::CompareSwapped, &["GL-C1", "GL-C2"]),
     (Mutation::IncrementForIncrementWrap, &["GL-S1", "GL-S3"]),
     (Mutation::OneOffsetUnitLess, &["GL-O1", "GL-O2"]),
@@ -54,7 +58,18 @@ const MUTATIONS: [(Mutation, &[&str]); 14] = [
     (Mutation::StencilMaskIgnored, &["GL-S1"]),
     (Mutation::CopyShifted, &["GL-F1"]),
     (Mutation::ClipPlanesIgnored, &["GL-R2"]),
-    (Mutation::BlendIgnored, &["GL-F4"]),
+    (Mutation::BlendIgnored, &["GL-F4", "GL-F5"]),
+    (Mutation::StoredAlphaAsOne, &["GL-F5"]),
+    (Mutation::AlphaBlendedAsRgb, &["GL-F5"]),
+    (Mutation::CubeFacesSwapped, &["GL-M1", "GL-M2", "GL-M3"]),
+    (Mutation::CubeFaceTransposed, &["GL-M1", "GL-M2", "GL-M3"]),
+    (Mutation::SeamlessIgnored, &["GL-M2", "GL-M3"]),
+    (Mutation::Dot3WithoutFour, &["GL-E2", "GL-M3"]),
+    (Mutation::Dot3AsModulate, &["GL-E2", "GL-M3"]),
+    (Mutation::AddSignedAsAdd, &["GL-E1"]),
+    (Mutation::CrossbarIgnored, &["GL-E3"]),
+    (Mutation::CombineScaleIgnored, &["GL-E1", "GL-E2"]),
+    (Mutation::ComplementIgnored, &["GL-E1", "GL-E2", "GL-E3"]),
 ];
 
 #[test]
@@ -79,6 +94,19 @@ fn every_mistake_turns_its_rules_red() {
         .map(|(mutation, due, red)| format!("{mutation:?} turns {red:?} red, and {due:?} is due"))
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The checker's own cube map and the renderer's: the same vector through the middle of each texel.
+#[test]
+fn cube_maps_of_checker_and_renderer_agree() {
+    for index in 0..6 {
+        for (texel, vector) in normal_cube::face(index, 4).enumerate() {
+            let place = [texel % 4, texel / 4].map(|at| (at as f64 + 0.5) / 4.0);
+            assert_eq!(cube::faces(vector.to_array()).collect::<Vec<_>>(), [index]);
+            let found = cube::on_face(index, vector.to_array());
+            assert!((0..2).all(|axis| (found[axis] - place[axis]).abs() < 1e-12), "{index} {place:?} {found:?}");
+        }
+    }
 }
 
 fn check(folder: &Path, arguments: &[&str]) -> Output {

@@ -8,6 +8,7 @@ use std::rc::Rc;
 use glam::{DMat4, DVec4};
 use glow::HasContext;
 
+use super::environment::{GlCoordinates, GlUnit, set};
 use super::{Bench, Error, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
 use crate::context::compatibility::{Binding, BindingError, raw};
@@ -66,6 +67,18 @@ impl<'a> FixedDraw<'a> {
             shaders: None,
         }
     }
+}
+
+/// A draw through texture units, in clip space.
+#[derive(Clone, Copy)]
+pub struct UnitsDraw<'a> {
+    pub surface: &'a Surface,
+    pub state: GlState,
+    pub units: &'a [GlUnit<'a>],
+    /// The primary colour; `None`: each vertex's value.
+    pub color: Option<[f32; 4]>,
+    /// Three for each triangle.
+    pub vertices: &'a [Vertex],
 }
 
 /// The fixed-function pipeline of the context that a bench is on.
@@ -187,6 +200,66 @@ impl FixedBench {
             self.binding.Color4fv(draw.color.as_ptr());
             for vertex in draw.vertices {
                 self.binding.TexCoord4fv(vertex.value.as_ptr());
+                self.binding.Vertex4fv(vertex.position.as_ptr());
+            }
+            self.binding.End();
+        }
+    }
+
+    /// GL_MAX_TEXTURE_UNITS.
+    pub fn most_units(&self) -> usize {
+        // SAFETY: a query of one integer.
+        unsafe { self.gl.get_parameter_i32(raw::MAX_TEXTURE_UNITS) }.max(0) as usize
+    }
+
+    /// Draws through texture units.
+    ///
+    /// # Errors
+    ///
+    /// GL's errors.
+    pub fn draw_units(&self, bench: &Bench, draw: &UnitsDraw) -> Result<(), Error> {
+        let units = self.mutation.map_or_else(|| draw.units.to_vec(), |mutation| mutation.units(draw.units));
+        bench.prepare(draw.surface, draw.state);
+        self.load_matrix(raw::PROJECTION, DMat4::IDENTITY);
+        self.load_matrix(raw::MODELVIEW, DMat4::IDENTITY);
+        // SAFETY: the context is current; images are not deleted.
+        unsafe {
+            self.gl.use_program(None);
+            for off in [raw::LIGHTING, raw::FOG, raw::ALPHA_TEST] {
+                self.gl.disable(off);
+            }
+            for (index, unit) in (0..).zip(&units) {
+                bench.bind_image(index, unit.image, unit.sampling);
+                self.load_matrix(glow::TEXTURE, DMat4::IDENTITY);
+                COORDINATES.iter().for_each(|(_, coordinate)| self.gl.disable(*coordinate));
+                self.gl.enable(unit.image.target);
+                set(&self.binding, &unit.environment);
+            }
+            self.submit_units(draw, &units);
+            for (index, unit) in (0..).zip(&units) {
+                self.gl.active_texture(glow::TEXTURE0 + index);
+                self.gl.disable(unit.image.target);
+            }
+            self.gl.active_texture(glow::TEXTURE0);
+        }
+        bench.check("a draw through texture units")
+    }
+
+    /// # Safety
+    ///
+    /// The context is current.
+    unsafe fn submit_units(&self, draw: &UnitsDraw, units: &[GlUnit]) {
+        // SAFETY: as the caller promises; each call reads four numbers.
+        unsafe {
+            self.binding.Begin(glow::TRIANGLES);
+            for vertex in draw.vertices {
+                self.binding.Color4fv(draw.color.unwrap_or(vertex.value).as_ptr());
+                let [x, y, _, w] = vertex.position;
+                let square = [0.5 * (x / w) + 0.5, 0.5 * (y / w) + 0.5, 0.0, 1.0];
+                for (index, unit) in (0..).zip(units) {
+                    let at = if unit.coordinates == GlCoordinates::Square { square } else { vertex.value };
+                    self.binding.MultiTexCoord4fv(glow::TEXTURE0 + index, at.as_ptr());
+                }
                 self.binding.Vertex4fv(vertex.position.as_ptr());
             }
             self.binding.End();

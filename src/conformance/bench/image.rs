@@ -100,8 +100,10 @@ impl Encoding {
 pub struct GlImage {
     gl: Rc<glow::Context>,
     pub(crate) name: glow::Texture,
+    /// GL_TEXTURE_2D or GL_TEXTURE_CUBE_MAP.
+    pub(crate) target: u32,
     pub format: GlFormat,
-    /// Width and height in texels.
+    /// Width and height in texels, of a face.
     pub size: [u32; 2],
     pub levels: u32,
     /// Encoding of a depth format.
@@ -135,11 +137,22 @@ pub struct Sampling {
     pub wrap: GlWrap,
     pub border: [f32; 4],
     pub compare: Option<GlCompare>,
+    /// GL_TEXTURE_CUBE_MAP_SEAMLESS, of the whole context; set where a cube map is bound.
+    pub seamless: bool,
 }
 
 impl Sampling {
-    pub const NEAREST: Self =
-        Self { linear: false, mipmap: false, wrap: GlWrap::ClampToEdge, border: [0.0; 4], compare: None };
+    pub const NEAREST: Self = Self {
+        linear: false,
+        mipmap: false,
+        wrap: GlWrap::ClampToEdge,
+        border: [0.0; 4],
+        compare: None,
+        seamless: false,
+    };
+
+    /// The linear filter.
+    pub const LINEAR: Self = Self { linear: true, ..Self::NEAREST };
 
     /// Compares the nearest texel.
     pub const fn compare(compare: GlCompare) -> Self {
@@ -159,7 +172,7 @@ impl Bench {
     ///
     /// [`Error::Refused`], with GL's reason.
     pub fn image(&self, format: GlFormat, size: [u32; 2]) -> Result<GlImage, Error> {
-        self.define(format, size, &[None])
+        self.define(glow::TEXTURE_2D, format, size, &[None])
     }
 
     /// A depth image with these depths, a level each: level 0 is of `size`, each next one half as large.
@@ -169,7 +182,7 @@ impl Bench {
     /// As [`image`](Self::image).
     pub fn depth_image(&self, format: GlFormat, size: [u32; 2], levels: &[&[f32]]) -> Result<GlImage, Error> {
         let bytes: Vec<_> = levels.iter().map(|level| Some(bytemuck::cast_slice(level))).collect();
-        self.define(format, size, &bytes)
+        self.define(glow::TEXTURE_2D, format, size, &bytes)
     }
 
     /// An RGBA32F image with these texels, rows from below.
@@ -178,30 +191,53 @@ impl Bench {
     ///
     /// As [`image`](Self::image).
     pub fn float_image(&self, size: [u32; 2], texels: &[[f32; 4]]) -> Result<GlImage, Error> {
-        self.define(GlFormat::Rgba32F, size, &[Some(bytemuck::cast_slice(texels))])
+        self.define(glow::TEXTURE_2D, GlFormat::Rgba32F, size, &[Some(bytemuck::cast_slice(texels))])
     }
 
-    fn define(&self, format: GlFormat, size: [u32; 2], levels: &[Option<&[u8]>]) -> Result<GlImage, Error> {
+    /// An RGBA8 image with these texels, rows from below.
+    ///
+    /// # Errors
+    ///
+    /// As [`image`](Self::image).
+    pub fn byte_image(&self, size: [u32; 2], texels: &[[u8; 4]]) -> Result<GlImage, Error> {
+        self.define(glow::TEXTURE_2D, GlFormat::Rgba8, size, &[Some(texels.as_flattened())])
+    }
+
+    /// An RGBA8 cube map of `side` texels: +x, -x, +y, -y, +z, -z, rows from t = 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`image`](Self::image).
+    pub fn cube_image(&self, side: u32, faces: &[Vec<[u8; 4]>; 6]) -> Result<GlImage, Error> {
+        let faces = self.mutation.map_or_else(|| faces.clone(), |mutation| mutation.faces(side, faces.clone()));
+        let bytes = faces.each_ref().map(|face| Some(face.as_flattened()));
+        self.define(glow::TEXTURE_CUBE_MAP, GlFormat::Rgba8, [side; 2], &bytes)
+    }
+
+    /// Levels of a two-dimensional image, or faces of a cube map.
+    fn define(&self, target: u32, format: GlFormat, size: [u32; 2], parts: &[Option<&[u8]>]) -> Result<GlImage, Error> {
         let gl = &self.gl;
         self.take_errors();
         let (internal, layout, kind) = format.codes();
+        let is_cube = target == glow::TEXTURE_CUBE_MAP;
+        let levels = if is_cube { 1 } else { parts.len() as u32 };
         // SAFETY: the context is current; where pixels are given there are as many as the level has.
         let name = unsafe {
             let name = gl.create_texture().map_err(super::no("texture"))?;
             gl.active_texture(glow::TEXTURE0);
-            gl.bind_texture(glow::TEXTURE_2D, Some(name));
+            gl.bind_texture(target, Some(name));
             gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
-            for (level, bytes) in levels.iter().enumerate() {
+            for (part, bytes) in (0..).zip(parts) {
+                let (at, level) = if is_cube { (glow::TEXTURE_CUBE_MAP_POSITIVE_X + part, 0) } else { (target, part) };
                 let [width, height] = size.map(|side| (side >> level).max(1) as i32);
                 let pixels = glow::PixelUnpackData::Slice(*bytes);
-                let level = level as i32;
-                gl.tex_image_2d(glow::TEXTURE_2D, level, internal as i32, width, height, 0, layout, kind, pixels);
+                gl.tex_image_2d(at, level as i32, internal as i32, width, height, 0, layout, kind, pixels);
             }
-            gl.tex_parameter_i32(glow::TEXTURE_2D, glow::TEXTURE_MAX_LEVEL, levels.len() as i32 - 1);
+            gl.tex_parameter_i32(target, glow::TEXTURE_MAX_LEVEL, levels as i32 - 1);
             name
         };
         let encoding = self.encoding(format);
-        let image = GlImage { gl: gl.clone(), name, format, size, levels: levels.len() as u32, encoding };
+        let image = GlImage { gl: gl.clone(), name, target, format, size, levels, encoding };
         match self.take_errors() {
             None => Ok(image),
             Some(reason) => Err(Error::Refused { format: format.name(), reason }),
@@ -245,18 +281,23 @@ impl Bench {
             (glow::TEXTURE_MAG_FILTER, filter(sampling.linear)),
             (glow::TEXTURE_WRAP_S, wrap),
             (glow::TEXTURE_WRAP_T, wrap),
+            (glow::TEXTURE_WRAP_R, wrap),
             (glow::TEXTURE_COMPARE_MODE, mode),
             (glow::TEXTURE_COMPARE_FUNC, compare),
         ];
         // SAFETY: the context is current and the texture is not deleted.
         unsafe {
             self.gl.active_texture(glow::TEXTURE0 + unit);
-            self.gl.bind_texture(glow::TEXTURE_2D, Some(image.name));
+            self.gl.bind_texture(image.target, Some(image.name));
             for (name, value) in parameters {
                 // A colour image knows no comparison, but keeps the parameter.
-                self.gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
+                self.gl.tex_parameter_i32(image.target, name, value as i32);
             }
-            self.gl.tex_parameter_f32_slice(glow::TEXTURE_2D, glow::TEXTURE_BORDER_COLOR, &sampling.border);
+            self.gl.tex_parameter_f32_slice(image.target, glow::TEXTURE_BORDER_COLOR, &sampling.border);
+            if image.target == glow::TEXTURE_CUBE_MAP {
+                let switch = if sampling.seamless { glow::Context::enable } else { glow::Context::disable };
+                switch(&self.gl, glow::TEXTURE_CUBE_MAP_SEAMLESS);
+            }
         }
     }
 }

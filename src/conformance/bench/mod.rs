@@ -4,6 +4,7 @@
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
 mod draw;
+pub mod environment;
 pub mod fixed_function;
 mod image;
 mod mutation;

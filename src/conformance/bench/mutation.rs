@@ -1,7 +1,8 @@
 //! Mistakes that a test makes the bench commit, to see that a rule notices. Pure; no command line knows of it.
 
+use super::environment::{GlArgument, GlCombine, GlCombiner, GlEnvironment, GlOperand, GlSource, GlUnit};
 use super::image::Sampling;
-use super::state::{GlCompare, GlOffset, GlState, GlStencilOp};
+use super::state::{GlBlend, GlCompare, GlOffset, GlState, GlStencilOp};
 
 /// One mistake, made at every draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,11 +27,30 @@ pub enum Mutation {
     CopyShifted,
     ClipPlanesIgnored,
     BlendIgnored,
+    /// DST_ALPHA is 1.
+    StoredAlphaAsOne,
+    /// Alpha is blended as RGB is.
+    AlphaBlendedAsRgb,
+    /// Faces +x and -x of cube maps exchanged.
+    CubeFacesSwapped,
+    /// s and t exchanged on the face +z.
+    CubeFaceTransposed,
+    SeamlessIgnored,
+    /// DOT3 without the factor 4.
+    Dot3WithoutFour,
+    Dot3AsModulate,
+    AddSignedAsAdd,
+    /// Another unit's texture is the unit's own.
+    CrossbarIgnored,
+    /// RGB_SCALE and ALPHA_SCALE are 1.
+    CombineScaleIgnored,
+    /// ONE_MINUS_SRC_ALPHA is SRC_ALPHA.
+    ComplementIgnored,
 }
 
 impl Mutation {
     /// Each of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 25] = [
         Self::CompareSwapped,
         Self::IncrementForIncrementWrap,
         Self::OneOffsetUnitLess,
@@ -45,6 +65,17 @@ impl Mutation {
         Self::CopyShifted,
         Self::ClipPlanesIgnored,
         Self::BlendIgnored,
+        Self::StoredAlphaAsOne,
+        Self::AlphaBlendedAsRgb,
+        Self::CubeFacesSwapped,
+        Self::CubeFaceTransposed,
+        Self::SeamlessIgnored,
+        Self::Dot3WithoutFour,
+        Self::Dot3AsModulate,
+        Self::AddSignedAsAdd,
+        Self::CrossbarIgnored,
+        Self::CombineScaleIgnored,
+        Self::ComplementIgnored,
     ];
 
     pub(super) fn state(self, mut state: GlState) -> GlState {
@@ -68,6 +99,12 @@ impl Mutation {
             }
             Self::ClipPlanesIgnored => state.clip_distances = 0,
             Self::BlendIgnored => state.blend = None,
+            Self::StoredAlphaAsOne if state.blend == Some(GlBlend::AddByStoredAlpha) => {
+                state.blend = Some(GlBlend::Add);
+            }
+            Self::AlphaBlendedAsRgb if state.blend == Some(GlBlend::MultiplyRgb) => {
+                state.blend = Some(GlBlend::Multiply);
+            }
             _ => {}
         }
         state
@@ -84,7 +121,67 @@ impl Mutation {
         match self {
             Self::CompareSwapped => Sampling { compare: sampling.compare.map(swapped), ..sampling },
             Self::FilterThenCompare => Sampling { compare: None, ..sampling },
+            Self::SeamlessIgnored => Sampling { seamless: false, ..sampling },
             _ => sampling,
         }
     }
+
+    /// Faces of a cube map of `side` texels.
+    pub(super) fn faces(self, side: u32, mut faces: [Vec<[u8; 4]>; 6]) -> [Vec<[u8; 4]>; 6] {
+        match self {
+            Self::CubeFacesSwapped => faces.swap(0, 1),
+            Self::CubeFaceTransposed => {
+                let side = side as usize;
+                faces[4] = (0..side * side).map(|texel| faces[4][texel % side * side + texel / side]).collect();
+            }
+            _ => {}
+        }
+        faces
+    }
+
+    pub(super) fn units<'a>(self, units: &[GlUnit<'a>]) -> Vec<GlUnit<'a>> {
+        let mut units: Vec<_> =
+            units.iter().map(|unit| GlUnit { environment: self.environment(unit.environment), ..*unit }).collect();
+        if self == Self::Dot3WithoutFour
+            && let Some(last) = units.last().copied()
+            && matches!(last.environment.rgb.function, GlCombine::Dot3Rgb | GlCombine::Dot3Rgba)
+        {
+            // No environment divides: one more unit takes a quarter.
+            units.push(GlUnit { environment: quarter(last.environment.rgb.function), ..last });
+        }
+        units
+    }
+
+    fn environment(self, environment: GlEnvironment) -> GlEnvironment {
+        let combiner = |combiner: GlCombiner| GlCombiner {
+            function: match (self, combiner.function) {
+                (Self::Dot3AsModulate, GlCombine::Dot3Rgb | GlCombine::Dot3Rgba) => GlCombine::Modulate,
+                (Self::AddSignedAsAdd, GlCombine::AddSigned) => GlCombine::Add,
+                (_, function) => function,
+            },
+            arguments: combiner.arguments.map(|argument| self.argument(argument)),
+            scale: if self == Self::CombineScaleIgnored { 1 } else { combiner.scale },
+        };
+        GlEnvironment { rgb: combiner(environment.rgb), alpha: combiner(environment.alpha), ..environment }
+    }
+
+    fn argument(self, argument: GlArgument) -> GlArgument {
+        match (self, argument) {
+            (Self::CrossbarIgnored, GlArgument { source: GlSource::Crossbar(_), .. }) => {
+                GlArgument { source: GlSource::Texture, ..argument }
+            }
+            (Self::ComplementIgnored, GlArgument { operand: GlOperand::OneMinusAlpha, .. }) => {
+                GlArgument { operand: GlOperand::Alpha, ..argument }
+            }
+            _ => argument,
+        }
+    }
+}
+
+/// A quarter of what DOT3 wrote.
+fn quarter(dot: GlCombine) -> GlEnvironment {
+    let [previous, constant] = [GlSource::Previous, GlSource::Constant].map(GlArgument::of);
+    let modulate = GlCombiner { function: GlCombine::Modulate, arguments: [previous, constant, previous], scale: 1 };
+    let alpha = if dot == GlCombine::Dot3Rgba { modulate } else { GlCombiner::replace(GlSource::Previous) };
+    GlEnvironment { rgb: modulate, alpha, constant: [0.25; 4] }
 }

@@ -36,6 +36,7 @@ const FRAGMENT_HEAD: &str = "#version 150
 in vec4 passed;
 out vec4 result;
 uniform sampler2D map;
+uniform samplerCube cube;
 ";
 
 const COMPARE: &str = "

@@ -136,6 +136,24 @@ pub enum GlBlend {
     Multiply,
     /// ONE, ZERO: the source alone, by way of the blender.
     Replace,
+    /// DST_COLOR, ZERO for RGB; ONE, ZERO for alpha.
+    MultiplyRgb,
+    /// DST_ALPHA, ONE.
+    AddByStoredAlpha,
+}
+
+impl GlBlend {
+    /// Factors of glBlendFuncSeparate.
+    fn factors(self) -> [u32; 4] {
+        let [source, destination] = match self {
+            Self::Add => [glow::ONE, glow::ONE],
+            Self::Multiply => [glow::DST_COLOR, glow::ZERO],
+            Self::Replace => [glow::ONE, glow::ZERO],
+            Self::MultiplyRgb => return [glow::DST_COLOR, glow::ZERO, glow::ONE, glow::ZERO],
+            Self::AddByStoredAlpha => [glow::DST_ALPHA, glow::ONE],
+        };
+        [source, destination, source, destination]
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -225,12 +243,8 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
         gl.front_face(if state.clockwise { glow::CW } else { glow::CCW });
         apply_mode(gl, state.mode);
         enable(glow::BLEND, state.blend.is_some());
-        let (source, destination) = match state.blend {
-            Some(GlBlend::Add) => (glow::ONE, glow::ONE),
-            Some(GlBlend::Multiply) => (glow::DST_COLOR, glow::ZERO),
-            Some(GlBlend::Replace) | None => (glow::ONE, glow::ZERO),
-        };
-        gl.blend_func(source, destination);
+        let [source, destination, source_alpha, destination_alpha] = state.blend.unwrap_or(GlBlend::Replace).factors();
+        gl.blend_func_separate(source, destination, source_alpha, destination_alpha);
         gl.color_mask(state.color_write, state.color_write, state.color_write, state.color_write);
         enable(glow::SCISSOR_TEST, state.scissor.is_some());
         let whole = [0, 0, size[0] as i32, size[1] as i32];

@@ -1,6 +1,9 @@
 //! Verifiers: is a value valid within so many bits? Pure; each knows a strict tier and the specification's, and never
 //! another picture.
 
+pub mod cube;
+pub mod environment;
+
 use std::cmp::Ordering;
 
 use super::bench::{Encoding, GlCompare, GlStencilOp};
@@ -220,5 +223,4 @@ pub fn covers(corners: [[f64; 2]; 3], center: [f64; 2], band: f64) -> Option<boo
 }
 
 #[cfg(test)]
-#[path = "verify_tests.rs"]
 mod tests;
