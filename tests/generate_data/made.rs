@@ -33,6 +33,7 @@ pub fn write_all(folder: &std::path::Path) -> Result<(), Box<dyn std::error::Err
     textures::floor().save(folder.join("textures/floor.png"))?;
     textures::spot().save(folder.join("textures/spot.png"))?;
     slide::slide().save(folder.join("textures/slide.png"))?;
+    textures::studs().save(folder.join("textures/studs.png"))?;
     textures::barn_doors().save(folder.join("textures/barn-doors.png"))?;
     textures::head_light().save(folder.join("textures/head-light.png"))?;
     std::fs::write(folder.join("meshes/knight.md2"), glumbra::geometry::md2::write(&knight::knight()))?;

@@ -1,7 +1,7 @@
 //! The textures: a floor of inlaid stone, the picture that a lamp throws, and shields that stand before lamps.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
-use image::{Rgb, RgbImage};
+use image::{ImageBuffer, Luma, Rgb, RgbImage};
 
 use super::noise::{hash, tiled_noise};
 
@@ -9,6 +9,7 @@ const FLOOR_SIZE: u32 = 512;
 const SPOT_SIZE: u32 = 256;
 const CHECKER_SIZE: u32 = 512;
 const SHIELD_SIZE: u32 = 128;
+const STUDS_SIZE: [u32; 2] = [512, 256];
 
 /// Four large tiles, each framed by strips of dark stone, with a star of two marbles in it; tiles without a seam.
 pub fn floor() -> RgbImage {
@@ -28,6 +29,24 @@ pub fn barn_doors() -> RgbImage {
 /// The lens of a low beam: dark above a cut-off that rises to the right, brightest just below it.
 pub fn head_light() -> RgbImage {
     draw([SHIELD_SIZE; 2], head_light_color)
+}
+
+/// Heights of round studs in rows, each row half a stud from the next, on a surface twice as wide as it is high; tiles.
+pub fn studs() -> ImageBuffer<Luma<u16>, Vec<u16>> {
+    const COLUMNS: f64 = 24.0;
+    const ROWS: f64 = 10.0;
+    ImageBuffer::from_fn(STUDS_SIZE[0], STUDS_SIZE[1], |x, y| {
+        let place = dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5) / dvec2(f64::from(STUDS_SIZE[0]), f64::from(STUDS_SIZE[1]));
+        let height = (0..2).map(|odd| {
+            let off = dvec2(COLUMNS * place.x - 0.5 * f64::from(odd), 0.5 * ROWS * place.y - 0.5 * f64::from(odd) - 0.25);
+            let off = off - off.round();
+            // In units of a stud's own spacing; rows of one parity are two rows apart.
+            let distance_squared = (off * dvec2(1.0, 2.0)).length_squared() / (0.46 * 0.46);
+            let inside = (1.0 - distance_squared).max(0.0);
+            inside * inside * (3.0 - 2.0 * inside)
+        });
+        Luma([(65535.0 * height.fold(0.0, f64::max) + 0.5).floor() as u16])
+    })
 }
 
 /// A board of 32 by 32 squares; those at the border are red where the others are blue.
