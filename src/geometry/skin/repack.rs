@@ -40,6 +40,8 @@ pub struct Repacked {
     pub turned: usize,
     /// Scale of the islands, at most 1.
     pub scale: f64,
+    /// Texels around each piece that are its own.
+    pub gutter: u32,
     /// Triangles that rounding to whole texels has left without an area on the skin, or turned over.
     pub flattened: usize,
     /// Angles across edges, after.
@@ -131,6 +133,7 @@ fn lay_out(skin: &Skin, islands: &Islands, angles: &[f64], options: &RepackOptio
         pieces: islands.pieces,
         turned: turned.len(),
         scale,
+        gutter: options.gutter,
         flattened,
     })
 }

@@ -1,9 +1,9 @@
 //! A skin's picture in its new places.
 //!
 //! A texel of the new picture whose centre lies in a triangle has the old picture's colour there, with bilinear filtering. A
-//! triangle so thin that a texel it touches neither has nor neighbours such a centre is sampled at its nearest point. All
-//! other texels have the colour of the nearest of those: the gutter around each island repeats its rim, so that filters and
-//! mipmaps find no foreign colour.
+//! triangle so thin that a texel it touches neither has nor neighbours such a centre is sampled at its nearest point. The
+//! gutter around each island repeats the nearest of those texels, so that filters and the first mipmaps find no foreign
+//! colour. All other texels have the mean colour.
 
 use std::collections::VecDeque;
 
@@ -61,7 +61,9 @@ impl Repacked {
         triangles.iter().for_each(|patch| painter.paint_centres(patch));
         let covered = painter.owners.clone();
         triangles.iter().for_each(|patch| painter.paint_touched(patch, &covered));
-        painter.extend();
+        let gutter = f64::from(self.gutter) * new_scale.max_element();
+        painter.extend(gutter.ceil() as u32);
+        painter.fill();
         Ok(painter.new)
     }
 }
@@ -140,21 +142,40 @@ impl Painter<'_> {
         self.owners[index] = patch.piece;
     }
 
-    /// Gives the other texels the colour of the nearest coloured one, ring by ring.
-    fn extend(&mut self) {
-        let mut queue: VecDeque<usize> = (0..self.owners.len()).filter(|index| self.owners[*index] != FREE).collect();
+    /// Gives texels around coloured ones the colour of the nearest, ring by ring.
+    fn extend(&mut self, rings: u32) {
+        let coloured = (0..self.owners.len()).filter(|index| self.owners[*index] != FREE);
+        let mut queue: VecDeque<(usize, u32)> = coloured.map(|index| (index, 0)).collect();
         let (width, channels) = (self.new.size[0] as usize, self.new.channels);
-        while let Some(index) = queue.pop_front() {
+        while let Some((index, ring)) = queue.pop_front() {
+            if ring == rings {
+                continue;
+            }
             let texel = [(index % width) as u32, (index / width) as u32];
             for next in self.around(texel) {
                 if self.owners[next] == FREE {
                     self.owners[next] = self.owners[index];
                     let from = channels * index;
                     self.new.samples.copy_within(from..from + channels, channels * next);
-                    queue.push_back(next);
+                    queue.push_back((next, ring + 1));
                 }
             }
         }
+    }
+
+    /// Gives the other texels the mean of those that have a colour.
+    fn fill(&mut self) {
+        let channels = self.new.channels;
+        let mut sums = vec![0.0; channels];
+        let mut count = 0.0_f64;
+        let texels = self.new.samples.chunks_exact(channels).zip(&self.owners);
+        for (texel, _) in texels.filter(|(_, owner)| **owner != FREE) {
+            count += 1.0;
+            sums.iter_mut().zip(texel).for_each(|(sum, code)| *sum += f64::from(*code));
+        }
+        let mean: Vec<f32> = sums.iter().map(|sum| (sum / count.max(1.0)).round() as f32).collect();
+        let texels = self.new.samples.chunks_exact_mut(channels).zip(&self.owners);
+        texels.filter(|(_, owner)| **owner == FREE).for_each(|(texel, _)| texel.copy_from_slice(&mean));
     }
 }
 

@@ -1,15 +1,17 @@
 //! Angles by which the pieces of a skin are turned, so that t axes agree across the edges between them.
 //!
 //! The sum over edges of length times angle is lessened piece by piece, each turned by the angle that is best while the
-//! others stay. That ends in a local minimum; of two, found from the skin as it is and from t axes that point upwards, the
-//! lower is taken.
+//! others stay. That ends in a local minimum. Of three the lowest is taken: they begin with the skin as it is, with t axes
+//! that point upwards, and with pieces turned one after the other, each to agree with those before it.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
 
 use super::Skin;
-use super::discontinuity::{Crossing, Turn};
+use super::discontinuity::{Crossing, NO_TURN, Turn};
 use super::islands::Islands;
 
 /// Most rounds over all pieces. A round without a change ends the search.
@@ -55,11 +57,16 @@ struct Search<'a> {
 /// `skin` and its `crossings` are those after mirrored pieces have been turned over, if they are.
 pub(super) fn best_turns(skin: &Skin, crossings: &[Crossing], islands: &Islands) -> Vec<f64> {
     let search = Search::new(crossings, islands);
-    let starts = [vec![0.0; islands.pieces], upward(skin, islands)];
-    let found = starts.map(|start| search.descend(start));
-    let [as_it_is, upward] = [0, 1].map(|index| search.sum(&found[index]));
-    let [first, second] = found;
-    if upward < as_it_is { second } else { first }
+    let as_it_is = search.descend(vec![0.0; islands.pieces]);
+    let mut best = (search.sum(&as_it_is), as_it_is);
+    for start in [upward(skin, islands), search.grow()] {
+        let angles = search.descend(start);
+        let sum = search.sum(&angles);
+        if sum < best.0 * (1.0 - 1e-9) {
+            best = (sum, angles);
+        }
+    }
+    best.1
 }
 
 impl<'a> Search<'a> {
@@ -90,14 +97,14 @@ impl<'a> Search<'a> {
         self.crossings.iter().zip(&self.pieces).map(value).sum()
     }
 
-    /// The part of the sum that the angle of one piece changes.
-    fn cost(&self, piece: usize, angle: f64, turns: &[Turn]) -> f64 {
+    /// The part of the sum over the crossings `among`, those of one piece, for an angle of it.
+    fn cost(&self, piece: usize, angle: f64, turns: &[Turn], among: &[usize]) -> f64 {
         let own = turn(angle);
         let value = |index: &usize| {
             let sides = self.pieces[*index].map(|other| if other == piece { own } else { turns[other] });
             self.crossings[*index].length * self.crossings[*index].degrees(sides)
         };
-        self.of_piece[piece].iter().map(value).sum()
+        among.iter().map(value).sum()
     }
 
     fn descend(&self, mut angles: Vec<f64>) -> Vec<f64> {
@@ -105,8 +112,9 @@ impl<'a> Search<'a> {
         for _ in 0..ROUNDS {
             let mut is_changed = false;
             for piece in 0..angles.len() {
-                let before = self.cost(piece, angles[piece], &turns);
-                let (angle, after) = self.best_angle(piece, &turns);
+                let among = &self.of_piece[piece];
+                let before = self.cost(piece, angles[piece], &turns, among);
+                let (angle, after) = self.best_angle(piece, &turns, among);
                 if after < before * (1.0 - 1e-9) - 1e-12 {
                     (angles[piece], turns[piece], is_changed) = (angle, turn(angle), true);
                 }
@@ -118,15 +126,44 @@ impl<'a> Search<'a> {
         angles
     }
 
-    /// The best angle of a piece while the others stay, and its cost.
-    fn best_angle(&self, piece: usize, turns: &[Turn]) -> (f64, f64) {
-        let cost = |angle: f64| self.cost(piece, angle, turns);
+    /// Turns pieces one after the other, each to agree with its neighbours among those before it. The next is always the one
+    /// that shares the greatest length of edges with them.
+    fn grow(&self) -> Vec<f64> {
+        let mut angles = vec![0.0; self.of_piece.len()];
+        let mut turns = vec![NO_TURN; angles.len()];
+        let mut is_done = vec![false; angles.len()];
+        let mut shared = vec![0.0; angles.len()];
+        // Lengths that have grown since are entered again; the bits of positive numbers are in their order.
+        let mut next: BinaryHeap<(u64, Reverse<usize>)> = (0..angles.len()).map(|piece| (0, Reverse(piece))).collect();
+        while let Some((_, Reverse(piece))) = next.pop() {
+            if std::mem::replace(&mut is_done[piece], true) {
+                continue;
+            }
+            let other = |index: usize| self.pieces[index].into_iter().find(|other| *other != piece).unwrap_or(piece);
+            let before: Vec<usize> =
+                self.of_piece[piece].iter().copied().filter(|index| is_done[other(*index)]).collect();
+            angles[piece] = self.best_angle(piece, &turns, &before).0;
+            turns[piece] = turn(angles[piece]);
+            for index in &self.of_piece[piece] {
+                let other = other(*index);
+                if !is_done[other] {
+                    shared[other] += self.crossings[*index].length;
+                    next.push((f64::to_bits(shared[other]), Reverse(other)));
+                }
+            }
+        }
+        angles
+    }
+
+    /// The best angle of a piece while the others stay, and its cost over the crossings `among`.
+    fn best_angle(&self, piece: usize, turns: &[Turn], among: &[usize]) -> (f64, f64) {
+        let cost = |angle: f64| self.cost(piece, angle, turns, among);
         let step = TAU / COARSE as f64;
         let coarse = least((0..COARSE).map(|index| index as f64 * step), cost);
         let fine = golden([coarse.0 - step, coarse.0 + step], cost);
         let best = if fine.1 < coarse.1 { fine } else { coarse };
         let quarter = least((0..4).map(|index| f64::from(index) * FRAC_PI_2), cost);
-        let length: f64 = self.of_piece[piece].iter().map(|index| self.crossings[*index].length).sum();
+        let length: f64 = among.iter().map(|index| self.crossings[*index].length).sum();
         if quarter.1 <= best.1 + SPARE_DEGREES * length { quarter } else { best }
     }
 }
