@@ -8,6 +8,7 @@ mod path_text;
 mod pipeline;
 mod plan;
 mod render;
+mod repack;
 mod report;
 mod report_light;
 pub mod sample;
@@ -41,6 +42,7 @@ enum Command {
     Info(info::InfoArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
+    Repack(repack::RepackArgs),
     Report(report::ReportArgs),
     Stress(stress::StressArgs),
     Tune(tune::TuneArgs),
@@ -73,6 +75,8 @@ pub enum Error {
     File(#[from] crate::output::Error),
     #[error(transparent)]
     Figures(#[from] crate::figures::Error),
+    #[error(transparent)]
+    Repack(#[from] repack::Error),
     #[error(transparent)]
     Tune(#[from] crate::report::measure::tune::Error),
     #[error(transparent)]
@@ -134,6 +138,7 @@ pub fn run() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Repack(arguments) => repack::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),

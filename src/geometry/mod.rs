@@ -17,6 +17,7 @@ mod primitives;
 pub mod rays;
 pub mod sampled;
 mod simplify;
+pub mod skin;
 mod tally;
 pub mod tangents;
 mod text;

@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::{Mesh, MeshTangents};
 
 /// Area in (s, t), as a share of the product of two edges, below which a triangle has no direction on the skin.
-const LEAST_AREA: f64 = 1e-12;
+pub(super) const LEAST_AREA: f64 = 1e-12;
 
 /// Angle in degrees between T and B, off a right angle, from which a triangle counts as skewed.
 const SKEWED_DEGREES: f64 = 10.0;
@@ -51,12 +51,12 @@ pub struct Tangents {
 }
 
 /// A triangle's derivatives by the skin.
-struct Derivatives {
-    by_s: DVec3,
-    by_t: DVec3,
+pub(super) struct Derivatives {
+    pub by_s: DVec3,
+    pub by_t: DVec3,
     /// The outward normal, of unit length.
     normal: DVec3,
-    is_mirrored: bool,
+    pub is_mirrored: bool,
 }
 
 impl Tangents {
@@ -191,7 +191,7 @@ impl Derivatives {
 }
 
 /// P_s and P_t of a triangle from its edges: e = Δs P_s + Δt P_t. `None`: it has no area, or none on the skin.
-fn derivatives(places: [DVec3; 3], skin: [[f64; 2]; 3]) -> Option<Derivatives> {
+pub(super) fn derivatives(places: [DVec3; 3], skin: [[f64; 2]; 3]) -> Option<Derivatives> {
     let edges = [places[1] - places[0], places[2] - places[0]];
     let [[s1, t1], [s2, t2]] = [1, 2].map(|corner| [skin[corner][0] - skin[0][0], skin[corner][1] - skin[0][1]]);
     let area = s1 * t2 - s2 * t1;

@@ -50,6 +50,7 @@ mod planes;
 mod projected;
 mod ranges;
 mod redraw;
+mod repack;
 mod report;
 mod scenes;
 #[cfg(unix)]

@@ -128,6 +128,44 @@ impl Model {
         self.corners.iter().map(|[vertex, _]| usize::from(*vertex))
     }
 
+    /// The texel of each vertex of [`Self::mesh`], t downwards.
+    pub fn texels(&self) -> impl ExactSizeIterator<Item = [i16; 2]> {
+        self.corners.iter().map(|[_, texcoord]| self.file.texcoords[usize::from(*texcoord)])
+    }
+
+    /// The file with another skin: `texels` has one for each of [`Self::indices`]. Triangles are clockwise from outside;
+    /// those without an area in any frame are left out. GL commands, where there are any, become one strip a triangle.
+    ///
+    /// `None`: more than 65536 distinct texels.
+    pub fn with_skin(&self, size: [u32; 2], texels: &[[i16; 2]]) -> Option<Md2> {
+        let mut file = Md2 {
+            skin_size: size.map(u32::cast_signed),
+            texcoords: Vec::new(),
+            triangles: Vec::new(),
+            ..self.file.clone()
+        };
+        let mut known = HashMap::new();
+        for (triangle, texels) in self.indices.as_chunks::<3>().0.iter().zip(texels.as_chunks::<3>().0) {
+            let mut written = Triangle::default();
+            // Turned around, as MD2's are clockwise.
+            for (place, corner) in [0, 2, 1].into_iter().enumerate() {
+                let next = file.texcoords.len();
+                let number = *known.entry(texels[corner]).or_insert(next);
+                if number == next {
+                    file.texcoords.push(texels[corner]);
+                }
+                written.vertices[place] = self.corners[triangle[corner] as usize][0];
+                written.texcoords[place] = u16::try_from(number).ok()?;
+            }
+            file.triangles.push(written);
+        }
+        // A lone zero is the end of no commands.
+        if file.gl_commands.len() > 1 {
+            file.gl_commands = commands(&file);
+        }
+        Some(file)
+    }
+
     /// Position of a vertex of the file in model space: both frames' positions in f64, blended.
     pub fn position(&self, pose: &Pose, vertex: usize) -> DVec3 {
         let [first, second] =
@@ -201,6 +239,22 @@ impl Model {
         let extent = bounds.max - bounds.min;
         volume <= LEAST_VOLUME * extent.x * extent.y * extent.z
     }
+}
+
+/// A strip of three vertices for each triangle: (s, t) as a share of the skin, and the vertex.
+fn commands(file: &Md2) -> Vec<i32> {
+    let [width, height] = file.skin_size.map(|side| side as f32);
+    let mut commands = Vec::with_capacity(10 * file.triangles.len() + 1);
+    for triangle in &file.triangles {
+        commands.push(3);
+        for (vertex, texcoord) in triangle.vertices.iter().zip(triangle.texcoords) {
+            let [s, t] = file.texcoords[usize::from(texcoord)].map(f32::from);
+            commands.extend([(s / width).to_bits().cast_signed(), (t / height).to_bits().cast_signed()]);
+            commands.push(i32::from(*vertex));
+        }
+    }
+    commands.push(0);
+    commands
 }
 
 /// A vector of the file, z up, in model space, y up.

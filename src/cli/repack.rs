@@ -1,0 +1,329 @@
+//! `glumbra repack`: a model's skin turned and packed so that tangent bases agree across edges.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::scene_args::parse_size;
+use crate::geometry::md2::{self, Model, NormalSource, Pose};
+use crate::geometry::skin::{self, CLASS_ENDS, Discontinuity, Raster, RepackOptions, Repacked, Skin};
+use crate::geometry::{self, Mesh, load_obj};
+use crate::output::{self, atomic_write};
+
+/// Turns and packs the skin of a model so that its tangent bases agree across edges.
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub struct RepackArgs {
+    /// The model: .md2 or .obj
+    #[arg(value_name = "MODEL")]
+    model: PathBuf,
+
+    /// The folder for the new model and pictures, which have the names of the old ones; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+
+    /// The skin's colours
+    #[arg(long, value_name = "FILE")]
+    decal: Option<PathBuf>,
+
+    /// The skin's heights
+    #[arg(long, value_name = "FILE")]
+    height: Option<PathBuf>,
+
+    /// The skin's gloss
+    #[arg(long, value_name = "FILE")]
+    gloss: Option<PathBuf>,
+
+    /// Size of the new skin in texels; the islands are made smaller where they do not fit. By default the smallest size with
+    /// sides of powers of two that holds them as they are
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+
+    /// Texels around each island that repeat the colours at its rim
+    #[arg(long, value_name = "TEXELS", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=256))]
+    gutter: u32,
+
+    /// Turns mirrored islands over, and gives them texels of their own
+    #[arg(long)]
+    unmirror: bool,
+
+    /// Also cuts islands at edges where the t axes of two triangles differ by more than this angle
+    #[arg(long, value_name = "DEGREES", default_value_t = 180.0, value_parser = parse_angle)]
+    cut: f64,
+
+    /// The key frame of an MD2 model in which angles are measured, counted from 0
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    frame: usize,
+}
+
+const HELP: &str = "\
+Bump maps are lit in tangent space, by each triangle's directions of s and t. Where two triangles meet whose t axes point
+apart, the light's direction jumps in tangent space, and the shading of an interpolated vector shows the edge. The command
+cuts the skin into islands (triangles that are joined on the surface and on the skin), turns each by the angle that makes
+the sum of length times angle over the edges between them least, and packs them in a new picture.
+
+The table has the angle between the t axes of each two neighbouring triangles, around their common vertex normal: the most
+that a light vector jumps there in tangent space. Where one of the two is mirrored and the other not, a light vector along
+the surface is reversed whatever the angle: those edges are counted apart, and --unmirror removes them.
+
+Islands that share texels (mirrored halves, left and right limbs) share them afterwards too and turn together, except for
+--unmirror. A quarter turn is taken where it is as good, because it keeps every texel. MD2 files hold whole texels: the
+places on the skin are rounded, and the pictures are sampled in the rounded places. An OBJ model gets a material library
+with the decal; its own materials are left out.
+
+Examples:
+  glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --height data/textures/knight-height.png \\
+      --gloss data/textures/knight-gloss.png -o repacked
+  glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --unmirror --cut 45 -o repacked
+  glumbra repack model.obj --decal skin.png --size 1024x1024 --gutter 8 -o repacked";
+
+/// Most texels a side of a picture.
+const LARGEST: u32 = 16384;
+
+/// Error of the command.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    File(#[from] geometry::Error),
+    #[error("{}: {source}", model.display())]
+    Skin { model: PathBuf, source: skin::Error },
+    #[error("{}: cannot tell the format: a model ends in .md2 or .obj", .0.display())]
+    UnknownFormat(PathBuf),
+    #[error("{}: has no texture coordinates, so there is no skin to pack", .0.display())]
+    NoSkin(PathBuf),
+    #[error("{}: has {frames} frames; --frame {frame} counts from 0", model.display())]
+    NoFrame { model: PathBuf, frame: usize, frames: usize },
+    #[error("{}: the new skin has more than 65536 distinct texels, which an MD2 file cannot index", .0.display())]
+    TooManyTexels(PathBuf),
+    #[error("--size {width}x{height}: a picture has 1 to {LARGEST} texels a side")]
+    Size { width: u32, height: u32 },
+    #[error("{model}: an OBJ model does not say how many texels its skin has; give --decal, --height or --gloss", model = .0.display())]
+    NoTexels(PathBuf),
+    #[error("{file}: is read by this command; name another folder with -o", file = .0.display())]
+    Overwrites(PathBuf),
+    #[error("{file}: two of the files to write have this name; rename {input}", file = file.display(), input = input.display())]
+    SameName { file: PathBuf, input: PathBuf },
+    #[error("{file}: cannot be written: {reason}", file = file.display())]
+    Write { file: PathBuf, reason: String },
+}
+
+/// A model that has been read.
+enum Source {
+    Md2(Box<Model>),
+    Obj(Mesh),
+}
+
+/// Repacks, writes, and prints what changed.
+pub fn run(arguments: &RepackArgs) -> Result<(), super::Error> {
+    Ok(repack(arguments)?).and_then(|text| super::print(&text))
+}
+
+fn repack(arguments: &RepackArgs) -> Result<String, Error> {
+    if let Some([width, height]) = arguments.size
+        && [width, height].iter().any(|side| !(1..=LARGEST).contains(side))
+    {
+        return Err(Error::Size { width, height });
+    }
+    let (source, mesh) = load(arguments)?;
+    let maps = arguments.maps();
+    let pictures: Vec<Raster> = maps.iter().map(|path| Raster::load(path)).collect::<Result<_, _>>()?;
+    let files = arguments.files(&maps)?;
+    let old = old_skin(arguments, &source, &mesh, &pictures)?;
+    let options = RepackOptions {
+        size: arguments.size,
+        gutter: arguments.gutter,
+        unmirror: arguments.unmirror,
+        cut_degrees: arguments.cut,
+        whole_texels: matches!(source, Source::Md2(_)),
+    };
+    let wrong = |source: skin::Error| Error::Skin { model: arguments.model.clone(), source };
+    let new = skin::repack(&old, &options).map_err(wrong)?;
+    let mut contents = vec![model_bytes(arguments, &source, &new)?];
+    if let (Source::Obj(_), Some(library)) = (&source, arguments.library()) {
+        contents.push(library.text.into_bytes());
+    }
+    for (picture, path) in pictures.iter().zip(&maps) {
+        let sampled = new.resample(&old, picture).map_err(wrong)?;
+        let failed = |error: image::ImageError| Error::Write { file: (*path).clone(), reason: error.to_string() };
+        contents.push(sampled.to_png().map_err(failed)?);
+    }
+    write(&arguments.output, &files, &contents)?;
+    warn(&old, &new);
+    Ok(report(&old, &new, &files))
+}
+
+impl RepackArgs {
+    /// The maps that are given, the decal first.
+    fn maps(&self) -> Vec<&PathBuf> {
+        [&self.decal, &self.height, &self.gloss].into_iter().flatten().collect()
+    }
+
+    /// The files to write: the model, an OBJ model's material library, the maps.
+    fn files(&self, maps: &[&PathBuf]) -> Result<Vec<PathBuf>, Error> {
+        let inputs: Vec<&PathBuf> = [&self.model].into_iter().chain(maps.iter().copied()).collect();
+        let model = self.output.join(self.model.file_name().unwrap_or_default());
+        let library = self.library().map(|library| (self.output.join(library.file), &self.model));
+        let pictures = maps.iter().map(|map| (self.output.join(picture_name(map)), *map));
+        let mut files = Vec::new();
+        for (file, input) in [(model, &self.model)].into_iter().chain(library).chain(pictures) {
+            if files.contains(&file) {
+                return Err(Error::SameName { file, input: input.clone() });
+            }
+            if inputs.iter().any(|input| output::is_same_file(input, &file)) {
+                return Err(Error::Overwrites(file));
+            }
+            files.push(file);
+        }
+        Ok(files)
+    }
+
+    /// The material library of an OBJ model with a decal.
+    fn library(&self) -> Option<Library> {
+        let decal = self.decal.as_ref().filter(|_| !is_md2(&self.model))?;
+        let text = format!("newmtl {MATERIAL}\nmap_Kd {}\n", picture_name(decal).to_string_lossy());
+        Some(Library { file: self.model.with_extension("mtl").file_name().unwrap_or_default().into(), text })
+    }
+}
+
+/// Name of the material in it.
+const MATERIAL: &str = "skin";
+
+struct Library {
+    file: PathBuf,
+    text: String,
+}
+
+/// A map's name, ending in .png.
+fn picture_name(map: &Path) -> PathBuf {
+    Path::new(map.file_name().unwrap_or_default()).with_extension("png")
+}
+
+fn is_md2(model: &Path) -> bool {
+    model.extension().is_some_and(|end| end.eq_ignore_ascii_case("md2"))
+}
+
+fn load(arguments: &RepackArgs) -> Result<(Source, Mesh), Error> {
+    let model = &arguments.model;
+    let say = |warnings: &[geometry::Warning]| {
+        warnings.iter().for_each(|warning| super::say(format_args!("warning: {warning}")));
+    };
+    if is_md2(model) {
+        let (loaded, warnings) = Model::load(model)?;
+        say(&warnings);
+        let (frame, frames) = (arguments.frame, loaded.frame_count());
+        if frame >= frames {
+            return Err(Error::NoFrame { model: model.clone(), frame, frames });
+        }
+        let mesh = loaded.mesh(&Pose { frames: [frame; 2], blend: 0.0 }, NormalSource::File);
+        return Ok((Source::Md2(Box::new(loaded)), mesh));
+    }
+    if model.extension().and_then(OsStr::to_str).is_none_or(|end| !end.eq_ignore_ascii_case("obj")) {
+        return Err(Error::UnknownFormat(model.clone()));
+    }
+    let (mesh, warnings) = load_obj(model)?;
+    say(&warnings);
+    if mesh.texcoords.is_none() {
+        return Err(Error::NoSkin(model.clone()));
+    }
+    if !mesh.materials.is_empty() {
+        let path = model.display();
+        super::say(format_args!("warning: {path}: its materials are left out; the new model has the decal alone"));
+    }
+    Ok((Source::Obj(mesh.clone()), mesh))
+}
+
+/// The skin as it is: in the texels of an MD2 file, or of an OBJ model's first map.
+fn old_skin(arguments: &RepackArgs, source: &Source, mesh: &Mesh, pictures: &[Raster]) -> Result<Skin, Error> {
+    match source {
+        Source::Md2(model) => {
+            let texels = model.texels().map(|texel| glam::DVec2::from_array(texel.map(f64::from)));
+            Ok(Skin::of_texels(mesh, model.file().skin_size.map(i32::cast_unsigned), texels))
+        }
+        Source::Obj(_) => {
+            let size = pictures.first().ok_or_else(|| Error::NoTexels(arguments.model.clone()))?.size;
+            Skin::of_mesh(mesh, size).ok_or_else(|| Error::NoSkin(arguments.model.clone()))
+        }
+    }
+}
+
+fn model_bytes(arguments: &RepackArgs, source: &Source, new: &Repacked) -> Result<Vec<u8>, Error> {
+    match source {
+        Source::Md2(model) => {
+            let file = model.with_skin(new.skin.size(), &new.skin.whole_texels());
+            Ok(md2::write(&file.ok_or_else(|| Error::TooManyTexels(arguments.model.clone()))?))
+        }
+        Source::Obj(mesh) => {
+            let library = arguments.library().map(|library| library.file.to_string_lossy().into_owned());
+            let material = library.as_deref().map(|library| (library, MATERIAL));
+            Ok(skin::write_obj(mesh, &new.skin, material).into_bytes())
+        }
+    }
+}
+
+/// Makes the folder and writes all files or none.
+fn write(folder: &Path, files: &[PathBuf], contents: &[Vec<u8>]) -> Result<(), Error> {
+    let failed =
+        |file: &Path, error: &std::io::Error| Error::Write { file: file.to_owned(), reason: error.to_string() };
+    std::fs::create_dir_all(folder).map_err(|error| failed(folder, &error))?;
+    let paths: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    atomic_write::write_all(&paths, |index, temporary| std::fs::write(temporary, &contents[index]))
+        .map_err(|(index, error)| failed(paths[index], &error))
+}
+
+/// Warns where the new skin is worse than the old one.
+fn warn(old: &Skin, new: &Repacked) {
+    if new.flattened > 0 {
+        let count = new.flattened;
+        super::say(format_args!(
+            "warning: {count} triangles are so small that rounding to whole texels leaves them no area or turns them over; \
+             a larger picture of the skin has smaller texels"
+        ));
+    }
+    let (before, after) = (old.discontinuity().mean_degrees, new.discontinuity.mean_degrees);
+    if after > before + 1e-9 {
+        super::say(format_args!(
+            "warning: the mean angle grew from {before:.3} to {after:.3} degrees; a larger --size rounds less"
+        ));
+    }
+}
+
+fn report(old: &Skin, new: &Repacked, files: &[PathBuf]) -> String {
+    let before = old.discontinuity();
+    let after = &new.discontinuity;
+    let Repacked { islands, pieces, turned, scale, .. } = new;
+    let [from, to] = [old.size(), new.skin.size()].map(|[width, height]| format!("{width}x{height}"));
+    let row = |what: &str, before: String, after: String| format!("{what:<36}{before:>16}{after:>16}\n");
+    let number = |value: f64| format!("{value:.2}");
+    let mut text = format!(
+        "# {islands} islands in {pieces} pieces; {turned} turned by other than quarter turns; scale {scale:.4}\n"
+    );
+    text += &row("", String::from("before"), String::from("after"));
+    text += &row("texels", from, to);
+    text += &row("texels a unit of length", number(old.density()), number(new.skin.density()));
+    text += &row("mirrored triangles", old.mirrored().to_string(), new.skin.mirrored().to_string());
+    text += "# Edges by the angle between the t axes of their two triangles: number, share of length\n";
+    let edges = |count: usize, share: f64| format!("{count} {:>6.2} %", 100.0 * share);
+    let mut low = 0.0;
+    for (index, high) in CLASS_ENDS.iter().enumerate() {
+        let class = |found: &Discontinuity| edges(found.classes[index].edges, found.classes[index].share);
+        text += &row(&format!("{low} to {high} degrees"), class(&before), class(after));
+        low = *high;
+    }
+    let mirrored = |found: &Discontinuity| edges(found.mirrored_pairs, found.mirrored_share);
+    text += &row("mirrored against each other", mirrored(&before), mirrored(after));
+    text += &row("without a basis", before.without.to_string(), after.without.to_string());
+    let degrees = |value: f64| format!("{value:.3}");
+    text += &row("mean angle in degrees", degrees(before.mean_degrees), degrees(after.mean_degrees));
+    text += &row("largest angle in degrees", degrees(before.largest_degrees), degrees(after.largest_degrees));
+    for file in files {
+        text += &format!("# {}\n", file.display());
+    }
+    text
+}
+
+/// Reads an angle from 0 to 180 degrees.
+fn parse_angle(text: &str) -> Result<f64, String> {
+    let angle: f64 = text.parse().map_err(|_| format!("'{text}' is no number"))?;
+    if (0.0..=180.0).contains(&angle) { Ok(angle) } else { Err(String::from("an angle from 0 to 180 degrees")) }
+}

@@ -1,0 +1,92 @@
+//! Rectangles of pieces placed in one picture, without overlap.
+
+use guillotiere::{AtlasAllocator, size2};
+
+use super::Error;
+
+/// Most texels a side of a picture whose size was not given.
+pub(super) const LARGEST: u32 = 8192;
+/// Halvings of the interval in which the greatest scale that fits is searched.
+const HALVINGS: usize = 20;
+/// Scale below which the gutters alone are taken to fill the picture.
+const LEAST_SCALE: f64 = 1.0 / 1024.0;
+
+/// A picture's size, the scale of the pieces in it, and the top left corner of each piece's rectangle.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Packed {
+    pub size: [u32; 2],
+    pub scale: f64,
+    pub corners: Vec<[u32; 2]>,
+}
+
+/// Packs rectangles. `rectangles` gives their widths and heights at a scale, gutters included.
+///
+/// With a size, the pieces keep their scale or are made smaller until they fit. Without one, the picture has the fewest
+/// texels that hold them at their scale, and sides that are powers of two.
+pub(super) fn pack(
+    size: Option<[u32; 2]>,
+    gutter: u32,
+    rectangles: impl Fn(f64) -> Vec<[u64; 2]>,
+) -> Result<Packed, Error> {
+    let Some(size) = size else { return grow(&rectangles(1.0)) };
+    let place_at = |scale: f64| place(size, &rectangles(scale)).map(|corners| Packed { size, scale, corners });
+    if let Some(packed) = place_at(1.0) {
+        return Ok(packed);
+    }
+    let [width, height] = size;
+    let mut best =
+        place_at(LEAST_SCALE).ok_or_else(|| Error::NoRoom { width, height, pieces: rectangles(1.0).len(), gutter })?;
+    let mut too_large = 1.0;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (best.scale + too_large);
+        match place_at(middle) {
+            Some(packed) => best = packed,
+            None => too_large = middle,
+        }
+    }
+    Ok(best)
+}
+
+/// The smallest picture with sides of powers of two.
+fn grow(rectangles: &[[u64; 2]]) -> Result<Packed, Error> {
+    let area: u64 = rectangles.iter().map(|[width, height]| width.saturating_mul(*height)).fold(0, u64::saturating_add);
+    let most = LARGEST.trailing_zeros();
+    for power in 0..=2 * most {
+        if area > 1 << power {
+            continue;
+        }
+        // A square, or one and the other of two halves of one.
+        let (low, high) = (power / 2, power.div_ceil(2));
+        let sides = if low == high { vec![[low, low]] } else { vec![[high, low], [low, high]] };
+        for size in sides.into_iter().filter(|[_, _]| high <= most).map(|powers| powers.map(|power| 1 << power)) {
+            if let Some(corners) = place(size, rectangles) {
+                return Ok(Packed { size, scale: 1.0, corners });
+            }
+        }
+    }
+    Err(Error::TooLarge { limit: LARGEST })
+}
+
+/// Places the larger rectangles first, in several orders. `None`: they do not fit.
+fn place(size: [u32; 2], rectangles: &[[u64; 2]]) -> Option<Vec<[u32; 2]>> {
+    let [width, height] = size.map(i32::try_from);
+    let atlas = size2(width.ok()?, height.ok()?);
+    let orders: [fn(&[u64; 2]) -> u64; 4] = [
+        |[width, height]| *width.max(height),
+        |[_, height]| *height,
+        |[width, _]| *width,
+        |[width, height]| width.saturating_mul(*height),
+    ];
+    orders.into_iter().find_map(|measure| {
+        let mut order: Vec<usize> = (0..rectangles.len()).collect();
+        order.sort_by_key(|index| (std::cmp::Reverse(measure(&rectangles[*index])), *index));
+        let mut allocator = AtlasAllocator::new(atlas);
+        let mut corners = vec![[0; 2]; rectangles.len()];
+        for index in order {
+            let [width, height] = rectangles[index].map(i32::try_from);
+            let place = allocator.allocate(size2(width.ok()?, height.ok()?))?.rectangle.min;
+            corners[index] = [place.x, place.y].map(i32::cast_unsigned);
+        }
+        Some(corners)
+    })
+}
