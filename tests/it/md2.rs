@@ -9,7 +9,7 @@ use glumbra::geometry::{Mesh, topology};
 
 /// A closed body of random vertices: a sphere of latitudes and longitudes with a seam in its skin, clockwise as MD2 has it,
 /// which other random numbers bulge in each frame.
-fn random_model(random: &mut fastrand::Rng) -> Md2 {
+pub fn random_model(random: &mut fastrand::Rng) -> Md2 {
     let (rings, sides) = (random.usize(2..7), random.usize(3..9));
     let place = |ring: usize, side: usize| match ring {
         0 => 0,
