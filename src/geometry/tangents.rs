@@ -13,8 +13,8 @@ use super::{Mesh, MeshTangents};
 /// Area in (s, t), as a share of the product of two edges, below which a triangle has no direction on the skin.
 const LEAST_AREA: f64 = 1e-12;
 
-/// Angle in degrees between T and B, off a right angle, from which a triangle counts as skewed.
-const SKEWED_DEGREES: f64 = 10.0;
+/// Sine of 10 degrees: the angle between T and B, off a right angle, from which a triangle counts as skewed.
+const SKEWED_SINE: f64 = 0.173_648_177_666_930_35;
 
 /// Fit of a triangle's basis to the normals of its corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -169,10 +169,11 @@ impl TangentBasis {
 
 impl Directions {
     pub fn is_skewed(&self) -> bool {
-        self.tangent.dot(self.bitangent).abs() > SKEWED_DEGREES.to_radians().sin()
+        self.tangent.dot(self.bitangent).abs() > SKEWED_SINE
     }
 
     /// The basis at a corner with this normal.
+    #[inline]
     pub fn fitted(&self, normal: DVec3, fit: BasisFit) -> TangentBasis {
         let Self { tangent, bitangent, .. } = *self;
         let in_plane = |vector: DVec3| (vector - vector.dot(normal) * normal).try_normalize();

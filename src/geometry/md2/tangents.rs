@@ -10,6 +10,9 @@ use super::super::Mesh;
 use super::super::tangents::{BasisFit, Directions, TangentBasis, Tangents, derivatives, skin_area};
 use super::{Model, Pose};
 
+/// Number of triangles whose derivatives are blended at a time: they stay in the first-level cache.
+const BLOCK: usize = 64;
+
 /// Derivatives of the triangles of a model by the skin, in every key frame.
 #[derive(Clone, Debug)]
 pub struct KeyTangents {
@@ -68,25 +71,62 @@ impl KeyTangents {
     ///
     /// A triangle that has no area in this pose keeps its P_s, and counts as one without directions only if the skin has none.
     pub fn find(&self, pose: &Pose, mesh: &Mesh, fit: BasisFit, found: &mut Tangents) {
-        found.corners.clear();
+        found.corners.resize(mesh.indices.len(), TangentBasis::around(DVec3::Z));
         (found.mirrored, found.skewed, found.without) = (0, 0, 0);
-        for ((triangle, indices), sense) in mesh.indices.as_chunks::<3>().0.iter().enumerate().zip(&self.senses) {
-            let normals = indices.map(|index| DVec3::from_array(mesh.normals[index as usize].map(f64::from)));
-            if *sense == Sense::Without {
-                found.without += 1;
-                found.corners.extend(normals.map(TangentBasis::around));
-                continue;
+        let triangles = mesh.indices.as_chunks::<3>().0.iter().zip(&self.senses);
+        let mut triangles = triangles.zip(found.corners.as_chunks_mut::<3>().0);
+        let mut start = 0;
+        while triangles.len() > 0 {
+            let units = self.units(pose, start);
+            start += BLOCK;
+            for (index, ((indices, sense), corners)) in triangles.by_ref().take(BLOCK).enumerate() {
+                let directions = (*sense != Sense::Without).then(|| units.directions(index, *sense, fit));
+                match &directions {
+                    None => found.without += 1,
+                    Some(directions) => {
+                        found.mirrored += usize::from(directions.is_mirrored);
+                        found.skewed += usize::from(directions.is_skewed());
+                    }
+                }
+                for (corner, index) in corners.iter_mut().zip(indices) {
+                    let normal = DVec3::from_array(mesh.normals[*index as usize].map(f64::from));
+                    *corner = match &directions {
+                        None => TangentBasis::around(normal),
+                        Some(directions) => directions.fitted(normal, fit),
+                    };
+                }
             }
-            let directions = self.directions(pose, triangle, *sense, fit);
-            found.mirrored += usize::from(directions.is_mirrored);
-            found.skewed += usize::from(directions.is_skewed());
-            found.corners.extend(normals.map(|normal| directions.fitted(normal, fit)));
         }
     }
 
+    /// Directions of up to [`BLOCK`] triangles from `start` on.
+    fn units(&self, pose: &Pose, start: usize) -> Units {
+        let mut units = Units([[0.0; BLOCK]; 6]);
+        let [first, second] = pose.frames.map(|frame| &self.frames[frame]);
+        for (axis, array) in units.0.iter_mut().enumerate() {
+            let pairs = first[axis].iter().zip(&second[axis]).skip(start);
+            array.iter_mut().zip(pairs).for_each(|(at, (a, b))| *at = a + pose.blend * (b - a));
+        }
+        for xyz in units.0.as_chunks_mut::<3>().0 {
+            let [x, y, z] = xyz;
+            for ((x, y), z) in x.iter_mut().zip(y).zip(z) {
+                let square = *x * *x + *y * *y + *z * *z;
+                let scale = if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 };
+                (*x, *y, *z) = (*x * scale, *y * scale, *z * scale);
+            }
+        }
+        units
+    }
+}
+
+/// x, y, z of P_s and of P_t, each of unit length or zero.
+struct Units([[f64; BLOCK]; 6]);
+
+impl Units {
     /// Directions of a triangle that has some; the normal only where the fit uses it.
-    fn directions(&self, pose: &Pose, triangle: usize, sense: Sense, fit: BasisFit) -> Directions {
-        let [tangent, bitangent] = self.derivatives(pose, triangle).map(DVec3::normalize_or_zero);
+    fn directions(&self, index: usize, sense: Sense, fit: BasisFit) -> Directions {
+        let [x, y, z, to_x, to_y, to_z] = self.0.each_ref().map(|array| array[index]);
+        let (tangent, bitangent) = (DVec3::new(x, y, z), DVec3::new(to_x, to_y, to_z));
         let is_mirrored = sense == Sense::Mirrored;
         let normal = match fit {
             BasisFit::PerPolygon if is_mirrored => bitangent.cross(tangent).normalize_or_zero(),
