@@ -71,7 +71,7 @@ impl KeyTangents {
     ///
     /// A triangle that has no area in this pose keeps its P_s, and counts as one without directions only if the skin has none.
     pub fn find(&self, pose: &Pose, mesh: &Mesh, fit: BasisFit, found: &mut Tangents) {
-        found.corners.resize(mesh.indices.len(), TangentBasis::around(DVec3::Z));
+        found.corners.resize(mesh.indices.len(), TangentBasis::flat(DVec3::Z));
         (found.mirrored, found.skewed, found.without) = (0, 0, 0);
         let triangles = mesh.indices.as_chunks::<3>().0.iter().zip(&self.senses);
         let mut triangles = triangles.zip(found.corners.as_chunks_mut::<3>().0);
@@ -91,7 +91,7 @@ impl KeyTangents {
                 for (corner, index) in corners.iter_mut().zip(indices) {
                     let normal = DVec3::from_array(mesh.normals[*index as usize].map(f64::from));
                     *corner = match &directions {
-                        None => TangentBasis::around(normal),
+                        None => TangentBasis::flat(normal),
                         Some(directions) => directions.fitted(normal, fit),
                     };
                 }
