@@ -34,5 +34,6 @@ pub use material::{Material, ObjectLinear, Placement, Texture};
 pub use mesh::{Mesh, MeshTangents, Part};
 pub use obj::{CREASE_DEGREES, decode_obj, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
+pub(crate) use texture::find_file;
 pub use texture::{decode_texture, load_texture};
 pub use wave::Wave;

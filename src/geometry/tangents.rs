@@ -13,8 +13,8 @@ use super::{Mesh, MeshTangents};
 /// Area in (s, t), as a share of the product of two edges, below which a triangle has no direction on the skin.
 pub(super) const LEAST_AREA: f64 = 1e-12;
 
-/// Angle in degrees between T and B, off a right angle, from which a triangle counts as skewed.
-const SKEWED_DEGREES: f64 = 10.0;
+/// Sine of 10 degrees: the angle between T and B, off a right angle, from which a triangle counts as skewed.
+const SKEWED_SINE: f64 = 0.173_648_177_666_930_35;
 
 /// Fit of a triangle's basis to the normals of its corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -50,12 +50,13 @@ pub struct Tangents {
     pub without: usize,
 }
 
-/// A triangle's derivatives by the skin.
-pub(super) struct Derivatives {
-    pub by_s: DVec3,
-    pub by_t: DVec3,
+/// Directions of a triangle by the skin.
+pub(super) struct Directions {
+    /// P_s and P_t of unit length.
+    pub tangent: DVec3,
+    pub bitangent: DVec3,
     /// The outward normal, of unit length.
-    normal: DVec3,
+    pub normal: DVec3,
     pub is_mirrored: bool,
 }
 
@@ -73,11 +74,11 @@ impl Tangents {
             let places = triangle.map(|index| DVec3::from_array(mesh.positions[index as usize].map(f64::from)));
             let skin = triangle.map(|index| texcoord(index as usize));
             let normals = triangle.map(|index| DVec3::from_array(mesh.normals[index as usize].map(f64::from)));
-            match derivatives(places, skin) {
-                Some(derivatives) => {
-                    found.mirrored += usize::from(derivatives.is_mirrored);
-                    found.skewed += usize::from(derivatives.is_skewed());
-                    found.corners.extend(normals.map(|normal| derivatives.fitted(normal, fit)));
+            match directions(places, skin) {
+                Some(directions) => {
+                    found.mirrored += usize::from(directions.is_mirrored);
+                    found.skewed += usize::from(directions.is_skewed());
+                    found.corners.extend(normals.map(|normal| directions.fitted(normal, fit)));
                 }
                 None => {
                     found.without += 1;
@@ -151,7 +152,7 @@ impl Mesh {
 
 impl TangentBasis {
     /// A normal without directions on the skin: T and B are zero, and no bump tilts it.
-    fn flat(normal: DVec3) -> Self {
+    pub(super) fn flat(normal: DVec3) -> Self {
         Self { tangent: DVec3::ZERO, bitangent: DVec3::ZERO, normal }
     }
 
@@ -166,44 +167,57 @@ impl TangentBasis {
     }
 }
 
-impl Derivatives {
-    fn is_skewed(&self) -> bool {
-        let cosine = self.by_s.normalize_or_zero().dot(self.by_t.normalize_or_zero());
-        cosine.abs() > SKEWED_DEGREES.to_radians().sin()
+impl Directions {
+    pub fn is_skewed(&self) -> bool {
+        self.tangent.dot(self.bitangent).abs() > SKEWED_SINE
     }
 
     /// The basis at a corner with this normal.
-    fn fitted(&self, normal: DVec3, fit: BasisFit) -> TangentBasis {
-        let (tangent, bitangent) = (self.by_s.normalize_or_zero(), self.by_t.normalize_or_zero());
-        let own = TangentBasis { tangent, bitangent, normal: self.normal };
+    #[inline]
+    pub fn fitted(&self, normal: DVec3, fit: BasisFit) -> TangentBasis {
+        let Self { tangent, bitangent, .. } = *self;
         let in_plane = |vector: DVec3| (vector - vector.dot(normal) * normal).try_normalize();
-        match (fit, in_plane(tangent), in_plane(bitangent)) {
-            (BasisFit::PerPolygon, ..) => own,
-            (BasisFit::Orthogonal, Some(tangent), _) => {
-                let across = normal.cross(tangent);
-                TangentBasis { tangent, bitangent: if self.is_mirrored { -across } else { across }, normal }
-            }
-            (BasisFit::Skewed, Some(tangent), Some(bitangent)) => TangentBasis { tangent, bitangent, normal },
-            // A vertex's normal in the triangle's plane.
-            _ => TangentBasis::flat(normal),
-        }
+        let fitted =
+            match fit {
+                BasisFit::PerPolygon => Some(TangentBasis { tangent, bitangent, normal: self.normal }),
+                BasisFit::Orthogonal => in_plane(tangent).map(|tangent| {
+                    let across = normal.cross(tangent);
+                    TangentBasis { tangent, bitangent: if self.is_mirrored { -across } else { across }, normal }
+                }),
+                BasisFit::Skewed => in_plane(tangent)
+                    .zip(in_plane(bitangent))
+                    .map(|(tangent, bitangent)| TangentBasis { tangent, bitangent, normal }),
+            };
+        // None: a vertex's normal in the triangle's plane.
+        fitted.unwrap_or_else(|| TangentBasis::flat(normal))
     }
 }
 
-/// P_s and P_t of a triangle from its edges: e = Δs P_s + Δt P_t. `None`: it has no area, or none on the skin.
-pub(super) fn derivatives(places: [DVec3; 3], skin: [[f64; 2]; 3]) -> Option<Derivatives> {
-    let edges = [places[1] - places[0], places[2] - places[0]];
-    let [[s1, t1], [s2, t2]] = [1, 2].map(|corner| [skin[corner][0] - skin[0][0], skin[corner][1] - skin[0][1]]);
+/// Twice the signed area of a triangle on the skin. `None`: it has no direction there.
+pub(super) fn skin_area(skin: [[f64; 2]; 3]) -> Option<f64> {
+    let [[s1, t1], [s2, t2]] = skin_edges(skin);
     let area = s1 * t2 - s2 * t1;
-    let normal = edges[0].cross(edges[1]).try_normalize()?;
     // A comparison that is false for NaN.
-    let has_area = area.abs() > LEAST_AREA * (s1.hypot(t1) * s2.hypot(t2));
-    has_area.then(|| Derivatives {
-        by_s: (edges[0] * t2 - edges[1] * t1) / area,
-        by_t: (edges[1] * s1 - edges[0] * s2) / area,
-        normal,
-        is_mirrored: area < 0.0,
-    })
+    (area.abs() > LEAST_AREA * (s1.hypot(t1) * s2.hypot(t2))).then_some(area)
+}
+
+/// P_s and P_t from edges e = Δs P_s + Δt P_t, and the area of [`skin_area`].
+pub(super) fn derivatives(edges: [DVec3; 2], skin: [[f64; 2]; 3], area: f64) -> [DVec3; 2] {
+    let [[s1, t1], [s2, t2]] = skin_edges(skin);
+    [(edges[0] * t2 - edges[1] * t1) / area, (edges[1] * s1 - edges[0] * s2) / area]
+}
+
+fn skin_edges(skin: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
+    [1, 2].map(|corner| [skin[corner][0] - skin[0][0], skin[corner][1] - skin[0][1]])
+}
+
+/// Directions of a triangle. `None`: it has no area, or none on the skin.
+fn directions(places: [DVec3; 3], skin: [[f64; 2]; 3]) -> Option<Directions> {
+    let edges = [places[1] - places[0], places[2] - places[0]];
+    let normal = edges[0].cross(edges[1]).try_normalize()?;
+    let area = skin_area(skin)?;
+    let [tangent, bitangent] = derivatives(edges, skin, area).map(DVec3::normalize_or_zero);
+    Some(Directions { tangent, bitangent, normal, is_mirrored: area < 0.0 })
 }
 
 #[cfg(test)]
@@ -251,15 +265,15 @@ mod tests {
         for _ in 0..2000 {
             let places = [(); 3].map(|()| DVec3::new(number(), number(), number()));
             let skin = [(); 3].map(|()| [number(), number()]);
-            let Some(found) = derivatives(places, skin) else { continue };
-            for corner in [1, 2] {
-                let [s, t] = [skin[corner][0] - skin[0][0], skin[corner][1] - skin[0][1]];
-                let edge = places[corner] - places[0];
-                let size = s.abs() * found.by_s.length() + t.abs() * found.by_t.length();
-                assert!(edge.distance(s * found.by_s + t * found.by_t) < 1e-12 * size);
+            let Some(found) = directions(places, skin) else { continue };
+            let edges = [1, 2].map(|corner| places[corner] - places[0]);
+            let [by_s, by_t] = derivatives(edges, skin, skin_area(skin).unwrap());
+            for (edge, [s, t]) in edges.into_iter().zip(skin_edges(skin)) {
+                let size = s.abs() * by_s.length() + t.abs() * by_t.length();
+                assert!(edge.distance(s * by_s + t * by_t) < 1e-12 * size);
             }
             // T × B is outwards where the skin is not mirrored.
-            let side = found.by_s.cross(found.by_t).dot(found.normal);
+            let side = by_s.cross(by_t).dot(found.normal);
             assert!(side != 0.0 && (side < 0.0) == found.is_mirrored);
         }
     }
@@ -337,7 +351,7 @@ mod tests {
             let places = [DVec3::ZERO, by_s, by_t];
             let order = if sense > 0.0 { [0, 1, 2] } else { [0, 2, 1] };
             let skin = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-            let found = derivatives(order.map(|corner| places[corner]), order.map(|corner| skin[corner])).unwrap();
+            let found = directions(order.map(|corner| places[corner]), order.map(|corner| skin[corner])).unwrap();
             let basis = found.fitted(DVec3::Z, BasisFit::Orthogonal);
             assert_eq!(found.is_mirrored, sense < 0.0);
             let [slope_s, slope_t] = [random.f64() - 0.5, random.f64() - 0.5];

@@ -47,9 +47,9 @@ pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, Error> {
     reader.decode().map_err(picture_error)
 }
 
-/// Finds the file `written` in a material library in `folder`. If it does not exist as written, backslashes count as
+/// Finds the file `written` in a material library or model in `folder`. If it does not exist as written, backslashes count as
 /// slashes, and case is ignored; then the bare file name is tried in `folder`. `None`: not found.
-pub(super) fn find_file(folder: &Path, written: &str) -> Option<PathBuf> {
+pub(crate) fn find_file(folder: &Path, written: &str) -> Option<PathBuf> {
     let slashed = written.replace('\\', "/");
     let bare = slashed.rsplit('/').next().unwrap_or_default();
     let as_written = folder.join(written);

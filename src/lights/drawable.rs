@@ -12,7 +12,7 @@ use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
     IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
-use crate::scene::{Object, Photo, Scene, photos_of};
+use crate::scene::{ModelSkin, Object, Photo, Scene, photos_of};
 
 /// A range of triangles with one material and one transform.
 #[derive(Clone, Debug)]
@@ -106,6 +106,23 @@ pub fn note_clear(scene: &Scene, notes: &mut Notes) {
         for (name, opacity) in names {
             let why = format!("its opacity, {opacity}, is below {OPAQUE}: the alpha test discards all of it");
             notes.left_out(format!("{} where it has material \"{name}\"", object.name), why);
+        }
+    }
+}
+
+/// Notes which objects wear the skins that their models name, and which have none.
+pub fn note_skins(scene: &Scene, notes: &mut Notes) {
+    for object in &scene.objects {
+        match &object.skin {
+            None => {}
+            Some(ModelSkin::Worn(path)) => {
+                let why = "its model names this skin; `decal` of its material replaces it";
+                notes.chosen(object.name.clone(), format!("decal {path}"), why);
+            }
+            Some(ModelSkin::Absent { name, why }) => {
+                let why = format!("its model names the skin {name}: {why}; `decal` of its material names another");
+                notes.chosen(object.name.clone(), "no decal", why);
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use super::{Error, Plan, Request, Subject, ViewRequest, lens, photos};
 use crate::compositions::passes::Passes;
 use crate::geometry::Derived;
 use crate::lights::bumps::note_bumps;
-use crate::lights::drawable::{items, note_clear};
+use crate::lights::drawable::{items, note_clear, note_skins};
 use crate::lights::guard::Guard;
 use crate::lights::light::name_of;
 use crate::lights::photo;
@@ -28,6 +28,7 @@ pub fn compose(scene: &Scene, request: &Request, derived: &Derived) -> Result<Pl
     let mut list = PassList::default();
     let mut notes = Notes::default();
     note_clear(scene, &mut notes);
+    note_skins(scene, &mut notes);
     note_projected(scene, &mut notes);
     note_bumps(scene, &mut notes);
     for object in scene.objects.iter().filter(|object| moved && object.wave.is_some()) {

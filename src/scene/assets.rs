@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Error;
 use super::resolve::pose::WrittenPose;
 use super::settings::{Origin, SettingsError, suggest};
+use super::{Error, ModelSkin};
 use crate::geometry::normal_map::{self, HeightField};
-use crate::geometry::{self, Mesh, Texture, md2};
+use crate::geometry::{self, Mesh, Texture, find_file, md2};
 
 /// Ends of the names of files that have a mesh.
 pub(super) const MODELS: [&str; 2] = ["obj", "md2"];
@@ -151,6 +151,31 @@ impl Assets {
             None => normal_map::load_heights(&path),
         };
         heights.map_err(|source| Error::Asset { origin: origin.clone(), source })
+    }
+
+    /// The first skin that the model of [`Self::mesh`] names, looked for beside its file by its name alone; Quake II's `.pcx`,
+    /// which cannot be read, as a picture of another kind, too. `None`: the mesh is no key-framed model, or names no skin.
+    pub fn skin(&mut self, name: &str, origin: &Origin) -> Option<(ModelSkin, Option<Arc<Texture>>)> {
+        let path = file(name, origin);
+        let Some(Model::KeyFramed(model)) = self.models.get(&canonical(&path)) else { return None };
+        let written = md2::text(model.file().skins.first()?);
+        let bare = written.rsplit(['/', '\\']).next().filter(|bare| !bare.is_empty())?.to_owned();
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let others = ["png", "jpg", "tga", "bmp"].map(|kind| Path::new(&bare).with_extension(kind));
+        let others = others.iter().filter_map(|name| name.to_str());
+        let mut why = format!("no file {bare} is beside it");
+        for found in std::iter::once(bare.as_str()).chain(others).filter_map(|name| find_file(&folder, name)) {
+            let key = canonical(&found);
+            let known = self.textures.get(&key).cloned();
+            match known.map_or_else(|| geometry::load_texture(&found).map(Arc::new), Ok) {
+                Ok(texture) => {
+                    self.textures.insert(key, texture.clone());
+                    return Some((ModelSkin::Worn(found.display().to_string()), Some(texture)));
+                }
+                Err(error) => why = error.to_string(),
+            }
+        }
+        Some((ModelSkin::Absent { name: written, why }, None))
     }
 
     fn primitive(&mut self, name: &str) -> Option<Model> {

@@ -27,7 +27,7 @@ pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
     Background, BumpMethod, BumpShading, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind,
-    LightShape, Normalize, Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
+    LightShape, ModelSkin, Normalize, Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
 pub use photo::photos_of;
 pub use projected::{

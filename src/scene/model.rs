@@ -356,6 +356,8 @@ pub struct Object {
     pub wave: Option<Wave>,
     /// Replaces every material of the mesh.
     pub material: Option<Arc<Material>>,
+    /// What became of the skin that the object's model names; `None`: it names none, or the material has a decal of its own.
+    pub skin: Option<ModelSkin>,
     /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
     /// one need one depth map.
     pub photo: Option<Arc<Photo>>,
@@ -368,6 +370,20 @@ pub struct Object {
     /// Declared and checked by the scene: the mesh is closed and its faces look outwards, so that no back face is ever seen
     /// from outside of it.
     pub closed: bool,
+}
+
+/// The first skin that a key-framed model names, for an object without a decal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ModelSkin {
+    /// The picture at this path is the decal.
+    Worn(String),
+    /// The object has no decal.
+    Absent {
+        /// Name in the model.
+        name: String,
+        /// Reason in words.
+        why: String,
+    },
 }
 
 /// A photograph of objects, and the camera that took it.

@@ -1,6 +1,7 @@
 //! glumbra against the floor: the same scene by the fewest GL calls, in processes taken in turn.
 //! Prints medians of same-round ratios; absolute times hold on no other machine. `ci/bench` builds and runs it.
 
+mod animation;
 mod child;
 mod floor;
 mod floor_dust;
@@ -52,6 +53,9 @@ pub struct Arguments {
     /// Shadow volumes on the CPU instead: adjacency, outline, extrusion
     #[arg(long)]
     volumes: bool,
+    /// A key-framed model on the CPU instead: positions, tangent bases, silhouettes
+    #[arg(long)]
+    animation: bool,
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
@@ -117,6 +121,7 @@ fn main() -> ExitCode {
     let result = match arguments.child {
         Some(who) => child::run(who, &arguments),
         None if arguments.volumes => volumes::run(&arguments),
+        None if arguments.animation => animation::run(&arguments),
         None if arguments.pairs => pairs::run(&arguments),
         None if arguments.techniques => techniques::run(&arguments),
         None => rounds::run(&arguments),

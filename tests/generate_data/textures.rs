@@ -36,9 +36,11 @@ pub fn studs() -> ImageBuffer<Luma<u16>, Vec<u16>> {
     const COLUMNS: f64 = 24.0;
     const ROWS: f64 = 10.0;
     ImageBuffer::from_fn(STUDS_SIZE[0], STUDS_SIZE[1], |x, y| {
-        let place = dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5) / dvec2(f64::from(STUDS_SIZE[0]), f64::from(STUDS_SIZE[1]));
+        let place =
+            dvec2(f64::from(x) + 0.5, f64::from(y) + 0.5) / dvec2(f64::from(STUDS_SIZE[0]), f64::from(STUDS_SIZE[1]));
         let height = (0..2).map(|odd| {
-            let off = dvec2(COLUMNS * place.x - 0.5 * f64::from(odd), 0.5 * ROWS * place.y - 0.5 * f64::from(odd) - 0.25);
+            let off =
+                dvec2(COLUMNS * place.x - 0.5 * f64::from(odd), 0.5 * ROWS * place.y - 0.5 * f64::from(odd) - 0.25);
             let off = off - off.round();
             // In units of a stud's own spacing; rows of one parity are two rows apart.
             let distance_squared = (off * dvec2(1.0, 2.0)).length_squared() / (0.46 * 0.46);

@@ -40,6 +40,7 @@ mod light_reports;
 mod listing_drawn;
 mod many_lights;
 mod md2;
+mod md2_motion;
 mod mistakes;
 mod mutated;
 mod oracle;

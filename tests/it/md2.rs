@@ -9,7 +9,7 @@ use glumbra::geometry::{Mesh, topology};
 
 /// A closed body of random vertices: a sphere of latitudes and longitudes with a seam in its skin, clockwise as MD2 has it,
 /// which other random numbers bulge in each frame.
-fn random_model(random: &mut fastrand::Rng) -> Md2 {
+pub fn random_model(random: &mut fastrand::Rng) -> Md2 {
     let (rings, sides) = (random.usize(2..7), random.usize(3..9));
     let place = |ring: usize, side: usize| match ring {
         0 => 0,
@@ -324,6 +324,70 @@ fn scenes_name_frames() {
     std::fs::write(&path, "[[object]]\nmesh = \"box\"\nframe = 1\n").unwrap();
     let error = glumbra::load(&path, &[]).unwrap_err().to_string();
     assert!(error.contains("box.toml:3: `object.frame` belongs to key-framed models"), "{error}");
+}
+
+/// The decal of the scene's object, and what its plan says of it.
+fn decal(folder: &Path, keys: &str) -> (Option<[u32; 2]>, Vec<String>) {
+    let path = folder.join("scene.toml");
+    std::fs::write(&path, format!("{SCENE}{keys}\n")).unwrap();
+    let loaded = glumbra::load(&path, &[]).unwrap();
+    assert!(loaded.warnings.iter().all(|warning| warning.contains("no [[light]]")), "{:?}", loaded.warnings);
+    let plan = glumbra::plan::make(&loaded.scene, &Default::default()).unwrap();
+    assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
+    let said = plan.chosen.iter().filter(|chosen| chosen.why.contains("skin"));
+    let said = said.map(|chosen| format!("{}: {}: {}", chosen.of, chosen.choice, chosen.why)).collect();
+    let material = loaded.scene.objects[0].material.as_ref();
+    let decal = material.and_then(|material| material.decal.as_ref());
+    (decal.map(|decal| [decal.width, decal.height]), said)
+}
+
+#[test]
+fn a_skin_beside_the_file_is_the_decal() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut file = random_model(&mut fastrand::Rng::with_seed(14));
+    let picture = |name: &str, width: u32| image::RgbaImage::new(width, 2).save(folder.join(name)).unwrap();
+    let write = |file: &Md2| std::fs::write(folder.join("model.md2"), md2::write(file)).unwrap();
+    let name = |file: &mut Md2, text: &str| {
+        file.skins[0] = [0; 64];
+        file.skins[0][..text.len()].copy_from_slice(text.as_bytes());
+    };
+    write(&file);
+    // The random model names body.png.
+    let (found, said) = decal(folder, "");
+    assert_eq!(found, None);
+    assert!(
+        said.len() == 1 && said[0].contains("no decal: its model names the skin body.png: no file body.png"),
+        "{said:?}"
+    );
+    picture("body.png", 3);
+    picture("other.png", 5);
+    let (found, said) = decal(folder, "");
+    assert_eq!(found, Some([3, 2]));
+    assert!(said.len() == 1 && said[0].contains("decal ") && said[0].contains("body.png: its model names"), "{said:?}");
+    assert_eq!(decal(folder, "material = { diffuse = [1, 0, 0] }").0, Some([3, 2]));
+    assert_eq!(decal(folder, "material = { decal = \"other.png\" }"), (Some([5, 2]), Vec::new()));
+    // The file's name alone, with slashes of either kind, in any case; a picture in place of a .pcx.
+    for (written, expected) in
+        [("players/male/BODY.png", 3), (r"C:\quake2\other.png", 5), ("models/other.pcx", 5), ("../body.png", 3)]
+    {
+        name(&mut file, written);
+        write(&file);
+        assert_eq!(decal(folder, "").0, Some([expected, 2]), "{written}");
+    }
+    std::fs::write(folder.join("broken.png"), b"no picture").unwrap();
+    name(&mut file, "broken.png");
+    write(&file);
+    let (found, said) = decal(folder, "");
+    assert!(found.is_none() && said.len() == 1 && said[0].contains("broken.png"), "{said:?}");
+    for written in ["", "textures/", ".."] {
+        name(&mut file, written);
+        write(&file);
+        assert_eq!(decal(folder, "").0, None, "{written}");
+    }
+    file.skins.clear();
+    write(&file);
+    assert_eq!(decal(folder, ""), (None, Vec::new()));
 }
 
 /// Models with what other programs may refuse, and with triangles to be left out or turned.

@@ -177,31 +177,66 @@ impl Model {
     ///
     /// A vertex's normal is that of the file, blended and of unit length, or the mean of its triangles by their angles.
     pub fn mesh(&self, pose: &Pose, source: NormalSource) -> Mesh {
-        let positions: Vec<DVec3> = self.vertices().map(|vertex| self.position(pose, vertex)).collect();
-        let normals = self.vertices().map(|vertex| match source {
-            NormalSource::File => self.normal(pose, vertex),
-            NormalSource::Recomputed => Vec3::ZERO,
-        });
-        let [width, height] = self.file.skin_size.map(f64::from);
-        let texcoords = self.corners.iter().map(|[_, texcoord]| {
-            let [s, t] = self.file.texcoords[usize::from(*texcoord)].map(f64::from);
-            [(s / width) as f32, (1.0 - t / height) as f32]
-        });
         let indices = 0..self.indices.len() as u32;
         let part = Part { name: self.name.clone(), indices, material: None, bounds: Aabb::EMPTY };
         let mut mesh = Mesh {
             name: self.name.clone(),
-            normals: normals.map(|normal| normal.to_array()).collect(),
-            texcoords: Some(texcoords.collect()),
-            positions: positions.iter().map(|position| position.as_vec3().to_array()).collect(),
+            texcoords: Some(self.texcoords().collect()),
             indices: self.indices.clone(),
             parts: vec![part],
             ..Mesh::default()
         };
-        // No edge stays sharp: the corners are the same in every pose.
-        smooth::complete(&mut mesh, std::f64::consts::PI);
-        mesh.update_bounds();
+        self.move_to(pose, source, &mut mesh);
         mesh
+    }
+
+    /// Moves a mesh of [`Self::mesh`] to another pose. With the file's normals nothing is allocated.
+    pub fn move_to(&self, pose: &Pose, source: NormalSource, mesh: &mut Mesh) {
+        mesh.positions.clear();
+        mesh.positions.extend(self.vertices().map(|vertex| self.position(pose, vertex).as_vec3().to_array()));
+        mesh.normals.clear();
+        match source {
+            NormalSource::File => {
+                // Of unit length in f32, too, as those that are completed.
+                let unit = |normal: Vec3| normal.as_dvec3().normalize_or_zero().as_vec3().to_array();
+                mesh.normals.extend(self.vertices().map(|vertex| unit(self.normal(pose, vertex))));
+            }
+            NormalSource::Recomputed => mesh.normals.resize(self.corners.len(), [0.0; 3]),
+        }
+        // No edge stays sharp: the corners are the same in every pose.
+        if mesh.normals.contains(&[0.0; 3]) {
+            smooth::complete(mesh, std::f64::consts::PI);
+        }
+        mesh.update_bounds();
+    }
+
+    /// Texture coordinates of [`Self::mesh`], t upwards.
+    pub fn texcoords(&self) -> impl ExactSizeIterator<Item = [f32; 2]> {
+        let [width, height] = self.file.skin_size.map(f64::from);
+        self.corners.iter().map(move |[_, texcoord]| {
+            let [s, t] = self.file.texcoords[usize::from(*texcoord)].map(f64::from);
+            [(s / width) as f32, (1.0 - t / height) as f32]
+        })
+    }
+
+    /// A vertex of the file at each place, and the three places of each triangle, counter-clockwise from outside. Two vertices
+    /// share a place if their positions are equal in every frame, and with that in every pose.
+    pub fn places(&self) -> (Vec<usize>, Vec<[u32; 3]>) {
+        let (mut known, mut stand_ins) = (HashMap::new(), Vec::new());
+        let count = self.file.frames.first().map_or(0, |frame| frame.vertices.len());
+        let places: Vec<u32> = (0..count)
+            .map(|vertex| {
+                // Adding zero makes 0 of -0, as they compare equal.
+                let bits = |frame: &file::Frame| frame.position(vertex).map(|part| (part + 0.0).to_bits());
+                let course: Vec<[u64; 3]> = self.file.frames.iter().map(bits).collect();
+                *known.entry(course).or_insert_with(|| {
+                    stand_ins.push(vertex);
+                    (stand_ins.len() - 1) as u32
+                })
+            })
+            .collect();
+        let place = |index: u32| places[usize::from(self.corners[index as usize][0])];
+        (stand_ins, self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(place)).collect())
     }
 
     /// The file's normal of a vertex; zero where two opposite ones are blended.

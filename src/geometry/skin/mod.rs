@@ -16,7 +16,7 @@ mod turn;
 use glam::{DVec2, DVec3};
 
 use super::Mesh;
-use super::tangents::{self, Derivatives, LEAST_AREA};
+use super::tangents::{self, LEAST_AREA};
 use super::topology;
 
 pub use discontinuity::{CLASS_ENDS, Discontinuity, TurnClass};
@@ -44,6 +44,13 @@ pub enum Error {
         "a map of {from} texels a side would have {to} with the skin; a picture has at most {limit}; lessen --size"
     )]
     MapTooLarge { from: u32, to: u64, limit: u32 },
+}
+
+/// Derivatives of the place on a triangle by texels, y upwards.
+struct Derivatives {
+    pub by_s: DVec3,
+    pub by_t: DVec3,
+    pub is_mirrored: bool,
 }
 
 /// A mesh's triangles with their places on the skin.
@@ -153,6 +160,11 @@ impl SkinTriangle {
 
     /// Derivatives of the place on the surface by texels, y upwards.
     fn derivatives(&self) -> Option<Derivatives> {
-        tangents::derivatives(self.positions, self.texels.map(|texel| [texel.x, -texel.y]))
+        let [a, b, c] = self.positions;
+        let (edges, skin) = ([b - a, c - a], self.texels.map(|texel| [texel.x, -texel.y]));
+        edges[0].cross(edges[1]).try_normalize()?;
+        let area = tangents::skin_area(skin)?;
+        let [by_s, by_t] = tangents::derivatives(edges, skin, area);
+        Some(Derivatives { by_s, by_t, is_mirrored: area < 0.0 })
     }
 }

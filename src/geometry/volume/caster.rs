@@ -43,7 +43,7 @@ impl Caster {
             let indices = mesh.indices.get(range.start as usize..range.end as usize).unwrap_or_default();
             indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|index| places[index as usize]))
         });
-        Self::from_places(positions, corners.filter(|[a, b, c]| a != b && b != c && c != a).collect())
+        Self::of_places(positions, corners.collect())
     }
 
     /// All triangles of a mesh.
@@ -52,7 +52,10 @@ impl Caster {
         Self::new(mesh, std::slice::from_ref(&all))
     }
 
-    fn from_places(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+    /// Triangles of places, three indices into `positions` each, for vertices that move: two of them are one place if they are
+    /// so in every pose.
+    pub fn of_places(positions: Vec<[f32; 3]>, mut triangles: Vec<[u32; 3]>) -> Self {
+        triangles.retain(|[a, b, c]| a != b && b != c && c != a);
         let mut uses = uses(&triangles);
         let order = components::sorted_by_shell(triangles.len(), uses.chunk_by(|a, b| a.places == b.places));
         let triangles: Vec<[u32; 3]> = order.iter().map(|(_, triangle)| triangles[*triangle as usize]).collect();
@@ -64,6 +67,22 @@ impl Caster {
         let mut caster = Self { positions, triangles, planes, shells: Vec::new(), plain, other };
         caster.shells = components::describe(&order, &caster.other, |triangle| caster.corners(triangle));
         caster
+    }
+
+    /// Moves every place to `position` of its number. Edges and shells stay, even where places meet.
+    pub fn move_to(&mut self, position: impl FnMut(usize) -> [f32; 3]) {
+        self.move_places(position);
+        self.planes.set(&self.positions, &self.triangles);
+    }
+
+    /// [`Self::move_to`] without the triangles' planes, for [`Outline::find_between`](super::Outline::find_between), which has
+    /// its own; [`Outline::find`](super::Outline::find) then tests each triangle by exact arithmetic.
+    pub fn move_places(&mut self, mut position: impl FnMut(usize) -> [f32; 3]) {
+        self.planes.clear();
+        self.positions.iter_mut().enumerate().for_each(|(place, own)| *own = position(place));
+        let Self { positions, triangles, shells, .. } = self;
+        let corners = |triangle: usize| triangles[triangle].map(|place| corner(positions, place));
+        shells.iter_mut().for_each(|shell| shell.update(corners));
     }
 
     /// Triangles that may count: none of them collapsed.
@@ -96,10 +115,14 @@ impl Caster {
     }
 
     pub(super) fn position(&self, place: u32) -> DVec3 {
-        DVec3::from_array(self.positions[place as usize].map(f64::from))
+        corner(&self.positions, place)
     }
 
     pub(super) fn corners(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|place| self.position(place))
     }
+}
+
+fn corner(positions: &[[f32; 3]], place: u32) -> DVec3 {
+    DVec3::from_array(positions[place as usize].map(f64::from))
 }

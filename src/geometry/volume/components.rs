@@ -91,15 +91,25 @@ pub(super) fn describe(
     });
     runs.map(|triangles| {
         let own = triangles.start as usize..triangles.end as usize;
-        let kind = match is_open[own.clone()].iter().any(|open| *open) {
-            true => SurfaceKind::Open,
-            false if looks_outwards(&corners, own.clone()) => SurfaceKind::Closed,
-            false => SurfaceKind::InsideOut,
-        };
-        let bounds = Aabb::from_points(own.flat_map(&corners));
-        Component { triangles, kind, bounds }
+        let is_open = is_open[own].iter().any(|open| *open);
+        let kind = if is_open { SurfaceKind::Open } else { SurfaceKind::Closed };
+        let mut shell = Component { triangles, kind, bounds: Aabb::EMPTY };
+        shell.update(&corners);
+        shell
     })
     .collect()
+}
+
+impl Component {
+    /// Sets the bounds and the way that a closed shell looks, by the corners of its triangles.
+    pub(super) fn update(&mut self, corners: impl Fn(usize) -> [DVec3; 3]) {
+        let own = self.triangles.start as usize..self.triangles.end as usize;
+        if self.kind.is_closed() {
+            let outwards = looks_outwards(&corners, own.clone());
+            self.kind = if outwards { SurfaceKind::Closed } else { SurfaceKind::InsideOut };
+        }
+        self.bounds = Aabb::from_points(own.flat_map(corners));
+    }
 }
 
 fn looks_outwards(corners: &impl Fn(usize) -> [DVec3; 3], triangles: Range<usize>) -> bool {

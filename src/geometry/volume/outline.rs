@@ -2,7 +2,7 @@
 //! count, as directed edges with multiplicity. All buffers are kept from one light or frame to the next.
 
 use super::loops::{self, OutlineEdge};
-use super::{Caster, CountedFaces, LightSource};
+use super::{Caster, CountedFaces, KeyPlanes, LightSource, PlaneBlend};
 
 /// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
@@ -20,16 +20,59 @@ pub struct Outline {
 impl Outline {
     /// Finds the counted triangles of `caster` and their boundary, for a light in the caster's model space.
     pub fn find(&mut self, caster: &Caster, source: LightSource) {
-        self.source = Some(source);
-        self.weights.resize(caster.triangles.len(), 0);
-        self.countings.clear();
-        self.exact_tests = 0;
+        self.begin(caster, source);
         for shell in &caster.shells {
             let range = shell.triangles.start as usize..shell.triangles.end as usize;
             self.exact_tests +=
-                caster.planes.sides(|triangle| caster.corners(triangle), range.clone(), source, &mut self.weights);
+                caster.planes.sides(|triangle| caster.corners(triangle), range, source, &mut self.weights);
+        }
+        self.count(caster, source);
+    }
+
+    /// [`Self::find`] for a caster between two key frames, by its triangles' planes at that `blend`.
+    /// [`PlaneBlend::Exact`]: the same triangles count. [`PlaneBlend::Lerped`]: the volume is closed, but triangles near to the
+    /// silhouette may be taken for the wrong side.
+    pub fn find_between(
+        &mut self,
+        caster: &Caster,
+        planes: &KeyPlanes,
+        blend: f64,
+        by: PlaneBlend,
+        source: LightSource,
+    ) {
+        self.begin(caster, source);
+        planes.sides(blend, by, source, &mut self.weights);
+        if by == PlaneBlend::Exact && self.weights.contains(&0) {
+            for (triangle, side) in self.weights.iter_mut().enumerate().filter(|(_, side)| **side == 0) {
+                *side = caster.planes.exact_side(&caster.corners(triangle), triangle, source);
+                self.exact_tests += 1;
+            }
+        }
+        self.count(caster, source);
+    }
+
+    /// [`Self::find`] with sides of the triangles that are given: 1 seen counter-clockwise from the light, -1 clockwise, 0
+    /// neither. Whatever they are, the volume is closed.
+    pub fn find_by_sides(&mut self, caster: &Caster, source: LightSource, sides: &[i8]) {
+        self.begin(caster, source);
+        self.weights.iter_mut().zip(sides).for_each(|(weight, side)| *weight = side.signum());
+        self.count(caster, source);
+    }
+
+    fn begin(&mut self, caster: &Caster, source: LightSource) {
+        self.source = Some(source);
+        self.weights.clear();
+        self.weights.resize(caster.triangles.len(), 0);
+        self.countings.clear();
+        self.exact_tests = 0;
+    }
+
+    /// Finds the counted triangles from sides, and their boundary.
+    fn count(&mut self, caster: &Caster, source: LightSource) {
+        for shell in &caster.shells {
             let counting = caster.counting(shell, source);
             if counting == CountedFaces::Facing {
+                let range = shell.triangles.start as usize..shell.triangles.end as usize;
                 self.weights[range].iter_mut().for_each(|weight| *weight = (*weight).max(0));
             }
             self.countings.push(counting);

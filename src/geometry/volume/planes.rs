@@ -34,16 +34,28 @@ pub(super) struct Planes {
 
 impl Planes {
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+        let mut planes = Self::default();
+        planes.set(positions, triangles);
+        planes
+    }
+
+    /// As [`Self::new`], in the same buffers.
+    pub fn set(&mut self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) {
         let position = |place: u32| DVec3::from_array(positions[place as usize].map(f64::from));
-        let mut planes =
-            Self { center: triangles.first().map_or(DVec3::ZERO, |triangle| position(triangle[0])), ..Self::default() };
-        for array in [&mut planes.x, &mut planes.y, &mut planes.z, &mut planes.offset] {
+        self.clear();
+        self.center = triangles.first().map_or(DVec3::ZERO, |triangle| position(triangle[0]));
+        for array in [&mut self.x, &mut self.y, &mut self.z, &mut self.offset] {
             array.reserve_exact(triangles.len());
         }
         for triangle in triangles {
-            planes.push(&triangle.map(position));
+            self.push(&triangle.map(position));
         }
-        planes
+    }
+
+    /// Forgets the planes: every side is then found by exact arithmetic.
+    pub fn clear(&mut self) {
+        [&mut self.x, &mut self.y, &mut self.z, &mut self.offset].into_iter().for_each(Vec::clear);
+        self.reach = 0.0;
     }
 
     fn push(&mut self, corners: &[DVec3; 3]) {
@@ -51,8 +63,7 @@ impl Planes {
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
         let magnitude = (u.abs().max_element() * v.abs().max_element()).max(f64::MIN_POSITIVE);
-        // The next power of two above twice the magnitude.
-        let scale = (-(magnitude.log2().floor() + 2.0)).exp2();
+        let scale = power_of_two_below(0.5 / magnitude);
         let normal = normal * scale;
         // Exact arithmetic only where a normal may be nothing but rounding.
         let is_flat = normal.abs().max_element() <= ROUNDINGS * ROUNDOFF && exact::are_collinear(corners);
@@ -102,6 +113,9 @@ impl Planes {
 
     /// Signs of values beyond `doubt`, 0 elsewhere.
     fn estimate(&self, block: Range<usize>, light: DVec3, w: f64, doubt: f64, sides: &mut [i8]) {
+        if self.x.is_empty() {
+            return sides.fill(0);
+        }
         let (x, y, z) = (&self.x[block.clone()], &self.y[block.clone()], &self.z[block.clone()]);
         let offset = &self.offset[block];
         for ((((side, x), y), z), offset) in sides.iter_mut().zip(x).zip(y).zip(z).zip(offset) {
@@ -111,7 +125,7 @@ impl Planes {
     }
 
     fn is_flat(&self, triangle: usize) -> bool {
-        [&self.x, &self.y, &self.z].iter().all(|array| array[triangle] == 0.0)
+        [&self.x, &self.y, &self.z].iter().all(|array| array.get(triangle) == Some(&0.0))
     }
 
     /// The side of one triangle, whose `corners` these are. Exact.
@@ -122,4 +136,10 @@ impl Planes {
             LightSource::Direction(direction) => exact::side_of_direction(corners, direction),
         }
     }
+}
+
+/// The greatest power of two that is at most `value`, a positive normal number.
+fn power_of_two_below(value: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    f64::from_bits(value.to_bits() & EXPONENT)
 }

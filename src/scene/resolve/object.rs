@@ -8,11 +8,11 @@ use super::material;
 use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
 use crate::geometry::tangents::BasisCounts;
-use crate::geometry::{Material, Mesh, Wave};
+use crate::geometry::{Material, Mesh, Texture, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
-use crate::scene::{Error, Object, Shading};
+use crate::scene::{Error, ModelSkin, Object, Shading};
 
 /// Resolves one object, and reads its photograph.
 ///
@@ -36,7 +36,8 @@ pub(in crate::scene) fn read(
     reader.finish()?;
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
-    let mesh = assets.mesh(mesh, mesh_origin, &pose)?;
+    let (mesh_name, mesh) = (mesh, assets.mesh(mesh, mesh_origin, &pose)?);
+    let (material, skin) = with_skin(material, &name, || assets.skin(mesh_name, mesh_origin));
     let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
@@ -44,7 +45,8 @@ pub(in crate::scene) fn read(
     let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
     let wave = wave.map(|wave| wave.relative_to(mesh.origin));
     let material = material.map(|material| relative_to(material, mesh.origin));
-    let object = Object { name, mesh, world_from_model, wave, material, photo: None, bases, lit, casts_shadow, closed };
+    let object =
+        Object { name, mesh, world_from_model, wave, material, skin, photo: None, bases, lit, casts_shadow, closed };
     check_reach(&object, table)?;
     warn_of_clear(&object, table, assets);
     Ok((object, photo))
@@ -52,6 +54,26 @@ pub(in crate::scene) fn read(
 
 /// Exponent of specular light that three squarings make.
 const COMBINED_SHININESS: f32 = 8.0;
+
+/// The material with the skin that the object's model names, where it has no decal of its own.
+fn with_skin(
+    material: Option<Arc<Material>>,
+    owner: &str,
+    find: impl FnOnce() -> Option<(ModelSkin, Option<Arc<Texture>>)>,
+) -> (Option<Arc<Material>>, Option<ModelSkin>) {
+    if material.as_ref().is_some_and(|material| material.decal.is_some()) {
+        return (material, None);
+    }
+    match find() {
+        None => (material, None),
+        Some((skin, None)) => (material, Some(skin)),
+        Some((skin, decal)) => {
+            let name = format!("material of {owner}");
+            let own = material.map_or_else(|| Material { name, ..Material::default() }, |own| (*own).clone());
+            (Some(Arc::new(Material { decal, ..own })), Some(skin))
+        }
+    }
+}
 
 /// The mesh with the bases that a bump map needs.
 fn with_bases(
