@@ -120,7 +120,14 @@ fn scrub(renderer: &mut Renderer, plan: &Plan) -> Result<(), String> {
     let mut list = PassList { images: plan.list.images.clone(), passes: Vec::new() };
     for (index, desc) in plan.list.images.iter().enumerate() {
         let (color, depth) = match (&desc.storage, desc.format) {
-            (Storage::Uploaded(_) | Storage::Line(_) | Storage::Values(_), _) => continue,
+            (
+                Storage::Uploaded(_)
+                | Storage::Levels(_)
+                | Storage::UnitVectors
+                | Storage::Line(_)
+                | Storage::Values(_),
+                _,
+            ) => continue,
             (_, format) if format.has_depth() => (None, Some(ImageId(index))),
             _ => (Some(ImageId(index)), None),
         };
