@@ -9,6 +9,7 @@ mod pipeline;
 mod plan;
 mod render;
 mod repack;
+mod repack_report;
 mod report;
 mod report_light;
 pub mod sample;

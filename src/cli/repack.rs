@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::repack_report::{Report, print, warn};
 use super::scene_args::parse_size;
 use crate::geometry::md2::{self, Model, NormalSource, Pose};
-use crate::geometry::skin::{self, CLASS_ENDS, Discontinuity, Raster, RepackOptions, Repacked, Skin};
+use crate::geometry::skin::{self, LARGEST, Raster, RepackOptions, Repacked, Skin};
 use crate::geometry::{self, Mesh, load_obj};
 use crate::output::{self, atomic_write};
 
@@ -55,6 +56,10 @@ pub struct RepackArgs {
     /// The key frame of an MD2 model in which angles are measured, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     frame: usize,
+
+    /// Prints the numbers as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 const HELP: &str = "\
@@ -78,9 +83,6 @@ Examples:
   glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --unmirror --cut 45 -o repacked
   glumbra repack model.obj --decal skin.png --size 1024x1024 --gutter 8 -o repacked";
 
-/// Most texels a side of a picture.
-const LARGEST: u32 = 16384;
-
 /// Error of the command.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -96,7 +98,7 @@ pub enum Error {
     NoFrame { model: PathBuf, frame: usize, frames: usize },
     #[error("{}: the new skin has more than 65536 distinct texels, which an MD2 file cannot index", .0.display())]
     TooManyTexels(PathBuf),
-    #[error("--size {width}x{height}: a picture has 1 to {LARGEST} texels a side")]
+    #[error("--size {width}x{height}: a skin has 1 to {LARGEST} texels a side")]
     Size { width: u32, height: u32 },
     #[error("{model}: an OBJ model does not say how many texels its skin has; give --decal, --height or --gloss", model = .0.display())]
     NoTexels(PathBuf),
@@ -116,10 +118,11 @@ enum Source {
 
 /// Repacks, writes, and prints what changed.
 pub fn run(arguments: &RepackArgs) -> Result<(), super::Error> {
-    Ok(repack(arguments)?).and_then(|text| super::print(&text))
+    let report = repack(arguments)?;
+    if arguments.json { super::print_json(&report) } else { super::print(&print(&report)) }
 }
 
-fn repack(arguments: &RepackArgs) -> Result<String, Error> {
+fn repack(arguments: &RepackArgs) -> Result<Report, Error> {
     if let Some([width, height]) = arguments.size
         && [width, height].iter().any(|side| !(1..=LARGEST).contains(side))
     {
@@ -149,8 +152,9 @@ fn repack(arguments: &RepackArgs) -> Result<String, Error> {
         contents.push(sampled.to_png().map_err(failed)?);
     }
     write(&arguments.output, &files, &contents)?;
-    warn(&old, &new);
-    Ok(report(&old, &new, &files))
+    let report = Report::new(&old, &new, &files);
+    warn(&report);
+    Ok(report)
 }
 
 impl RepackArgs {
@@ -269,57 +273,6 @@ fn write(folder: &Path, files: &[PathBuf], contents: &[Vec<u8>]) -> Result<(), E
     let paths: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
     atomic_write::write_all(&paths, |index, temporary| std::fs::write(temporary, &contents[index]))
         .map_err(|(index, error)| failed(paths[index], &error))
-}
-
-/// Warns where the new skin is worse than the old one.
-fn warn(old: &Skin, new: &Repacked) {
-    if new.flattened > 0 {
-        let count = new.flattened;
-        super::say(format_args!(
-            "warning: {count} triangles are so small that rounding to whole texels leaves them no area or turns them over; \
-             a larger picture of the skin has smaller texels"
-        ));
-    }
-    let (before, after) = (old.discontinuity().mean_degrees, new.discontinuity.mean_degrees);
-    if after > before + 1e-9 {
-        super::say(format_args!(
-            "warning: the mean angle grew from {before:.3} to {after:.3} degrees; a larger --size rounds less"
-        ));
-    }
-}
-
-fn report(old: &Skin, new: &Repacked, files: &[PathBuf]) -> String {
-    let before = old.discontinuity();
-    let after = &new.discontinuity;
-    let Repacked { islands, pieces, turned, scale, .. } = new;
-    let [from, to] = [old.size(), new.skin.size()].map(|[width, height]| format!("{width}x{height}"));
-    let row = |what: &str, before: String, after: String| format!("{what:<36}{before:>16}{after:>16}\n");
-    let number = |value: f64| format!("{value:.2}");
-    let mut text = format!(
-        "# {islands} islands in {pieces} pieces; {turned} turned by other than quarter turns; scale {scale:.4}\n"
-    );
-    text += &row("", String::from("before"), String::from("after"));
-    text += &row("texels", from, to);
-    text += &row("texels a unit of length", number(old.density()), number(new.skin.density()));
-    text += &row("mirrored triangles", old.mirrored().to_string(), new.skin.mirrored().to_string());
-    text += "# Edges by the angle between the t axes of their two triangles: number, share of length\n";
-    let edges = |count: usize, share: f64| format!("{count} {:>6.2} %", 100.0 * share);
-    let mut low = 0.0;
-    for (index, high) in CLASS_ENDS.iter().enumerate() {
-        let class = |found: &Discontinuity| edges(found.classes[index].edges, found.classes[index].share);
-        text += &row(&format!("{low} to {high} degrees"), class(&before), class(after));
-        low = *high;
-    }
-    let mirrored = |found: &Discontinuity| edges(found.mirrored_pairs, found.mirrored_share);
-    text += &row("mirrored against each other", mirrored(&before), mirrored(after));
-    text += &row("without a basis", before.without.to_string(), after.without.to_string());
-    let degrees = |value: f64| format!("{value:.3}");
-    text += &row("mean angle in degrees", degrees(before.mean_degrees), degrees(after.mean_degrees));
-    text += &row("largest angle in degrees", degrees(before.largest_degrees), degrees(after.largest_degrees));
-    for file in files {
-        text += &format!("# {}\n", file.display());
-    }
-    text
 }
 
 /// Reads an angle from 0 to 180 degrees.

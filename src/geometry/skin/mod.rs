@@ -21,6 +21,7 @@ use super::topology;
 
 pub use discontinuity::{CLASS_ENDS, Discontinuity, TurnClass};
 pub use obj_text::write_obj;
+pub use pack::LARGEST;
 pub use raster::Raster;
 pub use repack::{RepackOptions, Repacked, repack};
 

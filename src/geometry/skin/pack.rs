@@ -4,8 +4,8 @@ use guillotiere::{AtlasAllocator, size2};
 
 use super::Error;
 
-/// Most texels a side of a picture whose size was not given.
-pub(super) const LARGEST: u32 = 8192;
+/// Most texels a side of a new skin.
+pub const LARGEST: u32 = 8192;
 /// Halvings of the interval in which the greatest scale that fits is searched.
 const HALVINGS: usize = 20;
 /// Scale below which the gutters alone are taken to fill the picture.

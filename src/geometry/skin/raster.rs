@@ -18,7 +18,7 @@ pub struct Raster {
     /// 16 bits a channel in place of 8.
     pub is_deep: bool,
     /// Codes, from 0 to 255 or 65535.
-    pub samples: Vec<f32>,
+    pub samples: Vec<u16>,
 }
 
 impl Raster {
@@ -60,16 +60,16 @@ impl Raster {
     /// A picture of the same kind, black.
     pub(super) fn black(&self, size: [u32; 2]) -> Self {
         let count = self.channels * size[0] as usize * size[1] as usize;
-        Self { size, samples: vec![0.0; count], ..*self }
+        Self { size, samples: vec![0; count], ..*self }
     }
 
     /// A texel's codes.
-    pub fn texel(&self, [x, y]: [u32; 2]) -> &[f32] {
+    pub fn texel(&self, [x, y]: [u32; 2]) -> &[u16] {
         let first = self.channels * (y as usize * self.size[0] as usize + x as usize);
         &self.samples[first..first + self.channels]
     }
 
-    /// The bytes of a PNG. Codes are rounded to the nearest.
+    /// The bytes of a PNG.
     ///
     /// # Errors
     ///
@@ -85,10 +85,9 @@ impl Raster {
             (3, true) => ExtendedColorType::Rgb16,
             (_, true) => ExtendedColorType::Rgba16,
         };
-        let codes = self.samples.iter().map(|sample| (sample + 0.5).floor());
         let bytes: Vec<u8> = match self.is_deep {
-            false => codes.map(|code| code as u8).collect(),
-            true => codes.flat_map(|code| (code as u16).to_ne_bytes()).collect(),
+            false => self.samples.iter().map(|code| *code as u8).collect(),
+            true => self.samples.iter().flat_map(|code| code.to_ne_bytes()).collect(),
         };
         let mut file = Cursor::new(Vec::new());
         PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive).write_image(
@@ -101,6 +100,6 @@ impl Raster {
     }
 }
 
-fn codes<T: Copy + Into<f32>>(samples: &[T]) -> Vec<f32> {
+fn codes<T: Copy + Into<u16>>(samples: &[T]) -> Vec<u16> {
     samples.iter().map(|sample| (*sample).into()).collect()
 }

@@ -5,8 +5,6 @@
 //! gutter around each island repeats the nearest of those texels, so that filters and the first mipmaps find no foreign
 //! colour. All other texels have the mean colour.
 
-use std::collections::VecDeque;
-
 use glam::{DVec2, dvec2};
 
 use super::{Error, Raster, Repacked, Skin};
@@ -144,22 +142,24 @@ impl Painter<'_> {
 
     /// Gives texels around coloured ones the colour of the nearest, ring by ring.
     fn extend(&mut self, rings: u32) {
-        let coloured = (0..self.owners.len()).filter(|index| self.owners[*index] != FREE);
-        let mut queue: VecDeque<(usize, u32)> = coloured.map(|index| (index, 0)).collect();
-        let (width, channels) = (self.new.size[0] as usize, self.new.channels);
-        while let Some((index, ring)) = queue.pop_front() {
-            if ring == rings {
-                continue;
-            }
-            let texel = [(index % width) as u32, (index / width) as u32];
-            for next in self.around(texel) {
-                if self.owners[next] == FREE {
-                    self.owners[next] = self.owners[index];
-                    let from = channels * index;
-                    self.new.samples.copy_within(from..from + channels, channels * next);
-                    queue.push_back((next, ring + 1));
+        let width = self.new.size[0] as usize;
+        let texel = |index: usize| [(index % width) as u32, (index / width) as u32];
+        let is_free = |index: usize| self.owners[index] == FREE;
+        let at_rim = |index: &usize| !is_free(*index) && self.around(texel(*index)).any(is_free);
+        let mut ring: Vec<usize> = (0..self.owners.len()).filter(at_rim).collect();
+        for _ in 0..rings {
+            let mut next = Vec::new();
+            for index in ring {
+                for beside in self.around(texel(index)) {
+                    if self.owners[beside] == FREE {
+                        self.owners[beside] = self.owners[index];
+                        let (from, channels) = (self.new.channels * index, self.new.channels);
+                        self.new.samples.copy_within(from..from + channels, channels * beside);
+                        next.push(beside);
+                    }
                 }
             }
+            ring = next;
         }
     }
 
@@ -173,7 +173,7 @@ impl Painter<'_> {
             count += 1.0;
             sums.iter_mut().zip(texel).for_each(|(sum, code)| *sum += f64::from(*code));
         }
-        let mean: Vec<f32> = sums.iter().map(|sum| (sum / count.max(1.0)).round() as f32).collect();
+        let mean: Vec<u16> = sums.iter().map(|sum| (sum / count.max(1.0)).round() as u16).collect();
         let texels = self.new.samples.chunks_exact_mut(channels).zip(&self.owners);
         texels.filter(|(_, owner)| **owner == FREE).for_each(|(texel, _)| texel.copy_from_slice(&mean));
     }
@@ -215,7 +215,7 @@ fn nearest(triangle: &[DVec2; 3], point: DVec2) -> ([f64; 3], DVec2) {
 
 /// The picture's codes at a place, with bilinear filtering. It repeats beyond its rim; but where the triangle lies in one
 /// repetition, the texels at the rim go on.
-fn sample(picture: &Raster, triangle: &[DVec2; 3], place: DVec2, target: &mut [f32]) {
+fn sample(picture: &Raster, triangle: &[DVec2; 3], place: DVec2, target: &mut [u16]) {
     let size = DVec2::from_array(picture.size.map(f64::from));
     let tile = (triangle.iter().copied().sum::<DVec2>() / (3.0 * size)).floor();
     let is_within = triangle.iter().all(|corner| {
@@ -236,6 +236,6 @@ fn sample(picture: &Raster, triangle: &[DVec2; 3], place: DVec2, target: &mut [f
     let mix = |a: f64, b: f64, share: f64| if share == 0.0 { a } else { a + share * (b - a) };
     for (channel, target) in target.iter_mut().enumerate() {
         let row = |row: usize| mix(f64::from(texels[row][0][channel]), f64::from(texels[row][1][channel]), share.x);
-        *target = mix(row(0), row(1), share.y) as f32;
+        *target = (mix(row(0), row(1), share.y) + 0.5).floor() as u16;
     }
 }
