@@ -346,7 +346,7 @@ fn a_skin_beside_the_file_is_the_decal() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let mut file = random_model(&mut fastrand::Rng::with_seed(14));
-    let picture = |name: &str, width: u32| image::RgbaImage::new(width, 2).save(folder.join(name)).unwrap();
+    let picture = |name: &str, width: u32| image::RgbImage::new(width, 2).save(folder.join(name)).unwrap();
     let write = |file: &Md2| std::fs::write(folder.join("model.md2"), md2::write(file)).unwrap();
     let name = |file: &mut Md2, text: &str| {
         file.skins[0] = [0; 64];

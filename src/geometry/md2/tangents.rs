@@ -16,7 +16,7 @@ const BLOCK: usize = 64;
 /// Derivatives of the triangles of a model by the skin, in every key frame.
 #[derive(Clone, Debug)]
 pub struct KeyTangents {
-    /// Of each frame: x, y, z of P_s, then of P_t, a number a triangle.
+    /// x, y, z of P_s, then of P_t, of each frame; a number a triangle.
     frames: Vec<[Vec<f64>; 6]>,
     senses: Vec<Sense>,
 }
