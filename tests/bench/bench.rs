@@ -2,8 +2,10 @@
 //! Prints medians of same-round ratios; absolute times hold on no other machine. `ci/bench` builds and runs it.
 
 mod animation;
+mod bumps;
 mod child;
 mod floor;
+mod floor_bumps;
 mod floor_dust;
 mod floor_gl;
 mod floor_layer;
@@ -56,6 +58,12 @@ pub struct Arguments {
     /// A key-framed model on the CPU instead: positions, tangent bases, silhouettes
     #[arg(long)]
     animation: bool,
+    /// Bump mapping against its floor, in one pass and in three, instead
+    #[arg(long)]
+    bumps: bool,
+    /// The child draws the floor of bump mapping in so many passes
+    #[arg(long, value_enum, hide = true, value_name = "PASSES")]
+    bumps_floor: Option<bumps::Passes>,
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
@@ -119,6 +127,10 @@ pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.child {
+        Some(_) if arguments.bumps_floor.is_some() => {
+            arguments.bumps_floor.map_or(Ok(()), |passes| bumps::floor(passes, &arguments))
+        }
+        None if arguments.bumps => bumps::run(&arguments),
         Some(who) => child::run(who, &arguments),
         None if arguments.volumes => volumes::run(&arguments),
         None if arguments.animation => animation::run(&arguments),

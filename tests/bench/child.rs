@@ -236,7 +236,7 @@ pub fn median(values: &mut [f64]) -> f64 {
 }
 
 /// Processor time of this process so far, of all threads, in user and system mode.
-fn processor_ms() -> f64 {
+pub fn processor_ms() -> f64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
     // SAFETY: the clock is one that every Linux has, and `time` is there to be written.
     unsafe { libc::clock_gettime(libc::CLOCK_PROCESS_CPUTIME_ID, &mut time) };

@@ -177,23 +177,24 @@ impl Floor {
 
     /// Writes what was read last.
     pub fn write_png(&self, path: &Path) -> Result<()> {
-        let row = 4 * self.size as usize;
-        let rgb: Vec<u8> = self
-            .pixels
-            .chunks_exact(row)
-            .rev()
-            .flat_map(|row| row.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]))
-            .collect();
-        let file = std::io::BufWriter::new(std::fs::File::create(path)?);
-        let side = self.size as u32;
-        PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Up).write_image(
-            &rgb,
-            side,
-            side,
-            ExtendedColorType::Rgb8,
-        )?;
-        Ok(())
+        write_rgb(&self.pixels, self.size, path)
     }
+}
+
+/// Writes RGBA bytes, rows from the bottom up, without alpha.
+pub fn write_rgb(pixels: &[u8], size: i32, path: &Path) -> Result<()> {
+    let row = 4 * size as usize;
+    let rgb: Vec<u8> =
+        pixels.chunks_exact(row).rev().flat_map(|row| row.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]])).collect();
+    let file = std::io::BufWriter::new(std::fs::File::create(path)?);
+    let side = size as u32;
+    PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Up).write_image(
+        &rgb,
+        side,
+        side,
+        ExtendedColorType::Rgb8,
+    )?;
+    Ok(())
 }
 
 /// `clip_from_world` of the picture.
