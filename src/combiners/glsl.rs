@@ -1,8 +1,10 @@
-//! A program as GLSL: straight code, a function of the registers' first values. A portion that nothing reads is left out.
+//! A program as GLSL: straight code, a function of the registers' first values. A portion that nothing reads is left out, and
+//! so is a clamp that no value can need.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use super::ranges::{Range, Ranges};
 use super::{CombinerProgram, Component, Mapping, Portion, Precision, Register, Scale, Variable};
 
 /// A register's RGB, or its alpha.
@@ -24,7 +26,7 @@ pub fn unread(program: &CombinerProgram) -> Vec<String> {
 
 /// GLSL of the function `vec4 combine(vec4 const0, …, vec4 tex3)` and of those that it calls. Arguments: constants, fog,
 /// two colours, the four textures; result: RGBA of the final combiner in [0, 1]. The program's own constants replace the
-/// arguments. The macro `EXACT`, `precise` or nothing, must be defined.
+/// arguments. The macro `EXACT`, `precise` or nothing, must be defined. Arguments must lie in [0, 1].
 pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
     let mut code = String::from(match precision {
         Precision::Float => "float kept(float x) { return x; }\nvec3 kept(vec3 x) { return x; }\n",
@@ -39,6 +41,7 @@ pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
     );
     constants(&mut code, &program.constants);
     let kept = kept(program);
+    let mut ranges = Ranges::new(&program.constants);
     for (number, (stage, kept)) in program.stages.iter().zip(&kept).enumerate() {
         let rgb = stage.rgb.as_ref().filter(|_| kept[0]);
         let alpha = stage.alpha.as_ref().filter(|_| kept[1]);
@@ -53,11 +56,16 @@ pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
             }
         }
         let mut writes = String::new();
-        rgb.into_iter().for_each(|portion| general(&mut code, &mut writes, portion, true));
-        alpha.into_iter().for_each(|portion| general(&mut code, &mut writes, portion, false));
+        let before = ranges.within(&stage.constants);
+        for (portion, is_rgb) in
+            rgb.into_iter().map(|portion| (portion, true)).chain(alpha.map(|portion| (portion, false)))
+        {
+            general(&mut code, &mut writes, portion, is_rgb, &before);
+            ranges.write(portion, is_rgb, &before);
+        }
         let _ = writeln!(code, "{writes}    }}");
     }
-    finish(&mut code, program);
+    finish(&mut code, program, &ranges);
     code
 }
 
@@ -74,25 +82,29 @@ fn vector([red, green, blue, alpha]: &[f32; 4]) -> String {
 }
 
 /// Reads and products of a portion into `code`; its writes, which come after all reads of the stage, into `writes`.
-fn general(code: &mut String, writes: &mut String, portion: &Portion, is_rgb: bool) {
+fn general(code: &mut String, writes: &mut String, portion: &Portion, is_rgb: bool, ranges: &Ranges) {
     let (kind, suffix, name) = if is_rgb { ("vec3", "rgb", "") } else { ("float", "a", "_a") };
-    let [a, b, c, d] = portion.inputs.map(|input| read(input, is_rgb));
+    let inputs = portion.inputs.map(|input| (read(input, is_rgb, ranges), ranges.of(input)));
     let [needs_ab, needs_cd, needs_sum] = portion.outputs.map(|output| output.is_some());
-    let product = |x: &str, y: &str, dot: bool| match dot {
+    let product = |[(x, of_x), (y, of_y)]: [&(String, Range); 2], dot: bool| match (dot, *of_x, *of_y) {
         // In this order, as the interpreter adds.
-        true => format!("vec3(({x} * {y}).r + ({x} * {y}).g + ({x} * {y}).b)"),
-        false => format!("{x} * {y}"),
+        (true, ..) => format!("vec3(({x} * {y}).r + ({x} * {y}).g + ({x} * {y}).b)"),
+        (false, Range::ONE, _) => y.clone(),
+        (false, _, Range::ONE) => x.clone(),
+        (false, ..) => format!("{x} * {y}"),
     };
+    let [a, b, c, d] = &inputs;
     if needs_ab || needs_sum {
-        let _ = writeln!(code, "    EXACT {kind} ab{name} = {};", product(&a, &b, portion.dots[0]));
+        let _ = writeln!(code, "    EXACT {kind} ab{name} = {};", product([a, b], portion.dots[0]));
     }
     if needs_cd || needs_sum {
-        let _ = writeln!(code, "    EXACT {kind} cd{name} = {};", product(&c, &d, portion.dots[1]));
+        let _ = writeln!(code, "    EXACT {kind} cd{name} = {};", product([c, d], portion.dots[1]));
     }
     if needs_sum {
         let _ = writeln!(code, "    EXACT {kind} sum{name} = ab{name} + cd{name};");
     }
-    for (output, value) in portion.outputs.into_iter().zip(["ab", "cd", "sum"]) {
+    let unclamped = ranges.results(portion);
+    for ((output, value), range) in portion.outputs.into_iter().zip(["ab", "cd", "sum"]).zip(unclamped) {
         if let Some(register) = output {
             let mut result = format!("{value}{name}");
             if portion.biased {
@@ -101,16 +113,22 @@ fn general(code: &mut String, writes: &mut String, portion: &Portion, is_rgb: bo
             if portion.scale != Scale::One {
                 result = format!("{result} * {:?}", portion.scale.factor());
             }
-            let _ = writeln!(writes, "    {register}.{suffix} = kept(clamp({result}, -1.0, 1.0));");
+            let clamped = match (range.least < -1.0, range.most > 1.0) {
+                (true, true) => format!("clamp({result}, -1.0, 1.0)"),
+                (true, false) => format!("max({result}, -1.0)"),
+                (false, true) => format!("min({result}, 1.0)"),
+                (false, false) => result,
+            };
+            let _ = writeln!(writes, "    {register}.{suffix} = kept({clamped});");
         }
     }
 }
 
-fn finish(code: &mut String, program: &CombinerProgram) {
+fn finish(code: &mut String, program: &CombinerProgram, ranges: &Ranges) {
     let [a, b, c, d, e, f, g] = program.last.inputs;
     let reads = |wanted: Register| [a, b, c, d].iter().any(|input| input.register == wanted);
     if reads(Register::Product) {
-        let _ = writeln!(code, "    EXACT vec3 product = {} * {};", read(e, true), read(f, true));
+        let _ = writeln!(code, "    EXACT vec3 product = {} * {};", read(e, true, ranges), read(f, true, ranges));
         code.push_str("    vec4 final_product = vec4(kept(product), 0.0);\n");
     }
     if reads(Register::ColorSum) {
@@ -118,14 +136,16 @@ fn finish(code: &mut String, program: &CombinerProgram) {
         let sum = if program.last.clamps_sum { format!("min({sum}, 1.0)") } else { String::from(sum) };
         let _ = writeln!(code, "    vec4 color_sum = vec4({sum}, 0.0);");
     }
-    let [a, b, c, d] = [a, b, c, d].map(|input| read(input, true));
-    let _ = writeln!(code, "    EXACT vec3 mixed = {a} * {b} + (1.0 - {a}) * {c} + {d};");
-    let alpha = read(g, false);
+    let of_c = ranges.of(c);
+    let [a, b, c, d] = [a, b, c, d].map(|input| read(input, true, ranges));
+    let rest = if of_c == Range::ZERO { String::new() } else { format!(" + (1.0 - {a}) * {c}") };
+    let _ = writeln!(code, "    EXACT vec3 mixed = {a} * {b}{rest} + {d};");
+    let alpha = read(g, false, ranges);
     let _ = writeln!(code, "    return vec4(kept(clamp(mixed, 0.0, 1.0)), kept(clamp({alpha}, 0.0, 1.0)));\n}}");
 }
 
 /// An input's expression: a vec3, or a float in an alpha portion.
-fn read(input: Variable, is_rgb: bool) -> String {
+fn read(input: Variable, is_rgb: bool, ranges: &Ranges) -> String {
     let register = input.register;
     let value = match (input.component, is_rgb) {
         (Component::Rgb, _) => format!("{register}.rgb"),
@@ -133,13 +153,16 @@ fn read(input: Variable, is_rgb: bool) -> String {
         (Component::Alpha, false) => format!("{register}.a"),
         (Component::Blue, _) => format!("{register}.b"),
     };
+    let range = ranges.before_mapping(input);
+    let positive = if range.least >= 0.0 { value.clone() } else { format!("max({value}, 0.0)") };
     match input.mapping {
-        Mapping::Unsigned => format!("max({value}, 0.0)"),
+        Mapping::Unsigned => positive,
+        Mapping::UnsignedInvert if range.least >= 0.0 && range.most <= 1.0 => format!("(1.0 - {value})"),
         Mapping::UnsignedInvert => format!("(1.0 - clamp({value}, 0.0, 1.0))"),
-        Mapping::Expand => format!("(2.0 * max({value}, 0.0) - 1.0)"),
-        Mapping::ExpandNegate => format!("(1.0 - 2.0 * max({value}, 0.0))"),
-        Mapping::HalfBias => format!("(max({value}, 0.0) - 0.5)"),
-        Mapping::HalfBiasNegate => format!("(0.5 - max({value}, 0.0))"),
+        Mapping::Expand => format!("(2.0 * {positive} - 1.0)"),
+        Mapping::ExpandNegate => format!("(1.0 - 2.0 * {positive})"),
+        Mapping::HalfBias => format!("({positive} - 0.5)"),
+        Mapping::HalfBiasNegate => format!("(0.5 - {positive})"),
         Mapping::Signed => value,
         Mapping::SignedNegate => format!("(-{value})"),
     }

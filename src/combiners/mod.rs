@@ -13,6 +13,7 @@ mod glsl;
 mod interpret;
 mod parse;
 mod print;
+mod ranges;
 
 pub use check::{MOST_STAGES, check};
 pub use glsl::{fragment, unread};

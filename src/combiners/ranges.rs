@@ -1,0 +1,121 @@
+//! Ranges of registers through a program: which values a clamp can meet. Sums and products of ends bound those of values
+//! between them, also as they are rounded: rounding keeps their order.
+
+use std::collections::BTreeMap;
+
+use super::{Component, Mapping, Portion, Register, Variable};
+
+/// Values from `least` to `most`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    pub least: f32,
+    pub most: f32,
+}
+
+impl Range {
+    pub const ZERO: Self = Self { least: 0.0, most: 0.0 };
+    pub const ONE: Self = Self { least: 1.0, most: 1.0 };
+    const UNIT: Self = Self { least: 0.0, most: 1.0 };
+    /// Everything that a register may hold and no more than is written to it.
+    const ANY: Self = Self { least: f32::NEG_INFINITY, most: f32::INFINITY };
+
+    fn map(self, function: impl Fn(f32) -> f32) -> Self {
+        let [a, b] = [self.least, self.most].map(function);
+        Self { least: a.min(b), most: a.max(b) }
+    }
+
+    fn times(self, other: Self) -> Self {
+        let ends = [self.least, self.most].map(|x| [x * other.least, x * other.most]);
+        let (mut least, mut most) = (f32::INFINITY, f32::NEG_INFINITY);
+        for end in ends.into_iter().flatten() {
+            // Infinity times 0.
+            let (low, high) = if end.is_nan() { (f32::NEG_INFINITY, f32::INFINITY) } else { (end, end) };
+            (least, most) = (least.min(low), most.max(high));
+        }
+        Self { least, most }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { least: self.least + other.least, most: self.most + other.most }
+    }
+}
+
+/// Ranges of registers, each with its RGB and its alpha.
+#[derive(Clone)]
+pub struct Ranges(BTreeMap<(Register, bool), Range>);
+
+impl Ranges {
+    /// Those before the first stage, of arguments in [0, 1] and the program's own constants.
+    pub fn new(constants: &[Option<[f32; 4]>; 2]) -> Self {
+        let mut ranges = Self(BTreeMap::new());
+        let textures = (0..4).map(Register::Texture);
+        let arguments = [Register::Constant0, Register::Constant1, Register::Fog, Register::Color0, Register::Color1];
+        for register in arguments.into_iter().chain(textures) {
+            ranges.set(register, [Range::UNIT; 2]);
+        }
+        for register in [Register::Zero, Register::Spare0, Register::Spare1] {
+            ranges.set(register, [Range::ZERO; 2]);
+        }
+        ranges.within(constants)
+    }
+
+    fn set(&mut self, register: Register, [rgb, alpha]: [Range; 2]) {
+        self.0.insert((register, true), rgb);
+        self.0.insert((register, false), alpha);
+    }
+
+    /// The same where these constants hold.
+    pub fn within(&self, constants: &[Option<[f32; 4]>; 2]) -> Self {
+        let mut ranges = self.clone();
+        for (register, value) in [Register::Constant0, Register::Constant1].into_iter().zip(constants) {
+            if let Some([red, green, blue, alpha]) = value {
+                let rgb = Range { least: red.min(*green).min(*blue), most: red.max(*green).max(*blue) };
+                ranges.set(register, [rgb, Range { least: *alpha, most: *alpha }]);
+            }
+        }
+        ranges
+    }
+
+    /// Range of an input's register.
+    pub fn before_mapping(&self, input: Variable) -> Range {
+        let part = (input.register, input.component != Component::Alpha);
+        self.0.get(&part).copied().unwrap_or(Range::ANY)
+    }
+
+    /// Range of an input.
+    pub fn of(&self, input: Variable) -> Range {
+        let range = self.before_mapping(input);
+        let positive = range.map(|e| e.max(0.0));
+        match input.mapping {
+            Mapping::Unsigned => positive,
+            Mapping::UnsignedInvert => range.map(|e| 1.0 - e.clamp(0.0, 1.0)),
+            Mapping::Expand => positive.map(|e| 2.0 * e - 1.0),
+            Mapping::ExpandNegate => positive.map(|e| 1.0 - 2.0 * e),
+            Mapping::HalfBias => positive.map(|e| e - 0.5),
+            Mapping::HalfBiasNegate => positive.map(|e| 0.5 - e),
+            Mapping::Signed => range,
+            Mapping::SignedNegate => range.map(|e| -e),
+        }
+    }
+
+    /// Ranges of A B, C D and their sum, biased and scaled, before they are clamped.
+    pub fn results(&self, portion: &Portion) -> [Range; 3] {
+        let [a, b, c, d] = portion.inputs.map(|input| self.of(input));
+        let product = |x: Range, y: Range, dot: bool| {
+            let each = x.times(y);
+            if dot { each.plus(each).plus(each) } else { each }
+        };
+        let (ab, cd) = (product(a, b, portion.dots[0]), product(c, d, portion.dots[1]));
+        let bias = if portion.biased { 0.5 } else { 0.0 };
+        [ab, cd, ab.plus(cd)].map(|range| range.map(|value| (value - bias) * portion.scale.factor()))
+    }
+
+    /// Takes a portion's results down; `before`: the ranges that it reads.
+    pub fn write(&mut self, portion: &Portion, is_rgb: bool, before: &Self) {
+        for (output, range) in portion.outputs.into_iter().zip(before.results(portion)) {
+            if let Some(register) = output {
+                self.0.insert((register, is_rgb), range.map(|value| value.clamp(-1.0, 1.0)));
+            }
+        }
+    }
+}
