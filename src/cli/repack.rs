@@ -53,6 +53,11 @@ pub struct RepackArgs {
     #[arg(long, value_name = "DEGREES", default_value_t = 180.0, value_parser = parse_angle)]
     cut: f64,
 
+    /// Steps to a texel in which an MD2 file holds places on the skin; its header then has a skin N times as large as the
+    /// picture, which other programs may not expect
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=128))]
+    steps: u32,
+
     /// The key frame of an MD2 model in which angles are measured, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     frame: usize,
@@ -73,15 +78,18 @@ that a light vector jumps there in tangent space. Where one of the two is mirror
 the surface is reversed whatever the angle: those edges are counted apart, and --unmirror removes them.
 
 Islands that share texels (mirrored halves, left and right limbs) share them afterwards too and turn together, except for
---unmirror. A quarter turn is taken where it is as good, because it keeps every texel. MD2 files hold whole texels: the
-places on the skin are rounded, and the pictures are sampled in the rounded places. An OBJ model gets a material library
-with the decal; its own materials are left out.
+--unmirror. A quarter turn is taken where it is as good, because it keeps every texel. MD2 files hold whole texels: places
+on the skin are rounded, which turns small triangles by some degrees, and the pictures are sampled in the rounded places;
+--steps 8 rounds to eighths. An OBJ model gets a material library with the decal; its own materials are left out.
 
 Examples:
   glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --height data/textures/knight-height.png \\
       --gloss data/textures/knight-gloss.png -o repacked
   glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --unmirror --cut 45 -o repacked
   glumbra repack model.obj --decal skin.png --size 1024x1024 --gutter 8 -o repacked";
+
+/// Greatest place on the skin in an MD2 file.
+const MOST_STEPS: u32 = i16::MAX as u32;
 
 /// Error of the command.
 #[derive(Debug, thiserror::Error)]
@@ -98,12 +106,16 @@ pub enum Error {
     NoFrame { model: PathBuf, frame: usize, frames: usize },
     #[error("{}: the new skin has more than 65536 distinct texels, which an MD2 file cannot index", .0.display())]
     TooManyTexels(PathBuf),
+    #[error("{}: --steps {steps} makes a side of the skin {side} steps long; an MD2 file counts to {MOST_STEPS}", model.display())]
+    TooManySteps { model: PathBuf, steps: u32, side: u32 },
     #[error("--size {width}x{height}: a skin has 1 to {LARGEST} texels a side")]
     Size { width: u32, height: u32 },
     #[error("{model}: an OBJ model does not say how many texels its skin has; give --decal, --height or --gloss", model = .0.display())]
     NoTexels(PathBuf),
     #[error("{file}: is read by this command; name another folder with -o", file = .0.display())]
     Overwrites(PathBuf),
+    #[error("{}: is a folder, where a file would be written; name another folder with -o", .0.display())]
+    Folder(PathBuf),
     #[error("{file}: two of the files to write have this name; rename {input}", file = file.display(), input = input.display())]
     SameName { file: PathBuf, input: PathBuf },
     #[error("{file}: cannot be written: {reason}", file = file.display())]
@@ -138,7 +150,7 @@ fn repack(arguments: &RepackArgs) -> Result<Report, Error> {
         gutter: arguments.gutter,
         unmirror: arguments.unmirror,
         cut_degrees: arguments.cut,
-        whole_texels: matches!(source, Source::Md2(_)),
+        steps: matches!(source, Source::Md2(_)).then_some(arguments.steps),
     };
     let wrong = |source: skin::Error| Error::Skin { model: arguments.model.clone(), source };
     let new = skin::repack(&old, &options).map_err(wrong)?;
@@ -176,6 +188,9 @@ impl RepackArgs {
             }
             if inputs.iter().any(|input| output::is_same_file(input, &file)) {
                 return Err(Error::Overwrites(file));
+            }
+            if file.is_dir() {
+                return Err(Error::Folder(file));
             }
             files.push(file);
         }
@@ -254,7 +269,12 @@ fn old_skin(arguments: &RepackArgs, source: &Source, mesh: &Mesh, pictures: &[Ra
 fn model_bytes(arguments: &RepackArgs, source: &Source, new: &Repacked) -> Result<Vec<u8>, Error> {
     match source {
         Source::Md2(model) => {
-            let file = model.with_skin(new.skin.size(), &new.skin.whole_texels());
+            let [width, height] = new.skin.size().map(|side| side.saturating_mul(arguments.steps));
+            if width.max(height) > MOST_STEPS {
+                let steps = arguments.steps;
+                return Err(Error::TooManySteps { model: arguments.model.clone(), steps, side: width.max(height) });
+            }
+            let file = model.with_skin([width, height], &new.skin.in_steps(arguments.steps));
             Ok(md2::write(&file.ok_or_else(|| Error::TooManyTexels(arguments.model.clone()))?))
         }
         Source::Obj(mesh) => {

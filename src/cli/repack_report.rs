@@ -16,7 +16,7 @@ pub(super) struct Report {
     /// Pieces turned by other than quarter turns.
     turned: usize,
     scale: f64,
-    /// Triangles that rounding to whole texels has left without an area or turned over.
+    /// Triangles that rounding has left without an area or turned over.
     flattened: usize,
     before: SkinReport,
     after: SkinReport,
@@ -69,14 +69,14 @@ pub(super) fn warn(report: &Report) {
     if report.flattened > 0 {
         let count = report.flattened;
         super::say(format_args!(
-            "warning: {count} triangles are so small that rounding to whole texels leaves them no area or turns them over; \
-             a larger --size, or a model with a larger skin, has smaller texels"
+            "warning: {count} triangles are so small that rounding leaves them no area on the skin, or turns them over; \
+             --steps rounds less"
         ));
     }
     let [before, after] = [&report.before, &report.after].map(|skin| skin.across_edges.mean_degrees);
     if after > before + GROWTH_DEGREES {
         super::say(format_args!(
-            "warning: the mean angle grew from {before:.3} to {after:.3} degrees; a larger --size rounds less"
+            "warning: the mean angle grew from {before:.3} to {after:.3} degrees; --steps or a larger --size rounds less"
         ));
     }
 }

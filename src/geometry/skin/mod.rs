@@ -111,9 +111,9 @@ impl Skin {
         self.triangles.iter().map(|triangle| triangle.texels)
     }
 
-    /// The nearest whole texels of all corners, three a triangle; those beyond an i16 become its least or greatest.
-    pub fn whole_texels(&self) -> Vec<[i16; 2]> {
-        let whole = |texel: DVec2| texel.to_array().map(|value| value.round() as i16);
+    /// All corners in steps of a texel, three a triangle; those beyond an i16 become its least or greatest.
+    pub fn in_steps(&self, steps: u32) -> Vec<[i16; 2]> {
+        let whole = |texel: DVec2| texel.to_array().map(|value| (f64::from(steps) * value).round() as i16);
         self.triangles.iter().flat_map(|triangle| triangle.texels.map(whole)).collect()
     }
 

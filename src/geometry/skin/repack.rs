@@ -22,8 +22,8 @@ pub struct RepackOptions {
     pub unmirror: bool,
     /// Angle between t axes in degrees beyond which an island is cut at an edge; 180: never.
     pub cut_degrees: f64,
-    /// Rounds places on the skin to whole texels, as MD2 files hold them.
-    pub whole_texels: bool,
+    /// Steps to a texel to which places on the skin are rounded, as for MD2 files; `None`: they are not rounded.
+    pub steps: Option<u32>,
 }
 
 /// A skin that has been packed again.
@@ -42,7 +42,7 @@ pub struct Repacked {
     pub scale: f64,
     /// Texels around each piece that are its own.
     pub gutter: u32,
-    /// Triangles that rounding to whole texels has left without an area on the skin, or turned over.
+    /// Triangles that rounding has left without an area on the skin, or turned over.
     pub flattened: usize,
     /// Angles across edges, after.
     pub discontinuity: Discontinuity,
@@ -119,7 +119,7 @@ fn lay_out(skin: &Skin, islands: &Islands, angles: &[f64], options: &RepackOptio
     }
     let place = |(triangle, piece): (&SkinTriangle, &usize)| {
         let texels = triangle.texels.map(|texel| mappings[*piece].apply(texel));
-        if options.whole_texels { texels.map(DVec2::round) } else { texels }
+        options.steps.map(f64::from).map_or(texels, |steps| texels.map(|texel| (steps * texel).round() / steps))
     };
     let texels: Vec<[DVec2; 3]> = skin.triangles.iter().zip(&islands.piece_of_triangle).map(place).collect();
     let moved = skin.moved(size, &texels);

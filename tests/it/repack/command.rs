@@ -96,6 +96,10 @@ fn the_knight_keeps_its_codes_and_loses_its_mirrors() {
             assert!(out == "own" && same > compared / 2 || same == compared);
         }
     }
+    let json: serde_json::Value = serde_json::from_str(&repack("numbers", &["--unmirror", "--json"])).unwrap();
+    assert_eq!((&json["islands"], &json["before"]["mirrored_triangles"]), (&20.into(), &410.into()));
+    assert_eq!(json["before"]["across_edges"]["mean_degrees"].as_f64(), Some(before.mean_degrees));
+    assert_eq!(json["after"]["across_edges"]["mirrored_pairs"], 0);
     // The same again, to the byte.
     repack("again", &["--unmirror"]);
     for name in names(&folder.path().join("own")) {
@@ -205,8 +209,9 @@ fn bad_input_gets_one_clear_error_and_no_file() {
         (&["can.obj", "--decal", "label.png", "-o", "."], "can.obj: is read by this command; name another folder"),
         (&["can.obj", "--decal", "label.png", "--height", "copy/label.png", "-o", "out"], "rename copy/label.png"),
         (&[&knight, "--frame", "16", "-o", "out"], "has 16 frames; --frame 16 counts from 0"),
+        (&[&knight, "--steps", "128", "-o", "out"], "--steps 128 makes a side of the skin 65536 steps long"),
         (&["can.obj", "--decal", "label.png", "-o", "file"], "file: cannot be written"),
-        (&["can.obj", "--decal", "label.png", "-o", "taken"], "label.png: cannot be written"),
+        (&["can.obj", "--decal", "label.png", "-o", "taken"], "label.png: is a folder, where a file would be written"),
     ];
     for (arguments, expected) in cases {
         let output = glumbra(folder.path(), &[&["repack"], *arguments].concat());

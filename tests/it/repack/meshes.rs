@@ -10,7 +10,7 @@ use glumbra::geometry::skin::{Raster, RepackOptions};
 pub const SIDE: u32 = 256;
 
 pub const OPTIONS: RepackOptions =
-    RepackOptions { size: None, gutter: 2, unmirror: false, cut_degrees: 180.0, whole_texels: false };
+    RepackOptions { size: None, gutter: 2, unmirror: false, cut_degrees: 180.0, steps: None };
 
 /// Parts of a grid of cells that are islands of the skin of their own.
 pub struct Blocks {
@@ -105,7 +105,7 @@ pub fn random_options(random: &mut fastrand::Rng) -> RepackOptions {
         gutter: random.u32(1..5),
         unmirror: random.bool(),
         cut_degrees: 180.0,
-        whole_texels: random.bool(),
+        steps: random.bool().then(|| random.u32(1..9)),
     }
 }
 
