@@ -15,7 +15,7 @@ use crate::frame::Renderer;
 use crate::output::{self, Output};
 use crate::plan;
 use crate::scene::Embedded;
-use crate::viewer::{self, ModelMode, ModelState, Show, Shown};
+use crate::viewer::{self, ModelCommand, ModelMode, ModelState, Show, Shown};
 use crate::views::View;
 
 /// A sample program.
@@ -51,6 +51,10 @@ struct Arguments {
     /// Key frame to begin with, from 0; 8.5 is halfway between 8 and the next of its animation
     #[arg(long, value_name = "X")]
     frame: Option<f64>,
+
+    /// Draws the model's triangles as a wire frame over it
+    #[arg(long)]
+    wireframe: bool,
 
     /// Draws without shadows
     #[arg(long)]
@@ -96,6 +100,9 @@ pub fn run(sample: &ModelSample) -> ExitCode {
             return super::usage(&command.error(ErrorKind::ValueValidation, message));
         }
         state.pose_at(frame);
+    }
+    if arguments.wireframe {
+        state.apply(ModelCommand::Wireframe);
     }
     super::exit_code(show(sample, &arguments, state, &warnings))
 }

@@ -45,8 +45,8 @@ impl ModelMode {
         MODES.iter().find(|row| row.1 == self).map_or("", |row| row.0)
     }
 
-    /// The next of a key's pictures; from the last of them, and from another key's, back to the scene where the key has that
-    /// or only one, else to the key's first.
+    /// The next of a key's pictures. The last is followed by the first, or by the scene where the key has but one; another key's
+    /// picture by the first.
     #[must_use]
     pub fn next(self, key: char) -> Self {
         let mut own: Vec<Self> = MODES.iter().filter(|row| row.2 == key).map(|row| row.1).collect();
@@ -69,6 +69,8 @@ pub enum ModelCommand {
     NextAnimation,
     /// The next of a key's pictures.
     Show(char),
+    /// Shows or hides the model's edges.
+    Wireframe,
     /// Shows or hides the room.
     Backdrop,
     /// The next way in which bumps are lit: one pass, three passes, per fragment.
@@ -94,6 +96,7 @@ const KEYS: &[(&[&str], ModelCommand, &str)] = &[
     (&["t"], ModelCommand::Show('t'), "next picture: normals, diffuse, specular, vectors to light and half-angle"),
     (&["s"], ModelCommand::Show('s'), "the stencil count as colours, and back"),
     (&["v"], ModelCommand::Show('v'), "shadow volumes over the scene, and back"),
+    (&["w"], ModelCommand::Wireframe, "the model's triangles as a wire frame over it, or not"),
     (&["b"], ModelCommand::Backdrop, "with or without the room"),
     (&["p"], ModelCommand::NextMethod, "bumps: one pass, three passes, reference"),
     (&["g"], ModelCommand::Gloss, "with or without the gloss map"),
@@ -101,8 +104,6 @@ const KEYS: &[(&[&str], ModelCommand, &str)] = &[
     (&["0"], ModelCommand::Technique("none"), "no shadows"),
     (&["1"], ModelCommand::Technique("shadow-volume"), "stencil shadow volumes"),
     (&["2"], ModelCommand::Technique("shadow-map"), "a shadow map"),
-    (&["3"], ModelCommand::Technique("midpoint"), "a midpoint map"),
-    (&["4"], ModelCommand::Technique("second-depth"), "a second-depth map"),
     (&["Home"], ModelCommand::Reset, "eye and light as they were at first"),
     (&["h"], ModelCommand::Help, "this help in the window, or not"),
     (&["q", "Esc"], ModelCommand::Quit, "quit"),

@@ -12,7 +12,9 @@ use super::show::{Button, Reaction, Show};
 use crate::geometry::Material;
 use crate::geometry::md2::{Model, NormalSource, Pose};
 use crate::plan::{self, Request, ViewRequest};
-use crate::scene::{BumpMethod, Embedded, Entry, Error, LightKind, Loaded, Origin, Scene, SettingsError, Value};
+use crate::scene::{
+    BumpMethod, Embedded, Entry, Error, Light, LightKind, Loaded, Object, Origin, Scene, SettingsError, Value,
+};
 use crate::techniques;
 
 /// Key frames a second, at first.
@@ -54,6 +56,7 @@ pub struct ModelState {
     /// Key frames a second.
     speed: f64,
     shows_room: bool,
+    shows_wire: bool,
     size: [u32; 2],
     helps: bool,
     /// Reason why the last command changed nothing, or another thing than it says.
@@ -89,6 +92,7 @@ impl ModelState {
             animates: false,
             speed: SPEED,
             shows_room: true,
+            shows_wire: false,
             size: scene.image.size,
             helps: false,
             refused: None,
@@ -148,6 +152,7 @@ impl ModelState {
                 self.pose_at(if next < self.frame_count() { next as f64 } else { 0.0 });
             }
             ModelCommand::Show(key) => self.mode = self.mode.next(key),
+            ModelCommand::Wireframe => self.shows_wire = !self.shows_wire,
             ModelCommand::Backdrop => self.shows_room = !self.shows_room,
             ModelCommand::NextMethod => self.next_method(),
             ModelCommand::Gloss => self.switch_gloss(),
@@ -161,7 +166,7 @@ impl ModelState {
             ModelCommand::Technique(name) => self.take_technique(name),
             ModelCommand::Reset => {
                 self.scene.camera = self.first.camera.clone();
-                self.place_light(self.first.lights.first().and_then(crate::scene::Light::position));
+                self.place_light(self.first.lights.first().and_then(Light::position));
             }
             ModelCommand::Help => self.helps = !self.helps,
             ModelCommand::Quit => return Reaction::Quit,
@@ -265,14 +270,18 @@ impl Show for ModelState {
     fn frame(&self) -> (Scene, Request) {
         let mut scene = self.scene.clone();
         scene.image.size = self.size;
+        let mut object = self.object;
         if !self.shows_room {
-            scene.objects.retain(|object| !object.name.starts_with(BACKDROP));
+            let is_backdrop = |object: &Object| object.name.starts_with(BACKDROP);
+            object -= scene.objects.iter().take(object).filter(|object| is_backdrop(object)).count();
+            scene.objects.retain(|object| !is_backdrop(object));
         }
+        let wire = self.shows_wire.then_some(object);
         let views = match self.mode {
             ModelMode::Scene => Vec::new(),
             ModelMode::View(view) => vec![ViewRequest { view, light: 0 }],
         };
-        (scene, Request { views, sampled_warnings: false, ..Request::default() })
+        (scene, Request { views, wire, sampled_warnings: false, ..Request::default() })
     }
 
     fn status(&self) -> String {
@@ -297,7 +306,7 @@ impl Show for ModelState {
                 camera.eye = on_circle(camera.eye, DVec2::new(-turn.x, turn.y));
             }
             Button::Middle => {
-                let place = self.scene.lights.first().and_then(crate::scene::Light::position);
+                let place = self.scene.lights.first().and_then(Light::position);
                 self.place_light(place.map(|place| on_circle(place, DVec2::new(turn.x, -turn.y))));
             }
             Button::Right => {}
