@@ -13,6 +13,7 @@ mod repack_report;
 mod report;
 mod report_light;
 pub mod sample;
+pub mod sample_model;
 mod scene_args;
 mod stress;
 mod truth_views;

@@ -39,6 +39,8 @@ pub struct Request {
     /// True if points that the camera sees are sampled to find pixels that will be wrong, for [`Plan::warnings`]. That
     /// costs some 10 to 100 ms a light: windows, which plan every frame, turn it off.
     pub sampled_warnings: bool,
+    /// Object whose triangles' edges are drawn over the picture, by its index.
+    pub wire: Option<usize>,
     /// Limits of the driver.
     pub limits: Limits,
 }
@@ -52,6 +54,7 @@ impl Default for Request {
             frames: 1,
             keep_all: false,
             sampled_warnings: true,
+            wire: None,
             limits: Limits::default(),
         }
     }

@@ -58,7 +58,7 @@ impl Pictures<'_> {
         composition.picture(&mut self.passes, target, &lens, &terms)?;
         self.passes.focused(buffers, &lens, &focused)?;
         self.passes.dust(buffers, &lens, &terms)?;
-        if let Some(batch) = frustum_lines::frusta(self.passes.scene, &lens.camera) {
+        if let Some(batch) = frustum_lines::guides(self.passes.scene, self.request.wire, &lens.camera) {
             let state = lens.of_surfaces(frustum_lines::STATE);
             let (viewport, clear) = (self.passes.scene.image.size, Clear::default());
             let pass = DrawPass { target, viewport, clear, state, batches: vec![batch] };

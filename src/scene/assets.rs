@@ -36,6 +36,10 @@ fn still((mesh, warnings): (Mesh, Vec<geometry::Warning>)) -> (Model, Vec<geomet
     (Model::Still(Arc::new(mesh)), warnings)
 }
 
+fn key_framed((model, warnings): (md2::Model, Vec<geometry::Warning>)) -> (Model, Vec<geometry::Warning>) {
+    (Model::KeyFramed(Arc::new(model)), warnings)
+}
+
 /// A pose of a file's model, bit for bit.
 type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
 
@@ -50,7 +54,7 @@ pub(super) struct Assets {
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
-    /// Pictures and OBJ files in memory, by the names that the scene file has for them.
+    /// Pictures and models in memory, by the names that the scene file has for them.
     pictures: Files,
     files: Files,
     /// Warnings of the loaders and of the scene, each once.
@@ -58,7 +62,7 @@ pub(super) struct Assets {
 }
 
 impl Assets {
-    /// Assets with pictures and OBJ files in memory, each by its name in the scene file.
+    /// Assets with pictures and models in memory, each by its name in the scene file.
     pub fn with_files(pictures: Files, models: Files) -> Self {
         Self { pictures, files: models, ..Self::default() }
     }
@@ -110,10 +114,8 @@ impl Assets {
             return Ok(model.clone());
         }
         let (model, warnings) = match embedded {
-            _ if has_extension(path, "md2") => {
-                let (model, warnings) = md2::Model::load(path)?;
-                (Model::KeyFramed(Arc::new(model)), warnings)
-            }
+            Some(bytes) if has_extension(path, "md2") => key_framed(md2::Model::decode(path, bytes)?),
+            None if has_extension(path, "md2") => key_framed(md2::Model::load(path)?),
             Some(bytes) => still(geometry::decode_obj(path, bytes)?),
             None => still(geometry::load_obj(path)?),
         };

@@ -356,7 +356,7 @@ pub struct Object {
     pub wave: Option<Wave>,
     /// Replaces every material of the mesh.
     pub material: Option<Arc<Material>>,
-    /// What became of the skin that the object's model names; `None`: it names none, or the material has a decal of its own.
+    /// Outcome of the skin that the object's model names; `None`: it names none, or the material has a decal of its own.
     pub skin: Option<ModelSkin>,
     /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
     /// one need one depth map.

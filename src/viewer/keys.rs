@@ -55,7 +55,7 @@ const HEADING: &str = "Keys and mouse in the window:";
 const NAMES: usize = 14;
 
 /// Each key's and gesture's name, and what it does, where there are so many techniques to choose from.
-fn rows(techniques: &[&str]) -> Vec<(String, String)> {
+pub fn rows(techniques: &[&str]) -> Vec<(String, String)> {
     let used = |row: &&(&[&str], Command, &str)| techniques.len() > 1 || row.1 != Command::NextTechnique;
     let words = |command: &Command, what: &str| match command {
         Command::NextMode => format!("{what}: {}", modes()),
@@ -73,12 +73,17 @@ fn modes() -> String {
 
 /// Keys and mouse, for a person, where there are so many techniques to choose from.
 pub fn help(techniques: &[&str]) -> String {
-    let rows = rows(techniques).into_iter().map(|(name, what)| format!("  {name:<NAMES$}  {what}"));
+    help_of(rows(techniques))
+}
+
+/// Keys and mouse, for a person.
+pub fn help_of(rows: Vec<(String, String)>) -> String {
+    let rows = rows.into_iter().map(|(name, what)| format!("  {name:<NAMES$}  {what}"));
     [String::from(HEADING)].into_iter().chain(rows).collect::<Vec<_>>().join("\n")
 }
 
 /// The help as a sheet for a window of this width.
-pub fn help_sheet(techniques: &[&str], window_width: u32) -> Canvas {
+pub fn help_sheet(rows: Vec<(String, String)>, window_width: u32) -> Canvas {
     const PAPER: Color = [24, 26, 30];
     const INK: Color = [230, 230, 230];
     const STRONG: Color = [255, 214, 90];
@@ -86,7 +91,7 @@ pub fn help_sheet(techniques: &[&str], window_width: u32) -> Canvas {
     let [letter, line] = [Font::Small.letter()[0], Font::Small.letter()[1] + 3];
     let names = letter * (NAMES as u32 + 1);
     let most = window_width.saturating_sub(2 * HELP_EDGE + 2 * MARGIN + names).max(20 * letter);
-    let rows = rows(techniques).into_iter().map(|(name, what)| (name, Font::Small.wrap(&what, most)));
+    let rows = rows.into_iter().map(|(name, what)| (name, Font::Small.wrap(&what, most)));
     let rows: Vec<(String, Vec<String>)> = rows.collect();
     let longest = rows.iter().flat_map(|(_, lines)| lines).map(String::len).max().unwrap_or(0) as u32;
     let count = 1 + rows.iter().map(|(_, lines)| lines.len() as u32).sum::<u32>();
@@ -128,7 +133,7 @@ mod tests {
 
     #[test]
     fn a_sheet_is_as_wide_as_its_window_allows() {
-        let [wide, narrow] = [512, 300].map(|width| help_sheet(&["a", "b"], width).size());
+        let [wide, narrow] = [512, 300].map(|width| help_sheet(rows(&["a", "b"]), width).size());
         assert!(wide[0] <= 512 - 2 * HELP_EDGE && narrow[0] <= 300 - 2 * HELP_EDGE, "{wide:?} {narrow:?}");
         assert!(wide[0] > 400 && wide[1] < narrow[1] && wide[1] < 300, "{wide:?} {narrow:?}");
     }

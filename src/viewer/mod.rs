@@ -1,17 +1,23 @@
-//! A scene in a window, to walk around in: what the sample programs share. [`State`] is plain data and knows no window;
-//! [`run`] joins it to winit's events. Each change makes a new plan, and the device skips passes that the last plan had,
+//! A scene in a window, to walk around in: what the sample programs share. [`State`] and [`ModelState`] are plain data and know
+//! no window; [`run`] joins a [`Show`] to winit's events. Each change makes a new plan, and the device skips passes that the last plan had,
 //! too: the map stays when only the camera moves.
 
 mod keys;
 mod mode;
+mod model_keys;
+mod model_state;
 mod orbit;
+mod show;
 mod state;
 mod tweak;
 mod window;
 
-pub use keys::{Command, help};
+pub use keys::{Command, help, help_of};
 pub use mode::{Handle, Mode};
-pub use state::{Reaction, State};
+pub use model_keys::{ModelCommand, ModelMode, model_help};
+pub use model_state::ModelState;
+pub use show::{Button, Reaction, Show};
+pub use state::State;
 pub use tweak::{TWEAKS, Tweak};
 pub use window::{Shown, run};
 

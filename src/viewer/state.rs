@@ -3,23 +3,15 @@
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::keys::Command;
+use super::keys::{self, Command};
 use super::mode::{Handle, Mode};
 use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
+use super::show::{Button, Reaction, Show};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
 use crate::plan::Request;
 use crate::scene::{Entry, Frustum, Light, LightKind, Origin, Scene, Settings, SettingsError, Value};
 use crate::techniques;
-
-/// Reaction to a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reaction {
-    Redraw,
-    /// Only the title has changed.
-    Retitle,
-    Quit,
-}
 
 /// State of a window.
 #[derive(Clone, Debug)]
@@ -249,5 +241,50 @@ impl State {
         camera.target = bounds.center();
         camera.eye = camera.target + distance * backwards;
         camera.far = camera.far.max(1.1 * (distance + bounds.radius()));
+    }
+}
+
+/// Pixels of a drag that count as one notch of the wheel.
+const PIXELS_A_STEP: f64 = 20.0;
+
+impl Show for State {
+    fn size(&self) -> [u32; 2] {
+        self.size()
+    }
+
+    fn resize(&mut self, size: [u32; 2]) {
+        self.resize(size);
+    }
+
+    fn frame(&self) -> (Scene, Request) {
+        self.frame()
+    }
+
+    fn status(&self) -> String {
+        self.status()
+    }
+
+    fn key(&mut self, name: &str) -> Option<Reaction> {
+        keys::command(name).map(|command| self.apply(command))
+    }
+
+    fn drag(&mut self, button: Button, drag: DVec2) {
+        match button {
+            Button::Left => self.drag(drag),
+            Button::Right => self.dolly(-drag.y / PIXELS_A_STEP),
+            Button::Middle => {}
+        }
+    }
+
+    fn dolly(&mut self, steps: f64) {
+        self.dolly(steps);
+    }
+
+    fn helps(&self) -> bool {
+        self.helps()
+    }
+
+    fn help(&self) -> Vec<(String, String)> {
+        keys::rows(self.techniques)
     }
 }

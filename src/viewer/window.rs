@@ -1,9 +1,10 @@
-//! A [`State`] in a window: winit's events in, pictures out. A frame is drawn into the same framebuffer object as
-//! without a window and then copied, so both have the same pixels. Nothing is drawn but on an event.
+//! A [`Show`] in a window: winit's events in, pictures out. A frame is drawn into the same framebuffer object as
+//! without a window and then copied, so both have the same pixels. Nothing is drawn but on an event, or where something moves.
 
 use std::io::Write;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::DVec2;
 use winit::application::ApplicationHandler;
@@ -13,12 +14,14 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
-use super::keys::{HELP_EDGE, help_sheet};
-use super::{Error, Reaction, State, help, keys};
+use super::Error;
+use super::keys::{HELP_EDGE, help_of, help_sheet};
+use super::show::{Button, Reaction, Show};
 use crate::context::window::{self, WindowContext};
 use crate::context::{self, Choice, Context, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
+use crate::output;
 use crate::plan::Request;
 
 /// Look of a window.
@@ -30,8 +33,11 @@ pub struct Shown {
     pub capture: bool,
 }
 
-/// Pixels of a drag that count as one notch of the wheel.
+/// Pixels of a wheel without notches that count as one.
 const PIXELS_A_STEP: f64 = 20.0;
+
+/// Longest time in seconds that one frame moves on: a window that was hidden does not jump.
+const LONGEST_STEP: f64 = 0.25;
 
 /// Opens a window of the state's size and shows it until the user quits. The window's own pixels, if they were to be
 /// captured.
@@ -39,13 +45,13 @@ const PIXELS_A_STEP: f64 = 20.0;
 /// # Errors
 ///
 /// No display, no context, and every error of a frame.
-pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
+pub fn run(state: impl Show, shown: Shown) -> Result<Option<Pixels>, Error> {
     if !window::display_is_named() {
         return Err(Error::NoDisplay);
     }
     let events = window::event_loop().map_err(cannot_open)?;
     events.set_control_flow(ControlFlow::Wait);
-    let mut app = App { state, shown, live: None, mouse: Mouse::default(), captured: None, failed: None };
+    let mut app = App { state, shown, live: None, mouse: Mouse::default(), moved: None, captured: None, failed: None };
     let ended = events.run_app(&mut app);
     if let Some(error) = app.failed {
         return Err(error);
@@ -54,11 +60,13 @@ pub fn run(state: State, shown: Shown) -> Result<Option<Pixels>, Error> {
     Ok(app.captured)
 }
 
-struct App {
-    state: State,
+struct App<S> {
+    state: S,
     shown: Shown,
     live: Option<Live>,
     mouse: Mouse,
+    /// Time to which the state was moved on.
+    moved: Option<Instant>,
     captured: Option<Pixels>,
     failed: Option<Error>,
 }
@@ -72,11 +80,10 @@ struct Live {
 #[derive(Default)]
 struct Mouse {
     at: Option<DVec2>,
-    turning: bool,
-    moving: bool,
+    held: Vec<Button>,
 }
 
-impl App {
+impl<S: Show> App<S> {
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Live, Error> {
         let request = ContextRequest {
             choice: Choice::Window,
@@ -103,9 +110,18 @@ impl App {
         let (scene, request) = self.state.frame();
         let plan = renderer.plan(&scene, &Request { sampled_warnings: false, ..request })?;
         renderer.draw(&plan)?;
-        renderer.present(&plan, size)?;
+        match plan.views.first() {
+            None => renderer.present(&plan, size)?,
+            // Views are floats or counts: their colours are those of their files.
+            Some((wanted, _)) => {
+                let frame = renderer.read(&plan)?;
+                let view = frame.views.first().map(|pixels| output::to_canvas(pixels, Some(wanted.view)));
+                let sheet = view.map(|canvas| Arc::new(canvas.to_texture("view")));
+                sheet.map(|sheet| renderer.present_sheet(&sheet, 0, size)).transpose()?;
+            }
+        }
         if self.state.helps() {
-            let sheet = help_sheet(self.state.techniques(), size[0]).to_texture("help");
+            let sheet = help_sheet(self.state.help(), size[0]).to_texture("help");
             renderer.present_sheet(&Arc::new(sheet), HELP_EDGE, size)?;
         }
         if self.shown.capture && self.captured.is_none() {
@@ -129,8 +145,8 @@ impl App {
     }
 
     fn key(&mut self, event_loop: &ActiveEventLoop, key: &Key) {
-        let Some(command) = key_name(key).and_then(keys::command) else { return };
-        match self.state.apply(command) {
+        let Some(reaction) = key_name(key).and_then(|name| self.state.key(name)) else { return };
+        match reaction {
             Reaction::Redraw => {
                 self.tell();
                 self.redraw();
@@ -144,15 +160,25 @@ impl App {
         let at = DVec2::new(position.x, position.y);
         let drag = self.mouse.at.map_or(DVec2::ZERO, |last| at - last);
         self.mouse.at = Some(at);
-        if self.mouse.turning {
-            self.state.drag(drag);
+        for button in &self.mouse.held {
+            self.state.drag(*button, drag);
         }
-        if self.mouse.moving {
-            self.state.dolly(-drag.y / PIXELS_A_STEP);
-        }
-        if self.mouse.turning || self.mouse.moving {
+        if !self.mouse.held.is_empty() {
             self.redraw();
         }
+    }
+
+    /// Moves the state on by the time since the last call, and draws it; waits for events where nothing moves.
+    fn advance(&mut self, event_loop: &ActiveEventLoop) {
+        if self.shown.capture || !self.state.moves() {
+            self.moved = None;
+            return event_loop.set_control_flow(ControlFlow::Wait);
+        }
+        let now = Instant::now();
+        let passed = self.moved.replace(now).map_or(0.0, |last| (now - last).as_secs_f64());
+        self.state.advance(passed.min(LONGEST_STEP));
+        self.redraw();
+        event_loop.set_control_flow(ControlFlow::Poll);
     }
 
     fn wheel(&mut self, delta: MouseScrollDelta) {
@@ -173,7 +199,7 @@ impl App {
     }
 }
 
-impl ApplicationHandler for App {
+impl<S: Show> ApplicationHandler for App<S> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.live.is_some() {
             return;
@@ -181,7 +207,7 @@ impl ApplicationHandler for App {
         let opened = self.open(event_loop).map(|live| self.live = Some(live));
         self.redraw();
         if opened.is_ok() && !self.shown.capture {
-            say(&format!("{}\n{}", self.title(), help(self.state.techniques())));
+            say(&format!("{}\n{}", self.title(), help_of(self.state.help())));
         }
         self.end(event_loop, opened);
     }
@@ -203,11 +229,15 @@ impl ApplicationHandler for App {
                 event: KeyEvent { logical_key, state: ElementState::Pressed, .. }, ..
             } => self.key(event_loop, &logical_key),
             WindowEvent::MouseInput { state, button, .. } => {
-                let pressed = state == ElementState::Pressed;
-                match button {
-                    MouseButton::Left => self.mouse.turning = pressed,
-                    MouseButton::Right => self.mouse.moving = pressed,
-                    _ => {}
+                let button = match button {
+                    MouseButton::Left => Button::Left,
+                    MouseButton::Middle => Button::Middle,
+                    MouseButton::Right => Button::Right,
+                    _ => return,
+                };
+                self.mouse.held.retain(|held| *held != button);
+                if state == ElementState::Pressed {
+                    self.mouse.held.push(button);
                 }
             }
             WindowEvent::CursorMoved { position, .. } => self.moved(position),
@@ -215,6 +245,10 @@ impl ApplicationHandler for App {
             WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
             _ => {}
         }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        self.advance(event_loop);
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {

@@ -1,5 +1,6 @@
-//! Wire frames of lights' frusta, as in the sample program hw_shadowmaps_simple: a cube mapped through the inverse light
-//! projection. They are drawn over the finished surfaces, hidden by them, and leave their depth as it is.
+//! Wire frames of lights' frusta, as in the sample program hw_shadowmaps_simple, a cube mapped through the inverse light
+//! projection; and of an object's triangles. They are drawn over the finished surfaces, hidden by them, and leave their depth
+//! as it is.
 
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use crate::pass::{
     Attribute, Batch, Draw, DrawState, FixedFunctionDesc, IndexOrder, MeshRef, Primitive, Program, Uniform,
     UniformValue, glsl,
 };
-use crate::scene::{Frustum, Light, Scene};
+use crate::scene::{Frustum, Light, Object, Scene};
 
 /// Depth-tested against the surfaces; writes colour only.
 pub const STATE: DrawState = DrawState { depth_write: false, ..DrawState::OPAQUE };
@@ -21,13 +22,18 @@ const YELLOW: glam::Vec3 = glam::Vec3::new(1.0, 1.0, 0.0);
 const EDGES: [[u32; 2]; 12] =
     [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 
-/// The batch that draws the frusta of the lights with `frustum = "shown"`; `None` where none does.
-pub fn frusta(scene: &Scene, viewer: &Viewer) -> Option<Batch> {
+/// Share of the depth by which an object's edges come before its surface.
+const EDGES_BEFORE: f64 = 1e-4;
+
+/// The batch that draws the frusta of the lights with `frustum = "shown"`, and the triangles' edges of the object of index
+/// `wire`; `None` where there is none of them.
+pub fn guides(scene: &Scene, wire: Option<usize>, viewer: &Viewer) -> Option<Batch> {
     let shown = |light: &Light| {
         let spot = light.spot().filter(|spot| spot.frustum_shown)?;
         Some(frustum_draw(&light.name, &spot.frustum, viewer))
     };
-    let draws: Vec<Draw> = scene.lights.iter().filter_map(shown).collect();
+    let wired = wire.and_then(|index| scene.objects.get(index)).map(|object| edges_draw(object, viewer));
+    let draws: Vec<Draw> = scene.lights.iter().filter_map(shown).chain(wired).collect();
     let program = Program {
         label: String::from("guide"),
         defines: Vec::new(),
@@ -60,6 +66,31 @@ fn frustum_draw(light: &str, seen: &Frustum, viewer: &Viewer) -> Draw {
         bounds: mesh.bounds,
         mesh: MeshRef(Arc::new(mesh)),
         clip_from_model,
+        eye_from_model: None,
+        mirrored: false,
+        uniforms: Vec::new(),
+    }
+}
+
+/// Edges of an object's triangles, each once, as its mesh stands without a wave.
+fn edges_draw(object: &Object, viewer: &Viewer) -> Draw {
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(object.mesh.indices.len());
+    for [a, b, c] in object.mesh.indices.as_chunks::<3>().0 {
+        edges.extend([[a, b], [b, c], [c, a]].map(|[from, to]| [*from.min(to), *from.max(to)]));
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    let mesh = Mesh { indices: edges.concat(), parts: Vec::new(), ..(*object.mesh).clone() };
+    let mut clip = (viewer.clip_from_world() * object.world_from_model).transpose();
+    clip.z_axis -= EDGES_BEFORE * clip.w_axis;
+    Draw {
+        label: format!("edges of {}", object.name),
+        primitive: Primitive::Lines,
+        indices: 0..mesh.indices.len() as u32,
+        order: IndexOrder::File,
+        bounds: mesh.bounds,
+        mesh: MeshRef(Arc::new(mesh)),
+        clip_from_model: clip.transpose(),
         eye_from_model: None,
         mirrored: false,
         uniforms: Vec::new(),

@@ -41,6 +41,7 @@ mod listing_drawn;
 mod many_lights;
 mod md2;
 mod md2_motion;
+mod md2shader;
 mod mistakes;
 mod mutated;
 mod oracle;

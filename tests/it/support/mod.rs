@@ -7,4 +7,5 @@ pub mod random;
 pub mod rims;
 #[cfg(unix)]
 pub mod shell;
+pub mod window;
 pub mod xvfb;
