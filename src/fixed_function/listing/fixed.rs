@@ -33,7 +33,8 @@ impl<'a> Listing<'a> {
                 self.title(&draw.label);
                 self.matrices(batch, draw);
                 self.mirror(now, draw.mirrored);
-                self.tangent_light(&layer, draw);
+                let mesh = self.bind_mesh(draw);
+                self.tangent_light(mesh, &layer, draw);
                 self.draw_elements(draw);
             }
             self.take_down(&layer, now);
@@ -164,19 +165,15 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Binds a draw's mesh, and then vectors of its vertices to the lights of units that look them up.
-    fn tangent_light(&mut self, layer: &Layer, draw: &'a Draw) {
-        let vectors = layer.units.iter().enumerate().filter_map(|(index, unit)| match unit.coordinates {
-            UnitCoordinates::TangentLight(light) => Some((index, tangent_light::in_model(draw, light).as_vec4())),
-            _ => None,
-        });
-        let mesh = self.objects.mesh(&draw.mesh, draw.order);
-        for (unit, light) in vectors {
+    /// Binds vectors of a mesh's vertices to the lights of units that look them up.
+    fn tangent_light(&mut self, mesh: usize, layer: &Layer, draw: &Draw) {
+        for (index, unit) in layer.units.iter().enumerate() {
+            let UnitCoordinates::TangentLight(light) = unit.coordinates else { continue };
+            let light = vector(&tangent_light::in_model(draw, light).as_vec4().to_array());
             self.objects.uses_tangent_light = true;
-            self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{unit})"));
             self.body.call("glBindBuffer(GL_ARRAY_BUFFER, 0)");
-            let vectors = format!("tangent_light({mesh}, {})", vector(&light.to_array()));
-            self.body.call(&format!("glTexCoordPointer(3, GL_FLOAT, 0, {vectors})"));
+            self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{index})"));
+            self.body.call(&format!("glTexCoordPointer(3, GL_FLOAT, 0, tangent_light({mesh}, {light}))"));
             self.body.call("glEnableClientState(GL_TEXTURE_COORD_ARRAY)");
         }
     }

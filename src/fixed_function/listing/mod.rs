@@ -117,14 +117,18 @@ impl<'a> Listing<'a> {
         }
     }
 
-    fn draw_elements(&mut self, draw: &'a Draw) {
+    fn bind_mesh(&mut self, draw: &'a Draw) -> usize {
         let mesh = self.objects.mesh(&draw.mesh, draw.order);
+        self.body.call(&format!("bind_mesh({mesh})"));
+        mesh
+    }
+
+    fn draw_elements(&mut self, draw: &Draw) {
         let mode = match draw.primitive {
             Primitive::Triangles => "GL_TRIANGLES",
             Primitive::Lines => "GL_LINES",
         };
         let (count, first) = (draw.indices.end - draw.indices.start, 4 * u64::from(draw.indices.start));
-        self.body.call(&format!("bind_mesh({mesh})"));
         self.body.call(&format!("glDrawElements({mode}, {count}, GL_UNSIGNED_INT, (const void *){first})"));
     }
 
