@@ -49,7 +49,7 @@ impl FixedFunction {
                     Some(Bound { texture: self.masks.get(mask)?, sampler: None, alpha: AlphaSource::Own })
                 }
                 UnitImage::Cube(index) => batch.inputs.get(index).and_then(|input| {
-                    let texture = self.device.texture(input.image)?;
+                    let texture = self.device.cube_map(input.image)?;
                     Some(Bound { texture, sampler: Some(input.sampler), alpha: AlphaSource::Own })
                 }),
                 UnitImage::Input { index, alpha } => batch.inputs.get(index).and_then(|input| {

@@ -91,7 +91,7 @@ impl Bumps {
                 "bumps by vectors that are normalised for each fragment: choose normalize = { cube = 64 }"
             }
             () if shading.precision != Precision::Float => "bumps by register combiners of 9 bits",
-            () if two_sided => "bumps that are seen from behind",
+            () if two_sided => "bumps that may be seen from behind: write closed = true where none are",
             () => return Ok(BumpMap { is_signed: bump.map.is_signed }),
         };
         Err(why)

@@ -93,6 +93,10 @@ impl<'a> Listing<'a> {
         state::clear(&mut self.body, &pass.clear);
         let mut now = ListingState::of(pass.state);
         state::set(&mut self.body, None, &now.state);
+        let is_seamless = |pass: &crate::pass::Pass| !matches!(&pass.work, Work::Draw(draw) if !draw.state.seamless);
+        if !self.list.passes.iter().all(is_seamless) {
+            self.body.enable("GL_TEXTURE_CUBE_MAP_SEAMLESS", now.state.seamless);
+        }
         for batch in &pass.batches {
             match self.fixed {
                 true => self.fixed_batch(pass, batch, &mut now),
