@@ -49,6 +49,14 @@ impl Device {
         }
     }
 
+    /// The cube map of an image.
+    pub(crate) fn cube_map(&self, image: ImageId) -> Option<glow::Texture> {
+        match self.gpu_image(image) {
+            ImageName::Cube(texture) => Some(texture),
+            ImageName::Texture(_) | ImageName::Line(_) | ImageName::Renderbuffer(_) => None,
+        }
+    }
+
     /// The buffers that a draw reads.
     pub(crate) fn buffers(&mut self, pass: &str, draw: &Draw, attributes: &[Attribute]) -> Result<MeshBuffers, Error> {
         let gl = &self.gl;

@@ -4,7 +4,7 @@ use glow::HasContext;
 
 use super::layer::{AlphaSource, Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
 use super::units::{self, Bound};
-use super::{Error, FixedFunction, bounds, lighting};
+use super::{Error, FixedFunction, bounds, lighting, tangent_light};
 use crate::context::compatibility::raw;
 use crate::device::compare_code;
 use crate::pass::{Attribute, Batch, Draw, DrawPass, DrawState, PassList, Primitive};
@@ -48,6 +48,10 @@ impl FixedFunction {
                 UnitImage::Mask(mask) => {
                     Some(Bound { texture: self.masks.get(mask)?, sampler: None, alpha: AlphaSource::Own })
                 }
+                UnitImage::Cube(index) => batch.inputs.get(index).and_then(|input| {
+                    let texture = self.device.cube_map(input.image)?;
+                    Some(Bound { texture, sampler: Some(input.sampler), alpha: AlphaSource::Own })
+                }),
                 UnitImage::Input { index, alpha } => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.texture(input.image)?;
                     Some(Bound { texture, sampler: Some(input.sampler), alpha })
@@ -101,7 +105,15 @@ impl FixedFunction {
         };
         let (gl, fixed) = (&self.gl, &self.binding);
         let float = glow::FLOAT;
-        // SAFETY: as above; the arrays are offsets into buffers that hold what the mesh holds.
+        let vectors: Vec<_> = (0..)
+            .zip(&layer.units)
+            .filter_map(|(index, unit)| match unit.coordinates {
+                UnitCoordinates::TangentLight(light) => Some((index, tangent_light::vectors(draw, light))),
+                _ => None,
+            })
+            .collect();
+        // SAFETY: as above; the arrays are offsets into buffers that hold what the mesh holds, or vectors, one a vertex, that
+        // outlive the draw.
         unsafe {
             for (attribute, buffer) in attributes.iter().zip(&buffers.attributes) {
                 gl.bind_buffer(glow::ARRAY_BUFFER, Some(*buffer));
@@ -120,10 +132,16 @@ impl FixedFunction {
                     fixed.EnableClientState(array);
                 }
             }
+            gl.bind_buffer(glow::ARRAY_BUFFER, None);
+            for (unit, vectors) in &vectors {
+                fixed.ClientActiveTexture(glow::TEXTURE0 + unit);
+                fixed.TexCoordPointer(3, float, 0, vectors.as_ptr().cast());
+                fixed.EnableClientState(raw::TEXTURE_COORD_ARRAY);
+            }
             gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(buffers.indices));
             let count = draw.indices.end - draw.indices.start;
             gl.draw_elements(mode, count as i32, glow::UNSIGNED_INT, 4 * draw.indices.start as i32);
-            for (unit, _) in mesh_units(layer) {
+            for unit in mesh_units(layer).map(|(unit, _)| unit).chain(vectors.iter().map(|(unit, _)| *unit)) {
                 fixed.ClientActiveTexture(glow::TEXTURE0 + unit);
                 fixed.DisableClientState(raw::TEXTURE_COORD_ARRAY);
             }
@@ -145,11 +163,13 @@ impl FixedFunction {
                 LayerBlend::Add => (glow::ONE, glow::ONE),
                 LayerBlend::Erase => (glow::ZERO, glow::ZERO),
                 LayerBlend::AddByStoredAlpha => (glow::DST_ALPHA, glow::ONE),
-                LayerBlend::Multiply => (glow::DST_COLOR, glow::ZERO),
+                LayerBlend::Multiply | LayerBlend::MultiplyAndStoreAlpha => (glow::DST_COLOR, glow::ZERO),
             };
+            let stores = layer.blend == LayerBlend::MultiplyAndStoreAlpha;
+            let (source_alpha, stored_alpha) = if stores { (glow::ONE, glow::ZERO) } else { (source, stored) };
             self.gl.enable(glow::BLEND);
             self.gl.blend_equation(glow::FUNC_ADD);
-            self.gl.blend_func(source, stored);
+            self.gl.blend_func_separate(source, stored, source_alpha, stored_alpha);
         }
     }
 

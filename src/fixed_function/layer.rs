@@ -53,6 +53,8 @@ pub enum LayerBlend {
     AddByStoredAlpha,
     /// DST_COLOR, ZERO.
     Multiply,
+    /// DST_COLOR, ZERO for RGB; ONE, ZERO for alpha.
+    MultiplyAndStoreAlpha,
 }
 
 /// The colour before texturing.
@@ -97,6 +99,8 @@ pub struct Unit {
     pub placement: Placement,
     pub rgb: Combine,
     pub alpha: Combine,
+    /// 1, 2 or 4; what it makes of RGB is clamped to [0, 1].
+    pub rgb_scale: f32,
     /// 1, 2 or 4; what it makes of alpha is clamped to [0, 1].
     pub alpha_scale: f32,
     pub constant: [f32; 4],
@@ -109,6 +113,8 @@ pub enum UnitImage {
         index: usize,
         alpha: AlphaSource,
     },
+    /// A cube map of the batch's inputs, by its index.
+    Cube(usize),
     Mask(Mask),
 }
 
@@ -147,6 +153,9 @@ pub enum UnitCoordinates {
     ObjectLinear(ObjectLinear),
     /// glTexGen GL_EYE_LINEAR for all four.
     EyeLinear(Box<EyeLinear>),
+    /// The vector to a light in the surface's tangent space, found for each vertex: s, t and r. The light's position in eye
+    /// space, homogeneous.
+    TangentLight([f32; 4]),
 }
 
 /// Planes, the modelview under which they are set, and the texture matrix behind them.
@@ -168,6 +177,12 @@ pub enum Operand {
     Primary,
     /// The unit before; the primary colour for the first.
     Previous,
+    /// The alpha of the unit before, also for RGB.
+    PreviousAlpha,
+    /// The texture of the unit of this number.
+    Other(u32),
+    /// The alpha of that texture, also for RGB.
+    OtherAlpha(u32),
 }
 
 /// GL_COMBINE's functions [GL 4.6 compatibility, table 16.20].
@@ -180,4 +195,13 @@ pub enum Combine {
     Interpolate(Operand, Operand, Operand),
     /// Four times the dot product of both less 0.5, into RGB and alpha.
     Dot3Rgba(Operand, Operand),
+    /// The same into RGB alone.
+    Dot3Rgb(Operand, Operand),
+}
+
+impl Operand {
+    /// Tests whether it is an alpha for RGB too.
+    pub fn is_alpha(self) -> bool {
+        matches!(self, Self::ConstantAlpha | Self::PreviousAlpha | Self::OtherAlpha(_))
+    }
 }

@@ -18,6 +18,7 @@ pub mod listing;
 mod masks;
 pub mod reading;
 mod stack;
+mod tangent_light;
 mod units;
 
 use std::rc::Rc;

@@ -10,7 +10,7 @@ use super::bounds::{self, CoordinateRange};
 use super::layer::{Layer, LayerBlend, LayerLighting, PointLight, Primary};
 use super::stack::{Stack, Weight};
 use crate::pass::{
-    self, Batch, Compare, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
+    self, Batch, Compare, Decal, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
 };
 
 /// The layers of a batch, in the order in which they are drawn; `blend` is its pass's.
@@ -27,6 +27,7 @@ pub fn layers(batch: &Batch, blend: Option<pass::Blend>) -> Result<Vec<Layer>, S
             None => lit_layers(batch, lit),
             Some(blend) => blended_layers(batch, lit, blend),
         },
+        FixedFunctionDesc::Decal(decal) => Ok(vec![decal_layer(batch, decal, blend)?]),
         FixedFunctionDesc::Alpha(view) => alpha_layers(batch, view),
         FixedFunctionDesc::Sampled(view) => view_layers(batch, view),
         FixedFunctionDesc::Shader(what) => Err((*what).to_owned()),
@@ -39,6 +40,18 @@ impl Layer {
         let (units, alpha_test, blend) = (Vec::new(), None, LayerBlend::Replace);
         Self { name, primary, units, alpha_test, blend, first: true, alpha_write: true }
     }
+}
+
+/// The decal and the gloss. Holes need no test: at depth EQUAL nothing is met in them.
+fn decal_layer(batch: &Batch, decal: &Decal, blend: Option<pass::Blend>) -> Result<Layer, String> {
+    if blend != Some(pass::Blend::MultiplyAndStoreAlpha) {
+        return Err(String::from("a decal in a pass that does not multiply by it"));
+    }
+    let mut stack = Stack::new(batch);
+    stack.decal(decal)?;
+    let mut layer = Layer::first("decal", Primary::Color([1.0; 4]));
+    (layer.units, layer.blend) = (stack.finish(), LayerBlend::MultiplyAndStoreAlpha);
+    Ok(layer)
 }
 
 /// Black, and only where the surface has no holes.
@@ -178,7 +191,7 @@ fn is_lit(lit: &Lit, light: &FixedFunctionLight) -> bool {
 }
 
 fn check_lighting(lit: &Lit) -> Result<(), String> {
-    let by_vertex = |light: &FixedFunctionLight| is_lit(lit, light) || is_attenuated(light);
+    let by_vertex = |light: &FixedFunctionLight| (is_lit(lit, light) && lit.bumps.is_none()) || is_attenuated(light);
     if !lit.per_vertex && lit.lights.iter().any(by_vertex) {
         return Err(String::from(
             "its lighting is found for each fragment, fixed function's for each vertex: choose lighting = \"per-vertex\"",
@@ -278,13 +291,20 @@ fn light_layer(
 ) -> Result<Layer, String> {
     let projection = light.projection.as_ref();
     let cone = projection.filter(|projection| projection.cone);
-    let (primary, already) = primary(lit, light, parts)?;
+    let bumps = lit.bumps.filter(|_| is_lit(lit, light));
+    let (primary, already) = match bumps {
+        Some(_) => (primary_of_bumps(lit, light, parts)?, None),
+        None => primary(lit, light, parts)?,
+    };
     let name = match parts {
         Parts { diffuse: true, specular: true, .. } => "light",
         Parts { diffuse: true, .. } => "diffuse light",
         Parts { .. } => "specular light",
     };
     let mut stack = Stack::new(batch);
+    if let Some(bumps) = bumps {
+        stack.bumps(bumps, &lit.texturing, light.position)?;
+    }
     cone.iter().for_each(|projection| stack.cone(projection));
     if let Some(already) = already {
         if parts.weight != Weight::Shade && light.shade != Shade::Lit {
@@ -314,6 +334,23 @@ fn light_layer(
         first: false,
         alpha_write: false,
     })
+}
+
+/// The light's colour on bumps: it is clamped before anything is multiplied by it.
+fn primary_of_bumps(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<Primary, String> {
+    let color = product(light.diffuse, lit.diffuse);
+    let why = match () {
+        () if parts.specular => "highlights on bumps",
+        () if parts.weight != Weight::Shade && light.shade != Shade::Lit => {
+            "a dimmed shadow on bumps: no combiner is left for it"
+        }
+        () if light.projection.as_ref().is_some_and(|projection| projection.cone) => {
+            "bumps in a cone: both need alpha; choose shape = \"frustum\""
+        }
+        () if color.max_element() > 1.0 => "its light on bumps exceeds 1, where fixed function clamps it",
+        () => return Ok(Primary::Color(color.extend(1.0).to_array())),
+    };
+    Err(String::from(why))
 }
 
 /// The primary colour of a light's layer, and what of it is ambient light that is there already: GL clamps the sum of

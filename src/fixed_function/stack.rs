@@ -4,7 +4,7 @@ use glam::{DMat4, DVec4};
 
 use super::layer::{AlphaSource, Combine, EyeLinear, Mask, Operand, Unit, UnitCoordinates, UnitImage};
 use crate::geometry::Placement;
-use crate::pass::{Batch, Projection, Shade, Texturing};
+use crate::pass::{Batch, BumpMap, Decal, GlossSource, Projection, Shade, Texturing};
 
 /// Result of the unit before.
 const KEPT: Combine = Combine::Replace(Operand::Previous);
@@ -42,8 +42,15 @@ impl<'a> Stack<'a> {
 
     fn push(&mut self, image: UnitImage, coordinates: UnitCoordinates, rgb: Combine, alpha: Combine) {
         let alpha_scale = if self.cone { STEEPER } else { 1.0 };
-        let placement = Placement::default();
-        self.units.push(Unit { image, coordinates, placement, rgb, alpha, alpha_scale, constant: [1.0; 4] });
+        let (placement, rgb_scale, constant) = (Placement::default(), 1.0, [1.0; 4]);
+        self.units.push(Unit { image, coordinates, placement, rgb, alpha, rgb_scale, alpha_scale, constant });
+    }
+
+    /// Sets the scales of the unit that was pushed last.
+    fn scale(&mut self, rgb: f32, alpha: f32) {
+        if let Some(unit) = self.units.last_mut() {
+            (unit.rgb_scale, unit.alpha_scale) = (rgb, alpha);
+        }
     }
 
     /// Places the texture of the unit that was pushed last.
@@ -61,7 +68,7 @@ impl<'a> Stack<'a> {
 
     /// The surface's own textures: the decal's RGB where `decal` says so, and alpha for the alpha test.
     pub fn surface(&mut self, texturing: &Texturing, decal: bool, tested: bool) -> Result<(), String> {
-        let coordinates = texturing.object_linear.map_or(UnitCoordinates::Mesh, UnitCoordinates::ObjectLinear);
+        let coordinates = own_coordinates(texturing);
         let test = texturing.alpha_test.as_ref().filter(|_| tested);
         if decal {
             self.push(self.input("decal_map")?, coordinates.clone(), BY_TEXTURE, KEPT);
@@ -77,6 +84,54 @@ impl<'a> Stack<'a> {
             self.push(image, coordinates, KEPT, BY_TEXTURE);
             self.place(texturing.alpha_placement);
         }
+        Ok(())
+    }
+
+    /// The decal, with the gloss in alpha.
+    pub fn decal(&mut self, decal: &Decal) -> Result<(), String> {
+        let coordinates = own_coordinates(&decal.texturing);
+        let own = Combine::Replace(Operand::Texture);
+        if decal.texturing.decal {
+            let alpha = if decal.gloss == GlossSource::DecalAlpha { own } else { KEPT };
+            self.push(self.input("decal_map")?, coordinates.clone(), own, alpha);
+            self.place(decal.texturing.decal_placement);
+        }
+        if let GlossSource::Map { in_red } = decal.gloss
+            && let UnitImage::Input { index, .. } = self.input("gloss_map")?
+        {
+            let alpha = if in_red { AlphaSource::Red } else { AlphaSource::Own };
+            self.push(UnitImage::Input { index, alpha }, coordinates, KEPT, own);
+        }
+        Ok(())
+    }
+
+    /// The primary colour in the light of bumps: times dim (N' . L) min(1, 8 L_z) [GDC, "Per-Pixel Lighting Math"]. Must come
+    /// first: it names textures by their units. Alpha is the primary colour's.
+    pub fn bumps(&mut self, map: BumpMap, texturing: &Texturing, light: [f32; 4]) -> Result<(), String> {
+        let (UnitImage::Input { index: cube, .. }, normals) = (self.input("unit_vectors")?, self.input("normal_map")?)
+        else {
+            return Ok(());
+        };
+        // Alpha: 4 L_z, as L / 2 + 1 / 2 less a half is multiplied by (0, 0, 1 - 1 / 2), and then 8 L_z, clamped.
+        let down = Combine::Dot3Rgba(Operand::Texture, Operand::Constant);
+        self.push(UnitImage::Cube(cube), UnitCoordinates::TangentLight(light), down, KEPT);
+        self.constant([0.5, 0.5, 1.0, 1.0]);
+        self.scale(4.0, 4.0);
+        let coordinates = own_coordinates(texturing);
+        if map.is_signed {
+            let packed = Combine::Interpolate(Operand::Texture, Operand::Constant, Operand::ConstantAlpha);
+            self.push(normals, coordinates, packed, KEPT);
+            self.constant([1.0, 1.0, 1.0, 0.5]);
+            self.scale(1.0, 2.0);
+            self.pass_on(Combine::Dot3Rgb(Operand::Previous, Operand::Other(0)), KEPT);
+        } else {
+            self.push(normals, coordinates, Combine::Dot3Rgb(Operand::Texture, Operand::Other(0)), KEPT);
+            self.scale(1.0, 2.0);
+        }
+        let by = |factor| Combine::Modulate(Operand::Previous, factor);
+        self.pass_on(by(Operand::PreviousAlpha), KEPT);
+        self.pass_on(by(Operand::OtherAlpha(1)), KEPT);
+        self.pass_on(by(Operand::Primary), Combine::Replace(Operand::Primary));
         Ok(())
     }
 
@@ -193,6 +248,11 @@ impl<'a> Stack<'a> {
         }
         self.units
     }
+}
+
+/// Coordinates of a surface's own textures.
+fn own_coordinates(texturing: &Texturing) -> UnitCoordinates {
+    texturing.object_linear.map_or(UnitCoordinates::Mesh, UnitCoordinates::ObjectLinear)
 }
 
 /// The light's coordinates as the scene has them set up, with `then` behind the texture matrix.

@@ -4,7 +4,7 @@
 use glam::DMat4;
 use glow::HasContext;
 
-use super::layer::{AlphaSource, Combine, Operand, Unit, UnitCoordinates};
+use super::layer::{AlphaSource, Combine, Operand, Unit, UnitCoordinates, UnitImage};
 use crate::context::compatibility::{Binding, raw};
 use crate::device::{compare_code, filter_codes, wrap_code};
 use crate::geometry::Placement;
@@ -29,16 +29,17 @@ pub struct Bound {
 
 /// Switches unit `index` on.
 pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, bound: Bound) {
+    let target = if let UnitImage::Cube(_) = unit.image { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D };
     // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the
     // call.
     unsafe {
         gl.active_texture(glow::TEXTURE0 + index);
         gl.bind_sampler(index, None);
-        gl.bind_texture(glow::TEXTURE_2D, Some(bound.texture));
-        gl.enable(glow::TEXTURE_2D);
+        gl.bind_texture(target, Some(bound.texture));
+        gl.enable(target);
     }
     if let Some(sampler) = bound.sampler {
-        set_sampler(gl, sampler, bound.alpha);
+        set_sampler(gl, target, sampler, bound.alpha);
     }
     set_coordinates(gl, fixed, &unit.coordinates, &unit.placement);
     set_combiners(fixed, unit);
@@ -49,8 +50,10 @@ pub fn disable(gl: &glow::Context, fixed: &Binding, index: u32) {
     // SAFETY: as above.
     unsafe {
         gl.active_texture(glow::TEXTURE0 + index);
-        gl.disable(glow::TEXTURE_2D);
-        gl.bind_texture(glow::TEXTURE_2D, None);
+        for target in [glow::TEXTURE_2D, glow::TEXTURE_CUBE_MAP] {
+            gl.disable(target);
+            gl.bind_texture(target, None);
+        }
         COORDINATES.iter().for_each(|(_, switch)| gl.disable(*switch));
         fixed.MatrixMode(glow::TEXTURE);
         fixed.LoadIdentity();
@@ -59,7 +62,7 @@ pub fn disable(gl: &glow::Context, fixed: &Binding, index: u32) {
 
 /// Sets the texture's own parameters as the device sets sampler objects; a comparison's result goes to RGB, and to alpha
 /// where that is wanted.
-fn set_sampler(gl: &glow::Context, sampler: Sampler, alpha: AlphaSource) {
+fn set_sampler(gl: &glow::Context, target: u32, sampler: Sampler, alpha: AlphaSource) {
     let ([min, mag], wrap) = (filter_codes(sampler.filter), wrap_code(sampler.wrap));
     let (mode, function) = match sampler.compare {
         Some(compare) => (glow::COMPARE_REF_TO_TEXTURE, compare_code(compare)),
@@ -70,6 +73,7 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, alpha: AlphaSource) {
         (glow::TEXTURE_MAG_FILTER, mag),
         (glow::TEXTURE_WRAP_S, wrap),
         (glow::TEXTURE_WRAP_T, wrap),
+        (glow::TEXTURE_WRAP_R, wrap),
         (glow::TEXTURE_COMPARE_MODE, mode),
         (glow::TEXTURE_COMPARE_FUNC, function),
         (raw::DEPTH_TEXTURE_MODE, if alpha == AlphaSource::Comparison { raw::INTENSITY } else { raw::LUMINANCE }),
@@ -77,11 +81,11 @@ fn set_sampler(gl: &glow::Context, sampler: Sampler, alpha: AlphaSource) {
     ];
     for (name, value) in parameters {
         // SAFETY: as above.
-        unsafe { gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32) };
+        unsafe { gl.tex_parameter_i32(target, name, value as i32) };
     }
     if let Wrap::ClampToBorder(border) = sampler.wrap {
         // SAFETY: as above; four values are read.
-        unsafe { gl.tex_parameter_f32_slice(glow::TEXTURE_2D, glow::TEXTURE_BORDER_COLOR, &border.color()) };
+        unsafe { gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &border.color()) };
     }
 }
 
@@ -95,7 +99,7 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &UnitCoordi
         fixed.Translatef(offset_s, offset_t, 0.0);
         fixed.Scalef(scale_s, scale_t, 1.0);
         match coordinates {
-            UnitCoordinates::Constant | UnitCoordinates::Mesh => {}
+            UnitCoordinates::Constant | UnitCoordinates::Mesh | UnitCoordinates::TangentLight(_) => {}
             UnitCoordinates::ObjectLinear(generated) => {
                 fixed.Scalef(generated.scale, generated.scale, 1.0);
                 for ((name, switch), plane) in COORDINATES.iter().zip([generated.s, generated.t]) {
@@ -144,7 +148,7 @@ fn set_combiners(fixed: &Binding, unit: &Unit) {
     unsafe {
         fixed.TexEnvi(raw::TEXTURE_ENV, raw::TEXTURE_ENV_MODE, raw::COMBINE as i32);
         fixed.TexEnvfv(raw::TEXTURE_ENV, raw::TEXTURE_ENV_COLOR, unit.constant.as_ptr());
-        fixed.TexEnvf(raw::TEXTURE_ENV, raw::RGB_SCALE, 1.0);
+        fixed.TexEnvf(raw::TEXTURE_ENV, raw::RGB_SCALE, unit.rgb_scale);
         fixed.TexEnvf(raw::TEXTURE_ENV, raw::ALPHA_SCALE, unit.alpha_scale);
     }
     set_combiner(fixed, raw::COMBINE_RGB, [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB], raw::OPERAND0_RGB, unit.rgb);
@@ -160,12 +164,13 @@ fn set_combiner(fixed: &Binding, combiner: u32, sources: [u32; 3], first_operand
         Combine::Subtract(a, b) => (raw::SUBTRACT, vec![a, b]),
         Combine::Interpolate(a, b, by) => (raw::INTERPOLATE, vec![a, b, by]),
         Combine::Dot3Rgba(a, b) => (raw::DOT3_RGBA, vec![a, b]),
+        Combine::Dot3Rgb(a, b) => (raw::DOT3_RGB, vec![a, b]),
     };
     // SAFETY: as above.
     unsafe {
         fixed.TexEnvi(raw::TEXTURE_ENV, combiner, function as i32);
         for ((source, number), operand) in sources.into_iter().zip(0..).zip(operands) {
-            let alpha = combiner == raw::COMBINE_ALPHA || operand == Operand::ConstantAlpha;
+            let alpha = combiner == raw::COMBINE_ALPHA || operand.is_alpha();
             let taken = if alpha { glow::SRC_ALPHA } else { glow::SRC_COLOR };
             fixed.TexEnvi(raw::TEXTURE_ENV, source, operand_code(operand) as i32);
             fixed.TexEnvi(raw::TEXTURE_ENV, first_operand + number, taken as i32);
@@ -178,6 +183,7 @@ fn operand_code(operand: Operand) -> u32 {
         Operand::Texture => glow::TEXTURE,
         Operand::Constant | Operand::ConstantAlpha => raw::CONSTANT,
         Operand::Primary => raw::PRIMARY_COLOR,
-        Operand::Previous => raw::PREVIOUS,
+        Operand::Previous | Operand::PreviousAlpha => raw::PREVIOUS,
+        Operand::Other(unit) | Operand::OtherAlpha(unit) => glow::TEXTURE0 + unit,
     }
 }

@@ -21,6 +21,8 @@ pub enum FixedFunctionDesc {
     /// `(ambient + shade·diffuse)·decal + shade·specular`, summed over lights [LEC, "Advice for Shadowed Illumination
     /// Model"].
     Lit(Box<Lit>),
+    /// The decal, and the gloss in alpha, for a pass that multiplies by both [GDC, "Three Passes"].
+    Decal(Box<Decal>),
     /// A light's shade texture on the surfaces: its value as RGB and alpha 1 where the light reaches, 0 elsewhere.
     Sampled(Box<ShadeView>),
     /// The same value as alpha, without a colour [Segal 1992, 3.3].
@@ -78,8 +80,44 @@ pub struct Lit {
     pub shininess: f32,
     /// Textures of the surface.
     pub texturing: Texturing,
+    /// Bumps; they are lit per fragment by one light.
+    pub bumps: Option<BumpMap>,
     /// Lights in the scene's order.
     pub lights: Vec<FixedFunctionLight>,
+}
+
+/// Bumps by the inputs `normal_map`, of normals in tangent space with the dimming in alpha, and `unit_vectors`, a cube map that
+/// normalises the light vector. They are in shadow where the light sinks below the smooth surface, by min(1, 8 L_z)
+/// [GDC, "Per-Pixel Lighting Math"].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BumpMap {
+    /// True if the normal map's texels are in [-1, 1]; `false`: x as (x + 1) / 2.
+    pub is_signed: bool,
+}
+
+/// Decal and gloss.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decal {
+    /// Projection of the camera.
+    pub clip_from_eye: DMat4,
+    /// Textures of the surface.
+    pub texturing: Texturing,
+    /// Source of alpha.
+    pub gloss: GlossSource,
+}
+
+/// Source of a surface's gloss.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GlossSource {
+    /// The gloss is 1.
+    One,
+    /// The decal's alpha.
+    DecalAlpha,
+    /// The input `gloss_map`, its red channel or its alpha.
+    Map {
+        /// True if the values are in the red channel.
+        in_red: bool,
+    },
 }
 
 impl FixedFunctionDesc {
@@ -87,6 +125,7 @@ impl FixedFunctionDesc {
     pub fn clip_from_eye(&self) -> Option<DMat4> {
         match self {
             Self::Lit(lit) => Some(lit.clip_from_eye),
+            Self::Decal(decal) => Some(decal.clip_from_eye),
             Self::Sampled(view) | Self::Alpha(view) => Some(view.clip_from_eye),
             Self::Depth(_) | Self::Constant(_) | Self::Shader(_) => None,
         }
@@ -97,7 +136,7 @@ impl FixedFunctionDesc {
         match self {
             Self::Lit(lit) => lit.lights.iter().filter_map(|light| light.projection.as_ref()).collect(),
             Self::Sampled(view) | Self::Alpha(view) => view.projection.iter().collect(),
-            Self::Depth(_) | Self::Constant(_) | Self::Shader(_) => Vec::new(),
+            Self::Depth(_) | Self::Constant(_) | Self::Decal(_) | Self::Shader(_) => Vec::new(),
         }
     }
 }

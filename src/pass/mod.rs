@@ -12,7 +12,8 @@ mod state;
 pub use define::Define;
 pub use draw::{Batch, Draw, IndexOrder, MeshRef, Primitive};
 pub use fixed_function_desc::{
-    AlphaTest, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
+    AlphaTest, BumpMap, Decal, FixedFunctionDesc, FixedFunctionLight, GlossSource, Lit, Projection, Shade, ShadeView,
+    Texturing,
 };
 pub use image::{
     Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,

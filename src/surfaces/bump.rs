@@ -10,7 +10,10 @@ use crate::geometry::normal_map::HeightWrap;
 use crate::lights::drawable::upload;
 use crate::lights::ending::Portion;
 use crate::lights::{Drawable, Ending};
-use crate::pass::{Chunk, Define, Filter, Format, ImageDesc, ImageId, Input, PassList, Sampler, Storage, Wrap, glsl};
+use crate::pass::{
+    BumpMap, Chunk, Define, Filter, Format, GlossSource, ImageDesc, ImageId, Input, PassList, Sampler, Storage, Wrap,
+    glsl,
+};
 use crate::scene::{BumpMethod, BumpShading, Normalize};
 
 /// Bumps of an item in one pass.
@@ -73,6 +76,27 @@ impl Bumps {
         defines
     }
 
+    /// Bumps in the terms of fixed function.
+    ///
+    /// # Errors
+    ///
+    /// Something that it cannot express, in words.
+    pub fn meaning(&self, bump: &Bump, shading: &BumpShading, two_sided: bool) -> Result<BumpMap, &'static str> {
+        let why = match () {
+            () if !self.are_combined() => {
+                "bumps by vectors that are found for each fragment: choose bump = \"three-pass\""
+            }
+            () if shading.has_own_program => "bumps by a program of register combiners of the scene's own",
+            () if shading.normalize == Normalize::Exact => {
+                "bumps by vectors that are normalised for each fragment: choose normalize = { cube = 64 }"
+            }
+            () if shading.precision != Precision::Float => "bumps by register combiners of 9 bits",
+            () if two_sided => "bumps that may be seen from behind: write closed = true where none are",
+            () => return Ok(BumpMap { is_signed: bump.map.is_signed }),
+        };
+        Err(why)
+    }
+
     /// Textures.
     pub fn inputs(&self, bump: Option<&Bump>, shading: &BumpShading, list: &mut PassList) -> Vec<Input> {
         let Some(bump) = bump.filter(|_| self.any()) else { return Vec::new() };
@@ -125,6 +149,15 @@ fn unit_vectors(size: u32, list: &mut PassList) -> Input {
     };
     let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     Input { name: "unit_vectors".into(), image, sampler }
+}
+
+/// Source of an item's gloss in the terms of fixed function.
+pub fn gloss_source(item: &Drawable) -> GlossSource {
+    match item.gloss() {
+        None => GlossSource::One,
+        Some(Gloss::DecalAlpha) => GlossSource::DecalAlpha,
+        Some(Gloss::Map(map)) => GlossSource::Map { in_red: !map.has_alpha },
+    }
 }
 
 /// Defines and textures of an item's gloss; none where all of it shines.

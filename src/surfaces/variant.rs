@@ -10,8 +10,8 @@ use crate::lights::ending::Portion;
 use crate::lights::{Drawable, Ending, Factors, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
-    Attribute, Chunk, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program, ShadeView, Uniform,
-    glsl,
+    Attribute, BumpMap, Chunk, Decal, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program,
+    ShadeView, Uniform, glsl,
 };
 use crate::scene::Scene;
 
@@ -157,12 +157,18 @@ pub fn of(
     };
     let meaning = if item.wave.is_some() {
         WAVES
-    } else if bumps.any() {
-        FixedFunctionDesc::Shader("bumps, lit per fragment")
-    } else if others {
-        FixedFunctionDesc::Shader("a gloss map")
+    } else if let Some(map) = bump_map.filter(|_| bumps.any()) {
+        match bumps.meaning(map, &scene.shading.bumps, two_sided) {
+            Ok(_) if specular => {
+                FixedFunctionDesc::Shader("highlights on bumps: a product that is squared three times")
+            }
+            Ok(map) => meaning(scene, item, lights, viewer, ending, needs, (&cut, Some(map))),
+            Err(why) => FixedFunctionDesc::Shader(why),
+        }
+    } else if others && shines && lit {
+        FixedFunctionDesc::Shader("highlights by a gloss map")
     } else {
-        meaning(scene, item, lights, viewer, ending, needs, &cut)
+        meaning(scene, item, lights, viewer, ending, needs, (&cut, None))
     };
     Variant { program, meaning, uniforms, inputs }
 }
@@ -175,13 +181,13 @@ fn meaning(
     viewer: &Viewer,
     ending: &Ending,
     needs: Needs,
-    cut: &Cutout,
+    (cut, bumps): (&Cutout, Option<BumpMap>),
 ) -> FixedFunctionDesc {
     let clip_from_eye = viewer.clip_from_eye;
     let texturing = cut.meaning.clone();
     let material = &item.material;
     match (ending, lights.first()) {
-        (Ending::Lit, _) => FixedFunctionDesc::Lit(Box::new(Lit {
+        (Ending::Lit | Ending::Portion(Portion::Diffuse), _) => FixedFunctionDesc::Lit(Box::new(Lit {
             clip_from_eye,
             per_vertex: scene.shading.per_vertex,
             lit: item.lit,
@@ -192,8 +198,12 @@ fn meaning(
             specular: if needs.specular { material.specular } else { [0.0; 3] },
             shininess: if needs.specular { material.shininess } else { 0.0 },
             texturing,
+            bumps,
             lights: lights.iter().map(|light| light.meaning.clone()).collect(),
         })),
+        (Ending::Portion(Portion::Decal(_)), _) => {
+            FixedFunctionDesc::Decal(Box::new(Decal { clip_from_eye, texturing, gloss: bump::gloss_source(item) }))
+        }
         (Ending::Factors(factors), _) => {
             // A factor that a pass lacks is 1, and its light 0.
             let own = if factors.color { Vec3::from(material.diffuse) } else { Vec3::ONE };
@@ -210,6 +220,7 @@ fn meaning(
                 specular: [0.0; 3],
                 shininess: 0.0,
                 texturing,
+                bumps: None,
                 lights: lights.iter().map(|light| light.meaning.clone()).collect(),
             }))
         }
@@ -225,7 +236,7 @@ fn meaning(
         (Ending::Surface { .. } | Ending::TangentVector { .. }, _) => {
             FixedFunctionDesc::Shader("a view of a surface's property")
         }
-        (Ending::Portion(_), _) => FixedFunctionDesc::Shader("a part of the illumination formula"),
+        (Ending::Portion(Portion::Specular), _) => FixedFunctionDesc::Shader("highlights alone"),
         (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
         (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
     }

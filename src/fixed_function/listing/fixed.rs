@@ -5,7 +5,7 @@ use glam::{DMat4, Mat4};
 use super::super::layer::{
     AlphaSource, Combine, Layer, LayerBlend, LayerLighting, Operand, Primary, Unit, UnitCoordinates, UnitImage,
 };
-use super::super::{bounds, reading};
+use super::super::{bounds, reading, tangent_light};
 use super::c::{self, float, floats, vector};
 use super::state::ListingState;
 use super::{Listing, names};
@@ -33,6 +33,8 @@ impl<'a> Listing<'a> {
                 self.title(&draw.label);
                 self.matrices(batch, draw);
                 self.mirror(now, draw.mirrored);
+                let mesh = self.bind_mesh(draw);
+                self.tangent_light(mesh, &layer, draw);
                 self.draw_elements(draw);
             }
             self.take_down(&layer, now);
@@ -51,14 +53,21 @@ impl<'a> Listing<'a> {
             LayerBlend::Erase => "GL_ZERO, GL_ZERO",
             LayerBlend::AddByStoredAlpha => "GL_DST_ALPHA, GL_ONE",
             LayerBlend::Multiply => "GL_DST_COLOR, GL_ZERO",
+            LayerBlend::MultiplyAndStoreAlpha => "GL_DST_COLOR, GL_ZERO, GL_ONE, GL_ZERO",
         };
+        let function =
+            if layer.blend == LayerBlend::MultiplyAndStoreAlpha { "glBlendFuncSeparate" } else { "glBlendFunc" };
         self.body.call("glEnable(GL_BLEND)");
         self.body.call("glBlendEquation(GL_FUNC_ADD)");
-        self.body.call(&format!("glBlendFunc({factors})"));
+        self.body.call(&format!("{function}({factors})"));
     }
 
     fn take_down(&mut self, layer: &Layer, now: &ListingState) {
-        for index in 0..layer.units.len() {
+        for (index, unit) in layer.units.iter().enumerate() {
+            if let UnitCoordinates::TangentLight(_) = unit.coordinates {
+                self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{index})"));
+                self.body.call("glDisableClientState(GL_TEXTURE_COORD_ARRAY)");
+            }
             self.body.call(&format!("disable_unit({index})"));
             self.objects.disables_units = true;
         }
@@ -84,27 +93,35 @@ impl<'a> Listing<'a> {
                 let Some(input) = batch.inputs.get(index) else { return };
                 (format!("images[{}]", input.image.0), Some(input.sampler), alpha)
             }
+            UnitImage::Cube(index) => {
+                let Some(input) = batch.inputs.get(index) else { return };
+                (format!("images[{}]", input.image.0), Some(input.sampler), AlphaSource::Own)
+            }
         };
+        let target = if let UnitImage::Cube(_) = unit.image { "GL_TEXTURE_CUBE_MAP" } else { "GL_TEXTURE_2D" };
         self.body.call(&format!("glActiveTexture(GL_TEXTURE{index})"));
-        self.body.call(&format!("glBindTexture(GL_TEXTURE_2D, {name})"));
-        self.body.call("glEnable(GL_TEXTURE_2D)");
+        self.body.call(&format!("glBindTexture({target}, {name})"));
+        self.body.call(&format!("glEnable({target})"));
         if let Some(sampler) = sampler {
-            self.sampling(sampler, alpha);
+            self.sampling(target, sampler, alpha);
         }
         self.coordinates(&unit.coordinates, &unit.placement);
         self.combiners(unit);
     }
 
     /// By the texture's own parameters. A comparison's result becomes RGB, and alpha where that is wanted.
-    fn sampling(&mut self, sampler: Sampler, alpha: AlphaSource) {
+    fn sampling(&mut self, target: &str, sampler: Sampler, alpha: AlphaSource) {
         let [min, mag] = c::filters(sampler.filter);
         let mut set = |name: &str, value: &str| {
-            self.body.call(&format!("glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_{name}, {value})"));
+            self.body.call(&format!("glTexParameteri({target}, GL_TEXTURE_{name}, {value})"));
         };
         set("MIN_FILTER", min);
         set("MAG_FILTER", mag);
         set("WRAP_S", c::wrap(sampler.wrap));
         set("WRAP_T", c::wrap(sampler.wrap));
+        if target == "GL_TEXTURE_CUBE_MAP" {
+            set("WRAP_R", c::wrap(sampler.wrap));
+        }
         match sampler.compare {
             Some(compare) => {
                 set("COMPARE_MODE", "GL_COMPARE_REF_TO_TEXTURE");
@@ -148,6 +165,19 @@ impl<'a> Listing<'a> {
         }
     }
 
+    /// Binds vectors of a mesh's vertices to the lights of units that look them up.
+    fn tangent_light(&mut self, mesh: usize, layer: &Layer, draw: &Draw) {
+        for (index, unit) in layer.units.iter().enumerate() {
+            let UnitCoordinates::TangentLight(light) = unit.coordinates else { continue };
+            let light = vector(&tangent_light::in_model(draw, light).as_vec4().to_array());
+            self.objects.uses_tangent_light = true;
+            self.body.call("glBindBuffer(GL_ARRAY_BUFFER, 0)");
+            self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{index})"));
+            self.body.call(&format!("glTexCoordPointer(3, GL_FLOAT, 0, tangent_light({mesh}, {light}))"));
+            self.body.call("glEnableClientState(GL_TEXTURE_COORD_ARRAY)");
+        }
+    }
+
     fn combiners(&mut self, unit: &Unit) {
         let mut set =
             |name: &str, value: &str| self.body.call(&format!("glTexEnvi(GL_TEXTURE_ENV, GL_{name}, {value})"));
@@ -159,16 +189,18 @@ impl<'a> Listing<'a> {
                 Combine::Subtract(a, b) => ("GL_SUBTRACT", vec![a, b]),
                 Combine::Interpolate(a, b, by) => ("GL_INTERPOLATE", vec![a, b, by]),
                 Combine::Dot3Rgba(a, b) => ("GL_DOT3_RGBA", vec![a, b]),
+                Combine::Dot3Rgb(a, b) => ("GL_DOT3_RGB", vec![a, b]),
             };
             set(&format!("COMBINE_{channel}"), function);
             for (number, operand) in operands.into_iter().enumerate() {
-                let alpha = channel == "ALPHA" || operand == Operand::ConstantAlpha;
-                set(&format!("SRC{number}_{channel}"), operand_name(operand));
+                let alpha = channel == "ALPHA" || operand.is_alpha();
+                set(&format!("SRC{number}_{channel}"), &operand_name(operand));
                 set(&format!("OPERAND{number}_{channel}"), if alpha { "GL_SRC_ALPHA" } else { "GL_SRC_COLOR" });
             }
         }
-        let (constant, scale) = (vector(&unit.constant), float(unit.alpha_scale));
+        let (constant, rgb_scale, scale) = (vector(&unit.constant), float(unit.rgb_scale), float(unit.alpha_scale));
         self.body.call(&format!("glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, {constant})"));
+        self.body.call(&format!("glTexEnvf(GL_TEXTURE_ENV, GL_RGB_SCALE, {rgb_scale})"));
         self.body.call(&format!("glTexEnvf(GL_TEXTURE_ENV, GL_ALPHA_SCALE, {scale})"));
     }
 
@@ -228,11 +260,12 @@ fn keeps_alpha(state: &DrawState, layer: &Layer) -> bool {
     state.color_write == Channels::All && !layer.alpha_write
 }
 
-fn operand_name(operand: Operand) -> &'static str {
-    match operand {
+fn operand_name(operand: Operand) -> String {
+    String::from(match operand {
         Operand::Texture => "GL_TEXTURE",
         Operand::Constant | Operand::ConstantAlpha => "GL_CONSTANT",
         Operand::Primary => "GL_PRIMARY_COLOR",
-        Operand::Previous => "GL_PREVIOUS",
-    }
+        Operand::Previous | Operand::PreviousAlpha => "GL_PREVIOUS",
+        Operand::Other(unit) | Operand::OtherAlpha(unit) => return format!("GL_TEXTURE{unit}"),
+    })
 }

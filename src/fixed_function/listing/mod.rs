@@ -93,6 +93,10 @@ impl<'a> Listing<'a> {
         state::clear(&mut self.body, &pass.clear);
         let mut now = ListingState::of(pass.state);
         state::set(&mut self.body, None, &now.state);
+        let is_seamless = |pass: &crate::pass::Pass| !matches!(&pass.work, Work::Draw(draw) if !draw.state.seamless);
+        if !self.list.passes.iter().all(is_seamless) {
+            self.body.enable("GL_TEXTURE_CUBE_MAP_SEAMLESS", now.state.seamless);
+        }
         for batch in &pass.batches {
             match self.fixed {
                 true => self.fixed_batch(pass, batch, &mut now),
@@ -117,14 +121,18 @@ impl<'a> Listing<'a> {
         }
     }
 
-    fn draw_elements(&mut self, draw: &'a Draw) {
+    fn bind_mesh(&mut self, draw: &'a Draw) -> usize {
         let mesh = self.objects.mesh(&draw.mesh, draw.order);
+        self.body.call(&format!("bind_mesh({mesh})"));
+        mesh
+    }
+
+    fn draw_elements(&mut self, draw: &Draw) {
         let mode = match draw.primitive {
             Primitive::Triangles => "GL_TRIANGLES",
             Primitive::Lines => "GL_LINES",
         };
         let (count, first) = (draw.indices.end - draw.indices.start, 4 * u64::from(draw.indices.start));
-        self.body.call(&format!("bind_mesh({mesh})"));
         self.body.call(&format!("glDrawElements({mode}, {count}, GL_UNSIGNED_INT, (const void *){first})"));
     }
 

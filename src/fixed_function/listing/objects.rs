@@ -20,6 +20,7 @@ pub struct Objects<'a> {
     planes: Vec<(DMat4, DMat4)>,
     pub uses_eye_planes: bool,
     pub disables_units: bool,
+    pub uses_tangent_light: bool,
 }
 
 /// The place of a value, which is added where it is new.
@@ -122,6 +123,11 @@ impl<'a> Objects<'a> {
             }
             out.line("extern const void *texels(int image);");
         }
+        if self.uses_tangent_light {
+            out.line("/* a function that answers with a vector for each vertex, d . T, d . B and d . N of the mesh's tangents, bitangents and");
+            out.line("   normals, where d leads from the vertex to the light, xyz - w position, in model space */");
+            out.line("extern const GLfloat *tangent_light(int mesh, const GLfloat light[4]);");
+        }
         out.line("");
     }
 }
@@ -143,6 +149,7 @@ static void disable_unit(int unit)
 {
     glActiveTexture(GL_TEXTURE0 + unit);
     glDisable(GL_TEXTURE_2D);
+    glDisable(GL_TEXTURE_CUBE_MAP);
     glDisable(GL_TEXTURE_GEN_S);
     glDisable(GL_TEXTURE_GEN_T);
     glDisable(GL_TEXTURE_GEN_R);

@@ -33,6 +33,7 @@ impl<'a> Listing<'a> {
             self.body.call(&format!("glUniformMatrix4fv({place}, 1, GL_FALSE, {matrix})"));
             draw.uniforms.iter().for_each(|uniform| self.uniform(program, uniform));
             self.mirror(now, draw.mirrored);
+            self.bind_mesh(draw);
             self.draw_elements(draw);
         }
     }

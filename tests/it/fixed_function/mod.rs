@@ -1,6 +1,7 @@
 //! Both pipelines of a pass list: shaders and the driver's own fixed-function pipeline. With planes and matrices of the
 //! driver's arithmetic the shade is the same to the bit; with ours, but for a handful of pixels; colours are within 1/255.
 
+mod bumps;
 mod cases;
 mod pipelines;
 mod programs;
