@@ -118,6 +118,7 @@ impl<'a> SurfaceTable<'a> {
             let corners = indices.map(|index| texcoord(object, material, index));
             mix(&corners.map(|corner| corner.extend(0.0)), weights(point)).truncate()
         };
+        let view = seen.position - scene.camera.eye;
         let own = Lookup { material, position: seen.position, beside, texcoord: &texcoord };
         let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
         let bump = material.bump.as_deref().filter(|_| has_texcoords && object.lit);
@@ -132,10 +133,13 @@ impl<'a> SurfaceTable<'a> {
                     let moved = weights(seen.position + way);
                     [0, 1, 2].map(|k: usize| moved[k] - at[k])
                 }),
+                perspective: beside.iter().map(|way| way.dot(view).abs()).sum::<f64>() / view.length_squared(),
                 side: if behind { -1.0 } else { 1.0 },
             };
             let far = facet.texcoords.iter().map(|corner| corner.abs().max_element()).fold(1.0, f64::max);
             let place = own.place(&Placement::default(), far);
+            // A sample moves by the 256th part of a pixel each way.
+            let place = Place { error: DVec2::splat(1e-6 * far) + (place.pixel[0] + place.pixel[1]) / 256.0, ..place };
             Some(BumpedPoint::new(&facet, bump, self.bumps.get(&key(bump))?, scene, matrix, &place))
         });
         Some(Shaded {

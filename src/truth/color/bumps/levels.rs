@@ -9,12 +9,12 @@ use crate::geometry::normal_map::{Difference, HeightField, HeightWrap, MipColors
 use crate::truth::color::bounds::Bounds;
 use crate::truth::color::projected::Place;
 
-/// Accuracy of a filter's weights, as a share of the difference between texels: 8 bits each way.
-const WEIGHTS: f64 = 2.0 / 256.0;
+/// Accuracy of a filter's weights, as a share of the difference between two texels: half of a step of 8 bits.
+const WEIGHTS: f64 = 0.5 / 256.0;
 
-/// Factor by which a driver's own derivatives may differ from those in the pixel's middle: they are those of two by two
-/// pixels.
-const DERIVATIVES: f64 = 1.15;
+/// Share by which a driver's size of a pixel in texels may be off [GL 4.6, 8.14.1 asks for the greater of two lengths, and
+/// admits what is near it], beside the pixel's perspective.
+const LEAST_SLACK: f64 = 0.05;
 
 /// A normal map with its smaller levels, as GL reads them.
 pub(in crate::truth::color) struct BumpMap {
@@ -63,32 +63,46 @@ impl BumpMap {
         Self { levels, is_clamped: bump.border == HeightWrap::Clamp, rounded }
     }
 
-    /// The normal at a place: the value of a filter of mipmaps, and a ball that holds what every level has that the filter
-    /// may meet [GL 4.6, 8.14.1].
-    pub(super) fn look(&self, place: &Place) -> Filtered {
+    /// The normal at a place: the value of a filter of mipmaps, and a ball that holds what the filter has where the pixel's
+    /// size in texels is off. `perspective`: share by which that changes from a pixel to the next, of which a driver takes
+    /// differences [GL 4.6, 8.14.1].
+    pub(super) fn look(&self, place: &Place, perspective: f64) -> Filtered {
         let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
-        let [right, up] = place.pixel.map(|step| step * size);
-        let widest = right.max(up);
-        let [low, middle, high] =
-            [widest.max_element() / DERIVATIVES, right.length().max(up.length()), (widest.x + widest.y) * DERIVATIVES];
-        let last = self.levels.len() - 1;
+        let widest = place.pixel.map(|step| (step * size).length()).into_iter().fold(0.0, f64::max);
+        let slack = 1.0 + LEAST_SLACK + 2.0 * perspective;
+        let last = (self.levels.len() - 1) as f64;
+        let level = |texels: f64| texels.max(1.0).log2().min(last);
+        let [low, middle, high] = [widest / slack, widest, widest * slack].map(level);
         if !(place.st.is_finite() && high.is_finite()) {
             let any = Ball { at: DVec3::Z, error: 2.0 };
             return Filtered { normal: any, dim: Bounds::anything(1.0) };
         }
-        let level = |texels: f64| texels.max(1.0).log2().min(last as f64);
-        let (first, end) = (level(low).floor() as usize, level(high).ceil() as usize);
-        let samples: Vec<Sampled> = (first..=end).map(|index| self.sampled(index, place)).collect();
-        let middle = level(middle);
-        let index = (middle.floor() as usize).clamp(first, end);
-        let (one, other) = (&samples[index - first], &samples[(index + 1).min(end) - first]);
-        let part = middle - middle.floor();
-        let at = one.normal.lerp(other.normal, part);
-        let dim = one.dim + part * (other.dim - one.dim);
-        let error = samples.iter().map(|sample| sample.normal.distance(at) + sample.error).fold(0.0, f64::max);
-        let dims = samples.iter().flat_map(|sample| [sample.dim - sample.dim_error, sample.dim + sample.dim_error]);
-        let dim = Bounds::around(dim, dims.map(|dim| dim.clamp(0.0, 1.0)));
-        Filtered { normal: Ball { at, error }, dim }
+        let value = self.between(middle, place);
+        let mut sampled = vec![self.between(low, place), self.between(high, place)];
+        // Between whole levels the filter is linear.
+        sampled.extend((low.ceil() as usize..=high.floor() as usize).map(|whole| self.between(whole as f64, place)));
+        let error =
+            sampled.iter().map(|sample| sample.normal.distance(value.normal) + sample.error).fold(0.0, f64::max);
+        let dims = sampled.iter().flat_map(|sample| [sample.dim - sample.dim_error, sample.dim + sample.dim_error]);
+        let dim = Bounds::around(value.dim, dims.map(|dim| dim.clamp(0.0, 1.0)));
+        Filtered { normal: Ball { at: value.normal, error }, dim }
+    }
+
+    /// Two levels, mixed.
+    fn between(&self, level: f64, place: &Place) -> Sampled {
+        let part = level - level.floor();
+        let one = self.sampled(level.floor() as usize, place);
+        if part == 0.0 {
+            return one;
+        }
+        let other = self.sampled(level.floor() as usize + 1, place);
+        let weights = WEIGHTS * one.normal.distance(other.normal);
+        Sampled {
+            normal: one.normal.lerp(other.normal, part),
+            dim: one.dim + part * (other.dim - one.dim),
+            error: one.error.max(other.error) + weights,
+            dim_error: one.dim_error.max(other.dim_error) + WEIGHTS * (one.dim - other.dim).abs(),
+        }
     }
 
     /// One level's own.
@@ -132,10 +146,12 @@ impl Level {
         });
         let normal = corners.iter().map(|(weight, (normal, _))| *weight * *normal).sum();
         let dim = corners.iter().map(|(weight, (_, dim))| weight * dim).sum();
-        let pairs = || corners.iter().flat_map(|one| corners.iter().map(move |other| (one.1, other.1)));
-        let contrast = pairs().map(|(one, other)| one.0.distance(other.0)).fold(0.0, f64::max);
-        let dim_contrast = pairs().map(|(one, other)| (one.1 - other.1).abs()).fold(0.0, f64::max);
-        (normal, dim, contrast, dim_contrast)
+        // Across and upwards, each has a weight of its own.
+        let contrast =
+            |apart: &dyn Fn(usize, usize) -> f64| apart(0, 1).max(apart(2, 3)) + apart(0, 2).max(apart(1, 3));
+        let texel = |corner: usize| corners[corner].1;
+        let vectors = contrast(&|one, other| texel(one).0.distance(texel(other).0));
+        (normal, dim, vectors, contrast(&|one, other| (texel(one).1 - texel(other).1).abs()))
     }
 }
 

@@ -61,6 +61,8 @@ pub(super) struct Facet<'a> {
     pub texcoords: [DVec2; 3],
     pub weights: [f64; 3],
     pub moved: [[f64; 3]; 2],
+    /// Share by which the distance from the eye changes from a pixel to those beside it.
+    pub perspective: f64,
     /// -1 where it is seen from behind.
     pub side: f64,
 }
@@ -81,7 +83,7 @@ impl BumpedPoint {
             let turned = object.wave.map_or(axes, |wave| wave::turned_axes(axes, place, &wave));
             turned.map(|axis| matrix * axis)
         };
-        let filtered = map.look(place);
+        let filtered = map.look(place, facet.perspective);
         let mut texel = filtered.normal;
         if !is_known {
             texel.error += 2.0 * texel.at.truncate().length();
