@@ -6,10 +6,13 @@
 //! sample (a shadow's edge, a cone's edge, a texel's edge), its bounds are both sides; where it is smooth, they are the
 //! value. Pictures are compared with the value where the bounds are near it, and else with the bounds.
 //!
+//! The normals of bumps are found again from the heights in the file (`bumps/`).
+//!
 //! Light through a lens is the mean over its points; dusty air is marched at the planes of its slices.
 
 mod air;
 mod bounds;
+mod bumps;
 mod known;
 mod lamp;
 mod lantern;
@@ -116,6 +119,10 @@ pub fn color_as(
     if let Some(why) = why_no_colors(scene) {
         return Err(Error::Colors { why });
     }
+    if request.float_picture && known::has_combined_bumps(scene) {
+        let why = String::from("register combiners clamp each pass, so that a picture in floats is none of sums alone");
+        return Err(Error::Colors { why });
+    }
     let painter = Painter::new(scene, shadows, request, options)?;
     let [width, height] = scene.image.size;
     let at = |index: u32| painter.pixel(index % width, index / width);
@@ -135,6 +142,8 @@ struct Painter<'a> {
     looking: Tracer<'a>,
     surfaces: SurfaceTable<'a>,
     clamps: bool,
+    /// True if bumps are lit in three passes.
+    three_passes: bool,
 }
 
 /// A light of the scene.
@@ -189,7 +198,8 @@ impl<'a> Painter<'a> {
         }
         let (surfaces, clamps) = (SurfaceTable::new(scene), !request.float_picture);
         let photos = photo::of_scene(scene, options)?;
-        Ok(Self { scene, lights, airs, photos, looking, surfaces, clamps })
+        let three_passes = known::is_in_three_passes(scene);
+        Ok(Self { scene, lights, airs, photos, looking, surfaces, clamps, three_passes })
     }
 
     fn pixel(&self, x: u32, y: u32) -> ColorPixel {
@@ -248,11 +258,13 @@ impl<'a> Painter<'a> {
                 PicturePasses::One | PicturePasses::Shadow => {
                     let ambient = Bounds::exactly(scene_ambient[k] * f64::from(material.ambient[k]));
                     let light = ambient.plus(plain.ambient[k]).plus(plain.diffuse[k]);
-                    light.times(surface.decal[k]).plus(plain.specular[k])
+                    // Three passes store the light before the decal is multiplied in.
+                    let light = if self.three_passes { self.stored(light) } else { light };
+                    light.times(surface.decal[k]).plus(plain.specular[k].times(surface.gloss))
                 }
             };
             let through_lenses = lensed.ambient[k].plus(lensed.diffuse[k]).times(surface.decal[k]);
-            self.stored(first.plus(through_lenses).plus(lensed.specular[k]))
+            self.stored(first.plus(through_lenses).plus(lensed.specular[k].times(surface.gloss)))
         })
     }
 
@@ -268,6 +280,7 @@ impl<'a> Painter<'a> {
     {
         let none = [Bounds::exactly(0.0); 3];
         let mut sum = Sum { ambient: none, diffuse: none, specular: none };
+        let is_combined = surface.bumps.as_ref().is_some_and(bumps::BumpedPoint::is_combined);
         for light in lights {
             let share = 1.0 / light.points.len() as f64;
             let is_slide = self.scene.shading.passes == PicturePasses::Slide && !light.has_lens;
@@ -286,9 +299,13 @@ impl<'a> Painter<'a> {
                 let projected = if is_dark { none } else { source.projected(&surface.at) };
                 for (k, factor) in projected.iter().enumerate() {
                     let beam = reach.times(*factor).scaled(share);
+                    // Colours of register combiners are in [0, 1].
+                    let input = |color: Bounds| if is_combined { color.clamped() } else { color };
+                    let diffuse = input(diffuse_shade.times(beam).scaled(wash.diffuse[k])).times(wash.cosine);
+                    let specular = input(shade.times(beam).scaled(wash.specular[k])).times(wash.shine);
                     sum.ambient[k] = sum.ambient[k].plus(Bounds::exactly(share * wash.ambient[k]));
-                    sum.diffuse[k] = sum.diffuse[k].plus(diffuse_shade.times(beam).scaled(wash.diffuse[k]));
-                    sum.specular[k] = sum.specular[k].plus(shade.times(beam).scaled(wash.specular[k]));
+                    sum.diffuse[k] = sum.diffuse[k].plus(diffuse);
+                    sum.specular[k] = sum.specular[k].plus(specular);
                 }
             }
         }

@@ -16,10 +16,21 @@ pub(super) fn moved(place: DVec3, wave: &Wave) -> DVec3 {
 /// Normal of a surface that a wave moves, at a point of it at rest; of unit length. The surface's tangents move by the
 /// columns of the wave's derivative; a normal goes by their cross products, which turn with a surface that folds over.
 pub(super) fn turned(normal: DVec3, place: DVec3, wave: &Wave) -> DVec3 {
+    turned_by(normal, place, wave).normalize_or(normal)
+}
+
+/// Directions of a surface, the normal last, which is of unit length: the others as shares of its length, as sums of them move.
+pub(super) fn turned_axes(axes: [DVec3; 3], place: DVec3, wave: &Wave) -> [DVec3; 3] {
+    let turned = axes.map(|axis| turned_by(axis, place, wave));
+    let length = turned[2].length();
+    if length > 0.0 { turned.map(|axis| axis / length) } else { axes }
+}
+
+fn turned_by(normal: DVec3, place: DVec3, wave: &Wave) -> DVec3 {
     let turns = wave.vector.dot(place) + wave.phase;
     let swing = wave.reach * (TAU * (TAU * (turns - turns.floor())).cos());
     let [x, y, z] = [0, 1, 2].map(|k| DVec3::AXES[k] + swing * wave.vector[k]);
-    (normal.x * y.cross(z) + normal.y * z.cross(x) + normal.z * x.cross(y)).normalize_or(normal)
+    normal.x * y.cross(z) + normal.y * z.cross(x) + normal.z * x.cross(y)
 }
 
 /// Error of f32 in a vertex that a wave moves: the turns are a sum of four products, each with its factors rounded; a sine

@@ -21,6 +21,9 @@ pub(super) struct Wash {
     pub ambient: [f64; 3],
     pub diffuse: [f64; 3],
     pub specular: [f64; 3],
+    /// Factors of diffuse and specular light that bumps make; 1 on other surfaces, where these have theirs already.
+    pub cosine: Bounds,
+    pub shine: Bounds,
 }
 
 impl Wash {
@@ -29,7 +32,7 @@ impl Wash {
         let ambient = [0, 1, 2].map(|k: usize| self.ambient[k].min(room[k]));
         let diffuse = [0, 1, 2].map(|k: usize| self.diffuse[k].min(room[k] - ambient[k]));
         let specular = [0, 1, 2].map(|k: usize| self.specular[k].min(room[k] - ambient[k] - diffuse[k]));
-        Self { ambient, diffuse, specular }
+        Self { ambient, diffuse, specular, ..self }
     }
 
     pub fn between(corners: &[Self; 3], weights: [f64; 3]) -> Self {
@@ -40,6 +43,8 @@ impl Wash {
             ambient: mix(|wash| &wash.ambient),
             diffuse: mix(|wash| &wash.diffuse),
             specular: mix(|wash| &wash.specular),
+            cosine: Bounds::ALL,
+            shine: Bounds::ALL,
         }
     }
 }
@@ -55,15 +60,20 @@ impl<'a> Source<'a> {
         self.spot.as_ref().map_or(DVec3::ZERO, Lantern::way)
     }
 
-    /// Unit vector to the light, and the factor of its attenuation.
-    fn strength(&self, position: DVec3) -> (DVec3, f64) {
-        let to_light = match (&self.light.kind, &self.spot) {
+    /// The way to the light; of unit length if it is infinitely far away.
+    fn way_from(&self, position: DVec3) -> DVec3 {
+        match (&self.light.kind, &self.spot) {
             (LightKind::Directional { direction }, _) => -*direction,
             (LightKind::Point(point), _) => point.position - position,
             (LightKind::Spot(spot), lantern) => {
                 lantern.as_ref().map_or(spot.frustum.position, |lantern| lantern.position) - position
             }
-        };
+        }
+    }
+
+    /// Unit vector to the light, and the factor of its attenuation.
+    fn strength(&self, position: DVec3) -> (DVec3, f64) {
+        let to_light = self.way_from(position);
         let [constant, linear, quadratic] = self.light.attenuation().map(f64::from);
         let distance = to_light.length();
         (unit(to_light), 1.0 / (constant + linear * distance + quadratic * distance * distance))
@@ -76,10 +86,16 @@ impl<'a> Source<'a> {
         let half = unit(to_light + to_viewer);
         let gloss =
             if facing > 0.0 { normal.dot(half).max(0.0).powf(f64::from(surface.material.shininess)) } else { 0.0 };
-        let (facing, gloss) = match (surface.lit, self.light.law) {
-            (true, Law::Lit) => (facing.max(0.0), gloss),
-            _ => (1.0, 0.0),
+        let is_lit = surface.lit && self.light.law == Law::Lit;
+        let bumps = surface.bumps.as_ref().filter(|_| is_lit);
+        let (facing, gloss) = match (is_lit, bumps) {
+            (true, None) => (facing.max(0.0), gloss),
+            (true, Some(_)) => (1.0, 1.0),
+            (false, _) => (1.0, 0.0),
         };
+        let shininess = f64::from(surface.material.shininess);
+        let bumps = bumps.map(|bumps| bumps.response(&|point| self.way_from(point), shininess, &surface.at));
+        let (cosine, shine) = bumps.map_or((Bounds::ALL, Bounds::ALL), |found| (found.cosine, found.shine));
         let product = |light: &[f32; 3], material: &[f32; 3], factor: f64| {
             [0, 1, 2].map(|k: usize| strength * factor * f64::from(light[k]) * f64::from(material[k]))
         };
@@ -88,13 +104,16 @@ impl<'a> Source<'a> {
             ambient: product(&light.ambient, &material.ambient, 1.0),
             diffuse: product(&light.diffuse, &material.diffuse, facing),
             specular: product(&light.specular, &material.specular, gloss),
+            cosine,
+            shine,
         }
     }
 
     /// A projector's light alone, whatever it falls on.
     pub fn slide(&self, surface: &Shaded<'_>) -> Wash {
         let none = [0.0; 3];
-        Wash { ambient: none, diffuse: self.in_air(surface.at.position), specular: none }
+        let [cosine, shine] = [Bounds::ALL; 2];
+        Wash { ambient: none, diffuse: self.in_air(surface.at.position), specular: none, cosine, shine }
     }
 
     /// Diffuse light at a point, before shadow and beam.

@@ -1,5 +1,6 @@
 //! Pictures that are projected: GL's filters in f64, with bounds over the texels that a sample may meet.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3};
@@ -22,13 +23,20 @@ pub(super) enum Wrapped {
 
 /// A picture, and the least and the greatest of its texels once they are known.
 pub(super) struct Picture<'a> {
-    texture: &'a Texture,
+    texture: Cow<'a, Texture>,
     extremes: OnceLock<(DVec3, DVec3)>,
 }
 
 impl<'a> Picture<'a> {
     pub fn new(texture: &'a Texture) -> Self {
-        Self { texture, extremes: OnceLock::new() }
+        Self { texture: Cow::Borrowed(texture), extremes: OnceLock::new() }
+    }
+
+    /// One channel of a picture, as a grey one.
+    pub fn of_channel(texture: &Texture, channel: usize) -> Self {
+        let rgba = texture.rgba.as_chunks::<4>().0.iter().flat_map(|texel| [texel[channel]; 4]).collect();
+        let grey = Texture { name: texture.name.clone(), rgba, ..*texture };
+        Self { texture: Cow::Owned(grey), extremes: OnceLock::new() }
     }
 
     fn size(&self) -> DVec2 {
@@ -37,7 +45,7 @@ impl<'a> Picture<'a> {
 
     /// The value, and the picture's own extremes as bounds.
     fn any(&self, value: DVec3) -> [Bounds; 3] {
-        let (least, most) = self.extremes.get_or_init(|| extremes(self.texture));
+        let (least, most) = self.extremes.get_or_init(|| extremes(&self.texture));
         [0, 1, 2].map(|k| Bounds::around(value[k], [least[k], most[k]]).jumping())
     }
 }
@@ -53,7 +61,7 @@ pub(super) struct Place {
 
 /// The linearly filtered colour at a place, and its bounds; with `mipmapped`, over the texels of a pixel's footprint.
 pub(super) fn window(picture: &Picture<'_>, wrap: Wrapped, place: &Place, mipmapped: bool) -> [Bounds; 3] {
-    let (size, texture) = (picture.size(), picture.texture);
+    let (size, texture) = (picture.size(), &*picture.texture);
     let footprint = place.pixel.map(|step| step * size);
     let widest = footprint[0].length().max(footprint[1].length());
     // A filter of mipmaps averages texels up to twice as wide as the footprint, two of them each way.
@@ -82,7 +90,7 @@ pub(super) fn window(picture: &Picture<'_>, wrap: Wrapped, place: &Place, mipmap
 
 /// The colour of the texel that holds the place, and bounds over those that may.
 pub(super) fn nearest(picture: &Picture<'_>, place: &Place) -> [Bounds; 3] {
-    let (size, texture) = (picture.size(), picture.texture);
+    let (size, texture) = (picture.size(), &*picture.texture);
     let (at, error) = (place.st * size, place.error * size + 1.0 / 128.0);
     let value = texel(texture, Wrapped::Clamped, at.x.floor(), at.y.floor());
     let sides = [at - error, at + error].map(DVec2::floor);

@@ -1,13 +1,15 @@
-//! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal.
+//! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal, bumps and gloss.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::bounds::Bounds;
+use super::bumps::{BumpMap, BumpedPoint, Facet};
 use super::projected::{Picture, Place, Wrapped, window};
 use super::unit;
-use crate::geometry::{Material, Texture};
+use crate::geometry::{Bump, Gloss, Material, Placement, Texture};
 use crate::scene::{Object, Scene};
 use crate::truth::primary::SeenPoint;
 use crate::truth::wave;
@@ -37,6 +39,10 @@ pub(super) struct Shaded<'a> {
     /// Barycentric coordinates of the point.
     pub weights: [f64; 3],
     pub decal: [Bounds; 3],
+    /// Share of the specular light.
+    pub gloss: Bounds,
+    /// `None`: a surface without bumps.
+    pub bumps: Option<BumpedPoint>,
 }
 
 /// Values that are the same all over an object.
@@ -46,24 +52,42 @@ pub(super) struct SurfaceTable<'a> {
     fallback: Material,
     /// Decals by their addresses.
     decals: HashMap<usize, Picture<'a>>,
+    /// Maps of gloss by the addresses of their pictures.
+    glosses: HashMap<usize, Picture<'a>>,
+    /// Bump maps by their addresses.
+    bumps: HashMap<usize, BumpMap>,
 }
 
-/// A decal's key.
-fn key(texture: &Texture) -> usize {
-    std::ptr::from_ref(texture) as usize
+/// The key of a decal, or of another part of a material.
+fn key<T>(of: &T) -> usize {
+    std::ptr::from_ref(of) as usize
+}
+
+/// The picture of a material's gloss, and the channel that has it.
+fn gloss_map(material: &Material) -> Option<(&Texture, usize)> {
+    match material.gloss.as_ref()? {
+        Gloss::DecalAlpha => Some((material.decal.as_deref()?, 3)),
+        Gloss::Map(map) => Some((&**map, if map.has_alpha { 3 } else { 0 })),
+    }
 }
 
 impl<'a> SurfaceTable<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let normal = |object: &Object| DMat3::from_mat4(object.world_from_model).inverse().transpose();
         let normals = scene.objects.iter().map(normal).collect();
-        let materials = scene.objects.iter().flat_map(|object| {
-            let own = object.material.as_deref().into_iter();
-            own.chain(&object.mesh.materials)
-        });
-        let decals = materials.filter_map(|material| material.decal.as_deref());
+        let materials = || {
+            scene.objects.iter().flat_map(|object| {
+                let own = object.material.as_deref().into_iter();
+                own.chain(&object.mesh.materials)
+            })
+        };
+        let decals = materials().filter_map(|material| material.decal.as_deref());
         let decals = decals.map(|decal| (key(decal), Picture::new(decal))).collect();
-        Self { normals, fallback: Material::default(), decals }
+        let glosses = materials().filter_map(gloss_map);
+        let glosses = glosses.map(|(map, channel)| (key(map), Picture::of_channel(map, channel))).collect();
+        let bumps: Vec<&Arc<Bump>> = materials().filter_map(|material| material.bump.as_ref()).collect();
+        let bumps = bumps.into_iter().map(|bump| (key(&**bump), BumpMap::new(bump))).collect();
+        Self { normals, fallback: Material::default(), decals, glosses, bumps }
     }
 
     /// The surface that a pixel shows; `None`: the mesh breaks its own rules.
@@ -94,39 +118,84 @@ impl<'a> SurfaceTable<'a> {
             let corners = indices.map(|index| texcoord(object, material, index));
             mix(&corners.map(|corner| corner.extend(0.0)), weights(point)).truncate()
         };
+        let view = seen.position - scene.camera.eye;
+        let own = Lookup { material, position: seen.position, beside, texcoord: &texcoord };
+        let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
+        let bump = material.bump.as_deref().filter(|_| has_texcoords && object.lit);
+        let bumps = bump.and_then(|bump| {
+            let facet = Facet {
+                object,
+                indices,
+                corners: triangle.corners,
+                texcoords: indices.map(|index| self::texcoord(object, material, index)),
+                weights: at,
+                moved: seen.spread.map(|way| {
+                    let moved = weights(seen.position + way);
+                    [0, 1, 2].map(|k: usize| moved[k] - at[k])
+                }),
+                perspective: beside.iter().map(|way| way.dot(view).abs()).sum::<f64>() / view.length_squared(),
+                side: if behind { -1.0 } else { 1.0 },
+            };
+            let far = facet.texcoords.iter().map(|corner| corner.abs().max_element()).fold(1.0, f64::max);
+            let place = own.place(&Placement::default(), far);
+            // A sample moves by the 256th part of a pixel each way.
+            let place = Place { error: DVec2::splat(1e-6 * far) + (place.pixel[0] + place.pixel[1]) / 256.0, ..place };
+            Some(BumpedPoint::new(&facet, bump, self.bumps.get(&key(bump))?, scene, matrix, &place))
+        });
         Some(Shaded {
             material,
             lit: object.lit,
             at: Sample { position: seen.position, spread: seen.spread, error: seen.error, beside },
+            gloss: if has_texcoords { self.gloss(&own) } else { Bounds::ALL },
+            bumps,
             normal: if behind { -smooth } else { smooth },
             corners: triangle.corners,
             corner_normals: corner_normals.map(unit),
             weights: at,
-            decal: self.decal(object, material, seen.position, beside, &texcoord),
+            decal: if has_texcoords { self.decal(&own) } else { [Bounds::ALL; 3] },
         })
     }
 
     /// The decal's colour, filtered by mipmaps: bounds over all that a pixel's filter may meet.
-    fn decal(
-        &self,
-        object: &Object,
-        material: &Material,
-        position: DVec3,
-        beside: [DVec3; 2],
-        texcoord: &dyn Fn(DVec3) -> DVec2,
-    ) -> [Bounds; 3] {
-        let has_texcoords = object.mesh.texcoords.is_some() || material.texgen.is_some();
-        let decal = material.decal.as_deref().filter(|_| has_texcoords);
-        let Some(picture) = decal.and_then(|decal| self.decals.get(&key(decal))) else {
-            return [Bounds::exactly(1.0); 3];
+    fn decal(&self, own: &Lookup<'_>) -> [Bounds; 3] {
+        let decal = own.material.decal.as_deref();
+        let Some(picture) = decal.and_then(|decal| self.decals.get(&key(decal))) else { return [Bounds::ALL; 3] };
+        own.window(picture, &own.material.decal_placement)
+    }
+
+    /// Share of the specular light, by the same filter.
+    fn gloss(&self, own: &Lookup<'_>) -> Bounds {
+        let picture = gloss_map(own.material).and_then(|(map, _)| self.glosses.get(&key(map)));
+        let placement = match own.material.gloss {
+            Some(Gloss::DecalAlpha) => own.material.decal_placement,
+            _ => Placement::default(),
         };
-        let placement = &material.decal_placement;
+        picture.map_or(Bounds::ALL, |picture| own.window(picture, &placement)[0])
+    }
+}
+
+/// A point of a surface where its pictures are looked up.
+struct Lookup<'s> {
+    material: &'s Material,
+    position: DVec3,
+    /// Ways to the points that the pixels beside show.
+    beside: [DVec3; 2],
+    texcoord: &'s dyn Fn(DVec3) -> DVec2,
+}
+
+impl Lookup<'_> {
+    /// The place in a picture. `far`: the greatest coordinate of the triangle, of which f32 keeps a share.
+    fn place(&self, placement: &Placement, far: f64) -> Place {
         let [scale, offset] = [placement.scale, placement.offset].map(|pair| DVec2::from_array(pair.map(f64::from)));
-        let place = |point: DVec3| scale * texcoord(point) + offset;
-        let st = place(position);
-        let step = beside.map(|way| (place(position + way) - st).abs());
+        let place = |point: DVec3| scale * (self.texcoord)(point) + offset;
+        let st = place(self.position);
+        let step = self.beside.map(|way| (place(self.position + way) - st).abs());
+        Place { st, error: DVec2::splat(1e-6 * far) + (step[0] + step[1]) / 128.0, pixel: step }
+    }
+
+    fn window(&self, picture: &Picture<'_>, placement: &Placement) -> [Bounds; 3] {
         let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
-        window(picture, wrap, &Place { st, error: DVec2::splat(1e-6) + (step[0] + step[1]) / 128.0, pixel: step }, true)
+        window(picture, wrap, &self.place(placement, 1.0), true)
     }
 }
 
