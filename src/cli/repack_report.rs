@@ -1,4 +1,4 @@
-//! What `glumbra repack` says of a skin before and after.
+//! Report of `glumbra repack` on a skin before and after.
 
 use std::path::PathBuf;
 

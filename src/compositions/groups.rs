@@ -98,7 +98,7 @@ impl Passes<'_> {
     ///
     /// A light whose transform has no inverse.
     pub fn lit(&mut self, onto: &Onto<'_>, terms: &[LightTerm], once: bool) -> Result<(), Error> {
-        self.lit_portion(onto, terms, once, &Ending::Lit)
+        self.lit_part(onto, terms, once, &Ending::Lit)
     }
 
     /// The same of a part of the illumination formula.
@@ -106,13 +106,7 @@ impl Passes<'_> {
     /// # Errors
     ///
     /// A light whose transform has no inverse.
-    pub fn lit_portion(
-        &mut self,
-        onto: &Onto<'_>,
-        terms: &[LightTerm],
-        once: bool,
-        ending: &Ending,
-    ) -> Result<(), Error> {
+    pub fn lit_part(&mut self, onto: &Onto<'_>, terms: &[LightTerm], once: bool, ending: &Ending) -> Result<(), Error> {
         let room = Room::of(self.scene);
         let sizes = sizes(terms, room);
         let (first, mut rest) = terms.split_at(sizes[0]);

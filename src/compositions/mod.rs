@@ -151,12 +151,12 @@ pub enum Error {
     #[error(
         "bump = \"three-pass\" multiplies the decal into the light of all pixels at once: light {light} is counted in the stencil buffer, and joins where its count is 0. Choose bump = \"one-pass\", which adds a light with its decal, or a technique with a map."
     )]
-    CountedPortions { light: usize },
+    CountedParts { light: usize },
     /// Photographs beside bumps in three passes.
     #[error(
         "bump = \"three-pass\" puts surfaces' colours together from light, decal and highlights, and a photograph is none of them. Choose bump = \"one-pass\" or \"reference\", or leave out `photo`."
     )]
-    PhotoPortions,
+    PhotoParts,
     #[error("light {light}: the transform to its map has no inverse: choose near and far with a smaller ratio")]
     Singular { light: usize },
 }

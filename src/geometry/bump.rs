@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::normal_map::{Difference, HeightField, HeightWrap, MipColors, NormalLevel};
-use super::tangents::BasisFit;
 use super::{Texture, normal_map};
 
 /// Bumps of a surface, in its tangent space.
@@ -53,6 +52,18 @@ pub struct TexelLevels {
     pub is_signed: bool,
     /// Level 0 first, down to 1 × 1.
     pub levels: Vec<Vec<[u8; 4]>>,
+}
+
+/// Fit of a triangle's basis to the normals of its corners.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BasisFit {
+    /// None: the triangle's own normal. Facets show.
+    PerPolygon,
+    /// N is the vertex's normal; T is moved into its plane; B is at right angles to both.
+    #[default]
+    Orthogonal,
+    /// N is the vertex's normal; T and B are each moved into its plane, and keep their angle nearly.
+    Skewed,
 }
 
 /// Share of the specular light that a surface reflects, from place to place.

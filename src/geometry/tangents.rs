@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+pub use super::bump::BasisFit;
 use super::{Mesh, MeshTangents};
 
 /// Area in (s, t), as a share of the product of two edges, below which a triangle has no direction on the skin.
@@ -15,18 +16,6 @@ pub(super) const LEAST_AREA: f64 = 1e-12;
 
 /// Sine of 10 degrees: the angle between T and B, off a right angle, from which a triangle counts as skewed.
 const SKEWED_SINE: f64 = 0.173_648_177_666_930_35;
-
-/// Fit of a triangle's basis to the normals of its corners.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum BasisFit {
-    /// None: the triangle's own normal. Facets show.
-    PerPolygon,
-    /// N is the vertex's normal; T is moved into its plane; B is at right angles to both.
-    #[default]
-    Orthogonal,
-    /// N is the vertex's normal; T and B are each moved into its plane, and keep their angle nearly.
-    Skewed,
-}
 
 /// A corner's basis in model space: unit vectors along s, along t, and outwards. T and B are zero where the triangle has no
 /// direction on the skin.

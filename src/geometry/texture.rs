@@ -4,10 +4,52 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageReader, Limits};
 
-use super::{Error, Texture, text};
+use super::{Error, text};
 
 /// The most texels a side; what every GL 3 driver of today takes.
 const LIMIT: u32 = 16384;
+
+/// A decoded image, RGBA8, rows from the bottom up as GL wants them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The file's path, or a built-in's name.
+    pub name: String,
+    pub width: u32,
+    pub height: u32,
+    /// `4 * width * height` bytes.
+    pub rgba: Vec<u8>,
+    /// True if any texel's alpha is below 255.
+    pub has_alpha: bool,
+}
+
+impl Texture {
+    /// The channel of a map_d that the alpha test reads: alpha, or red where all is opaque.
+    pub fn alpha_channel(&self) -> usize {
+        if self.has_alpha { 3 } else { 0 }
+    }
+
+    /// The colour at (s, t) by GL's linear filter in f64: weights between the centres of the four nearest texels, the edge's
+    /// own beyond it [GL 4.6, 8.14.2]. RGB, each in [0, 1].
+    pub fn bilinear(&self, st: DVec2) -> DVec3 {
+        let at = st * DVec2::new(f64::from(self.width), f64::from(self.height)) - 0.5;
+        let first = at.floor();
+        let part = at - first;
+        let texel = |x: f64, y: f64| {
+            let x = x.clamp(0.0, f64::from(self.width - 1)) as usize;
+            let y = y.clamp(0.0, f64::from(self.height - 1)) as usize;
+            let place = 4 * (y * self.width as usize + x);
+            DVec3::from_array([0, 1, 2].map(|k| f64::from(self.rgba[place + k]) / 255.0))
+        };
+        let row = |y: f64| texel(first.x, y).lerp(texel(first.x + 1.0, y), part.x);
+        row(first.y).lerp(row(first.y + 1.0), part.y)
+    }
+
+    /// The greatest value of a channel, in [0, 1].
+    fn most(&self, channel: usize) -> f32 {
+        let most = self.rgba.iter().skip(channel).step_by(4).copied().max();
+        most.map_or(1.0, |most| f32::from(most) / 255.0)
+    }
+}
 
 /// Reads a PNG, JPEG, BMP or TGA, recognised by its first bytes, else by its name's extension.
 pub fn load_texture(path: &Path) -> Result<Texture, Error> {

@@ -8,7 +8,7 @@ pub enum Ending {
     /// The illumination formula.
     Lit,
     /// Part of the illumination formula, for passes that put it together [GDC, "Three Passes"].
-    Portion(Portion),
+    Part(FormulaPart),
     /// A property of the surfaces, without light: its chunk has `main`.
     Surface { chunk: Chunk, shown: SurfaceProperty },
     /// A vector to one light in tangent space: its chunk has `main`. `half`: the half-angle vector.
@@ -39,7 +39,7 @@ pub enum SurfaceProperty {
 
 /// Part of `(ambient + diffuse) decal + specular`.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Portion {
+pub enum FormulaPart {
     /// Ambient and diffuse light, without the decal.
     Diffuse,
     /// The decal, with the gloss in alpha: its chunk has `main`.
@@ -62,11 +62,11 @@ pub struct Factors {
 impl Ending {
     /// Tests whether it shows light on surfaces; other endings show facts of one light, also where it does not reach.
     pub fn shows_light(&self) -> bool {
-        matches!(self, Self::Lit | Self::Portion(_) | Self::Factors(_))
+        matches!(self, Self::Lit | Self::Part(_) | Self::Factors(_))
     }
 
     /// Tests whether it shows the illumination formula, or light that is a part of it.
     pub fn is_lit(&self) -> bool {
-        matches!(self, Self::Lit | Self::Portion(Portion::Diffuse | Portion::Specular))
+        matches!(self, Self::Lit | Self::Part(FormulaPart::Diffuse | FormulaPart::Specular))
     }
 }

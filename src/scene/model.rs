@@ -361,7 +361,7 @@ pub struct Object {
     /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
     /// one need one depth map.
     pub photo: Option<Arc<Photo>>,
-    /// What the tangent bases of a bump-mapped object are made of; `None`: it has no bump map.
+    /// Counts of the tangent bases of a bump-mapped object; `None`: it has no bump map.
     pub bases: Option<BasisCounts>,
     /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.
     pub lit: bool,

@@ -8,7 +8,7 @@ use crate::combiners::{self, CombinerProgram, Precision};
 use crate::geometry::bump::{Bump, Gloss, NormalFormat, TexelLevels};
 use crate::geometry::normal_map::HeightWrap;
 use crate::lights::drawable::upload;
-use crate::lights::ending::Portion;
+use crate::lights::ending::FormulaPart;
 use crate::lights::{Drawable, Ending};
 use crate::pass::{
     BumpMap, Chunk, Define, Filter, Format, GlossSource, ImageDesc, ImageId, Input, PassList, Sampler, Storage, Wrap,
@@ -35,10 +35,10 @@ impl Bumps {
         }
         match (&shading.method, ending, lights) {
             (BumpMethod::OnePass(program), Ending::Lit, [_]) => Self::Combined(program.clone()),
-            (BumpMethod::ThreePass { diffuse, .. }, Ending::Portion(Portion::Diffuse), [_]) => {
+            (BumpMethod::ThreePass { diffuse, .. }, Ending::Part(FormulaPart::Diffuse), [_]) => {
                 Self::Combined(diffuse.clone())
             }
-            (BumpMethod::ThreePass { specular, .. }, Ending::Portion(Portion::Specular), [_]) => {
+            (BumpMethod::ThreePass { specular, .. }, Ending::Part(FormulaPart::Specular), [_]) => {
                 Self::Combined(specular.clone())
             }
             _ => Self::Computed,

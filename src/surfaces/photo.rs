@@ -50,7 +50,7 @@ pub fn parts(
     let wanted = match ending {
         Ending::Lit if adds => Wanted::Place,
         // Passes that put the formula together take no photographs.
-        Ending::Portion(_) | Ending::Surface { .. } | Ending::TangentVector { .. } => return Some(None),
+        Ending::Part(_) | Ending::Surface { .. } | Ending::TangentVector { .. } => return Some(None),
         Ending::Lit => Wanted::Color,
         Ending::Factors(factors) if factors.color => Wanted::Color,
         Ending::Factors(_) => Wanted::Place,

@@ -6,7 +6,7 @@ use super::bump::{self, Bumps};
 use super::lights::{self, ADDED, LightParts};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
-use crate::lights::ending::Portion;
+use crate::lights::ending::FormulaPart;
 use crate::lights::{Drawable, Ending, Factors, Viewer};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{
@@ -80,7 +80,7 @@ pub fn of(
 ) -> Variant {
     let lit = ending.is_lit();
     let shows_light = ending.shows_light();
-    let shines = !matches!(ending, Ending::Portion(Portion::Diffuse));
+    let shines = !matches!(ending, Ending::Part(FormulaPart::Diffuse));
     let specular =
         shines && lit && item.lit && item.material.specular != [0.0; 3] && lights.iter().any(|l| l.has_specular);
     let has_cosine = |light: &LightParts| item.lit && light.has_cosine;
@@ -91,7 +91,7 @@ pub fn of(
     // The pass of highlights reads the gloss in alpha.
     let gloss = match ending {
         Ending::Lit => specular,
-        Ending::Portion(portion) => matches!(portion, Portion::Decal(_)),
+        Ending::Part(portion) => matches!(portion, FormulaPart::Decal(_)),
         _ => false,
     };
     let (gloss_defines, gloss_inputs) = if gloss { bump::gloss(item, list) } else { Default::default() };
@@ -128,7 +128,7 @@ pub fn of(
         uniforms.extend(light.uniforms.iter().filter(|u| needs.specular || !is_specular(u)).cloned());
     }
     match ending {
-        Ending::Lit | Ending::Portion(Portion::Diffuse | Portion::Specular) => {
+        Ending::Lit | Ending::Part(FormulaPart::Diffuse | FormulaPart::Specular) => {
             uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()))
         }
         Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, &item.material, factors)),
@@ -145,7 +145,7 @@ pub fn of(
     let mut defines = defines(item, lights, ending, needs, &cut, viewer);
     defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
     defines.extend(gloss_defines);
-    if *ending == Ending::Portion(Portion::Specular) {
+    if *ending == Ending::Part(FormulaPart::Specular) {
         defines.push(Define::flag("SPECULAR_ALONE"));
     }
     let program = Program {
@@ -187,7 +187,7 @@ fn meaning(
     let texturing = cut.meaning.clone();
     let material = &item.material;
     match (ending, lights.first()) {
-        (Ending::Lit | Ending::Portion(Portion::Diffuse), _) => FixedFunctionDesc::Lit(Box::new(Lit {
+        (Ending::Lit | Ending::Part(FormulaPart::Diffuse), _) => FixedFunctionDesc::Lit(Box::new(Lit {
             clip_from_eye,
             per_vertex: scene.shading.per_vertex,
             lit: item.lit,
@@ -201,7 +201,7 @@ fn meaning(
             bumps,
             lights: lights.iter().map(|light| light.meaning.clone()).collect(),
         })),
-        (Ending::Portion(Portion::Decal(_)), _) => {
+        (Ending::Part(FormulaPart::Decal(_)), _) => {
             FixedFunctionDesc::Decal(Box::new(Decal { clip_from_eye, texturing, gloss: bump::gloss_source(item) }))
         }
         (Ending::Factors(factors), _) => {
@@ -236,7 +236,7 @@ fn meaning(
         (Ending::Surface { .. } | Ending::TangentVector { .. }, _) => {
             FixedFunctionDesc::Shader("a view of a surface's property")
         }
-        (Ending::Portion(Portion::Specular), _) => FixedFunctionDesc::Shader("highlights alone"),
+        (Ending::Part(FormulaPart::Specular), _) => FixedFunctionDesc::Shader("highlights alone"),
         (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
         (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
     }
@@ -275,8 +275,8 @@ fn factor_uniforms(scene: &Scene, material: &Material, factors: &Factors) -> Vec
 /// Tests whether the decal's colour is shown.
 fn shows_decal(ending: &Ending) -> bool {
     match ending {
-        Ending::Lit | Ending::Portion(Portion::Decal(_)) => true,
-        Ending::Portion(Portion::Diffuse | Portion::Specular) => false,
+        Ending::Lit | Ending::Part(FormulaPart::Decal(_)) => true,
+        Ending::Part(FormulaPart::Diffuse | FormulaPart::Specular) => false,
         Ending::Surface { .. } | Ending::TangentVector { .. } => false,
         Ending::Factors(factors) => factors.color,
         Ending::Alpha(_) | Ending::View { .. } | Ending::Slice { .. } => false,
@@ -375,12 +375,12 @@ fn fragment(
 ) -> Vec<Chunk> {
     let mut chunks = cut.fragment.clone();
     let of_one_light = match ending {
-        Ending::Portion(Portion::Decal(chunk)) => {
+        Ending::Part(FormulaPart::Decal(chunk)) => {
             chunks.push(chunk.clone());
             return chunks;
         }
         Ending::Surface { .. } | Ending::TangentVector { .. } => return chunks,
-        Ending::Lit | Ending::Portion(_) | Ending::Factors(_) => None,
+        Ending::Lit | Ending::Part(_) | Ending::Factors(_) => None,
         Ending::View { chunk, shade } => Some((chunk, *shade, None)),
         Ending::Alpha(chunk) => Some((chunk, true, None)),
         Ending::Slice { chunk, place } => Some((chunk, true, place.as_ref())),

@@ -4,7 +4,7 @@ pub mod frustum_lines;
 
 use crate::pass::{Filter, ImageId, Input, Sampler, Shade, Wrap, glsl};
 
-use crate::lights::ending::{Portion, SurfaceProperty};
+use crate::lights::ending::{FormulaPart, SurfaceProperty};
 use crate::lights::light::{Addition, Gain, ShadeSource};
 use crate::lights::{Ending, LightTerm};
 
@@ -141,12 +141,12 @@ pub fn camera_pass(view: View, term: &LightTerm, three_passes: bool) -> Option<(
         View::Diffuse => {
             term = unlit_by_shade(&term);
             term.gain = Gain { ambient: 0.0, diffuse: 1.0, specular: 0.0 };
-            Ending::Portion(Portion::Diffuse)
+            Ending::Part(FormulaPart::Diffuse)
         }
         View::Specular => {
             term = unlit_by_shade(&term);
             term.gain = Gain { ambient: 0.0, diffuse: 0.0, specular: 1.0 };
-            if three_passes { Ending::Portion(Portion::Specular) } else { Ending::Lit }
+            if three_passes { Ending::Part(FormulaPart::Specular) } else { Ending::Lit }
         }
         View::ProjectedMap => {
             term.shade.uniforms.clear();

@@ -61,7 +61,7 @@ impl Composition for StencilCounted {
         let cutting = terms.iter().find(|term| term.guard == Guard::ClipPlane);
         let counted = terms.iter().find(|term| term.counting.is_some());
         if let Some(counted) = counted.filter(|_| groups::three_passes(scene)) {
-            return Err(Error::CountedPortions { light: counted.index });
+            return Err(Error::CountedParts { light: counted.index });
         }
         if let (Some(cutting), Some(counted)) = (cutting, counted) {
             return Err(Error::CutDepths { light: cutting.index, counted: counted.index });

@@ -7,7 +7,7 @@ use super::once::Once;
 use super::passes::{Onto, Passes};
 use super::projection::CameraProjection;
 use super::{Composition, Error};
-use crate::lights::ending::Portion;
+use crate::lights::ending::FormulaPart;
 use crate::lights::light::Addition;
 use crate::lights::{CameraView, Drawable, Ending, LightTerm};
 use crate::pass::{Blend, DrawState, Target, glsl};
@@ -32,7 +32,7 @@ impl Composition for ThreePass {
 
     fn check(&self, scene: &Scene, terms: &[&LightTerm]) -> Result<(), Error> {
         if !scene.photos().is_empty() {
-            return Err(Error::PhotoPortions);
+            return Err(Error::PhotoParts);
         }
         let cutting = terms.iter().find(|term| term.guard == crate::lights::guard::Guard::ClipPlane);
         cutting.map_or(Ok(()), |term| Err(Error::CutGroups { light: term.index, lights: terms.len() }))
@@ -49,7 +49,7 @@ impl Composition for ThreePass {
         once.explain(passes);
         let terms: Vec<LightTerm> = terms.iter().copied().cloned().collect();
         let onto = passes.first("ambient and diffuse light", target, lens, passes.background());
-        passes.lit_portion(&onto, &terms, once.0, &Ending::Portion(Portion::Diffuse))?;
+        passes.lit_part(&onto, &terms, once.0, &Ending::Part(FormulaPart::Diffuse))?;
         let shines = passes.shines(&terms);
         passes.decals(target, lens, once, shines)?;
         if !shines {
@@ -80,7 +80,7 @@ impl Passes<'_> {
         let state = DrawState { stencil, blend, ..DrawState::REPEAT };
         let first = self.first("decals and gloss", target, lens, [0.0; 4]);
         let onto = Onto { state: lens.of_surfaces(state), clear: once.clear(), ..first };
-        self.surfaces(&onto, &[], &Ending::Portion(Portion::Decal(glsl!("three_pass/decal.frag"))))
+        self.surfaces(&onto, &[], &Ending::Part(FormulaPart::Decal(glsl!("three_pass/decal.frag"))))
     }
 
     /// The third pass of one light, in the pixels that it may reach.
@@ -105,6 +105,6 @@ impl Passes<'_> {
         let first = self.first(&label, target, lens, [0.0; 4]);
         let onto = Onto { state: lens.of_surfaces(state), clear: once.clear(), ..first };
         let term = LightTerm { addition: Addition::Light, ..term.clone() };
-        self.surfaces(&onto, &[term], &Ending::Portion(Portion::Specular))
+        self.surfaces(&onto, &[term], &Ending::Part(FormulaPart::Specular))
     }
 }

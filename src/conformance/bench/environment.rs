@@ -12,9 +12,9 @@ pub enum GlCombine {
     AddSigned,
     Interpolate,
     Subtract,
-    /// Of RGB alone.
+    /// GL_DOT3_RGB: of RGB alone.
     Dot3Rgb,
-    /// Of RGB; alpha gets the same.
+    /// GL_DOT3_RGBA: of RGB; alpha gets the same.
     Dot3Rgba,
 }
 

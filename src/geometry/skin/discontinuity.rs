@@ -84,7 +84,7 @@ pub(super) fn shared_edges(skin: &Skin) -> Vec<SharedEdge> {
 
 /// An edge between two triangles that have bases.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing {
+pub(super) struct EdgeCrossing {
     pub triangles: [usize; 2],
     pub length: f64,
     /// For each of the edge's ends and each triangle, its axes there.
@@ -120,7 +120,7 @@ impl Axes {
     }
 }
 
-impl Crossing {
+impl EdgeCrossing {
     /// `None`: a triangle has no basis at the edge.
     pub fn new(skin: &Skin, edge: &SharedEdge, bases: &[Option<Derivatives>]) -> Option<Self> {
         let triangles = edge.triangles.map(|number| &skin.triangles[number]);
@@ -171,9 +171,9 @@ fn shared_normal(triangles: [&SkinTriangle; 2], corners: [usize; 2]) -> Option<D
 }
 
 /// The crossings of all edges, and the number of edges that have none.
-pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<Crossing>, usize) {
+pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<EdgeCrossing>, usize) {
     let bases: Vec<Option<Derivatives>> = skin.triangles.iter().map(SkinTriangle::derivatives).collect();
-    let found: Vec<Crossing> = edges.iter().filter_map(|edge| Crossing::new(skin, edge, &bases)).collect();
+    let found: Vec<EdgeCrossing> = edges.iter().filter_map(|edge| EdgeCrossing::new(skin, edge, &bases)).collect();
     let without = edges.len() - found.len();
     (found, without)
 }

@@ -38,7 +38,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("context", &["process"]),
     ("pass", &["geometry"]),
     ("truth", &["scene"]),
-    ("scene", &["geometry"]),
+    // A scene names programs of register combiners.
+    ("scene", &["geometry", "combiners"]),
     ("geometry", &["math"]),
     ("math", &[]),
     // What the process is doing when it crashes; locks and signals.
