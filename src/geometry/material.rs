@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::{Bump, Gloss};
+use super::{Bump, Gloss, Texture};
 
 /// Colours are linear and as written (no colour management), each channel in [0, 1].
 #[derive(Clone, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::{DVec2, DVec3};
 use image::{DynamicImage, ImageReader, Limits};
 
 use super::{Error, text};
@@ -45,7 +46,7 @@ impl Texture {
     }
 
     /// The greatest value of a channel, in [0, 1].
-    fn most(&self, channel: usize) -> f32 {
+    pub(super) fn most(&self, channel: usize) -> f32 {
         let most = self.rgba.iter().skip(channel).step_by(4).copied().max();
         most.map_or(1.0, |most| f32::from(most) / 255.0)
     }
