@@ -147,11 +147,12 @@ impl Crossing {
 
     /// Angle between the t axes in degrees after each triangle's texels are turned; the greater of the edge's ends.
     pub fn degrees(&self, turns: [Turn; 2]) -> f64 {
-        let angle = |[first, second]: &[Axes; 2]| {
-            let apart = (first.t_axis(turns[0]) - second.t_axis(turns[1])).rem_euclid(std::f64::consts::TAU);
-            apart.min(std::f64::consts::TAU - apart)
-        };
-        angle(&self.ends[0]).max(angle(&self.ends[1])).to_degrees()
+        degrees_between(self.t_axes(0, turns[0]), self.t_axes(1, turns[1]))
+    }
+
+    /// Directions of one triangle's t axis at the edge's ends, in radians, after its texels are turned.
+    pub fn t_axes(&self, side: usize, turn: Turn) -> [f64; 2] {
+        [self.ends[0][side].t_axis(turn), self.ends[1][side].t_axis(turn)]
     }
 
     /// Tests whether one of the triangles is mirrored and the other is not.
@@ -159,6 +160,15 @@ impl Crossing {
         let [first, second] = &self.ends[0];
         (first.across < 0.0) != (second.across < 0.0)
     }
+}
+
+/// Greater of the angles between two triangles' directions at an edge's ends, from radians to degrees.
+pub(super) fn degrees_between(first: [f64; 2], second: [f64; 2]) -> f64 {
+    let angle = |end: usize| {
+        let apart = (first[end] - second[end]).abs() % std::f64::consts::TAU;
+        apart.min(std::f64::consts::TAU - apart)
+    };
+    angle(0).max(angle(1)).to_degrees()
 }
 
 /// Mean of two corners' normals; of the triangles' own where that is zero.
