@@ -1,4 +1,4 @@
-//! What `glumbra repack` says of a skin before and after.
+//! Numbers that `glumbra repack` prints of a skin before and after.
 
 use std::path::PathBuf;
 

@@ -85,7 +85,7 @@ pub(super) fn shared_edges(skin: &Skin) -> Vec<SharedEdge> {
 
 /// An edge between two triangles that have bases.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing {
+pub(super) struct EdgeAxes {
     pub triangles: [usize; 2],
     pub length: f64,
     /// For each of the edge's ends and each triangle, its axes there.
@@ -121,7 +121,7 @@ impl Axes {
     }
 }
 
-impl Crossing {
+impl EdgeAxes {
     /// `None`: a triangle has no basis at the edge.
     pub fn new(skin: &Skin, edge: &SharedEdge, bases: &[Option<Derivatives>]) -> Option<Self> {
         let triangles = edge.triangles.map(|number| &skin.triangles[number]);
@@ -182,9 +182,9 @@ fn shared_normal(triangles: [&SkinTriangle; 2], corners: [usize; 2]) -> Option<D
 }
 
 /// The crossings of all edges, and the number of edges that have none.
-pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<Crossing>, usize) {
+pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<EdgeAxes>, usize) {
     let bases: Vec<Option<Derivatives>> = skin.triangles.iter().map(SkinTriangle::derivatives).collect();
-    let found: Vec<Crossing> = edges.iter().filter_map(|edge| Crossing::new(skin, edge, &bases)).collect();
+    let found: Vec<EdgeAxes> = edges.iter().filter_map(|edge| EdgeAxes::new(skin, edge, &bases)).collect();
     let without = edges.len() - found.len();
     (found, without)
 }

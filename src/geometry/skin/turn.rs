@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use glam::DVec3;
 
 use super::Skin;
-use super::discontinuity::{Crossing, NO_TURN, Turn, degrees_between};
+use super::discontinuity::{EdgeAxes, NO_TURN, Turn, degrees_between};
 use super::islands::Islands;
 
 /// Most rounds over all pieces. A round without a change ends the search.
@@ -47,7 +47,7 @@ pub(super) fn is_quarter([sine, cosine]: Turn) -> bool {
 }
 
 struct Search<'a> {
-    crossings: &'a [Crossing],
+    crossings: &'a [EdgeAxes],
     /// For each crossing, the pieces of its triangles.
     pieces: Vec<[usize; 2]>,
     /// For each piece, the crossings whose angle its turn changes.
@@ -57,7 +57,7 @@ struct Search<'a> {
 /// Angles of the pieces in radians, counter-clockwise with y upwards.
 ///
 /// `skin` and its `crossings` are those after mirrored pieces have been turned over, if they are.
-pub(super) fn best_turns(skin: &Skin, crossings: &[Crossing], islands: &Islands) -> Vec<f64> {
+pub(super) fn best_turns(skin: &Skin, crossings: &[EdgeAxes], islands: &Islands) -> Vec<f64> {
     let search = Search::new(crossings, islands);
     let as_it_is = search.descend(vec![0.0; islands.pieces]);
     let mut best = (search.sum(&as_it_is), as_it_is);
@@ -72,7 +72,7 @@ pub(super) fn best_turns(skin: &Skin, crossings: &[Crossing], islands: &Islands)
 }
 
 impl<'a> Search<'a> {
-    fn new(crossings: &'a [Crossing], islands: &Islands) -> Self {
+    fn new(crossings: &'a [EdgeAxes], islands: &Islands) -> Self {
         let pieces: Vec<[usize; 2]> = crossings
             .iter()
             .map(|crossing| crossing.triangles.map(|triangle| islands.piece_of_triangle[triangle]))
@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
     /// The sum that is lessened.
     fn sum(&self, angles: &[f64]) -> f64 {
         let turns: Vec<Turn> = angles.iter().map(|angle| turn(*angle)).collect();
-        let value = |(crossing, pieces): (&Crossing, &[usize; 2])| {
+        let value = |(crossing, pieces): (&EdgeAxes, &[usize; 2])| {
             crossing.length * crossing.degrees(pieces.map(|piece| turns[piece]))
         };
         self.crossings.iter().zip(&self.pieces).map(value).sum()
@@ -163,7 +163,7 @@ struct Cost<'a> {
 }
 
 struct CostEdge<'a> {
-    crossing: &'a Crossing,
+    crossing: &'a EdgeAxes,
     /// The side that is the piece's.
     side: usize,
     /// Directions on the other side; `None`: it is the same piece.
