@@ -1,4 +1,4 @@
-//! Report of `glumbra repack` on a skin before and after.
+//! Numbers that `glumbra repack` prints of a skin before and after.
 
 use std::path::PathBuf;
 

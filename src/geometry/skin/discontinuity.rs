@@ -9,7 +9,8 @@
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
-use super::{Derivatives, Skin, SkinTriangle};
+use super::{Skin, SkinTriangle};
+use crate::geometry::tangents::Derivatives;
 
 /// Upper ends of the classes of angles, in degrees; the first begins at 0.
 pub const CLASS_ENDS: [f64; 5] = [5.0, 15.0, 45.0, 90.0, 180.0];
@@ -84,7 +85,7 @@ pub(super) fn shared_edges(skin: &Skin) -> Vec<SharedEdge> {
 
 /// An edge between two triangles that have bases.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EdgeCrossing {
+pub(super) struct EdgeAxes {
     pub triangles: [usize; 2],
     pub length: f64,
     /// For each of the edge's ends and each triangle, its axes there.
@@ -120,7 +121,7 @@ impl Axes {
     }
 }
 
-impl EdgeCrossing {
+impl EdgeAxes {
     /// `None`: a triangle has no basis at the edge.
     pub fn new(skin: &Skin, edge: &SharedEdge, bases: &[Option<Derivatives>]) -> Option<Self> {
         let triangles = edge.triangles.map(|number| &skin.triangles[number]);
@@ -146,11 +147,12 @@ impl EdgeCrossing {
 
     /// Angle between the t axes in degrees after each triangle's texels are turned; the greater of the edge's ends.
     pub fn degrees(&self, turns: [Turn; 2]) -> f64 {
-        let angle = |[first, second]: &[Axes; 2]| {
-            let apart = (first.t_axis(turns[0]) - second.t_axis(turns[1])).rem_euclid(std::f64::consts::TAU);
-            apart.min(std::f64::consts::TAU - apart)
-        };
-        angle(&self.ends[0]).max(angle(&self.ends[1])).to_degrees()
+        degrees_between(self.t_axes(0, turns[0]), self.t_axes(1, turns[1]))
+    }
+
+    /// Directions of one triangle's t axis at the edge's ends, in radians, after its texels are turned.
+    pub fn t_axes(&self, side: usize, turn: Turn) -> [f64; 2] {
+        [self.ends[0][side].t_axis(turn), self.ends[1][side].t_axis(turn)]
     }
 
     /// Tests whether one of the triangles is mirrored and the other is not.
@@ -158,6 +160,15 @@ impl EdgeCrossing {
         let [first, second] = &self.ends[0];
         (first.across < 0.0) != (second.across < 0.0)
     }
+}
+
+/// Greater of the angles between two triangles' directions at an edge's ends, from radians to degrees.
+pub(super) fn degrees_between(first: [f64; 2], second: [f64; 2]) -> f64 {
+    let angle = |end: usize| {
+        let apart = (first[end] - second[end]).abs() % std::f64::consts::TAU;
+        apart.min(std::f64::consts::TAU - apart)
+    };
+    angle(0).max(angle(1)).to_degrees()
 }
 
 /// Mean of two corners' normals; of the triangles' own where that is zero.
@@ -171,9 +182,9 @@ fn shared_normal(triangles: [&SkinTriangle; 2], corners: [usize; 2]) -> Option<D
 }
 
 /// The crossings of all edges, and the number of edges that have none.
-pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<EdgeCrossing>, usize) {
+pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<EdgeAxes>, usize) {
     let bases: Vec<Option<Derivatives>> = skin.triangles.iter().map(SkinTriangle::derivatives).collect();
-    let found: Vec<EdgeCrossing> = edges.iter().filter_map(|edge| EdgeCrossing::new(skin, edge, &bases)).collect();
+    let found: Vec<EdgeAxes> = edges.iter().filter_map(|edge| EdgeAxes::new(skin, edge, &bases)).collect();
     let without = edges.len() - found.len();
     (found, without)
 }
