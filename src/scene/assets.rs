@@ -50,7 +50,7 @@ pub(super) struct Assets {
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
-    /// Pictures and OBJ files in memory, by the names that the scene file has for them.
+    /// Pictures and models in memory, by the names that the scene file has for them.
     pictures: Files,
     files: Files,
     /// Warnings of the loaders and of the scene, each once.
@@ -58,7 +58,7 @@ pub(super) struct Assets {
 }
 
 impl Assets {
-    /// Assets with pictures and OBJ files in memory, each by its name in the scene file.
+    /// Assets with pictures and models in memory, each by its name in the scene file.
     pub fn with_files(pictures: Files, models: Files) -> Self {
         Self { pictures, files: models, ..Self::default() }
     }
@@ -111,7 +111,8 @@ impl Assets {
         }
         let (model, warnings) = match embedded {
             _ if has_extension(path, "md2") => {
-                let (model, warnings) = md2::Model::load(path)?;
+                let loaded = embedded.map_or_else(|| md2::Model::load(path), |bytes| md2::Model::decode(path, bytes));
+                let (model, warnings) = loaded?;
                 (Model::KeyFramed(Arc::new(model)), warnings)
             }
             Some(bytes) => still(geometry::decode_obj(path, bytes)?),

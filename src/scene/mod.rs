@@ -65,7 +65,7 @@ pub struct Embedded {
     pub text: &'static str,
     /// Pictures, each with its name in the file.
     pub pictures: &'static [(&'static str, &'static [u8])],
-    /// OBJ files without material libraries, each with its name in the file.
+    /// MD2 files, and OBJ files without material libraries, each with its name in the file.
     pub meshes: &'static [(&'static str, &'static [u8])],
 }
 

@@ -56,9 +56,17 @@ impl Model {
     ///
     /// A file that cannot be read, and those of [`file::read`].
     pub fn load(path: &Path) -> Result<(Self, Vec<Warning>), Error> {
-        let bytes = super::super::text::read(path)?;
+        Self::decode(path, &super::super::text::read(path)?)
+    }
+
+    /// [`Self::load`] of a file that is in memory; `path` is its name.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`file::read`].
+    pub fn decode(path: &Path, bytes: &[u8]) -> Result<(Self, Vec<Warning>), Error> {
         let mut warnings = Vec::new();
-        let model = Self::new(file::read(&bytes, path)?, &path.display().to_string(), |message| {
+        let model = Self::new(file::read(bytes, path)?, &path.display().to_string(), |message| {
             warnings.push(Warning { path: path.to_owned(), line: 0, message });
         });
         Ok((model, warnings))
