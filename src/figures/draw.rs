@@ -4,7 +4,9 @@ use std::collections::HashMap;
 
 use super::measure::{self, Share};
 use super::sheet::{Drawn, PANEL, width_of};
-use super::{Error, Figure, Letters, Measured, Panel, PanelStage, cut, diagram, sweep};
+use super::{
+    Error, Figure, Letters, Measured, Panel, PanelStage, cut, diagram, letter_of, profile, skins, slopes, sweep, turns,
+};
 use crate::device::Pixels;
 use crate::figures::painter::Painter;
 use crate::frame::{self, Renderer};
@@ -37,36 +39,94 @@ impl<'a> Drawing<'a> {
 
     /// A panel's picture, and what is measured of it.
     pub fn draw(&mut self, panel: &Panel) -> Result<Drawn, Error> {
-        let picture = match panel.stage {
-            Some(PanelStage::Truth) => self.true_picture(panel)?,
-            Some(PanelStage::Wrong) => self.mark_wrong(panel)?,
-            Some(PanelStage::Fine) => self.fine_picture(panel, self.scale)?,
-            Some(PanelStage::Faces) => self.mark_faces(panel)?,
+        match panel.stage {
+            Some(PanelStage::Difference { between, gain }) => {
+                let [one, other] = [self.other(between[0])?, self.other(between[1])?];
+                let names = between.map(letter_of);
+                let words = measure::Apart::of(&one, &other).in_words(&names[1]);
+                let numbers = Some(format!("{}: {words}", names[0]));
+                Ok(Drawn { picture: measure::amplify(&one, &other, gain), numbers })
+            }
+            Some(PanelStage::Turns) => {
+                let found = turns::measure(&self.figure.scene_of(panel)?);
+                let all = found.map_err(|reason| Error::Skin { figure: self.figure.name, reason })?;
+                let picture = self.on_card(panel, |painter| turns::draw(painter, &all))?;
+                Ok(Drawn { picture, numbers: Some(turns::in_words(&all)) })
+            }
+            Some(PanelStage::Slopes) => {
+                let errors = slopes::measure();
+                let picture = self.on_card(panel, |painter| slopes::graph(&errors).draw(painter))?;
+                Ok(Drawn { picture, numbers: Some(slopes::in_words(&errors)) })
+            }
+            _ => Ok(Drawn { picture: self.shown(panel)?, numbers: self.numbers(panel)? }),
+        }
+    }
+
+    /// The picture of another panel of the figure, numbered from 0.
+    fn other(&mut self, index: usize) -> Result<Canvas, Error> {
+        match self.figure.panels.get(index) {
+            Some(panel) => self.shown(panel),
+            None => Ok(Canvas::new([1, 1], CARD)),
+        }
+    }
+
+    fn shown(&mut self, panel: &Panel) -> Result<Canvas, Error> {
+        match panel.stage {
+            Some(PanelStage::Truth) => self.true_picture(panel),
+            Some(PanelStage::Wrong) => self.mark_wrong(panel),
+            Some(PanelStage::Fine) => self.fine_picture(panel, self.scale),
+            Some(PanelStage::Faces) => self.mark_faces(panel),
             Some(PanelStage::Kernel(kernel)) => {
                 let picture = self.picture(panel, self.scale)?;
-                self.over(&picture, |painter| diagram::draw_kernel(painter, kernel))?
+                self.over(&picture, |painter| diagram::draw_kernel(painter, kernel))
             }
-            Some(PanelStage::Marked(cut)) => self.mark_cut(panel, cut)?,
+            Some(PanelStage::Marked(cut)) => self.mark_cut(panel, cut),
             Some(PanelStage::Cut(cut)) => {
                 let lines = cut::lines(self.figure, panel, cut, &mut |scene, view| self.depths(scene, view))?;
-                self.on_card(panel, |painter| cut::graph(cut, &lines).draw(painter))?
+                self.on_card(panel, |painter| cut::graph(cut, &lines).draw(painter))
             }
             Some(PanelStage::Sweep(sweep)) => {
                 let shares = sweep::measure(self.figure, panel, sweep, |scene| self.wrong_in(panel, scene))?;
-                self.on_card(panel, |painter| sweep::graph(sweep, &shares).draw(painter))?
+                self.on_card(panel, |painter| sweep::graph(sweep, &shares).draw(painter))
             }
-            Some(PanelStage::Geometry) => self.on_card(panel, diagram::draw_geometry)?,
-            Some(PanelStage::After(_) | PanelStage::Image) | None => self.picture(panel, self.scale)?,
-        };
-        let numbers = match panel.measured {
+            Some(PanelStage::Geometry) => self.on_card(panel, diagram::draw_geometry),
+            Some(PanelStage::Skin(map)) => Ok(skins::picture_of(&self.figure.scene_of(panel)?, map)),
+            Some(PanelStage::Profile(lines)) => {
+                let pictures: Result<Vec<Canvas>, Error> = lines.iter().map(|line| self.other(line.panel)).collect();
+                let pictures = pictures?;
+                self.on_card(panel, |painter| profile::graph(lines, &pictures).draw(painter))
+            }
+            _ => self.picture(panel, self.scale),
+        }
+    }
+
+    /// What is measured of a panel at scale 1, in words.
+    fn numbers(&mut self, panel: &Panel) -> Result<Option<String>, Error> {
+        Ok(match panel.measured {
             Measured::Nothing => None,
             Measured::Wrong => Some(self.wrong(panel)?.in_words()),
             Measured::AgainstFine => {
                 let (own, fine) = (self.picture(panel, 1)?, self.fine_picture(panel, 1)?);
                 Some(format!("{:.1} of 255 codes off (root mean square)", measure::difference(&own, &fine)))
             }
-        };
-        Ok(Drawn { picture, numbers })
+            Measured::Brightness => {
+                let (own, fine) = (self.picture(panel, 1)?, self.fine_picture(panel, 1)?);
+                let [own, fine] = measure::brightness(&own, &fine);
+                let off = 100.0 * (own / fine.max(f64::MIN_POSITIVE) - 1.0);
+                Some(
+                    format!("mean brightness {own:.1} of 255, {off:+.1} % from many samples a pixel").replace('-', "−"),
+                )
+            }
+            Measured::From(other) => {
+                let (own, other_picture) = (self.shown(panel)?, self.other(other)?);
+                Some(measure::Apart::of(&own, &other_picture).in_words(&letter_of(other)))
+            }
+            Measured::FollowsUp => {
+                let scene = self.figure.scene_of(panel)?;
+                let found = self.follows_up(&scene)?;
+                Some(format!("correlation of brightness with the normal upwards: {found:.2}").replace('-', "−"))
+            }
+        })
     }
 
     /// Shares of the wrong pixels at scale 1.
@@ -131,11 +191,32 @@ impl<'a> Drawing<'a> {
     fn fine_picture(&mut self, panel: &Panel, scale: u32) -> Result<Canvas, Error> {
         // At the largest scale fewer, or no driver could hold the picture.
         let samples = (2 * SAMPLES / (scale + 1)).max(2);
-        let size = self.figure.scene_of(panel)?.image.size.map(|side| side * scale * samples);
-        let more = ["light.filter=linear".to_owned(), format!("image.size=[{}, {}]", size[0], size[1])];
+        // What is wrong on purpose is compared with what is right.
+        let panel = &Panel { change: None, stage: None, ..*panel };
+        let scene = self.figure.scene_of(panel)?;
+        let has_image = scene.lights.iter().filter_map(|light| light.spot()).any(|spot| spot.image.is_some());
+        let linear = has_image.then(|| "light.filter=linear".to_owned());
+        let [width, height] = scene.image.size.map(|side| side * scale * samples);
+        let size = format!("image.size=[{width}, {height}]");
+        let more: Vec<String> = linear.into_iter().chain([size]).collect();
         let scene = self.figure.scene_with(panel, &more)?;
-        let plain = Panel { stage: None, ..*panel };
-        Ok(measure::average(&draw_scene(&scene, &plain, self.renderer)?.canvas, samples))
+        Ok(measure::average(&draw_scene(&scene, panel, self.renderer)?.canvas, samples))
+    }
+
+    /// Correlation of the decal's brightness with the component upwards of the normals, where there are bumps.
+    fn follows_up(&mut self, scene: &Scene) -> Result<f64, Error> {
+        let views = [View::Decal, View::Normal, View::TangentLight].map(|view| ViewRequest { view, light: 0 }).to_vec();
+        let plan = self.renderer.plan(scene, &Request { views, ..Request::default() })?;
+        self.renderer.draw(&plan)?;
+        let frame = self.renderer.read(&plan)?;
+        let pictures: Vec<Canvas> = frame.views.iter().map(|pixels| output::to_canvas(pixels, None)).collect();
+        let [decal, normal, bumps] = &pictures[..] else { return Ok(0.0) };
+        let [decal, normal, bumps] = [decal, normal, bumps].map(|picture| picture.bytes().as_chunks::<3>().0);
+        let pixels = decal.iter().zip(normal).zip(bumps).filter(|(_, bumps)| **bumps != [0; 3]);
+        let pairs: Vec<[f64; 2]> = pixels
+            .map(|((decal, normal), _)| [decal.iter().map(|code| f64::from(*code)).sum(), f64::from(normal[1])])
+            .collect();
+        Ok(measure::correlation(&pairs))
     }
 
     fn mark_faces(&mut self, panel: &Panel) -> Result<Canvas, Error> {

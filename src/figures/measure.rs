@@ -49,6 +49,66 @@ impl Share {
     }
 }
 
+/// Differences of two pictures of one size, in codes of eight bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    pub most: u8,
+    /// Pixels that differ by more than a code in any channel, in percent of all.
+    pub percent: f64,
+}
+
+impl Apart {
+    /// Compares two pictures.
+    pub fn of(one: &Canvas, other: &Canvas) -> Self {
+        let worst = |(a, b): (&Color, &Color)| (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap_or(0);
+        let pairs = one.bytes().as_chunks::<3>().0.iter().zip(other.bytes().as_chunks::<3>().0);
+        let (mut most, mut differing, mut all) = (0, 0_u32, 0_u32);
+        for codes in pairs.map(worst) {
+            most = most.max(codes);
+            differing += u32::from(codes > 1);
+            all += 1;
+        }
+        Self { most, percent: 100.0 * f64::from(differing) / f64::from(all.max(1)) }
+    }
+
+    /// As below a panel. `from`: name of the other picture.
+    pub fn in_words(&self, from: &str) -> String {
+        let Self { most, percent } = self;
+        match most {
+            0 => format!("equal to {from} to the bit"),
+            1 => format!("at most 1 of 255 codes from {from}"),
+            _ => format!("at most {most} of 255 codes from {from}; {percent:.1} % of the pixels by more than 1"),
+        }
+    }
+}
+
+/// Absolute differences of two pictures, `gain` times as bright.
+pub fn amplify(one: &Canvas, other: &Canvas, gain: u8) -> Canvas {
+    let pairs = one.bytes().iter().zip(other.bytes());
+    Canvas::of_bytes(one.size(), pairs.map(|(a, b)| a.abs_diff(*b).saturating_mul(gain)).collect())
+}
+
+/// Mean code of two pictures' channels where either differs from the colour of its upper left corner, which nothing covers.
+pub fn brightness(one: &Canvas, other: &Canvas) -> [f64; 2] {
+    let [first, second] = [one, other].map(|picture| picture.bytes().as_chunks::<3>().0);
+    let is_drawn = |index: usize| first[index] != first[0] || second[index] != second[0];
+    let drawn: Vec<usize> = (0..first.len().min(second.len())).filter(|index| is_drawn(*index)).collect();
+    let mean = |pixels: &[Color]| {
+        let sum: u32 = drawn.iter().flat_map(|index| pixels[*index]).map(u32::from).sum();
+        f64::from(sum) / (3 * drawn.len()).max(1) as f64
+    };
+    [mean(first), mean(second)]
+}
+
+/// Correlation of two series, in [-1, 1]; 0 where one does not vary.
+pub fn correlation(pairs: &[[f64; 2]]) -> f64 {
+    let count = pairs.len().max(1) as f64;
+    let mean = [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).sum::<f64>() / count);
+    let moment = |i: usize, k: usize| pairs.iter().map(|pair| (pair[i] - mean[i]) * (pair[k] - mean[k])).sum::<f64>();
+    let spread = (moment(0, 0) * moment(1, 1)).sqrt();
+    if spread > 0.0 { moment(0, 1) / spread } else { 0.0 }
+}
+
 /// Root mean square of the differences of two pictures of one size, in codes of eight bits.
 pub fn difference(one: &Canvas, other: &Canvas) -> f64 {
     let squares = one.bytes().iter().zip(other.bytes()).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2));

@@ -1,8 +1,11 @@
 //! Figures of the documents in data/documents.md that show a result, drawn from our own scenes as contact sheets with
-//! captions. A figure is data (`table.rs`, `projected.rs`, `explained.rs`): panels, each a scene with changes and a view, or
+//! captions. A figure is data (`table.rs`, `projected.rs`, `bumps.rs`, `bump_errors.rs`, `explained.rs`): panels, each a scene with changes and a view, or
 //! a graph of what was measured. Knows scenes, plans, frames, truth and a report's measures; no technique by more than a
 //! scene's keys, no GL.
 
+mod bump_errors;
+mod bumps;
+mod change;
 mod cut;
 mod diagram;
 mod draw;
@@ -12,22 +15,31 @@ mod letters;
 mod measure;
 mod painter;
 mod panels;
+mod profile;
 mod projected;
+mod relief;
 mod sheet;
+mod skins;
+mod slopes;
 mod sweep;
 mod table;
+mod turns;
 
 use crate::frame::{self, Renderer};
+use crate::geometry::skin;
 use crate::output::{self, canvas::Canvas};
 use crate::report::measure::metrics;
 use crate::scene::{self, Embedded, Scene};
 use crate::truth;
 use crate::views::View;
 
+pub use change::Change;
 pub use cut::{CutLine, MapCut};
 pub use diagram::Kernel;
 pub use letters::Letters;
-pub use measure::Share;
+pub use measure::{Apart, Share};
+pub use profile::ProfileLine;
+pub use skins::SkinMap;
 pub use sweep::Sweep;
 pub use table::FIGURES;
 
@@ -54,6 +66,8 @@ pub struct Panel {
     pub note: &'static str,
     /// Overrides, as `--set` takes them.
     pub set: &'static [&'static str],
+    /// Change of the scene that no key makes.
+    pub change: Option<Change>,
     /// View of the first light; `None`: the picture itself.
     pub view: Option<View>,
     /// Unit of the legend where the scene's light stands at the eye and its camera at the light, to count pixels of the
@@ -95,6 +109,16 @@ pub enum PanelStage {
     Sweep(&'static Sweep),
     /// Light, texture, screen and eye.
     Geometry,
+    /// A map of the first skin with bumps, as it is.
+    Skin(SkinMap),
+    /// Difference of the pictures of two panels, numbered from 0, `gain` times as bright.
+    Difference { between: [usize; 2], gain: u8 },
+    /// Brightness along the middle row of panels' pictures, as a graph.
+    Profile(&'static [ProfileLine]),
+    /// Angles between neighbouring tangent bases, before and after the skin is packed again, as bars.
+    Turns,
+    /// Errors of normal maps by their resolution, as a graph.
+    Slopes,
 }
 
 /// Number below a panel.
@@ -105,6 +129,12 @@ pub enum Measured {
     Wrong,
     /// Difference from many samples a pixel.
     AgainstFine,
+    /// Mean brightness of what is drawn, and that by many samples a pixel.
+    Brightness,
+    /// Difference from the picture of another panel, numbered from 0.
+    From(usize),
+    /// Correlation of the decal's brightness with the normals' component upwards, where there are bumps.
+    FollowsUp,
 }
 
 /// Reason why a figure could not be drawn.
@@ -122,6 +152,8 @@ pub enum Error {
     Truth { figure: &'static str, reason: truth::Error },
     #[error("figure {figure}: {reason}")]
     Measure { figure: &'static str, reason: metrics::Error },
+    #[error("figure {figure}: {reason}")]
+    Skin { figure: &'static str, reason: skin::Error },
     #[error("the font that is compiled in cannot be read: {0}")]
     Font(#[from] ab_glyph::InvalidFont),
     #[error("figure {figure}: the sheet is too large for memory; take a smaller --scale")]
@@ -159,7 +191,11 @@ impl Figure {
     fn scene_with(&self, panel: &Panel, more: &[String]) -> Result<Scene, Error> {
         let own = panel.set.iter().map(|text| (*text).to_owned());
         let overrides: Vec<String> = own.chain(more.iter().cloned()).collect();
-        Ok(crate::techniques::load_embedded(&self.scene, &overrides)?.scene)
+        let mut scene = crate::techniques::load_embedded(&self.scene, &overrides)?.scene;
+        if let Some(change) = panel.change {
+            change.apply(&mut scene).map_err(|reason| Error::Skin { figure: self.name, reason })?;
+        }
+        Ok(scene)
     }
 
     /// A panel's scene with `scale` times the pixels a side, and a map that grows with it where the panel says so.
@@ -196,6 +232,16 @@ impl Figure {
     pub fn wrong(&self, panel: &Panel, renderer: &mut Renderer) -> Result<Share, Error> {
         let letters = Letters::load()?;
         draw::Drawing::new(self, 1, &letters, renderer).wrong(panel)
+    }
+
+    /// Number below a panel at scale 1, in words.
+    ///
+    /// # Errors
+    ///
+    /// As [`Figure::draw`].
+    pub fn numbers(&self, panel: &Panel, renderer: &mut Renderer) -> Result<Option<String>, Error> {
+        let letters = Letters::load()?;
+        Ok(draw::Drawing::new(self, 1, &letters, renderer).draw(panel)?.numbers)
     }
 
     /// Draws the sheet, `scale` times as wide and high as at scale 1. `tick` is called once for each panel.

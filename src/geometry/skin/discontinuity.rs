@@ -9,8 +9,7 @@
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
-use super::{Skin, SkinTriangle};
-use crate::geometry::tangents::Derivatives;
+use super::{Derivatives, Skin, SkinTriangle};
 
 /// Upper ends of the classes of angles, in degrees; the first begins at 0.
 pub const CLASS_ENDS: [f64; 5] = [5.0, 15.0, 45.0, 90.0, 180.0];
