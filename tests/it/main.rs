@@ -67,6 +67,7 @@ mod stress;
 mod suns;
 mod support;
 mod tags;
+mod uploads;
 mod viewer;
 mod volume_warnings;
 mod volumes;

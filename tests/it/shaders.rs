@@ -68,6 +68,10 @@ fn plans() -> Vec<Plan> {
     for guard in ["none", "fragment", "texture-1d", "spot-cutoff", "clip-plane", "cull"] {
         plans.push(planned("data/cases/scenes/guards.toml", &[&format!("light.shadow.guard=\"{guard}\"")], &[]));
     }
+    let views = [View::Normal, View::NormalMap, View::Decal, View::Gloss, View::TangentLight, View::Diffuse];
+    for bump in ["reference", "one-pass", "three-pass"] {
+        plans.push(planned("data/scenes/doughnut.toml", &[&format!("shading.bump={bump}")], &views));
+    }
     plans
 }
 

@@ -1,0 +1,123 @@
+//! Uploads of a still scene: all in its first frame. glBufferData and glTexImage2D are counted on their way to the driver.
+
+use std::cell::Cell;
+use std::ffi::{CStr, c_void};
+use std::path::Path;
+use std::rc::Rc;
+
+use glumbra::context::{self, Context, ContextRequest, LoadedContext};
+use glumbra::frame::Renderer;
+use glumbra::plan::Request;
+
+type BufferData = extern "system" fn(u32, isize, *const c_void, u32);
+type TexImage2D = extern "system" fn(u32, i32, i32, i32, i32, i32, u32, u32, *const c_void);
+
+thread_local! {
+    static BUFFER_DATA: Cell<*const c_void> = const { Cell::new(std::ptr::null()) };
+    static TEX_IMAGE_2D: Cell<*const c_void> = const { Cell::new(std::ptr::null()) };
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+extern "system" fn buffer_data(target: u32, size: isize, data: *const c_void, usage: u32) {
+    COUNT.set(COUNT.get() + 1);
+    // SAFETY: the driver's own function, found by this name.
+    let driver: BufferData = unsafe { std::mem::transmute(BUFFER_DATA.get()) };
+    driver(target, size, data, usage);
+}
+
+#[allow(clippy::too_many_arguments, reason = "GL's own signature")]
+extern "system" fn tex_image_2d(
+    target: u32,
+    level: i32,
+    internal: i32,
+    width: i32,
+    height: i32,
+    border: i32,
+    format: u32,
+    kind: u32,
+    pixels: *const c_void,
+) {
+    COUNT.set(COUNT.get() + 1);
+    // SAFETY: as above.
+    let driver: TexImage2D = unsafe { std::mem::transmute(TEX_IMAGE_2D.get()) };
+    driver(target, level, internal, width, height, border, format, kind, pixels);
+}
+
+/// A context whose uploads are counted.
+struct Counting {
+    inner: Rc<dyn Context>,
+    gl: Rc<glow::Context>,
+}
+
+impl Counting {
+    fn new(inner: Rc<dyn Context>) -> Self {
+        let load = |name: &CStr| {
+            let driver = inner.address_of(name);
+            match name {
+                name if name == c"glBufferData" => {
+                    BUFFER_DATA.set(driver);
+                    buffer_data as *const c_void
+                }
+                name if name == c"glTexImage2D" => {
+                    TEX_IMAGE_2D.set(driver);
+                    tex_image_2d as *const c_void
+                }
+                _ => driver,
+            }
+        };
+        // SAFETY: the context is current.
+        let gl = Rc::new(unsafe { glow::Context::from_loader_function_cstr(load) });
+        Self { inner, gl }
+    }
+}
+
+impl Context for Counting {
+    fn loaded(&self) -> &LoadedContext {
+        self.inner.loaded()
+    }
+
+    fn make_current(&self) -> Result<(), context::Error> {
+        self.inner.make_current()
+    }
+
+    fn is_current(&self) -> bool {
+        self.inner.is_current()
+    }
+
+    fn gl(&self) -> &Rc<glow::Context> {
+        &self.gl
+    }
+}
+
+#[test]
+fn a_still_scene_uploads_nothing_after_its_first_frame() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/knight.toml");
+    let context: Rc<dyn Context> = Rc::new(Counting::new(context::open(&ContextRequest::default()).unwrap()));
+    for changes in [
+        &["shading.bump=reference"][..],
+        &["shading.bump=one-pass"],
+        &["shading.bump=three-pass", "light.shadow.technique=shadow-map"],
+    ] {
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        let loaded = glumbra::load(&scene, &changes).unwrap();
+        let mut renderer = Renderer::new(&context);
+        let request = Request { frames: 4, ..Request::default() };
+        let mut counts = Vec::new();
+        for _ in 0..4 {
+            COUNT.set(0);
+            // As a window does: a plan for every frame.
+            let plan = renderer.plan(&loaded.scene, &request).unwrap();
+            renderer.draw(&plan).unwrap();
+            counts.push(COUNT.get());
+        }
+        assert!(counts[0] >= 8, "counted: {counts:?}");
+        assert_eq!(counts[1..], [0; 3], "{changes:?}");
+        // Another pose is another mesh: its vertices are uploaded, its textures are not.
+        let moved = [changes.as_slice(), &[String::from("object.0.blend=0.6")]].concat();
+        let moved = glumbra::load(&scene, &moved).unwrap();
+        COUNT.set(0);
+        let plan = renderer.plan(&moved.scene, &request).unwrap();
+        renderer.draw(&plan).unwrap();
+        assert!(COUNT.get() > 0, "a new pose");
+    }
+}
