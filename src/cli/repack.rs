@@ -125,7 +125,7 @@ pub enum Error {
 /// A model that has been read.
 enum Source {
     Md2(Box<Model>),
-    Obj(Mesh),
+    Obj,
 }
 
 /// Repacks, writes, and prints what changed.
@@ -154,8 +154,8 @@ fn repack(arguments: &RepackArgs) -> Result<Report, Error> {
     };
     let wrong = |source: skin::Error| Error::Skin { model: arguments.model.clone(), source };
     let new = skin::repack(&old, &options).map_err(wrong)?;
-    let mut contents = vec![model_bytes(arguments, &source, &new)?];
-    if let (Source::Obj(_), Some(library)) = (&source, arguments.library()) {
+    let mut contents = vec![model_bytes(arguments, &source, &mesh, &new)?];
+    if let (Source::Obj, Some(library)) = (&source, arguments.library()) {
         contents.push(library.text.into_bytes());
     }
     for (picture, path) in pictures.iter().zip(&maps) {
@@ -249,7 +249,7 @@ fn load(arguments: &RepackArgs) -> Result<(Source, Mesh), Error> {
         let path = model.display();
         super::say(format_args!("warning: {path}: its materials are left out; the new model has the decal alone"));
     }
-    Ok((Source::Obj(mesh.clone()), mesh))
+    Ok((Source::Obj, mesh))
 }
 
 /// The skin as it is: in the texels of an MD2 file, or of an OBJ model's first map.
@@ -259,14 +259,14 @@ fn old_skin(arguments: &RepackArgs, source: &Source, mesh: &Mesh, pictures: &[Ra
             let texels = model.texels().map(|texel| glam::DVec2::from_array(texel.map(f64::from)));
             Ok(Skin::of_texels(mesh, model.file().skin_size.map(i32::cast_unsigned), texels))
         }
-        Source::Obj(_) => {
+        Source::Obj => {
             let size = pictures.first().ok_or_else(|| Error::NoTexels(arguments.model.clone()))?.size;
             Skin::of_mesh(mesh, size).ok_or_else(|| Error::NoSkin(arguments.model.clone()))
         }
     }
 }
 
-fn model_bytes(arguments: &RepackArgs, source: &Source, new: &Repacked) -> Result<Vec<u8>, Error> {
+fn model_bytes(arguments: &RepackArgs, source: &Source, mesh: &Mesh, new: &Repacked) -> Result<Vec<u8>, Error> {
     match source {
         Source::Md2(model) => {
             let [width, height] = new.skin.size().map(|side| side.saturating_mul(arguments.steps));
@@ -277,7 +277,7 @@ fn model_bytes(arguments: &RepackArgs, source: &Source, new: &Repacked) -> Resul
             let file = model.with_skin([width, height], &new.skin.in_steps(arguments.steps));
             Ok(md2::write(&file.ok_or_else(|| Error::TooManyTexels(arguments.model.clone()))?))
         }
-        Source::Obj(mesh) => {
+        Source::Obj => {
             let library = arguments.library().map(|library| library.file.to_string_lossy().into_owned());
             let material = library.as_deref().map(|library| (library, MATERIAL));
             Ok(skin::write_obj(mesh, &new.skin, material).into_bytes())

@@ -127,7 +127,7 @@ impl EdgeAxes {
         let [first, second] = edge.triangles.map(|number| bases[number].as_ref());
         let (first, second) = (first?, second?);
         let mut ends = [None; 2];
-        for end in 0..2 {
+        for (end, found) in ends.iter_mut().enumerate() {
             let normal = shared_normal(triangles, [edge.corners[0][end], edge.corners[1][end]])?;
             let right = normal.any_orthonormal_vector();
             let plane = [right, normal.cross(right)];
@@ -138,7 +138,7 @@ impl EdgeAxes {
                 axes.by_s.length() > least && axes.by_t.length() > least
             };
             let both = has_axis(first, &axes[0]) && has_axis(second, &axes[1]);
-            ends[end] = both.then_some(axes);
+            *found = both.then_some(axes);
         }
         let [a, b] = edge.corners[0].map(|corner| triangles[0].positions[corner]);
         Some(Self { triangles: edge.triangles, length: a.distance(b), ends: [ends[0]?, ends[1]?] })
@@ -180,7 +180,7 @@ fn shared_normal(triangles: [&SkinTriangle; 2], corners: [usize; 2]) -> Option<D
     mean.try_normalize().or_else(|| (facet(triangles[0]) + facet(triangles[1])).try_normalize())
 }
 
-/// The crossings of all edges, and the number of edges that have none.
+/// The axes at all edges, and the number of edges where a triangle has none.
 pub(super) fn crossings(skin: &Skin, edges: &[SharedEdge]) -> (Vec<EdgeAxes>, usize) {
     let bases: Vec<Option<Derivatives>> = skin.triangles.iter().map(SkinTriangle::derivatives).collect();
     let found: Vec<EdgeAxes> = edges.iter().filter_map(|edge| EdgeAxes::new(skin, edge, &bases)).collect();

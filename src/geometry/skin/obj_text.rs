@@ -46,10 +46,10 @@ pub fn write_obj(mesh: &Mesh, skin: &Skin, material: Option<(&str, &str)>) -> St
         }
         for triangle in part.indices.start / 3..part.indices.end / 3 {
             text.push('f');
-            for corner in 0..3 {
+            for (corner, vt) in of_texcoords[triangle as usize].into_iter().enumerate() {
                 let vertex = mesh.indices[3 * triangle as usize + corner] as usize;
                 let place = place_names[places[vertex] as usize];
-                let (vt, vn) = (of_texcoords[triangle as usize][corner], of_normals[vertex]);
+                let vn = of_normals[vertex];
                 let _ = write!(text, " {place}/{vt}/{vn}");
             }
             text.push('\n');

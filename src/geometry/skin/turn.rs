@@ -48,15 +48,15 @@ pub(super) fn is_quarter([sine, cosine]: Turn) -> bool {
 
 struct Search<'a> {
     crossings: &'a [EdgeAxes],
-    /// For each crossing, the pieces of its triangles.
+    /// For each edge, the pieces of its triangles.
     pieces: Vec<[usize; 2]>,
-    /// For each piece, the crossings whose angle its turn changes.
+    /// For each piece, the edges whose angle its turn changes.
     of_piece: Vec<Vec<usize>>,
 }
 
 /// Angles of the pieces in radians, counter-clockwise with y upwards.
 ///
-/// `skin` and its `crossings` are those after mirrored pieces have been turned over, if they are.
+/// `skin` and the axes at its edges, `crossings`, are those after mirrored pieces have been turned over, if they are.
 pub(super) fn best_turns(skin: &Skin, crossings: &[EdgeAxes], islands: &Islands) -> Vec<f64> {
     let search = Search::new(crossings, islands);
     let as_it_is = search.descend(vec![0.0; islands.pieces]);
@@ -171,7 +171,7 @@ struct CostEdge<'a> {
 }
 
 impl<'a> Cost<'a> {
-    /// `among`: the crossings of the piece that count.
+    /// `among`: the edges of the piece that count.
     fn new(search: &Search<'a>, piece: usize, turns: &[Turn], among: &[usize]) -> Self {
         let edges: Vec<CostEdge> = among
             .iter()

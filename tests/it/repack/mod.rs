@@ -172,8 +172,7 @@ fn a_cylinder_of_turned_islands_is_cured() {
     }
 }
 
-/// A bowed body of single triangles, each alone on the skin and turned by some angle: what a smooth skin would have is reached
-/// but for the poles of the search.
+/// A cylinder of single triangles, each alone on the skin and turned by some angle: all t axes can agree.
 #[test]
 fn single_triangles_of_a_cylinder_are_cured() {
     let mut random = fastrand::Rng::with_seed(15);
