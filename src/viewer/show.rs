@@ -1,4 +1,4 @@
-//! What a window shows, and what keys and mouse do to it: the contract between [`run`](super::run) and a sample's state.
+//! Content of a window, and what keys and mouse do to it: the contract between [`run`](super::run) and a sample's state.
 
 use glam::DVec2;
 

@@ -222,7 +222,9 @@ fn the_scene_file_renders_to_the_knight_s_picture_and_shadows_only_darken() {
     assert!(by_sample == pictures.headless("md2shader", &["--frame", "8"]));
     let plain = pictures.headless("md2bump", &[]);
     let darker = plain.pixels().zip(by_sample.pixels()).filter(|(plain, shadowed)| shadowed.0[0] < plain.0[0]).count();
-    assert!(plain.pixels().zip(by_sample.pixels()).all(|(a, b)| (0..3).all(|k| b.0[k] <= a.0[k])));
+    // Light that is added in a pass of its own is rounded twice, to half a code each time: a code brighter at most.
+    let brighter = plain.pixels().zip(by_sample.pixels()).filter(|(a, b)| (0..3).any(|k| b.0[k] > a.0[k] + 1));
+    assert_eq!(brighter.count(), 0);
     println!("{darker} of 360000 pixels darker");
     assert!(darker > 20_000, "{darker}");
     // Bumps and gloss are to be seen: the other two ways of lighting them give nearly the same picture, none another one.
