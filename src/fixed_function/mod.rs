@@ -191,8 +191,8 @@ fn draws_once(pass: &DrawPass) -> bool {
 
 /// Tests whether all batches of a pass take equally many layers: then no layer of one passes where another has drawn.
 fn has_equal_layers(pass: &DrawPass) -> bool {
-    let mut numbers =
-        pass.batches.iter().filter_map(|batch| Some(reading::layers(batch, pass.state.blend).ok()?.len()));
+    let numbers = pass.batches.iter().filter_map(|batch| Some(reading::layers(batch, pass.state.blend).ok()?.len()));
+    let mut numbers = numbers.filter(|number| *number > 0); // others draw nothing
     let first = numbers.next();
     numbers.all(|number| Some(number) == first)
 }
