@@ -4,7 +4,7 @@ use glow::HasContext;
 
 use super::layer::{AlphaSource, Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
 use super::units::{self, Bound};
-use super::{Error, FixedFunction, bounds, lighting, tangent_light};
+use super::{Error, FixedFunction, bounds, lighting, tangent_vectors};
 use crate::context::compatibility::raw;
 use crate::device::compare_code;
 use crate::pass::{Attribute, Batch, Draw, DrawPass, DrawState, PassList, Primitive};
@@ -108,7 +108,7 @@ impl FixedFunction {
         let vectors: Vec<_> = (0..)
             .zip(&layer.units)
             .filter_map(|(index, unit)| match unit.coordinates {
-                UnitCoordinates::TangentLight(light) => Some((index, tangent_light::vectors(draw, light))),
+                UnitCoordinates::Tangent(vector) => Some((index, tangent_vectors::of_vertices(draw, vector))),
                 _ => None,
             })
             .collect();

@@ -153,9 +153,17 @@ pub enum UnitCoordinates {
     ObjectLinear(ObjectLinear),
     /// glTexGen GL_EYE_LINEAR for all four.
     EyeLinear(Box<EyeLinear>),
-    /// The vector to a light in the surface's tangent space, found for each vertex: s, t and r. The light's position in eye
-    /// space, homogeneous.
-    TangentLight([f32; 4]),
+    /// A vector in the surface's tangent space, found for each vertex: s, t and r.
+    Tangent(TangentVector),
+}
+
+/// The vector to a light, or the half-angle vector between it and the way to the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentVector {
+    /// The light's position in eye space, homogeneous.
+    pub light: [f32; 4],
+    /// True for the half-angle vector.
+    pub half: bool,
 }
 
 /// Planes, the modelview under which they are set, and the texture matrix behind them.

@@ -16,9 +16,10 @@ pub mod layer;
 mod lighting;
 pub mod listing;
 mod masks;
+mod primary;
 pub mod reading;
 mod stack;
-mod tangent_light;
+mod tangent_vectors;
 mod units;
 
 use std::rc::Rc;
@@ -31,7 +32,9 @@ use crate::context::Context;
 pub use crate::context::compatibility::BindingError;
 use crate::context::compatibility::{Binding, raw};
 use crate::device::{Device, Pixels};
-use crate::pass::{Batch, Compare, DrawPass, DrawState, ImageId, PassList, Stencil, StencilOp, StencilOps, Work};
+use crate::pass::{
+    Batch, Compare, DrawPass, DrawState, FixedFunctionDesc, ImageId, PassList, Stencil, StencilOp, StencilOps, Work,
+};
 
 /// The fixed-function pipeline of one compatibility context.
 pub struct FixedFunction {
@@ -138,6 +141,12 @@ fn check_state(list: &PassList, pass: &DrawPass, batch: &Batch) -> Result<(), St
     let layered = batch.meaning.clip_from_eye().is_some();
     let repeats = pass.state.depth_test == Some(Compare::Equal);
     let shares = repeats && is_placed(batch) && writes_placed_depths(list, pass);
+    // No count, but each pixel once: the surface itself is the reason.
+    if let FixedFunctionDesc::Shader(why) = batch.meaning
+        && draws_once(pass)
+    {
+        return Err(String::from(why));
+    }
     let why = match &pass.state {
         DrawState { stencil: Some(_), .. } if repeats && !(shares && draws_once(pass)) => {
             "a count or tag in the stencil buffer at depth EQUAL to another pass, whose positions fixed function may \
@@ -182,8 +191,8 @@ fn draws_once(pass: &DrawPass) -> bool {
 
 /// Tests whether all batches of a pass take equally many layers: then no layer of one passes where another has drawn.
 fn has_equal_layers(pass: &DrawPass) -> bool {
-    let mut numbers =
-        pass.batches.iter().filter_map(|batch| Some(reading::layers(batch, pass.state.blend).ok()?.len()));
+    let numbers = pass.batches.iter().filter_map(|batch| Some(reading::layers(batch, pass.state.blend).ok()?.len()));
+    let mut numbers = numbers.filter(|number| *number > 0); // others draw nothing
     let first = numbers.next();
     numbers.all(|number| Some(number) == first)
 }

@@ -7,7 +7,8 @@
 use glam::Vec3;
 
 use super::bounds::{self, CoordinateRange};
-use super::layer::{Layer, LayerBlend, LayerLighting, PointLight, Primary};
+use super::layer::{Layer, LayerBlend, LayerLighting, PointLight, Primary, TangentVector};
+use super::primary::{Parts, is_attenuated, is_lit, own_ambient, primary, primary_of_bumps, product, unlit_source};
 use super::stack::{Stack, Weight};
 use crate::pass::{
     self, Batch, Compare, Decal, FixedFunctionDesc, FixedFunctionLight, Lit, Projection, Shade, ShadeView, Texturing,
@@ -185,14 +186,10 @@ fn blended_layers(batch: &Batch, lit: &Lit, blend: pass::Blend) -> Result<Vec<La
     Ok(layers.map(|layer| Layer { blend, alpha_write: false, ..layer }).collect())
 }
 
-/// Tests whether the angle between a light and the surface's normal counts.
-fn is_lit(lit: &Lit, light: &FixedFunctionLight) -> bool {
-    lit.lit && light.cosine
-}
-
 fn check_lighting(lit: &Lit) -> Result<(), String> {
-    let by_vertex = |light: &FixedFunctionLight| (is_lit(lit, light) && lit.bumps.is_none()) || is_attenuated(light);
-    if !lit.per_vertex && lit.lights.iter().any(by_vertex) {
+    let by_vertex = |light: &FixedFunctionLight| is_lit(lit, light) || is_attenuated(light);
+    let shows_light = [lit.diffuse, lit.specular, lit.ambient].iter().any(|color| *color != [0.0; 3]);
+    if !lit.per_vertex && lit.bumps.is_none() && shows_light && lit.lights.iter().any(by_vertex) {
         return Err(String::from(
             "its lighting is found for each fragment, fixed function's for each vertex: choose lighting = \"per-vertex\"",
         ));
@@ -201,17 +198,6 @@ fn check_lighting(lit: &Lit) -> Result<(), String> {
         return Err(format!("its specular exponent is {}, GL_SHININESS ends at 128", lit.shininess));
     }
     Ok(())
-}
-
-fn product(a: [f32; 3], b: [f32; 3]) -> Vec3 {
-    Vec3::from(a) * Vec3::from(b)
-}
-
-/// Ambient colour of a light, bounded by what the scene's ambient light leaves below 1.
-fn own_ambient(lit: &Lit, light: &FixedFunctionLight) -> Vec3 {
-    let room = (Vec3::ONE - Vec3::from(lit.scene_ambient)).max(Vec3::ZERO);
-    let most = product(light.ambient, lit.ambient);
-    if lit.per_vertex { most.min(room) } else { most }
 }
 
 /// The first layer: all ambient light times the decal, and the surface's visibility.
@@ -240,23 +226,6 @@ fn ambient_layer(batch: &Batch, lit: &Lit) -> Result<Layer, String> {
     // The picture's alpha stays 1 as cleared, whatever the alpha test used.
     layer.alpha_write = layer.alpha_test.is_none();
     Ok(layer)
-}
-
-fn is_attenuated(light: &FixedFunctionLight) -> bool {
-    light.attenuation != [1.0, 0.0, 0.0]
-}
-
-fn unlit_source(light: &FixedFunctionLight) -> PointLight {
-    let (position, attenuation) = (light.position, light.attenuation);
-    PointLight { position, attenuation, ambient: [0.0; 3], diffuse: [0.0; 3], specular: [0.0; 3] }
-}
-
-/// Colours of a light that a layer adds, and their weights.
-#[derive(Clone, Copy, PartialEq)]
-struct Parts {
-    diffuse: bool,
-    specular: bool,
-    weight: Weight,
 }
 
 fn light_layers(batch: &Batch, lit: &Lit, light: &FixedFunctionLight) -> Result<Vec<Layer>, String> {
@@ -303,7 +272,7 @@ fn light_layer(
     };
     let mut stack = Stack::new(batch);
     if let Some(bumps) = bumps {
-        stack.bumps(bumps, &lit.texturing, light.position)?;
+        stack.bumps(bumps, &lit.texturing, TangentVector { light: light.position, half: parts.specular })?;
     }
     cone.iter().for_each(|projection| stack.cone(projection));
     if let Some(already) = already {
@@ -334,68 +303,4 @@ fn light_layer(
         first: false,
         alpha_write: false,
     })
-}
-
-/// The light's colour on bumps: it is clamped before anything is multiplied by it.
-fn primary_of_bumps(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<Primary, String> {
-    let color = product(light.diffuse, lit.diffuse);
-    let why = match () {
-        () if parts.specular => "highlights on bumps",
-        () if parts.weight != Weight::Shade && light.shade != Shade::Lit => {
-            "a dimmed shadow on bumps: no combiner is left for it"
-        }
-        () if light.projection.as_ref().is_some_and(|projection| projection.cone) => {
-            "bumps in a cone: both need alpha; choose shape = \"frustum\""
-        }
-        () if color.max_element() > 1.0 => "its light on bumps exceeds 1, where fixed function clamps it",
-        () => return Ok(Primary::Color(color.extend(1.0).to_array())),
-    };
-    Err(String::from(why))
-}
-
-/// The primary colour of a light's layer, and what of it is ambient light that is there already: GL clamps the sum of
-/// both to 1, and so a light alone would come out too bright where the sum saturates.
-fn primary(lit: &Lit, light: &FixedFunctionLight, parts: Parts) -> Result<(Primary, Option<Vec3>), String> {
-    let ambient = Vec3::from(lit.scene_ambient) + own_ambient(lit, light);
-    let strength = if light.attenuation[0] > 0.0 { 1.0 / light.attenuation[0] } else { f32::INFINITY };
-    let diffuse = product(light.diffuse, lit.diffuse);
-    let specular = product(light.specular, lit.specular);
-    let has_normal = is_lit(lit, light);
-    if !has_normal && !is_attenuated(light) {
-        let room = if lit.per_vertex { (Vec3::ONE - ambient).max(Vec3::ZERO) } else { Vec3::INFINITY };
-        let color = diffuse.min(room);
-        if color.max_element() > 1.0 {
-            return Err(String::from("its unlit colour exceeds 1, where fixed function clamps it"));
-        }
-        return Ok((Primary::Color(color.extend(1.0).to_array()), None));
-    }
-    let sum = ambient + strength * (diffuse + if has_normal { specular } else { Vec3::ZERO });
-    let relevant = if parts.specular { sum } else { ambient + strength * diffuse };
-    let saturates = relevant.max_element() > 1.0 && ambient != Vec3::ZERO;
-    if !parts.diffuse && sum.max_element() > 1.0 {
-        return Err(String::from(
-            "its specular light may saturate beside the diffuse, and fixed function clamps the sum",
-        ));
-    }
-    if saturates && is_attenuated(light) && own_ambient(lit, light) != Vec3::ZERO {
-        return Err(String::from(
-            "its light saturates beside ambient light that is attenuated, and fixed function clamps the sum",
-        ));
-    }
-    let mut source = unlit_source(light);
-    let mut lighting = LayerLighting { opacity: 1.0, shininess: lit.shininess, ..LayerLighting::default() };
-    if !has_normal {
-        // Ambient light needs no normal.
-        (source.ambient, lighting.ambient) = (light.diffuse, lit.diffuse);
-    } else if parts.diffuse {
-        (source.diffuse, lighting.diffuse) = (light.diffuse, lit.diffuse);
-    }
-    if parts.specular {
-        (source.specular, lighting.specular) = (light.specular, lit.specular);
-    }
-    if saturates {
-        lighting.emission = ambient.to_array();
-    }
-    lighting.sources.push(source);
-    Ok((Primary::Lighting(lighting), saturates.then_some(ambient)))
 }

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec4};
 
-use super::layer::{AlphaSource, Combine, EyeLinear, Mask, Operand, Unit, UnitCoordinates, UnitImage};
+use super::layer::{AlphaSource, Combine, EyeLinear, Mask, Operand, TangentVector, Unit, UnitCoordinates, UnitImage};
 use crate::geometry::Placement;
 use crate::pass::{Batch, BumpMap, Decal, GlossSource, Projection, Shade, Texturing};
 
@@ -105,16 +105,16 @@ impl<'a> Stack<'a> {
         Ok(())
     }
 
-    /// The primary colour in the light of bumps: times dim (N' . L) min(1, 8 L_z) [GDC, "Per-Pixel Lighting Math"]. Must come
-    /// first: it names textures by their units. Alpha is the primary colour's.
-    pub fn bumps(&mut self, map: BumpMap, texturing: &Texturing, light: [f32; 4]) -> Result<(), String> {
+    /// The primary colour in the light of bumps: times dim (N' . L) min(1, 8 L_z), or times (N' . H)^8 min(1, 8 H_z) [GDC,
+    /// "Per-Pixel Lighting Math"]. Must come first: it names textures by their units. Alpha is the primary colour's.
+    pub fn bumps(&mut self, map: BumpMap, texturing: &Texturing, vector: TangentVector) -> Result<(), String> {
         let (UnitImage::Input { index: cube, .. }, normals) = (self.input("unit_vectors")?, self.input("normal_map")?)
         else {
             return Ok(());
         };
-        // Alpha: 4 L_z, as L / 2 + 1 / 2 less a half is multiplied by (0, 0, 1 - 1 / 2), and then 8 L_z, clamped.
+        // Alpha: 4 z, as the vector's half plus 1 / 2, less 1 / 2, is multiplied by (0, 0, 1 - 1 / 2); and then 8 z, clamped.
         let down = Combine::Dot3Rgba(Operand::Texture, Operand::Constant);
-        self.push(UnitImage::Cube(cube), UnitCoordinates::TangentLight(light), down, KEPT);
+        self.push(UnitImage::Cube(cube), UnitCoordinates::Tangent(vector), down, KEPT);
         self.constant([0.5, 0.5, 1.0, 1.0]);
         self.scale(4.0, 4.0);
         let coordinates = own_coordinates(texturing);
@@ -129,8 +129,12 @@ impl<'a> Stack<'a> {
             self.scale(1.0, 2.0);
         }
         let by = |factor| Combine::Modulate(Operand::Previous, factor);
+        if vector.half {
+            (0..3).for_each(|_| self.pass_on(by(Operand::Previous), KEPT));
+        } else {
+            self.pass_on(by(Operand::OtherAlpha(1)), KEPT);
+        }
         self.pass_on(by(Operand::PreviousAlpha), KEPT);
-        self.pass_on(by(Operand::OtherAlpha(1)), KEPT);
         self.pass_on(by(Operand::Primary), Combine::Replace(Operand::Primary));
         Ok(())
     }

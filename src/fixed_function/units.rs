@@ -99,7 +99,7 @@ fn set_coordinates(gl: &glow::Context, fixed: &Binding, coordinates: &UnitCoordi
         fixed.Translatef(offset_s, offset_t, 0.0);
         fixed.Scalef(scale_s, scale_t, 1.0);
         match coordinates {
-            UnitCoordinates::Constant | UnitCoordinates::Mesh | UnitCoordinates::TangentLight(_) => {}
+            UnitCoordinates::Constant | UnitCoordinates::Mesh | UnitCoordinates::Tangent(_) => {}
             UnitCoordinates::ObjectLinear(generated) => {
                 fixed.Scalef(generated.scale, generated.scale, 1.0);
                 for ((name, switch), plane) in COORDINATES.iter().zip([generated.s, generated.t]) {

@@ -87,8 +87,8 @@ pub struct Lit {
 }
 
 /// Bumps by the inputs `normal_map`, of normals in tangent space with the dimming in alpha, and `unit_vectors`, a cube map that
-/// normalises the light vector. They are in shadow where the light sinks below the smooth surface, by min(1, 8 L_z)
-/// [GDC, "Per-Pixel Lighting Math"].
+/// normalises the light vector L, or the half-angle vector H of light that is specular alone. Diffuse light is dim (N' . L)
+/// min(1, 8 L_z), specular light (N' . H)^8 min(1, 8 H_z) [GDC, "Per-Pixel Lighting Math"].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BumpMap {
     /// True if the normal map's texels are in [-1, 1]; `false`: x as (x + 1) / 2.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::lights::LightParts;
-use crate::combiners::{self, CombinerProgram, Precision};
+use crate::combiners::{self, CombinerProgram, Precision, Register};
 use crate::geometry::bump::{Bump, Gloss, NormalFormat, TexelLevels};
 use crate::geometry::normal_map::HeightWrap;
 use crate::lights::drawable::upload;
@@ -81,7 +81,18 @@ impl Bumps {
     /// # Errors
     ///
     /// Something that it cannot express, in words.
-    pub fn meaning(&self, bump: &Bump, shading: &BumpShading, two_sided: bool) -> Result<BumpMap, &'static str> {
+    pub fn meaning(
+        &self,
+        bump: &Bump,
+        shading: &BumpShading,
+        ending: &Ending,
+        [two_sided, specular]: [bool; 2],
+    ) -> Result<BumpMap, &'static str> {
+        let alone = *ending == Ending::Part(FormulaPart::Specular);
+        let reads_light = |program: &CombinerProgram| {
+            let portions = program.stages.iter().flat_map(|stage| [&stage.rgb, &stage.alpha]).flatten();
+            portions.flat_map(|portion| portion.inputs).any(|input| input.register == Register::Texture(1))
+        };
         let why = match () {
             () if !self.are_combined() => {
                 "bumps by vectors that are found for each fragment: choose bump = \"three-pass\""
@@ -92,6 +103,12 @@ impl Bumps {
             }
             () if shading.precision != Precision::Float => "bumps by register combiners of 9 bits",
             () if two_sided => "bumps that may be seen from behind: write closed = true where none are",
+            () if specular && !alone => {
+                "highlights on bumps beside diffuse light, whose products take one alpha each: choose bump = \"three-pass\""
+            }
+            () if alone && matches!(self, Self::Combined(program) if reads_light(program)) => {
+                "highlights that end where the light sinks below the surface, by a third texture: choose two_units = true"
+            }
             () => return Ok(BumpMap { is_signed: bump.map.is_signed }),
         };
         Err(why)

@@ -5,6 +5,7 @@ mod bump;
 mod explain;
 mod guarded;
 mod lights;
+mod meaning;
 mod partition;
 mod photo;
 mod property;

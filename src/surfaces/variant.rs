@@ -3,16 +3,14 @@
 use glam::{Vec3, Vec4};
 
 use super::bump::{self, Bumps};
-use super::lights::{self, ADDED, LightParts};
+use super::lights::{self, LightParts};
+use super::meaning::{self, Shown};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::ending::FormulaPart;
 use crate::lights::{Drawable, Ending, Factors, Viewer};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{
-    Attribute, BumpMap, Chunk, Decal, Define, FixedFunctionDesc, FixedFunctionLight, Input, Lit, PassList, Program,
-    ShadeView, Uniform, glsl,
-};
+use crate::pass::{Attribute, Chunk, Define, FixedFunctionDesc, Input, PassList, Program, Uniform, glsl};
 use crate::scene::Scene;
 
 /// The vertex stage needs positions in eye space.
@@ -155,91 +153,21 @@ pub fn of(
         fragment: fragment(scene, lights, ending, needs, &bumps, &cut),
         attributes,
     };
+    let shown =
+        Shown { specular, ambient: needs.ambient, scene_ambient: scene_ambient(needs, &item.material).to_array() };
     let meaning = if item.wave.is_some() {
         WAVES
     } else if let Some(map) = bump_map.filter(|_| bumps.any()) {
-        match bumps.meaning(map, &scene.shading.bumps, two_sided) {
-            Ok(_) if specular => {
-                FixedFunctionDesc::Shader("highlights on bumps: a product that is squared three times")
-            }
-            Ok(map) => meaning(scene, item, lights, viewer, ending, needs, (&cut, Some(map))),
+        match bumps.meaning(map, &scene.shading.bumps, ending, [two_sided, specular]) {
+            Ok(map) => meaning::of(scene, item, lights, viewer, ending, shown, (&cut, Some(map))),
             Err(why) => FixedFunctionDesc::Shader(why),
         }
     } else if others && shines && lit {
         FixedFunctionDesc::Shader("highlights by a gloss map")
     } else {
-        meaning(scene, item, lights, viewer, ending, needs, (&cut, None))
+        meaning::of(scene, item, lights, viewer, ending, shown, (&cut, None))
     };
     Variant { program, meaning, uniforms, inputs }
-}
-
-/// The variant in the terms of fixed function.
-fn meaning(
-    scene: &Scene,
-    item: &Drawable,
-    lights: &[&LightParts],
-    viewer: &Viewer,
-    ending: &Ending,
-    needs: Needs,
-    (cut, bumps): (&Cutout, Option<BumpMap>),
-) -> FixedFunctionDesc {
-    let clip_from_eye = viewer.clip_from_eye;
-    let texturing = cut.meaning.clone();
-    let material = &item.material;
-    match (ending, lights.first()) {
-        (Ending::Lit | Ending::Part(FormulaPart::Diffuse), _) => FixedFunctionDesc::Lit(Box::new(Lit {
-            clip_from_eye,
-            per_vertex: scene.shading.per_vertex,
-            lit: item.lit,
-            added: lights.iter().any(|light| light.defines.contains(&ADDED)),
-            scene_ambient: scene_ambient(needs, material).to_array(),
-            ambient: if needs.ambient { material.ambient } else { [0.0; 3] },
-            diffuse: if lights.is_empty() { [0.0; 3] } else { material.diffuse },
-            specular: if needs.specular { material.specular } else { [0.0; 3] },
-            shininess: if needs.specular { material.shininess } else { 0.0 },
-            texturing,
-            bumps,
-            lights: lights.iter().map(|light| light.meaning.clone()).collect(),
-        })),
-        (Ending::Part(FormulaPart::Decal(_)), _) => {
-            FixedFunctionDesc::Decal(Box::new(Decal { clip_from_eye, texturing, gloss: bump::gloss_source(item) }))
-        }
-        (Ending::Factors(factors), _) => {
-            // A factor that a pass lacks is 1, and its light 0.
-            let own = if factors.color { Vec3::from(material.diffuse) } else { Vec3::ONE };
-            let alone = !factors.ambient && lights.is_empty();
-            let ambient = if factors.ambient { Vec3::from(scene.shading.ambient) } else { Vec3::splat(alone.into()) };
-            FixedFunctionDesc::Lit(Box::new(Lit {
-                clip_from_eye,
-                per_vertex: false,
-                lit: false,
-                added: false,
-                scene_ambient: (ambient * own).to_array(),
-                ambient: [0.0; 3],
-                diffuse: own.to_array(),
-                specular: [0.0; 3],
-                shininess: 0.0,
-                texturing,
-                bumps: None,
-                lights: lights.iter().map(|light| light.meaning.clone()).collect(),
-            }))
-        }
-        (Ending::View { .. } | Ending::Alpha(_), Some(light)) => {
-            let FixedFunctionLight { projection, shade, .. } = light.meaning.clone();
-            let shown = Box::new(ShadeView { clip_from_eye, texturing, projection, shade });
-            if let Ending::Alpha(_) = ending {
-                FixedFunctionDesc::Alpha(shown)
-            } else {
-                FixedFunctionDesc::Sampled(shown)
-            }
-        }
-        (Ending::Surface { .. } | Ending::TangentVector { .. }, _) => {
-            FixedFunctionDesc::Shader("a view of a surface's property")
-        }
-        (Ending::Part(FormulaPart::Specular), _) => FixedFunctionDesc::Shader("highlights alone"),
-        (Ending::Slice { .. }, _) => FixedFunctionDesc::Shader("slices of a beam of light in dust"),
-        (Ending::View { .. } | Ending::Alpha(_), None) => FixedFunctionDesc::Shader("a view of no light"),
-    }
 }
 
 fn scene_ambient(needs: Needs, material: &Material) -> Vec3 {

@@ -6,12 +6,14 @@ use std::path::Path;
 use std::process::Command;
 use std::rc::Rc;
 
+use glam::Vec3;
 use glow::HasContext;
 use glumbra::context::compatibility::{Binding, raw};
 use glumbra::context::{self, Context, ContextRequest, Profile};
 use glumbra::device::{Device, Measure, Pixels};
 use glumbra::fixed_function::{FixedFunction, listing};
-use glumbra::pass::{Draw, IndexOrder, PassList, Program, Stage, Storage, Work};
+use glumbra::geometry::{MeshTangents, normal_cube};
+use glumbra::pass::{Draw, ImageDesc, IndexOrder, MeshRef, PassList, Program, Stage, Storage, Work};
 use glumbra::plan::{self, Plan, Request};
 use libloading::Library;
 
@@ -29,6 +31,13 @@ const void *all_texels[32];
 void (*bind_for_listing)(int mesh);
 const void *texels(int image) { return all_texels[image]; }
 void bind_mesh(int mesh) { bind_for_listing(mesh); }
+const void *(*levels_for_listing)(int image, int level);
+const void *level_texels(int image, int level) { return levels_for_listing(image, level); }
+const GLfloat *(*vectors_for_listing)(int mesh, const GLfloat *light, const GLfloat *eye);
+const GLfloat *tangent_vectors(int mesh, const GLfloat light[4], const GLfloat eye[4])
+{
+    return vectors_for_listing(mesh, light, eye);
+}
 ";
 
 /// The buffers of a mesh: positions with their components, normals, coordinates, indices.
@@ -37,12 +46,17 @@ struct Buffers {
     normals: Option<glow::Buffer>,
     texcoords: Option<glow::Buffer>,
     indices: glow::Buffer,
+    mesh: MeshRef,
 }
 
 struct Meshes {
     gl: Rc<glow::Context>,
     binding: Binding,
     buffers: Vec<Buffers>,
+    /// Levels, or faces, of each image.
+    levels: Vec<Vec<Vec<[u8; 4]>>>,
+    /// Vectors that a listing has asked for, as long as it may read them.
+    vectors: Vec<Vec<[f32; 3]>>,
 }
 
 thread_local! {
@@ -55,8 +69,8 @@ const UNITS: u32 = 8;
 /// Binds the arrays of fixed function, and those of programs.
 extern "C" fn bind_mesh(mesh: c_int) {
     MESHES.with_borrow(|meshes| {
-        let Meshes { gl, binding, buffers } = meshes.as_ref().unwrap();
-        let Buffers { positions: (positions, components), normals, texcoords, indices } = &buffers[mesh as usize];
+        let Meshes { gl, binding, buffers, .. } = meshes.as_ref().unwrap();
+        let Buffers { positions: (positions, components), normals, texcoords, indices, .. } = &buffers[mesh as usize];
         // SAFETY: the context is current; the arrays are offsets into buffers.
         unsafe {
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(*positions));
@@ -98,6 +112,41 @@ extern "C" fn bind_mesh(mesh: c_int) {
     });
 }
 
+extern "C" fn level_texels(image: c_int, level: c_int) -> *const c_void {
+    MESHES.with_borrow(|meshes| meshes.as_ref().unwrap().levels[image as usize][level as usize].as_ptr().cast())
+}
+
+/// Vectors in tangent space, as the listing's comment has them.
+extern "C" fn tangent_vectors(mesh: c_int, light: *const [f32; 4], eye: *const [f32; 4]) -> *const [f32; 3] {
+    // SAFETY: the listing gives four numbers, or no eye.
+    let (light, eye) = unsafe { (*light, eye.as_ref()) };
+    MESHES.with_borrow_mut(|meshes| {
+        let meshes = meshes.as_mut().unwrap();
+        let mesh = &meshes.buffers[mesh as usize].mesh;
+        let MeshTangents { tangents, bitangents } = mesh.tangents.as_ref().unwrap();
+        let way = |vertex: usize, [x, y, z, w]: [f32; 4]| {
+            let way = Vec3::new(x, y, z) - w * Vec3::from(mesh.positions[vertex]);
+            Vec3::from([tangents, bitangents, &mesh.normals].map(|axes| way.dot(Vec3::from(axes[vertex]))))
+        };
+        let of_vertex = |vertex: usize| match eye {
+            Some(eye) => (way(vertex, light).normalize() + way(vertex, *eye).normalize()).to_array(),
+            None => way(vertex, light).to_array(),
+        };
+        let vectors = (0..mesh.positions.len()).map(of_vertex).collect();
+        meshes.vectors.push(vectors);
+        meshes.vectors.last().unwrap().as_ptr()
+    })
+}
+
+/// Texels of an image's levels, or of the faces of a cube map of unit vectors.
+fn levels(desc: &ImageDesc) -> Vec<Vec<[u8; 4]>> {
+    match &desc.storage {
+        Storage::Levels(map) => map.levels.clone(),
+        Storage::UnitVectors => (0..6).map(|face| normal_cube::packed_face(face, desc.size[0])).collect(),
+        _ => Vec::new(),
+    }
+}
+
 fn draws(list: &PassList) -> impl Iterator<Item = (&Program, &Draw)> {
     let passes = list.passes.iter().filter_map(|pass| match &pass.work {
         Work::Draw(draw) => Some(draw),
@@ -137,6 +186,7 @@ fn buffers(gl: &glow::Context, list: &PassList) -> Vec<Buffers> {
             normals: (!mesh.normals.is_empty()).then(|| upload(gl, bytemuck::cast_slice(&mesh.normals))),
             texcoords: mesh.texcoords.as_ref().map(|texcoords| upload(gl, bytemuck::cast_slice(texcoords))),
             indices: upload(gl, bytemuck::cast_slice(&indices)),
+            mesh: (*mesh).clone(),
         }
     };
     meshes.iter().map(make).collect()
@@ -198,10 +248,15 @@ fn run_listing(plan: &Plan) -> Vec<u8> {
     draws(&plan.list).for_each(|(program, _)| push_new(&mut programs, program));
     assert!(programs.len() <= PROGRAMS && plan.list.images.len() <= IMAGES);
     let (binding, buffers) = (Binding::load(&*context).unwrap(), buffers(&gl, &plan.list));
-    MESHES.set(Some(Meshes { gl: gl.clone(), binding, buffers }));
+    let levels = plan.list.images.iter().map(levels).collect();
+    MESHES.set(Some(Meshes { gl: gl.clone(), binding, buffers, levels, vectors: Vec::new() }));
     // SAFETY: the symbols are the shim's and the listing's, of these types; the context is current.
     unsafe {
         **library.get::<*mut extern "C" fn(c_int)>(b"bind_for_listing").unwrap() = bind_mesh;
+        type Levels = extern "C" fn(c_int, c_int) -> *const c_void;
+        type Vectors = extern "C" fn(c_int, *const [f32; 4], *const [f32; 4]) -> *const [f32; 3];
+        **library.get::<*mut Levels>(b"levels_for_listing").unwrap() = level_texels;
+        **library.get::<*mut Vectors>(b"vectors_for_listing").unwrap() = tangent_vectors;
         let names = *library.get::<*mut u32>(b"programs").unwrap();
         programs.iter().enumerate().for_each(|(index, program)| *names.add(index) = link(&gl, program));
         let texels = *library.get::<*mut *const u8>(b"all_texels").unwrap();
@@ -256,6 +311,31 @@ const DRAWN: &[(&str, &[&str], bool)] = &[
     ("data/cases/shadow-map/alpha-test/scene.toml", &["shading.lighting=\"per-vertex\""], true),
     ("data/scenes/hw_shadowmaps_simple.toml", &["shading.lighting=\"per-vertex\""], true),
     ("data/cases/slide-projector/room/scene.toml", &[], true),
+    (
+        "data/scenes/doughnut.toml",
+        &[
+            "shading.bump=\"three-pass\"",
+            "object.0.closed=true",
+            "object.0.material.specular=[0, 0, 0]",
+            "object.0.material.bump.format=\"unorm8\"",
+            "object.1.lit=false",
+            "light.0.shape=\"frustum\"",
+        ],
+        true,
+    ),
+    (
+        "data/scenes/doughnut.toml",
+        &[
+            "shading.bump=\"three-pass\"",
+            "shading.two_units=true",
+            "shading.normalize={ cube = 32, seamless = false }",
+            "object.0.closed=true",
+            "object.1.lit=false",
+            "light.0.diffuse=[0, 0, 0]",
+            "light.0.specular=[0, 0, 0]",
+        ],
+        true,
+    ),
     ("data/cases/slide-projector/room/scene.toml", &["shading.background=\"ambient\""], true),
     ("data/cases/scenes/two_lights.toml", &["shading.passes=\"shadow\"", "shading.lighting=\"per-vertex\""], true),
     ("data/cases/scenes/two_lights.toml", &["shading.passes=\"shadow\""], false),

@@ -5,7 +5,7 @@ use glam::{DMat4, Mat4};
 use super::super::layer::{
     AlphaSource, Combine, Layer, LayerBlend, LayerLighting, Operand, Primary, Unit, UnitCoordinates, UnitImage,
 };
-use super::super::{bounds, reading, tangent_light};
+use super::super::{bounds, reading, tangent_vectors};
 use super::c::{self, float, floats, vector};
 use super::state::ListingState;
 use super::{Listing, names};
@@ -34,7 +34,7 @@ impl<'a> Listing<'a> {
                 self.matrices(batch, draw);
                 self.mirror(now, draw.mirrored);
                 let mesh = self.bind_mesh(draw);
-                self.tangent_light(mesh, &layer, draw);
+                self.tangent_vectors(mesh, &layer, draw);
                 self.draw_elements(draw);
             }
             self.take_down(&layer, now);
@@ -64,7 +64,7 @@ impl<'a> Listing<'a> {
 
     fn take_down(&mut self, layer: &Layer, now: &ListingState) {
         for (index, unit) in layer.units.iter().enumerate() {
-            if let UnitCoordinates::TangentLight(_) = unit.coordinates {
+            if let UnitCoordinates::Tangent(_) = unit.coordinates {
                 self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{index})"));
                 self.body.call("glDisableClientState(GL_TEXTURE_COORD_ARRAY)");
             }
@@ -165,15 +165,16 @@ impl<'a> Listing<'a> {
         }
     }
 
-    /// Binds vectors of a mesh's vertices to the lights of units that look them up.
-    fn tangent_light(&mut self, mesh: usize, layer: &Layer, draw: &Draw) {
+    /// Binds vectors of a mesh's vertices in tangent space to the units that look them up.
+    fn tangent_vectors(&mut self, mesh: usize, layer: &Layer, draw: &Draw) {
         for (index, unit) in layer.units.iter().enumerate() {
-            let UnitCoordinates::TangentLight(light) = unit.coordinates else { continue };
-            let light = vector(&tangent_light::in_model(draw, light).as_vec4().to_array());
-            self.objects.uses_tangent_light = true;
+            let UnitCoordinates::Tangent(tangent) = unit.coordinates else { continue };
+            let [light, eye] = tangent_vectors::in_model(draw, tangent).map(|point| vector(&point.to_array()));
+            let eye = if tangent.half { eye } else { String::from("NULL") };
+            self.objects.uses_tangent_vectors = true;
             self.body.call("glBindBuffer(GL_ARRAY_BUFFER, 0)");
             self.body.call(&format!("glClientActiveTexture(GL_TEXTURE{index})"));
-            self.body.call(&format!("glTexCoordPointer(3, GL_FLOAT, 0, tangent_light({mesh}, {light}))"));
+            self.body.call(&format!("glTexCoordPointer(3, GL_FLOAT, 0, tangent_vectors({mesh}, {light}, {eye}))"));
             self.body.call("glEnableClientState(GL_TEXTURE_COORD_ARRAY)");
         }
     }

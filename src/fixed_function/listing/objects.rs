@@ -20,7 +20,7 @@ pub struct Objects<'a> {
     planes: Vec<(DMat4, DMat4)>,
     pub uses_eye_planes: bool,
     pub disables_units: bool,
-    pub uses_tangent_light: bool,
+    pub uses_tangent_vectors: bool,
 }
 
 /// The place of a value, which is added where it is new.
@@ -123,14 +123,17 @@ impl<'a> Objects<'a> {
             }
             out.line("extern const void *texels(int image);");
         }
-        if self.uses_tangent_light {
-            out.line("/* a function that answers with a vector for each vertex, d . T, d . B and d . N of the mesh's tangents, bitangents and");
-            out.line("   normals, where d leads from the vertex to the light, xyz - w position, in model space */");
-            out.line("extern const GLfloat *tangent_light(int mesh, const GLfloat light[4]);");
+        if self.uses_tangent_vectors {
+            out.line(TANGENT_VECTORS);
         }
         out.line("");
     }
 }
+
+const TANGENT_VECTORS: &str = "/* a function that answers with a vector of three for each vertex of a mesh: d . T, d . B and d . N of its tangents,
+   bitangents and normals, where d leads from the vertex to the light, xyz - w position, in model space; with an eye, the
+   sum of this vector and the same one to the eye, both of unit length */
+extern const GLfloat *tangent_vectors(int mesh, const GLfloat light[4], const GLfloat eye[4]);";
 
 const USE_EYE_PLANES: &str = "
 /* Gives a program the eye planes that GL keeps, E_e = E_po modelview_po^-1. */
