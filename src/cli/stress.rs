@@ -74,9 +74,10 @@ Verdicts:
   silently wrong  outside it, without a warning
 
 The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's
-reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face the
-light. Colours of projected light lie within bounds that a sample's error, roundings and tables explain; with shadow maps in
-dust or through a lens, so does their mean. A scene that fails is reduced, and written as a scene file for `glumbra render`.
+reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face
+the light. Colours of projected light and of bumps lie within bounds that a sample's error, roundings and tables explain;
+with shadow maps in dust or through a lens, so does their mean. A scene that fails is reduced, and written as a scene file
+for `glumbra render`.
 
 Exit status: 0 nothing is silently wrong, 1 something is, 2 nothing could be run.
 
@@ -84,7 +85,7 @@ Examples:
   glumbra stress
   glumbra stress --seed 7 --count 1000 -o out/stress
   glumbra stress --count 0 --case cone --technique shadow-map
-  glumbra stress --count 50 --case projected    beams, slides, alpha shadows, lenses, dust, by their colours
+  glumbra stress --count 50 --case projected    beams, slides, alpha shadows, lenses, dust, bumps, by their colours
   parallel glumbra stress --count 10000 --shard {}/4 -o part{} ::: 1 2 3 4";
 
 /// Scenes reduced at most: each takes some seconds.

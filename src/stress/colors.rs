@@ -1,8 +1,8 @@
-//! Colours of a scene in projected light, pixel by pixel against their bounds in f64.
+//! Colours of a scene in projected light, or with bumps, pixel by pixel against their bounds in f64.
 //!
 //! # Rows
 //! - without shadows, in 8 bits: no pixel may be beyond its bounds, but for roundings and tables;
-//! - the same in floats, which nothing clamps;
+//! - the same in floats, which nothing clamps; not of register combiners, which do;
 //! - with shadow maps. In destination alpha a pixel beyond its bounds may be a texel's: it is excused where one pass shows the
 //!   same. Through lenses and in dusty air many maps or slices make a pixel: the mean over the picture counts.
 
@@ -17,7 +17,7 @@ use crate::techniques;
 use crate::truth::{self, ColorPixel, ColorRequest, ColorTruth};
 
 /// Names of the rows, in a table's order.
-pub const NAMES: [&str; 5] = ["beam", "slide-projector", "alpha-shadows", "focus", "dust"];
+pub const NAMES: [&str; 6] = ["beam", "slide-projector", "alpha-shadows", "focus", "dust", "bump"];
 
 /// Codes of 1/255 that a pixel may be off beyond what the error of its sample explains: its own rounding, and half a code
 /// each for the texels of a map, between them, and between those of a law of distance.
@@ -36,6 +36,7 @@ pub fn name_of(scene: &Scene) -> &'static str {
         PicturePasses::Shadow => NAMES[2],
         PicturePasses::One if spots().any(|spot| Spot::lens(spot).is_some()) => NAMES[3],
         PicturePasses::One if scene.lights.iter().any(|light| light.dust.is_some()) => NAMES[4],
+        PicturePasses::One if scene.objects.iter().any(|object| object.bases.is_some()) => NAMES[5],
         PicturePasses::One => NAMES[0],
     }
 }
@@ -49,7 +50,7 @@ pub fn rows(scene: &Scene, renderer: &mut Renderer) -> (Vec<CaseRow>, f64) {
 pub fn rows_of(scene: &Scene, drawn: &Scene, renderer: &mut Renderer) -> (Vec<CaseRow>, f64) {
     let mut judge = ColorJudge { scene, drawn, name: name_of(scene), known: 1.0 };
     let mut rows = vec![judge.unshadowed(false, renderer)];
-    if has_projected_light(scene) && judge.name != NAMES[0] {
+    if has_projected_light(scene) && judge.name != NAMES[0] && !truth::has_combined_bumps(scene) {
         rows.push(judge.unshadowed(true, renderer));
     }
     if NAMES[2..].contains(&judge.name) {

@@ -4,6 +4,7 @@
 //! Every error must be reported: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]). `judge.rs`
 //! derives the bound between right and wrong.
 
+mod bumps;
 mod case;
 mod colors;
 mod judge;

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::case::{Case, FILES, files_named_in};
-use super::pictures::noise;
+use super::pictures::{hills, noise};
 
 const CASES: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/stress/cases.toml"));
 
@@ -15,7 +15,7 @@ macro_rules! scenes {
     };
 }
 
-scenes!("spot", "point", "sun", "room", "slide", "slide-dark", "alpha", "beam", "lens", "dust");
+scenes!("spot", "point", "sun", "room", "slide", "slide-dark", "alpha", "beam", "lens", "dust", "bump");
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,12 +62,14 @@ enum Judgement {
     Colors,
 }
 
-/// A picture of noise.
+/// A picture of noise, or of heights.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Noise {
     name: String,
     size: [u32; 2],
+    #[serde(default)]
+    hills: bool,
 }
 
 /// A mesh file whose coordinates are another's, scaled and then moved along all axes alike.
@@ -119,7 +121,13 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
     let set = fill_all(&entry.set)?;
     let named = files_named_in(&format!("{toml}\n{}", set.join("\n")));
     let mut made = entry.files.iter().map(|made| make(made, value)).collect::<Result<Vec<_>, _>>()?;
-    made.extend(entry.pictures.iter().map(|picture| (picture.name.clone(), noise(picture.size, 1))));
+    made.extend(entry.pictures.iter().map(|picture| {
+        let bytes = if picture.hills { hills(picture.size, false, 1) } else { noise(picture.size, 1) };
+        (picture.name.clone(), bytes)
+    }));
+    if entry.scene == "bump" {
+        made.push((String::from("hills.png"), hills([128, 64], true, 5)));
+    }
     Ok(Case {
         name: sweep.map_or_else(|| entry.name.clone(), |(_, value)| format!("{}-{value:e}", entry.name)),
         is_random: false,

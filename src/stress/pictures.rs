@@ -1,5 +1,7 @@
 //! Pictures that cases make for themselves.
 
+use std::f64::consts::TAU;
+
 use fastrand::Rng;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -11,5 +13,30 @@ pub fn noise([width, height]: [u32; 2], seed: u64) -> Vec<u8> {
     let mut png = Vec::new();
     // Nothing fails that writes to memory; a case without its picture says so when it is loaded.
     let _ = PngEncoder::new(&mut png).write_image(&texels, width, height, ExtendedColorType::Rgba8);
+    png
+}
+
+/// Heights of hills that repeat, as PNG of one channel, of 16 bits where `deep`: the same seed is the same picture.
+pub fn hills([width, height]: [u32; 2], deep: bool, seed: u64) -> Vec<u8> {
+    let mut rng = Rng::with_seed(seed);
+    let waves: Vec<[f64; 4]> = (0..4).map(|_| [0, 1, 2, 3].map(|_| rng.f64())).collect();
+    let at = |x: u32, y: u32| {
+        let [s, t] = [f64::from(x) / f64::from(width), f64::from(y) / f64::from(height)];
+        let wave = |[a, b, phase, size]: &[f64; 4]| {
+            size * (TAU * ((4.0 * a).floor() * s + (4.0 * b).floor() * t + phase)).sin()
+        };
+        0.5 + 0.12 * waves.iter().map(wave).sum::<f64>()
+    };
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let (bytes, kind): (Vec<u8>, _) = match deep {
+        true => (
+            // In the machine's order, as the encoder takes them.
+            texels.flat_map(|(x, y)| ((65535.0 * at(x, y)) as u16).to_ne_bytes()).collect(),
+            ExtendedColorType::L16,
+        ),
+        false => (texels.map(|(x, y)| (255.0 * at(x, y)) as u8).collect(), ExtendedColorType::L8),
+    };
+    let mut png = Vec::new();
+    let _ = PngEncoder::new(&mut png).write_image(&bytes, width, height, kind);
     png
 }

@@ -1,14 +1,15 @@
 //! Random scenes in projected light: images, beams and laws of distance; slide projectors; shadows in destination alpha;
-//! lenses; dusty air; photographs on objects. A scene is a random one whose spotlights have more keys; some of them stand
+//! lenses; dusty air; photographs and bumps on objects. A scene is a random one whose spotlights have more keys; some of them stand
 //! at the eye, behind it, towards it, across the view or in the floor.
 //! `colors.rs` judges them.
 
 use fastrand::Rng;
 use glam::DVec3;
 
+use super::bumps::{HILLS, with_bumps};
 use super::case::{Case, files_named_in, vector};
 use super::photos::with_photos;
-use super::pictures::noise;
+use super::pictures::{hills, noise};
 use super::random;
 
 /// Kind of a scene, by its number.
@@ -35,9 +36,12 @@ pub fn case(seed: u64, index: u64) -> Case {
     let rng = Rng::with_seed(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index ^ 0x6c69_6768_7400);
     let kind = KINDS[(index % KINDS.len() as u64) as usize];
     let mut draft = Draft { rng, kind, eye: DVec3::ZERO, target: DVec3::NEG_Z };
-    let toml = with_photos(seed, index, &draft.scene(&plain.toml));
+    let (toml, hill_sizes) = with_bumps(seed, index, &with_photos(seed, index, &draft.scene(&plain.toml)));
     let size = [[64, 48], [64, 48], [1, 1], [1, 37], [200, 3]][draft.rng.usize(0..5)];
-    let made = vec![(String::from("noise.png"), noise(size, draft.rng.u64(..)))];
+    let mut made = vec![(String::from("noise.png"), noise(size, draft.rng.u64(..)))];
+    for (deep, (name, size)) in HILLS.into_iter().zip(hill_sizes).enumerate().filter(|_| toml.contains("bump = {")) {
+        made.push((name.to_owned(), hills(size, deep == 1, index)));
+    }
     let (name, why) = (format!("projected-{seed}-{index}"), format!("a random scene in projected light: {kind:?}"));
     // The shades of the other kinds are those of these.
     let shades = kind == Kind::Beams;

@@ -12,7 +12,9 @@ use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
 use super::rows::{RowSettings, row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
+use crate::geometry::Material;
 use crate::report::measure::difference;
+use crate::scene::BumpShading;
 use crate::truth::Truth;
 
 /// Options of a run.
@@ -78,9 +80,15 @@ fn draw_rows(
 ) -> Result<(), String> {
     let loaded = case.load(folder)?;
     let pictured = loaded.scene;
-    // Shadows are judged without photographs, which show none.
+    // Shadows are judged without photographs, which show none, and without bumps, which have dark sides of their own.
     let mut scene = pictured.clone();
-    scene.objects.iter_mut().for_each(|object| object.photo = None);
+    scene.shading.bumps = BumpShading::default();
+    for object in &mut scene.objects {
+        object.photo = None;
+        object.bases = None;
+        object.material =
+            object.material.take().map(|material| Arc::new(Material { bump: None, ..(*material).clone() }));
+    }
     let mut shares = Vec::new();
     for (light, source) in scene.lights.iter().enumerate().filter(|_| case.shades) {
         let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;

@@ -32,7 +32,7 @@ use super::{Error, Options, Tracer, lens_points};
 use crate::scene::{Background, Law, Light, PicturePasses, Scene};
 use air::DustyBeam;
 pub use bounds::Bounds;
-pub use known::why_no_colors;
+pub use known::{has_combined_bumps, why_no_colors};
 use lamp::{Source, Wash};
 use photo::Photograph;
 use surface::{Shaded, SurfaceTable};

@@ -53,7 +53,7 @@ pub use answers::{Answer, Hit, Pixel, Reason, Truth};
 pub use around::{Around, Blocker, Nearer, Surroundings};
 use beam::Beam;
 use camera::Eye;
-pub use color::{Bounds, ColorPixel, ColorRequest, ColorTruth, color, color_as, why_no_colors};
+pub use color::{Bounds, ColorPixel, ColorRequest, ColorTruth, color, color_as, has_combined_bumps, why_no_colors};
 use cutout::Alpha;
 pub use dust::{Air, dust, dust_at};
 pub use lens::{LensLight, lens, lens_points};

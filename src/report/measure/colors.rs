@@ -6,7 +6,7 @@ use super::flip::flip;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
 use crate::plan::Request;
-use crate::scene::{Law, Light, PicturePasses, Scene, Shadow, Spot};
+use crate::scene::{Law, Light, Object, PicturePasses, Scene, Shadow, Spot};
 use crate::techniques::{self, LightShadow};
 use crate::truth::{self, Bounds, ColorPixel, ColorTruth};
 
@@ -39,7 +39,7 @@ pub struct DrawnColors {
 }
 
 /// Tests whether the scene's light is more than lit or shadowed: a light has an image, a beam, a law of distance, a lens or
-/// dust, or is a slide projector; or an object shows a photograph.
+/// dust, or is a slide projector; or an object shows a photograph, or has bumps or a gloss map.
 pub fn has_projected_light(scene: &Scene) -> bool {
     let is_more = |light: &Light| {
         let is_projected = |spot: &Spot| {
@@ -47,7 +47,13 @@ pub fn has_projected_light(scene: &Scene) -> bool {
         };
         light.law == Law::Slide || light.dust.is_some() || light.spot().is_some_and(is_projected)
     };
-    scene.shading.passes == PicturePasses::Slide || scene.lights.iter().any(is_more) || !scene.photos().is_empty()
+    let has_relief = |object: &Object| {
+        object.lit && (object.bases.is_some() || object.material.as_ref().is_some_and(|own| own.gloss.is_some()))
+    };
+    scene.shading.passes == PicturePasses::Slide
+        || scene.lights.iter().any(is_more)
+        || !scene.photos().is_empty()
+        || scene.objects.iter().any(has_relief)
 }
 
 /// Options of [`truth::color`] for a scene: photographs are in doubt by the texels of the smallest of their depth maps.

@@ -38,8 +38,9 @@ pub(super) fn is_in_three_passes(scene: &Scene) -> bool {
     three && scene.shading.passes == PicturePasses::One && has_bumps(scene)
 }
 
-/// Tests whether bumps are lit by register combiners.
-pub(super) fn has_combined_bumps(scene: &Scene) -> bool {
+/// Tests whether bumps are lit by register combiners, which clamp each pass: the colours of a picture in floats cannot be
+/// known then.
+pub fn has_combined_bumps(scene: &Scene) -> bool {
     has_bumps(scene) && scene.shading.bumps.method != BumpMethod::Reference
 }
 

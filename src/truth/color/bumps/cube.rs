@@ -7,6 +7,9 @@ use super::span::Ball;
 /// Accuracy of a filter's weights, as a share of the difference between texels.
 const WEIGHTS: f64 = 2.0 / 256.0;
 
+/// Error of a filtered vector that is rounded to a code of 255 once more: half of one, doubled, in three parts.
+const ROUNDED: f64 = 1.732_050_807_568_877_2 / 255.0;
+
 /// The vector that a map of `size` texels a side has in the direction of `way`. Without a direction it may be any.
 pub(super) fn lookup(size: u32, seamless: bool, way: Ball) -> Ball {
     let length = way.at.length();
@@ -45,7 +48,8 @@ pub(super) fn lookup(size: u32, seamless: bool, way: Ball) -> Ball {
     }
     let at: DVec3 = corners.iter().map(|(weight, vector)| *weight * *vector).sum();
     let contrast = corners.iter().map(|(_, vector)| vector.distance(corners[0].1)).fold(0.0, f64::max);
-    Ball { at, error: error + contrast * WEIGHTS + 1.5 * way.error / (length - way.error) }
+    let rounded = if contrast > 0.0 { ROUNDED } else { 0.0 };
+    Ball { at, error: error + rounded + contrast * WEIGHTS + 1.5 * way.error / (length - way.error) }
 }
 
 /// The packed vector of a texel of the face across axis `main`.
