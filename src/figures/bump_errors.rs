@@ -31,7 +31,7 @@ pub const MIRRORED_SKIN: Figure = Figure {
         panel("wrong on purpose: N = T × B", &[], None)
             .changed(Change::NormalsInwards)
             .from(2)
-            .note("N looks inwards on the left half: no light reaches it."),
+            .note("N looks inwards on the left half. The program turns what looks away from the eye, and the bumps turn with it."),
         stage(
             "difference of (b) from (c), 2 times as bright",
             &[],
@@ -44,7 +44,7 @@ pub const MIRRORED_SKIN: Figure = Figure {
 };
 
 pub const MIP_DIMMING: Figure = Figure {
-    name: "gdc-mip-dimming",
+    name: "mip-dimming",
     title: "Bumps far away: means of normals are shorter, and dim",
     source: "Ours: what alpha in a normal map's smaller levels is for",
     scene: FAR_TORUS,
@@ -66,12 +66,12 @@ pub const MIP_DIMMING: Figure = Figure {
             .brightness()
             .note("Means as they are, and their length in alpha, too."),
         stage(
-            "difference of (d) from (a), 4 times as bright",
+            "what alpha takes: (d) less (b), 4 times as bright",
             &[],
-            PanelStage::Difference { between: [3, 0], gain: 4 },
+            PanelStage::Difference { between: [3, 1], gain: 4 },
         ),
     ],
-    caption: "A torus of 100 × 75 pixels, enlarged. Light that reaches all normals of a pixel is the mean normal's dot product with \
+    caption: "A picture of few pixels, enlarged. Light that reaches all normals of a pixel is the mean normal's dot product with \
               L: a mean of normals that differ is shorter than one, and what it lacks in length is light that the pixel lacks. \
               Normals that look away from the light count as 0, not below: means are a little too dark there.",
 };
@@ -114,10 +114,11 @@ pub const CUBE_MAPS: Figure = Figure {
         ),
         stage("difference of (d) and (a), 6 times as bright", &[], PanelStage::Difference { between: [3, 0], gain: 6 }),
         stage("difference of (e) and (a), 6 times as bright", &[], PanelStage::Difference { between: [4, 0], gain: 6 })
-            .note("The squares are the borders of the cube's faces, for the light's and the half-angle vector."),
+            .note("The square is where the light's vector leaves one face of the cube."),
     ],
-    caption: "A cube map holds at each direction the unit vector of that direction, in eight bits. Interpolated between texels it is \
-              off by up to two degrees at 16 texels a side, and by a third of a degree from 64 on, where its bits are the limit.",
+    caption: "A cube map holds at each direction the unit vector of that direction, in eight bits. Between \
+              texels it is interpolated: the fewer texels, the further from the true direction. Eight bits leave an error at any \
+              size. Differences are greatest in highlights, whose eighth power enlarges them.",
 };
 
 const NINE: &str = "shading.precision=9-bit";
@@ -151,8 +152,8 @@ pub const NINE_BITS: Figure = Figure {
             .note("Steps of several codes in place of one."),
     ],
     caption: "Combiners of 2001 round each result to a sign and eight bits. The exponent 8 is three squarings: an error of half a \
-              code in N' · H is doubled by each of them, and neighbouring codes of N' · H end up to eight apart. With the \
-              rounding between them the result is off by up to 4.4 codes.",
+              code in N' · H is doubled by each of them, and neighbouring codes of N' · H end up to eight apart. The \
+              rounding between them adds to it. Numbers are codes of 255.",
 };
 
 const BANDS: [ProfileLine; 2] = [
@@ -205,22 +206,23 @@ pub const REPACKED_SKIN: Figure = Figure {
     columns: 3,
     panels: &[
         panel("the vector to the light in tangent space", &[], Some(View::TangentLight))
-            .note("Edges show where the bases of two triangles differ."),
-        panel("the skin's pieces turned and packed again", &[], Some(View::TangentLight))
-            .changed(Change::Repacked { unmirror: false }),
-        panel("mirrored pieces with texels of their own, too", &[], Some(View::TangentLight))
-            .changed(Change::Repacked { unmirror: true }),
+            .note("Edges show where the bases of two triangles differ. This skin was painted with its pieces upright."),
+        panel("wrong on purpose: its pieces turned at random", &[], Some(View::TangentLight))
+            .changed(Change::Careless { repacked: false })
+            .note("By quarter turns, as if packed for the least space alone."),
+        panel("(b) turned and packed again", &[], Some(View::TangentLight))
+            .changed(Change::Careless { repacked: true }),
         stage("the normal map of (a)", &[], PanelStage::Skin(SkinMap::Normals)),
-        stage("the normal map of (b)", &[], PanelStage::Skin(SkinMap::Normals))
-            .changed(Change::Repacked { unmirror: false }),
-        stage("the normal map of (c)", &[], PanelStage::Skin(SkinMap::Normals))
-            .changed(Change::Repacked { unmirror: true }),
+        stage("packed again", &[], PanelStage::Skin(SkinMap::Normals)).changed(Change::Repacked { unmirror: false }),
+        stage("packed again, mirrored pieces apart", &[], PanelStage::Skin(SkinMap::Normals))
+            .changed(Change::Repacked { unmirror: true })
+            .note("They have texels of their own, and bases that are no reflections."),
         stage("angles between neighbouring triangles, by the length of their edges", &[], PanelStage::Turns).wide(),
-        panel("the picture with the skin of (c)", &[], None).changed(Change::Repacked { unmirror: true }),
+        panel("the picture with the skin of (f)", &[], None).changed(Change::Repacked { unmirror: true }),
     ],
-    caption: "Painters turn the pieces of a skin as they fit. Where two meet whose t axes point apart, the light's vector jumps in \
-              tangent space, and what is interpolated shows the edge. `glumbra repack` turns each piece so that neighbours agree, \
-              and samples the maps in their new places. What is left are seams that have to be somewhere on a closed surface.",
+    caption: "Where two triangles meet whose t axes point apart, the light's vector jumps in tangent space, and what is interpolated \
+              shows the edge. The command repack turns each piece of a skin so that neighbours agree, packs the pieces, and \
+              samples the maps in their new places. A skin whose pieces stand upright already gains little by turning.",
 };
 
 pub const HEIGHT_ERRORS: Figure = Figure {

@@ -38,14 +38,10 @@ pub const PASSES: Figure = Figure {
             PanelStage::Difference { between: [5, 6], gain: 60 },
         )
         .note("Three passes round to eight bits after each of them."),
-        stage(
-            "in a light that is too bright, 4 times as bright",
-            &[],
-            PanelStage::Difference { between: [9, 10], gain: 4 },
-        )
-        .note("Pass 1 stops at 1 before the decal is multiplied; one pass does not."),
-        panel("three passes in that light", &[THREE, BRIGHT], None),
-        panel("one pass in that light", &[ONE, BRIGHT], None).note("Brighter where (j) had to stop."),
+        panel("three passes in a light that is too bright", &[THREE, BRIGHT], None),
+        panel("one pass in that light", &[ONE, BRIGHT], None).note("Brighter where (i) had to stop."),
+        stage("difference of (i) and (j), 4 times as bright", &[], PanelStage::Difference { between: [8, 9], gain: 4 })
+            .note("Pass 1 stops at 1 before the decal is multiplied; one pass does not."),
     ],
     caption: "Pictures of three passes and of one are the same wherever ambient and diffuse light stay below 1. The two dot \
               products need a normal map and a cube map that normalises vectors each: dual-textured hardware takes three passes \
@@ -148,9 +144,9 @@ pub const PRE_LIT: Figure = Figure {
             .changed(Change::PreLit)
             .follows_up()
             .note("Light and bumps are painted into the decal."),
-        panel("pre-lit without bumps: as games were", &FROM_BELOW, None)
+        panel("pre-lit, without bump mapping", &FROM_BELOW, None)
             .changed(Change::PreLitFlat)
-            .note("Painted light was all there was."),
+            .note("Painted bumps look the same in any light."),
         panel("wrong on purpose: pre-lit and bump-mapped", &FROM_BELOW, None)
             .changed(Change::PreLit)
             .from(2)
@@ -177,11 +173,12 @@ pub const KEY_FRAMES: Figure = Figure {
         panel("standing: key frame stand1", pose!("stand1", "stand2", "0"), None),
         panel("running: key frame run2", pose!("run2", "run3", "0"), None),
         panel("running: key frame run6", pose!("run6", "run7", "0"), None),
-        panel("a quarter from run2 to run4", pose!("run2", "run4", "0.25"), None),
-        panel("half-way", pose!("run2", "run4", "0.5"), None),
-        panel("three quarters", pose!("run2", "run4", "0.75"), None),
+        panel("a quarter of the way from (b) to (c)", pose!("run2", "run6", "0.25"), None),
+        panel("half-way", pose!("run2", "run6", "0.5"), None),
+        panel("three quarters", pose!("run2", "run6", "0.75"), None),
     ],
-    caption: "Vertices are interpolated between two key frames, and the tangent bases with them; the maps stay as they are. \
+    caption: "Vertices move on straight lines between two key frames, and the tangent bases with them; the maps stay as they \
+              are. Key frames of a model follow each other closely: far apart as here, what turns becomes shorter on its way. \
               Light and shadow follow the pose: bumps are lit per pixel, the shadow is that of the moved vertices.",
 };
 

@@ -31,6 +31,9 @@ pub enum Change {
     DimmedTwice,
     /// The surface really displaced, without a bump map.
     Displaced,
+    /// Wrong on purpose: the skin's pieces turned at random, and apart; `repacked`: packed again after that. Maps are no
+    /// longer those of the skin: only its directions are.
+    Careless { repacked: bool },
     /// The skin packed again; `unmirror`: mirrored pieces with texels of their own.
     Repacked { unmirror: bool },
 }
@@ -76,6 +79,7 @@ impl Change {
                 object.mesh = Arc::new(relief::displaced(&object.mesh, &bump));
                 (object.bases, material.bump) = (None, None);
             }
+            Self::Careless { repacked } => skins::turn_carelessly(object, &bump, repacked)?,
             Self::Repacked { unmirror } => skins::repack(object, &mut material, &bump, unmirror)?,
         }
         object.material = Some(Arc::new(material));

@@ -73,11 +73,12 @@ impl Apart {
 
     /// As below a panel. `from`: name of the other picture.
     pub fn in_words(&self, from: &str) -> String {
-        let Self { most, percent } = self;
+        let Self { most, percent } = *self;
         match most {
             0 => format!("equal to {from} to the bit"),
-            1 => format!("at most 1 of 255 codes from {from}"),
-            _ => format!("at most {most} of 255 codes from {from}; {percent:.1} % of the pixels by more than 1"),
+            1 => format!("at most 1 code from {from}"),
+            _ if percent < 0.1 => format!("at most {most} codes from {from}, over 1 in less than 0.1 % of pixels"),
+            _ => format!("at most {most} codes from {from}, over 1 in {percent:.1} % of pixels"),
         }
     }
 }

@@ -125,21 +125,72 @@ pub fn repack(object: &mut Object, material: &mut Material, bump: &Bump, unmirro
         let source = BumpSource::Heights { field, scale: *scale, difference: *difference };
         material.bump = Some(Arc::new(Bump::new(source, bump.format, bump.colors, bump.border, bump.fit)));
     }
-    let [width, height] = new.skin.size().map(f64::from);
+    rebase(object, on_skin(&object.mesh, new.skin.size(), new.skin.texels()), bump);
+    Ok(())
+}
+
+/// The mesh with three vertices a triangle, at these texels of a skin of `size`, y downwards. It has no bases.
+fn on_skin(mesh: &Mesh, size: [u32; 2], texels: impl Iterator<Item = [DVec2; 3]>) -> Mesh {
+    let [width, height] = size.map(f64::from);
     let place = |texel: DVec2| [(texel.x / width) as f32, (1.0 - texel.y / height) as f32];
-    let texcoords: Vec<[f32; 2]> = new.skin.texels().flatten().map(place).collect();
-    let pick = |all: &[[f32; 3]]| object.mesh.indices.iter().map(|index| all[*index as usize]).collect();
-    let mesh = Mesh {
-        positions: pick(&object.mesh.positions),
-        normals: pick(&object.mesh.normals),
+    let texcoords: Vec<[f32; 2]> = texels.flatten().map(place).collect();
+    let pick = |all: &[[f32; 3]]| mesh.indices.iter().map(|index| all[*index as usize]).collect();
+    Mesh {
+        positions: pick(&mesh.positions),
+        normals: pick(&mesh.normals),
         indices: (0..texcoords.len() as u32).collect(),
         texcoords: Some(texcoords),
         tangents: None,
-        ..(*object.mesh).clone()
-    };
+        ..mesh.clone()
+    }
+}
+
+/// Gives an object the mesh with the bases of its skin.
+fn rebase(object: &mut Object, mesh: Mesh, bump: &Bump) {
     if let Some((mesh, counts)) = mesh.with_bases(bump.fit, None) {
         (object.mesh, object.bases) = (Arc::new(mesh), Some(counts));
     }
+}
+
+/// Quarter turns of pieces, one after the other.
+const CARELESS: [u32; 8] = [0, 1, 2, 1, 3, 2, 0, 3];
+
+/// Texels between pieces.
+const APART: f64 = 8.0;
+
+/// A mesh's skin with its pieces side by side, each turned by some quarter turns: the mesh, and the size of the skin.
+/// `None`: it has no skin.
+pub fn careless(mesh: &Mesh, size: [u32; 2]) -> Result<Option<(Mesh, [u32; 2])>, skin::Error> {
+    let Some(old) = Skin::of_mesh(mesh, size) else { return Ok(None) };
+    let packed = skin::repack(&old, &options(false))?;
+    let pieces = &packed.piece_of_triangle;
+    let mut bounds = vec![[DVec2::INFINITY, DVec2::NEG_INFINITY]; pieces.iter().max().map_or(0, |last| last + 1)];
+    for (piece, texel) in pieces.iter().zip(old.texels()).flat_map(|(piece, all)| all.map(|texel| (*piece, texel))) {
+        let [low, high] = bounds[piece];
+        bounds[piece] = [low.min(texel), high.max(texel)];
+    }
+    let side = bounds.iter().map(|[low, high]| (*high - *low).max_element()).fold(0.0, f64::max).ceil() + APART;
+    let turned = |(piece, texels): (&usize, [DVec2; 3])| {
+        let [low, high] = bounds[*piece];
+        let middle = DVec2::new(side * (*piece as f64 + 0.5), 0.5 * side);
+        texels.map(|texel| {
+            let mut from_middle = texel - 0.5 * (low + high);
+            (0..CARELESS[piece % CARELESS.len()]).for_each(|_| from_middle = from_middle.perp());
+            middle + from_middle
+        })
+    };
+    let size = [side as u32 * bounds.len().max(1) as u32, side as u32];
+    Ok(Some((on_skin(mesh, size, pieces.iter().zip(old.texels()).map(turned)), size)))
+}
+
+/// Turns the pieces of an object's skin; `repacked`: and packs them again.
+pub fn turn_carelessly(object: &mut Object, bump: &Bump, repacked: bool) -> Result<(), skin::Error> {
+    let Some((mut mesh, size)) = careless(&object.mesh, bump.size())? else { return Ok(()) };
+    if repacked && let Some(skin) = Skin::of_mesh(&mesh, size) {
+        let new = skin::repack(&skin, &options(false))?;
+        mesh = on_skin(&mesh, new.skin.size(), new.skin.texels());
+    }
+    rebase(object, mesh, bump);
     Ok(())
 }
 

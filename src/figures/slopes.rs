@@ -50,7 +50,7 @@ fn two_digits(value: f64) -> String {
 pub fn graph(errors: &[[f64; 4]; 2]) -> Graph<'static> {
     let axis = |label, range, ticks| GraphAxis { label, range, ticks, is_logarithmic: true };
     let x = axis("texels a side", [32.0, 256.0], SIZES.map(f64::from).to_vec());
-    let y = axis("greatest angle from the true normal, in degrees", [0.005, 10.0], vec![0.01, 0.1, 1.0, 10.0]);
+    let y = axis("greatest angle off, in degrees", [0.005, 10.0], vec![0.01, 0.1, 1.0, 10.0]);
     let lines = errors.iter().zip(NAMES).zip([[213, 94, 0], [0, 114, 178]]).map(|((errors, name), color)| {
         let points = SIZES.iter().zip(errors).map(|(size, error)| Some([f64::from(*size), *error])).collect();
         Line { name, pen: Pen { color, width: 2.2, is_dashed: false }, points, dots: 4.0 }

@@ -7,27 +7,35 @@ use crate::geometry::skin::{self, CLASS_ENDS, Discontinuity, Skin};
 use crate::output::canvas::Color;
 use crate::scene::Scene;
 
-/// Colours of the three skins.
-pub const COLORS: [Color; 3] = [[213, 94, 0], [0, 114, 178], [0, 130, 95]];
+/// Colours of the skins.
+const COLORS: [Color; 4] = [[140, 144, 154], [213, 94, 0], [0, 114, 178], [0, 130, 95]];
 /// Their names.
-pub const NAMES: [&str; 3] = ["as it is", "turned and packed again", "mirrored pieces apart, too"];
+const NAMES: [&str; 4] = ["(a) as it is", "(b) turned at random", "(c) that packed again", "(f) mirrored pieces apart"];
 
 const INK: Color = [40, 42, 50];
 const RULE: Color = [222, 223, 227];
 
-/// Measures the first object with bumps: as it is, with its skin packed again, and with mirrored pieces apart.
+/// Measures the first object with bumps: as it is, with the pieces of its skin turned at random, with those packed again, and
+/// as it is but with mirrored pieces apart.
 ///
 /// # Errors
 ///
 /// A skin that cannot be packed.
 pub fn measure(scene: &Scene) -> Result<Vec<Discontinuity>, skin::Error> {
     let found = scene.objects.iter().find_map(|object| {
-        let bump = object.material.as_deref()?.bump.as_ref()?;
-        Skin::of_mesh(&object.mesh, bump.size())
+        let size = object.material.as_deref()?.bump.as_ref()?.size();
+        Some((&object.mesh, size, Skin::of_mesh(&object.mesh, size)?))
     });
-    let Some(old) = found else { return Ok(Vec::new()) };
-    let again = |unmirror: bool| skin::repack(&old, &skins::options(unmirror)).map(|new| new.discontinuity);
-    Ok(vec![old.discontinuity(), again(false)?, again(true)?])
+    let Some((mesh, size, old)) = found else { return Ok(Vec::new()) };
+    let again =
+        |skin: &Skin, unmirror: bool| skin::repack(skin, &skins::options(unmirror)).map(|new| new.discontinuity);
+    let mut all = vec![old.discontinuity()];
+    let turned = skins::careless(mesh, size)?;
+    if let Some(turned) = turned.and_then(|(mesh, size)| Skin::of_mesh(&mesh, size)) {
+        all.extend([turned.discontinuity(), again(&turned, false)?]);
+    }
+    all.push(again(&old, true)?);
+    Ok(all)
 }
 
 /// The measures in words.
@@ -52,7 +60,7 @@ pub fn draw(painter: &mut Painter<'_>, all: &[Discontinuity]) {
         painter.write([left - 8.0, y + 4.0], &format!("{percent}"), &style, Align::Right);
     }
     let group = (right - left) / CLASS_ENDS.len() as f32;
-    let bar = (0.24 * group).min(46.0);
+    let bar = (0.21 * group).min(38.0);
     for (class, end) in CLASS_ENDS.into_iter().enumerate() {
         let middle = left + group * (class as f32 + 0.5);
         for (index, own) in all.iter().enumerate() {

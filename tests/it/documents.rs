@@ -171,7 +171,7 @@ fn names(cell: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn what_the_bibliography_names_exists() {
     let page = bibliography();
-    let table = ["table.rs", "projected.rs", "explained.rs"]
+    let table = ["table.rs", "projected.rs", "explained.rs", "bumps.rs", "bump_errors.rs"]
         .map(|file| fs::read_to_string(root().join("src/figures").join(file)).unwrap());
     let table = table.concat();
     let figures: Vec<&str> =

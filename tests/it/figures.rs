@@ -272,6 +272,22 @@ const HEADINGS: &[&str] = &[
     "Segal 1992, 3.1",
     "Segal 1992, 2",
     "Segal 1992, 3.2",
+    "Three Passes",
+    "Same Math in a Single Pass on GeForce3",
+    "Converting Height-Field to a Normal Map",
+    "Tangent Space Basis is a Gateway for Vectors",
+    "GPU Bump Mapping for More than Just Doughnuts",
+    "Gloss Map Modulates Per-fragment Specular",
+    "Warning about Pre-lit Decal Skins",
+    "Decal Skin Comparison",
+    "Examples of Quake 2 Model Keyframes",
+    "More Bump Mapped Knight Examples",
+    "Combining Shadow Volumes With Bump Mapped Models",
+    "Compute Partial Derivatives From Polygon Plane Equations",
+    "GPU Bump Mapping Texture Requirements",
+    "GPU Bump Mapping Basics",
+    "Tangent Space Vector Continuity",
+    "Tangent Continuity Solutions",
 ];
 
 #[test]

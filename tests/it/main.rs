@@ -8,6 +8,7 @@ mod alpha_shadows;
 mod architecture;
 mod bad_scenes;
 mod bump;
+mod bump_sheets;
 mod check;
 mod claims;
 mod cli;

@@ -26,6 +26,7 @@ fn texts(figure: &'static Figure) -> Vec<&'static str> {
                 texts.extend(cut.lines.iter().map(|line| line.name));
             }
             Some(PanelStage::Sweep(sweep)) => texts.push(sweep.label),
+            Some(PanelStage::Profile(lines)) => texts.extend(lines.iter().map(|line| line.name)),
             _ => {}
         }
     }
