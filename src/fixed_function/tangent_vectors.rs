@@ -30,7 +30,7 @@ pub fn of_vertices(draw: &Draw, vector: TangentVector) -> Vec<[f32; 3]> {
     mesh.positions.iter().enumerate().map(of_vertex).collect()
 }
 
-/// Of unit length, whatever the length; a zero vector stays one.
+/// Gives a vector unit length, whatever length it has; a zero vector stays one.
 fn unit(vector: Vec3) -> Vec3 {
     let most = vector.abs().max_element();
     if most > 0.0 { (vector / most).normalize() } else { Vec3::ZERO }

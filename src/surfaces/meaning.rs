@@ -1,4 +1,4 @@
-//! What a surface's variant means to fixed function.
+//! Meaning of a variant of a surface to fixed function.
 
 use glam::Vec3;
 

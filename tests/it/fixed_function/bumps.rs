@@ -92,8 +92,8 @@ fn light_on_bumps_is_that_of_the_combiners() {
             let off = |codes: f32| differing(&drawn.shaders[0], &drawn.fixed[0], codes * ONE_CODE);
             println!("{name}: {} pixels differ, {} by more than 1, {} by more than 2", off(0.0), off(1.0), off(2.0));
             assert!(off(*codes) <= HANDFUL, "{name}: {}", off(*codes));
-            let lit = drawn.fixed[0].chunks(4).filter(|pixel| pixel[0] > 0.3).count();
-            assert!(lit > 1000, "{name}: {lit} pixels are bright");
+            let lit = drawn.fixed[0].chunks(4).filter(|pixel| pixel[0] > 0.15).count();
+            assert!(lit > 200, "{name}: {lit} pixels are bright");
         }
     }
 }
