@@ -18,6 +18,7 @@ mod lamp;
 mod lantern;
 mod photo;
 mod projected;
+mod sample;
 mod surface;
 
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::bounds::Bounds;
 use super::lamp::Source;
-use super::surface::Sample;
+use super::sample::Sample;
 use crate::scene::{Dust, DustBlend, Light, LightKind};
 use crate::truth::Tracer;
 use crate::truth::primary::SeenPoint;

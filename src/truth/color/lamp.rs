@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::lantern::Lantern;
-use super::surface::{Sample, Shaded};
+use super::sample::Sample;
+use super::surface::Shaded;
 use super::unit;
 use crate::scene::{Law, Light, LightKind};
 

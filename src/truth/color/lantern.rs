@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::projected::{Picture, Place, Wrapped, nearest, window};
-use super::surface::Sample;
+use super::sample::Sample;
 use super::unit;
 use crate::scene::{BeamProfile, FalloffLaw, ImageFilter, LightBeam, LightShape, Spot};
 

@@ -1,4 +1,4 @@
-//! A point as light needs it, and the visible point of a surface: material, interpolated normal, decal, bumps and gloss.
+//! The visible point of a surface: material, interpolated normal, decal, bumps and gloss.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -8,22 +8,12 @@ use glam::{DMat3, DVec2, DVec3};
 use super::bounds::Bounds;
 use super::bumps::{BumpMap, BumpedPoint, Facet};
 use super::projected::{Picture, Place, Wrapped, window};
+use super::sample::Sample;
 use super::unit;
 use crate::geometry::{Bump, Gloss, Material, Placement, Texture};
 use crate::scene::{Object, Scene};
 use crate::truth::primary::SeenPoint;
 use crate::truth::wave;
-
-/// A point that a pixel shows.
-#[derive(Clone, Copy)]
-pub(super) struct Sample {
-    pub position: DVec3,
-    /// Vectors by which the sample's place in its pixel may move the point. `error`: radius of a ball around it, besides.
-    pub spread: [DVec3; 2],
-    pub error: f64,
-    /// Ways that the point moves by from a pixel to those beside it.
-    pub beside: [DVec3; 2],
-}
 
 /// A point of a surface.
 pub(super) struct Shaded<'a> {

@@ -16,7 +16,7 @@ use self::span::{Ball, Span};
 use super::bounds::Bounds;
 use super::known::Method;
 use super::projected::Place;
-use super::surface::Sample;
+use super::sample::Sample;
 use super::unit;
 use crate::geometry::bump::Bump;
 use crate::geometry::tangents::BasisFit;
