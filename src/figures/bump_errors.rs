@@ -33,9 +33,9 @@ pub const MIRRORED_SKIN: Figure = Figure {
             .from(2)
             .note("N looks inwards on the left half. The program turns what looks away from the eye, and the bumps turn with it."),
         stage(
-            "difference of (b) from (c), 2 times as bright",
+            "difference of (b) from (c), 8 times as bright",
             &[],
-            PanelStage::Difference { between: [1, 2], gain: 2 },
+            PanelStage::Difference { between: [1, 2], gain: 8 },
         )
         .note("Where studs stand out over the plate. Both halves are alike."),
     ],
@@ -189,7 +189,7 @@ pub const SELF_SHADOW: Figure = Figure {
         panel("3° below: dark", sun!("[-1, 0.0524, 0.05]"), None).note("A light behind the surface lights nothing."),
         panel("12° above, without the factor", sun!("[-1, -0.2126, 0.05]", open), None).from(0),
         panel("3° above, without the factor", sun!("[-1, -0.0524, 0.05]", open), None).from(1),
-        panel("wrong: 3° below, without the factor", sun!("[-1, 0.0524, 0.05]", open), None)
+        panel("wrong on purpose: 3° below, without the factor", sun!("[-1, 0.0524, 0.05]", open), None)
             .from(2)
             .note("Bumps that face the light are lit through the plate."),
     ],
@@ -210,7 +210,7 @@ pub const REPACKED_SKIN: Figure = Figure {
         panel("wrong on purpose: its pieces turned at random", &[], Some(View::TangentLight))
             .changed(Change::Careless { repacked: false })
             .note("By quarter turns, as if packed for the least space alone."),
-        panel("(b) turned and packed again", &[], Some(View::TangentLight))
+        panel("the skin of (b) turned and packed again", &[], Some(View::TangentLight))
             .changed(Change::Careless { repacked: true }),
         stage("the normal map of (a)", &[], PanelStage::Skin(SkinMap::Normals)),
         stage("packed again", &[], PanelStage::Skin(SkinMap::Normals)).changed(Change::Repacked { unmirror: false }),

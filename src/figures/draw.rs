@@ -114,7 +114,7 @@ impl<'a> Drawing<'a> {
                 let [own, fine] = measure::brightness(&own, &fine);
                 let off = 100.0 * (own / fine.max(f64::MIN_POSITIVE) - 1.0);
                 Some(
-                    format!("mean brightness {own:.1} of 255, {off:+.1} % from many samples a pixel").replace('-', "−"),
+                    format!("mean brightness {own:.1}, {off:+.1} % from many samples a pixel").replace('-', "−"),
                 )
             }
             Measured::From(other) => {
