@@ -2,7 +2,7 @@
 //! horizon, discontinuous tangents, differences of heights [GDC].
 
 use super::panels::{embedded, panel, stage};
-use super::{Change, Figure, PanelStage, ProfileLine, SkinMap};
+use super::{Figure, PanelStage, ProfileLine, SceneChange, SkinMap};
 use crate::scene::Embedded;
 use crate::views::View;
 
@@ -22,14 +22,14 @@ pub const MIRRORED_SKIN: Figure = Figure {
             .note("Red lies on the other side of each stud there: s grows to the left."),
         panel("right: N turned outwards, T and B kept", &[], None).from(2).note("Studs on both halves."),
         panel("the truth: the surface really displaced", &[], None)
-            .changed(Change::Displaced)
+            .changed(SceneChange::Displaced)
             .note("Each vertex of 260 000 triangles is moved. High studs hide a little of the plate behind them."),
         panel("wrong on purpose: T and B turned around", &[], None)
-            .changed(Change::TangentsTurned)
+            .changed(SceneChange::TangentsTurned)
             .from(2)
             .note("The left half has dents in place of studs."),
         panel("wrong on purpose: N = T × B", &[], None)
-            .changed(Change::NormalsInwards)
+            .changed(SceneChange::NormalsInwards)
             .from(2)
             .note("N looks inwards on the left half. The program turns what looks away from the eye, and the bumps turn with it."),
         stage(
@@ -58,11 +58,11 @@ pub const MIP_DIMMING: Figure = Figure {
             .brightness()
             .note("mipmaps = \"mean\": N' is shorter, and so is N' · L."),
         panel("wrong on purpose: unit normals, alpha 1", &[], None)
-            .changed(Change::Undimmed)
+            .changed(SceneChange::Undimmed)
             .brightness()
             .note("As if the mean were a normal of the surface: too bright."),
         panel("wrong on purpose: dimmed twice", &[], None)
-            .changed(Change::DimmedTwice)
+            .changed(SceneChange::DimmedTwice)
             .brightness()
             .note("Means as they are, and their length in alpha, too."),
         stage(
@@ -208,17 +208,18 @@ pub const REPACKED_SKIN: Figure = Figure {
         panel("the vector to the light in tangent space", &[], Some(View::TangentLight))
             .note("Edges show where the bases of two triangles differ. This skin was painted with its pieces upright."),
         panel("wrong on purpose: its pieces turned at random", &[], Some(View::TangentLight))
-            .changed(Change::Careless { repacked: false })
+            .changed(SceneChange::Careless { repacked: false })
             .note("By quarter turns, as if packed for the least space alone."),
         panel("the skin of (b) turned and packed again", &[], Some(View::TangentLight))
-            .changed(Change::Careless { repacked: true }),
+            .changed(SceneChange::Careless { repacked: true }),
         stage("the normal map of (a)", &[], PanelStage::Skin(SkinMap::Normals)),
-        stage("packed again", &[], PanelStage::Skin(SkinMap::Normals)).changed(Change::Repacked { unmirror: false }),
+        stage("packed again", &[], PanelStage::Skin(SkinMap::Normals))
+            .changed(SceneChange::Repacked { unmirror: false }),
         stage("packed again, mirrored pieces apart", &[], PanelStage::Skin(SkinMap::Normals))
-            .changed(Change::Repacked { unmirror: true })
+            .changed(SceneChange::Repacked { unmirror: true })
             .note("They have texels of their own, and bases that are no reflections."),
         stage("angles between neighbouring triangles, by the length of their edges", &[], PanelStage::Turns).wide(),
-        panel("the picture with the skin of (f)", &[], None).changed(Change::Repacked { unmirror: true }),
+        panel("the picture with the skin of (f)", &[], None).changed(SceneChange::Repacked { unmirror: true }),
     ],
     caption: "Where two triangles meet whose t axes point apart, the light's vector jumps in tangent space, and what is interpolated \
               shows the edge. The command repack turns each piece of a skin so that neighbours agree, packs the pieces, and \

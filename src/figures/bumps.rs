@@ -2,7 +2,7 @@
 //! volumes [GDC].
 
 use super::panels::{embedded, panel, stage};
-use super::{Change, Figure, PanelStage, SkinMap};
+use super::{Figure, PanelStage, SceneChange, SkinMap};
 use crate::scene::Embedded;
 use crate::views::View;
 
@@ -112,11 +112,11 @@ pub const GLOSS: Figure = Figure {
     panels: &[
         panel("the gloss map: white shines", &[], Some(View::Gloss))
             .note("Plate and blade shine; cloth and leather do not."),
-        panel("highlights without it", &[], Some(View::Specular)).changed(Change::WithoutGloss),
+        panel("highlights without it", &[], Some(View::Specular)).changed(SceneChange::WithoutGloss),
         panel("highlights with it", &[], Some(View::Specular)),
         panel("the decal", &[], Some(View::Decal)),
         panel("the picture without it", &[], None)
-            .changed(Change::WithoutGloss)
+            .changed(SceneChange::WithoutGloss)
             .note("Cloth, belt and shield look wet."),
         panel("the picture with it", &[], None).from(4),
     ],
@@ -141,14 +141,14 @@ pub const PRE_LIT: Figure = Figure {
         panel("bump-mapped: right", &FROM_BELOW, None)
             .note("Bumps are bright on their lower sides: the lamp stands low."),
         panel("pre-lit from above", &FROM_BELOW, Some(View::Decal))
-            .changed(Change::PreLit)
+            .changed(SceneChange::PreLit)
             .follows_up()
             .note("Light and bumps are painted into the decal."),
         panel("pre-lit, without bump mapping", &FROM_BELOW, None)
-            .changed(Change::PreLitFlat)
+            .changed(SceneChange::PreLitFlat)
             .note("Painted bumps look the same in any light."),
         panel("wrong on purpose: pre-lit and bump-mapped", &FROM_BELOW, None)
-            .changed(Change::PreLit)
+            .changed(SceneChange::PreLit)
             .from(2)
             .note("Two lights that disagree: what looks down is dark although the lamp is below."),
     ],

@@ -14,7 +14,7 @@ use crate::scene::{Object, Scene};
 
 /// A change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
+pub enum SceneChange {
     /// Highlights everywhere as strong as the material says.
     WithoutGloss,
     /// The decal has light from above painted in, on the bumps of its skin.
@@ -38,7 +38,7 @@ pub enum Change {
     Repacked { unmirror: bool },
 }
 
-impl Change {
+impl SceneChange {
     /// Changes a scene.
     ///
     /// # Errors

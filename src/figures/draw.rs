@@ -100,7 +100,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// What is measured of a panel at scale 1, in words.
+    /// Measurements of a panel at scale 1, in words.
     fn numbers(&mut self, panel: &Panel) -> Result<Option<String>, Error> {
         Ok(match panel.measured {
             Measured::Nothing => None,
@@ -113,9 +113,7 @@ impl<'a> Drawing<'a> {
                 let (own, fine) = (self.picture(panel, 1)?, self.fine_picture(panel, 1)?);
                 let [own, fine] = measure::brightness(&own, &fine);
                 let off = 100.0 * (own / fine.max(f64::MIN_POSITIVE) - 1.0);
-                Some(
-                    format!("mean brightness {own:.1}, {off:+.1} % from many samples a pixel").replace('-', "−"),
-                )
+                Some(format!("mean brightness {own:.1}, {off:+.1} % from many samples a pixel").replace('-', "−"))
             }
             Measured::From(other) => {
                 let (own, other_picture) = (self.shown(panel)?, self.other(other)?);

@@ -33,7 +33,7 @@ use crate::scene::{self, Embedded, Scene};
 use crate::truth;
 use crate::views::View;
 
-pub use change::Change;
+pub use change::SceneChange;
 pub use cut::{CutLine, MapCut};
 pub use diagram::Kernel;
 pub use letters::Letters;
@@ -66,8 +66,8 @@ pub struct Panel {
     pub note: &'static str,
     /// Overrides, as `--set` takes them.
     pub set: &'static [&'static str],
-    /// Change of the scene that no key makes.
-    pub change: Option<Change>,
+    /// SceneChange of the scene that no key makes.
+    pub change: Option<SceneChange>,
     /// View of the first light; `None`: the picture itself.
     pub view: Option<View>,
     /// Unit of the legend where the scene's light stands at the eye and its camera at the light, to count pixels of the

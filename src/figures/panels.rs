@@ -1,6 +1,6 @@
 //! Scenes of figures, compiled into the program, and their panels.
 
-use super::{Change, Measured, Panel, PanelStage};
+use super::{Measured, Panel, PanelStage, SceneChange};
 use crate::views::View;
 
 /// Pictures that the figures' scenes name.
@@ -90,7 +90,7 @@ impl Panel {
     }
 
     /// The panel of a changed scene.
-    pub const fn changed(self, change: Change) -> Self {
+    pub const fn changed(self, change: SceneChange) -> Self {
         Self { change: Some(change), ..self }
     }
 

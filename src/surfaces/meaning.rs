@@ -12,7 +12,7 @@ use crate::scene::Scene;
 
 /// Light that the variant shows.
 #[derive(Clone, Copy)]
-pub struct Shown {
+pub struct ShownColors {
     /// True if anything is specular.
     pub specular: bool,
     /// True if a light has ambient light of its own.
@@ -28,7 +28,7 @@ pub fn of(
     lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
-    shown: Shown,
+    shown: ShownColors,
     (cut, bumps): (&Cutout, Option<BumpMap>),
 ) -> FixedFunctionDesc {
     let clip_from_eye = viewer.clip_from_eye;

@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4};
 
 use super::bump::{self, Bumps};
 use super::lights::{self, LightParts};
-use super::meaning::{self, Shown};
+use super::meaning::{self, ShownColors};
 use crate::geometry::Material;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::ending::FormulaPart;
@@ -153,8 +153,11 @@ pub fn of(
         fragment: fragment(scene, lights, ending, needs, &bumps, &cut),
         attributes,
     };
-    let shown =
-        Shown { specular, ambient: needs.ambient, scene_ambient: scene_ambient(needs, &item.material).to_array() };
+    let shown = ShownColors {
+        specular,
+        ambient: needs.ambient,
+        scene_ambient: scene_ambient(needs, &item.material).to_array(),
+    };
     let meaning = if item.wave.is_some() {
         WAVES
     } else if let Some(map) = bump_map.filter(|_| bumps.any()) {

@@ -259,8 +259,8 @@ fn upload(gl: &glow::Context, vertices: &[f32], indices: &[u32]) -> Result<()> {
 
 /// Binds map, normal map, unit vectors and decal to units 0 to 3; returns the map's framebuffer.
 fn textures(gl: &glow::Context, scene: &Scene) -> Result<glow::Framebuffer> {
-    let material = scene.objects.iter().filter_map(|object| object.material.as_deref());
-    let material = material.filter(|material| material.bump.is_some()).next().ok_or("nothing is bump-mapped")?;
+    let mut material = scene.objects.iter().filter_map(|object| object.material.as_deref());
+    let material = material.find(|material| material.bump.is_some()).ok_or("nothing is bump-mapped")?;
     let bump = material.bump.as_ref().ok_or("no bump map")?;
     let decal = material.decal.as_ref().ok_or("no decal")?;
     let linear = |target: u32| unsafe {

@@ -26,7 +26,7 @@ impl Ball {
         Span::within(self.at.dot(other.at), error)
     }
 
-    /// What a function of vectors makes of it, by its values beside `at` along the axes.
+    /// Its image under a function of vectors, by that one's values beside `at` along the axes.
     pub fn through(&self, function: impl Fn(DVec3) -> DVec3) -> Self {
         let at = function(self.at);
         let moved = |axis: DVec3| {
