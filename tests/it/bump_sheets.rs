@@ -2,7 +2,7 @@
 //! panels are measured.
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::figures::{Apart, Change, FIGURES, Figure, Panel};
+use glumbra::figures::{Apart, SceneChange, FIGURES, Figure, Panel};
 use glumbra::frame::Renderer;
 use glumbra::output::canvas::Canvas;
 
@@ -71,11 +71,11 @@ fn every_sheet_of_bumps_draws() {
             let is_wrong = matches!(
                 panel.change,
                 Some(
-                    Change::TangentsTurned
-                        | Change::NormalsInwards
-                        | Change::Undimmed
-                        | Change::DimmedTwice
-                        | Change::Careless { repacked: false }
+                    SceneChange::TangentsTurned
+                        | SceneChange::NormalsInwards
+                        | SceneChange::Undimmed
+                        | SceneChange::DimmedTwice
+                        | SceneChange::Careless { repacked: false }
                 )
             );
             assert!(!is_wrong || panel.title.contains("wrong on purpose"), "{name}, panel {index}");

@@ -1,8 +1,8 @@
 //! Skins, the texture coordinates of models: how far tangent bases turn across edges, and the cure, a skin whose pieces are
 //! turned and packed again [GDC, "Tangent Space Vector Continuity", "Tangent Continuity Solutions"].
 //!
-//! A skin is cut into islands ([`islands`]), which are turned so that t axes agree across edges ([`turn`]) and packed
-//! ([`pack`]); pictures are sampled anew in their new places ([`resample`]). [`discontinuity`] measures before and after.
+//! A skin is cut into islands (`islands`), which are turned so that t axes agree across edges (`turn`) and packed
+//! (`pack`); pictures are sampled anew in their new places (`resample`). `discontinuity` measures before and after.
 
 mod discontinuity;
 mod islands;
