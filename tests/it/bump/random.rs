@@ -211,5 +211,5 @@ fn random_scenes_with_bumps_have_the_colours_of_f64() {
     );
     assert!(failures.is_empty(), "{} rounds:\n{}", failures.len(), failures.join("\n"));
     // Noise, steps and pixels of several texels have wide bounds; triangles near their edges are another's.
-    assert!(only.is_some() || (share(known) > 80.0 && share(strict) > 25.0));
+    assert!(only.is_some() || (share(known) > 80.0 && share(strict) > 20.0));
 }

@@ -7,8 +7,8 @@ use super::span::Ball;
 /// Accuracy of a filter's weights, as a share of the difference between texels.
 const WEIGHTS: f64 = 2.0 / 256.0;
 
-/// Error of a filtered vector that is rounded to a code of 255 once more: half of one, doubled, in three parts.
-const ROUNDED: f64 = 1.732_050_807_568_877_2 / 255.0;
+/// Error of a filtered vector that is rounded to codes of 255 once more: half of one, doubled, along its longest part.
+const ROUNDED: f64 = 1.0 / 255.0;
 
 /// The vector that a map of `size` texels a side has in the direction of `way`. Without a direction it may be any.
 pub(super) fn lookup(size: u32, seamless: bool, way: Ball) -> Ball {
