@@ -1,5 +1,5 @@
 //! md2shader: a bump-mapped key-framed knight with stencil shadow volumes, in a room with one light. After the program of that
-//! name that [GDC] ends with, of which only pictures are published; the scene is `data/scenes/md2shader.toml`, compiled in.
+//! name that \[GDC\] ends with, of which only pictures are published; the scene is `data/scenes/md2shader.toml`, compiled in.
 
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 

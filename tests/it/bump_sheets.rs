@@ -2,7 +2,7 @@
 //! panels are measured.
 
 use glumbra::context::{self, ContextRequest};
-use glumbra::figures::{Apart, SceneChange, FIGURES, Figure, Panel};
+use glumbra::figures::{Apart, FIGURES, Figure, Panel, SceneChange};
 use glumbra::frame::Renderer;
 use glumbra::output::canvas::Canvas;
 
