@@ -237,7 +237,8 @@ fn the_scene_file_renders_to_the_knight_s_picture_and_shadows_only_darken() {
     let [three, reference] = others.map(|method| far(&pictures.headless("md2bump", &["--set", &method])));
     let flat = far(&pictures.headless("md2bump", &["--set", "object.0.material.bump.scale=0"]));
     println!("pixels more than 8 codes apart: three passes {three}, reference {reference}, flat {flat}");
-    assert!(10 * three < flat && 10 * reference < flat && flat > 5_000, "{three} {reference} {flat}");
+    // Vectors to a near light and to a near eye bend over the knight's large triangles; combiners interpolate them.
+    assert!(10 * three < flat && 4 * reference < flat && flat > 5_000, "{three} {reference} {flat}");
 }
 
 #[test]
