@@ -6,7 +6,7 @@ uniform sampler2D normal_map;
 vec3 smooth_normal; // of the surface without bumps: of unit length, in eye space
 float bump_dim;     // length of the normals that the texel is the mean of; multiplies diffuse light
 
-// normal: interpolated, of any length. smooth_normal is known; it may look the other way.
+// normal: interpolated, of any length. smooth_normal is set before; it may be the other way around.
 vec3 bumped(vec3 normal)
 {
     vec4 texel = texture(normal_map, st);

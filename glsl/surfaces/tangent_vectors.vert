@@ -8,7 +8,7 @@ out vec3 tangent_light_@;
 #ifdef SPECULAR
 out vec3 tangent_half_@;
 
-// Of unit length, whatever the length; a zero vector stays one.
+// Gives a vector unit length, whatever length it has; a zero vector stays one.
 vec3 unit_@(vec3 v)
 {
     vec3 way = abs(v);

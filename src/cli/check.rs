@@ -1,4 +1,4 @@
-//! `glumbra check`: GL's rules for shadows on the driver at hand.
+//! `glumbra check`: GL's rules for shadows and bump mapping on the driver at hand.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,7 +12,7 @@ use crate::conformance::{self, Checked, DriverUnderTest, waivers};
 use crate::context::{self, Context, Profile};
 use crate::output;
 
-/// Runs GL's rules for shadows on the driver at hand: does it do what the specification says?
+/// Runs GL's rules for shadows and bump mapping on the driver at hand: does it do what the specification says?
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct CheckArgs {

@@ -11,7 +11,7 @@ use crate::figures::{self, FIGURES};
 use crate::frame::Renderer;
 use crate::output;
 
-/// Draws the figures of the shadow documents (data/documents.md) that show a result, from our own scenes, as contact sheets
+/// Draws the figures of the documents in data/documents.md that show a result, from our own scenes, as contact sheets
 /// with captions, graphs and shares of wrong pixels.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]

@@ -42,7 +42,7 @@ pub struct RenderArgs {
     frames: u32,
 
     /// Draws the picture as it stands after this pass: its number in `glumbra plan`, or its name. After a pass that writes
-    /// alpha alone, the alpha is shown as gray
+    /// alpha alone, the alpha is shown as grey
     #[arg(long, value_name = "PASS", conflicts_with = "aov")]
     after_pass: Option<String>,
 
@@ -63,14 +63,14 @@ Views for --aov:
   light-distance  r/q, each sample's planar distance from the light
   projected-map   the shadow map projected onto the scene
   texels-per-pixel  texels of the shadow map that a pixel's side shows; a PNG has them as colours with a legend
-  stencil-count   the shadow volumes that hold each point, as counted: gray values are the integers
+  stencil-count   the shadow volumes that hold each point, as counted: grey values are the integers
   stencil-colors  the same for the eye: green lit, red shadowed, with a legend
   volume          the shadow volumes over the scene: outsides orange, insides blue
   silhouette      the casters' possible silhouettes, as the light sees them
   truth           the ray tracer's picture: lit and shadowed; colours, of all lights, where light or a photograph is
                   projected
   difference      the picture's error against the truth; that of colours 16 times as large in a PNG; black where the
-                  bounds of a colour at an edge allow it; gray where the truth is not certain
+                  bounds of a colour at an edge allow it; grey where the truth is not certain
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
 
 Examples:

@@ -99,7 +99,7 @@ impl Aov {
 }
 
 /// Colours in f64, or the picture's differences from them, channel by channel. At edges, and where images are filtered by
-/// mipmaps, a colour has bounds, and within them there is no difference. Where it is not known: gray, and alpha 0.
+/// mipmaps, a colour has bounds, and within them there is no difference. Where it is not known: grey, and alpha 0.
 fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) -> Result<Pixels, Error> {
     let shadows: Vec<_> = scene.lights.iter().map(|light| shadow_of(&light.shadow, false)).collect();
     let request = ColorRequest { float_picture: is_exact, ..ColorRequest::default() };

@@ -16,7 +16,7 @@ impl Range {
     pub const ZERO: Self = Self { least: 0.0, most: 0.0 };
     pub const ONE: Self = Self { least: 1.0, most: 1.0 };
     const UNIT: Self = Self { least: 0.0, most: 1.0 };
-    /// Everything that a register may hold and no more than is written to it.
+    /// No bound: a register of which nothing is known.
     const ANY: Self = Self { least: f32::NEG_INFINITY, most: f32::INFINITY };
 
     fn map(self, function: impl Fn(f32) -> f32) -> Self {
@@ -110,7 +110,7 @@ impl Ranges {
         [ab, cd, ab.plus(cd)].map(|range| range.map(|value| (value - bias) * portion.scale.factor()))
     }
 
-    /// Takes a portion's results down; `before`: the ranges that it reads.
+    /// Records the ranges of a portion's results. `before`: the ranges that it reads.
     pub fn write(&mut self, portion: &Portion, is_rgb: bool, before: &Self) {
         for (output, range) in portion.outputs.into_iter().zip(before.results(portion)) {
             if let Some(register) = output {

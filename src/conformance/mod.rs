@@ -1,5 +1,5 @@
-//! GL's rules for shadows as checks of a driver: [`TABLE`] has them, [`run`] runs them on a [`mod@bench`]. Knows no scene
-//! and no technique.
+//! GL's rules for shadows and bump mapping as checks of a driver: [`TABLE`] has them, [`run`] runs them on a
+//! [`mod@bench`]. Knows no scene and no technique.
 //!
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
 //! To add a rule: one row in the table, one function in the file of its kind.

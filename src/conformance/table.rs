@@ -227,7 +227,7 @@ pub const TABLE: &[Rule] = &[
         id: "GL-F5",
         title: "stored alpha",
         section: "17.3.6",
-        says: "The stored alpha is a factor, and alpha has factors of its own: a product of RGB leaves the source's alpha.",
+        says: "The stored alpha is a factor, and alpha has factors of its own: RGB can be multiplied and alpha replaced.",
         tolerance: "half a code a product, else a warning to 1.5; what is copied is exact",
         check: blending::stored_alpha,
     },

@@ -39,7 +39,7 @@ pub enum Pixels {
 }
 
 impl Pixels {
-    /// The same size with alpha as gray and alpha 1; depths and counts as they are.
+    /// The same size with alpha as grey and alpha 1; depths and counts as they are.
     #[must_use]
     pub fn alpha_as_gray(self) -> Self {
         match self {

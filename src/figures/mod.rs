@@ -1,7 +1,7 @@
 //! Figures of the documents in data/documents.md that show a result, drawn from our own scenes as contact sheets with
-//! captions. A figure is data (`table.rs`, `projected.rs`, `bumps.rs`, `bump_errors.rs`, `explained.rs`): panels, each a scene with changes and a view, or
-//! a graph of what was measured. Knows scenes, plans, frames, truth and a report's measures; no technique by more than a
-//! scene's keys, no GL.
+//! captions. A figure is data (`table.rs`, `projected.rs`, `bumps.rs`, `bump_errors.rs`, `explained.rs`): panels, each
+//! a scene with changes and a view, or a graph of what was measured. Knows scenes, plans, frames, truth and a report's
+//! measures; no technique by more than a scene's keys, no GL.
 
 mod bump_errors;
 mod bumps;
@@ -66,7 +66,7 @@ pub struct Panel {
     pub note: &'static str,
     /// Overrides, as `--set` takes them.
     pub set: &'static [&'static str],
-    /// SceneChange of the scene that no key makes.
+    /// Change of the scene that no key makes.
     pub change: Option<SceneChange>,
     /// View of the first light; `None`: the picture itself.
     pub view: Option<View>,

@@ -141,7 +141,7 @@ fn check_state(list: &PassList, pass: &DrawPass, batch: &Batch) -> Result<(), St
     let layered = batch.meaning.clip_from_eye().is_some();
     let repeats = pass.state.depth_test == Some(Compare::Equal);
     let shares = repeats && is_placed(batch) && writes_placed_depths(list, pass);
-    // No count, but each pixel once: the surface itself is the reason.
+    // The stencil buffer only draws each pixel once: the reason is the surface's own.
     if let FixedFunctionDesc::Shader(why) = batch.meaning
         && draws_once(pass)
     {

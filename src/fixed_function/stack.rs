@@ -112,7 +112,8 @@ impl<'a> Stack<'a> {
         else {
             return Ok(());
         };
-        // Alpha: 4 z, as the vector's half plus 1 / 2, less 1 / 2, is multiplied by (0, 0, 1 - 1 / 2); and then 8 z, clamped.
+        // Alpha: DOT3 of the packed vector and (1/2, 1/2, 1) is z. This unit scales it by 4, the next one by 2; each
+        // clamps: min(1, 8 z).
         let down = Combine::Dot3Rgba(Operand::Texture, Operand::Constant);
         self.push(UnitImage::Cube(cube), UnitCoordinates::Tangent(vector), down, KEPT);
         self.constant([0.5, 0.5, 1.0, 1.0]);

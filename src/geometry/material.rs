@@ -49,9 +49,7 @@ impl Material {
         let decal = if self.decal_joins_alpha_test() { most(&self.decal, 3) } else { 1.0 };
         self.opacity * decal * most(&self.alpha, map_channel)
     }
-}
 
-impl Material {
     /// Tests whether the alpha test reads the decal's alpha: unless that is a gloss map.
     pub fn decal_joins_alpha_test(&self) -> bool {
         self.gloss != Some(Gloss::DecalAlpha) && self.decal.as_ref().is_some_and(|decal| decal.has_alpha)

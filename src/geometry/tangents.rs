@@ -84,7 +84,7 @@ impl Tangents {
     }
 }
 
-/// Where a mesh's bases come from, and how many of its triangles need a word.
+/// Origin of a mesh's bases, and numbers of triangles to report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BasisCounts {
     pub triangles: usize,
@@ -97,8 +97,8 @@ pub struct BasisCounts {
 }
 
 impl Mesh {
-    /// The same surface with a basis at each vertex: vertices whose triangles differ in theirs are split. A mesh that brings
-    /// its own directions keeps them, unless the fit asks for those of the skin or `texcoord` is not the mesh's own.
+    /// The same surface with a basis at each vertex: vertices whose triangles differ in theirs are split. A mesh that
+    /// brings its own directions keeps them if the fit is orthogonal and `texcoord` is `None`.
     ///
     /// `texcoord`: coordinates of a vertex by its number; `None`: the mesh's own. `None` is returned where there are none.
     pub fn with_bases(

@@ -19,7 +19,7 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
         let bump = object.material.as_ref().and_then(|material| material.bump.as_ref());
         let Some((bump, counts)) = bump.zip(object.bases) else { continue };
         if !object.lit {
-            notes.left_out(format!("bumps of {}", object.name), "lit = false: no light counts with its normals");
+            notes.left_out(format!("bumps of {}", object.name), "lit = false: its normals do not count");
             continue;
         }
         any = true;
@@ -36,7 +36,7 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
         if shading.method != BumpMethod::Reference && ratio > EVEN {
             notes.warnings.push(format!(
                 "{}: it is scaled by {ratio:.3} times as much along one axis as along another, and register combiners light it \
-                 in its own space, where angles are others: bump = \"reference\" is right",
+                 in its own space, where angles differ: bump = \"reference\" is right",
                 object.name
             ));
         }

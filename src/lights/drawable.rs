@@ -228,8 +228,8 @@ fn placed_by(placement: &Placement, sampler: Sampler) -> Sampler {
     if placement.clamped { Sampler { wrap: Wrap::ClampToEdge, ..sampler } } else { sampler }
 }
 
-/// The alpha test of `item`, and texture coordinates where it, (with `decal`) the decal or (with `others`) other textures of
-/// the lit pass need them.
+/// The alpha test of `item`, and texture coordinates for it and for what the pass looks up: the decal where `decal` is
+/// true, other textures where `others` is.
 pub fn cutout(item: &Drawable, [decal, others]: [bool; 2], list: &mut PassList) -> Cutout {
     let material = &item.material;
     let mut out = Cutout::default();

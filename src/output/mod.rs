@@ -138,7 +138,7 @@ fn write_png(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
         .map_err(io::Error::other)
 }
 
-/// The picture as RGB; shade as gray and alpha; distances and depths as gray, stretched from their least to their greatest
+/// The picture as RGB; shade as grey and alpha; distances and depths as grey, stretched from their least to their greatest
 /// so that they are visible (the other formats have the exact values).
 fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
     match (output.pixels, output.view) {

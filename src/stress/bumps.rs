@@ -1,4 +1,4 @@
-//! Bump maps on the objects of random scenes: a quarter of them has some. They are judged with the scene's other colours.
+//! Bump maps on the objects of random scenes: a quarter of the scenes has some. They are judged with the scene's other colours.
 
 use fastrand::Rng;
 

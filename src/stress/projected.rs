@@ -1,6 +1,6 @@
 //! Random scenes in projected light: images, beams and laws of distance; slide projectors; shadows in destination alpha;
-//! lenses; dusty air; photographs and bumps on objects. A scene is a random one whose spotlights have more keys; some of them stand
-//! at the eye, behind it, towards it, across the view or in the floor.
+//! lenses; dusty air; photographs and bumps on objects. A scene is a random one whose spotlights have more keys; some
+//! of them stand at the eye, behind it, towards it, across the view or in the floor.
 //! `colors.rs` judges them.
 
 use fastrand::Rng;

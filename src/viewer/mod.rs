@@ -1,6 +1,6 @@
-//! A scene in a window, to walk around in: what the sample programs share. [`State`] and [`ModelState`] are plain data and know
-//! no window; [`run`] joins a [`Show`] to winit's events. Each change makes a new plan, and the device skips passes that the last plan had,
-//! too: the map stays when only the camera moves.
+//! A scene in a window, to walk around in: what the sample programs share. [`State`] and [`ModelState`] are plain data
+//! and know no window; [`run`] joins a [`Show`] to winit's events. Each change makes a new plan, and the device skips
+//! passes that the last plan had, too: the map stays when only the camera moves.
 
 mod keys;
 mod mode;

@@ -59,7 +59,7 @@ pub struct ModelState {
     shows_wire: bool,
     size: [u32; 2],
     helps: bool,
-    /// Reason why the last command changed nothing, or another thing than it says.
+    /// Reason why the last command changed nothing, or not what the help says.
     refused: Option<String>,
 }
 
@@ -101,7 +101,7 @@ impl ModelState {
         Ok((state, warnings))
     }
 
-    /// Numbers of key frames that a pose may be at: from 0 to below it.
+    /// Number of key frames. A pose's number is from 0 to below it.
     pub fn frame_count(&self) -> usize {
         self.model.frame_count()
     }

@@ -57,8 +57,7 @@ const ALL: [&str; 14] = [
     "gdc-height-differences",
 ];
 
-/// Every sheet draws, and every panel shows something; what is changed without a word of it being wrong, or the truth, or made
-/// in memory, is not in a sheet.
+/// Every sheet draws, every panel shows something, and the title of a panel that is wrong on purpose says so.
 #[test]
 fn every_sheet_of_bumps_draws() {
     let mut renderer = renderer();

@@ -108,8 +108,8 @@ impl<'a> Objects<'a> {
         out.line("extern void bind_mesh(int mesh);");
         let has_levels = |desc: &&ImageDesc| matches!(desc.storage, Storage::Levels(_) | Storage::UnitVectors);
         if list.images.iter().any(|desc| has_levels(&desc)) {
-            out.line("/* a function that answers with the RGBA texels of one level, rows from the bottom up; of a cube map of unit");
-            out.line("   vectors, in place of the level, of a face, each through the middle of its texel: 255 (x / 2 + 1 / 2) */");
+            out.line("/* a function that answers with the RGBA texels of one level, rows from the bottom up; for a cube map of");
+            out.line("   unit vectors v the level is the face, and texels are 255 (v / 2 + 1 / 2) in their middles */");
             for (index, desc) in list.images.iter().enumerate().filter(|(_, desc)| has_levels(desc)) {
                 out.line(&format!("/*   image {index}: {} */", comment(&desc.label)));
             }

@@ -205,7 +205,7 @@ impl Model {
         mesh.normals.clear();
         match source {
             NormalSource::File => {
-                // Of unit length in f32, too, as those that are completed.
+                // Unit length in f32 too, as completed normals have.
                 let unit = |normal: Vec3| normal.as_dvec3().normalize_or_zero().as_vec3().to_array();
                 mesh.normals.extend(self.vertices().map(|vertex| unit(self.normal(pose, vertex))));
             }
@@ -230,7 +230,7 @@ impl Model {
     /// A vertex of the file at each place, and the three places of each triangle, counter-clockwise from outside. Two vertices
     /// share a place if their positions are equal in every frame, and with that in every pose.
     pub fn places(&self) -> (Vec<usize>, Vec<[u32; 3]>) {
-        let (mut known, mut stand_ins) = (HashMap::new(), Vec::new());
+        let (mut known, mut vertices) = (HashMap::new(), Vec::new());
         let count = self.file.frames.first().map_or(0, |frame| frame.vertices.len());
         let places: Vec<u32> = (0..count)
             .map(|vertex| {
@@ -238,13 +238,13 @@ impl Model {
                 let bits = |frame: &file::Frame| frame.position(vertex).map(|part| (part + 0.0).to_bits());
                 let course: Vec<[u64; 3]> = self.file.frames.iter().map(bits).collect();
                 *known.entry(course).or_insert_with(|| {
-                    stand_ins.push(vertex);
-                    (stand_ins.len() - 1) as u32
+                    vertices.push(vertex);
+                    (vertices.len() - 1) as u32
                 })
             })
             .collect();
         let place = |index: u32| places[usize::from(self.corners[index as usize][0])];
-        (stand_ins, self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(place)).collect())
+        (vertices, self.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(place)).collect())
     }
 
     /// The file's normal of a vertex; zero where two opposite ones are blended.

@@ -24,7 +24,7 @@ pub struct Discontinuity {
     /// Mean angle in degrees, weighted by the edges' lengths.
     pub mean_degrees: f64,
     pub largest_degrees: f64,
-    /// Pairs of which one triangle is mirrored.
+    /// Pairs of a mirrored triangle and one that is not.
     pub mirrored_pairs: usize,
     /// Share of their edges in the length of all, in [0, 1].
     pub mirrored_share: f64,

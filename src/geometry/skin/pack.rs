@@ -8,7 +8,7 @@ use super::Error;
 pub const LARGEST: u32 = 8192;
 /// Halvings of the interval in which the greatest scale that fits is searched.
 const HALVINGS: usize = 12;
-/// Rectangles beyond which only the first order is tried.
+/// Number of rectangles beyond which only the first order is tried.
 const FEW: usize = 4096;
 /// Scale below which the gutters alone are taken to fill the picture.
 const LEAST_SCALE: f64 = 1.0 / 1024.0;
@@ -57,7 +57,7 @@ fn grow(rectangles: &[[u64; 2]]) -> Result<Packed, Error> {
         if area > 1 << power {
             continue;
         }
-        // A square, or one and the other of two halves of one.
+        // A square, or a rectangle of 2 by 1 either way.
         let (low, high) = (power / 2, power.div_ceil(2));
         let sides = if low == high { vec![[low, low]] } else { vec![[high, low], [low, high]] };
         for size in sides.into_iter().filter(|[_, _]| high <= most).map(|powers| powers.map(|power| 1 << power)) {

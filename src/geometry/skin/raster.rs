@@ -13,7 +13,7 @@ use crate::geometry::{Error, text, texture};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
     pub size: [u32; 2],
-    /// 1 gray, 2 gray and alpha, 3 RGB, 4 RGBA.
+    /// 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA.
     pub channels: usize,
     /// 16 bits a channel in place of 8.
     pub is_deep: bool,

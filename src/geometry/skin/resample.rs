@@ -1,9 +1,9 @@
 //! A skin's picture in its new places.
 //!
-//! A texel of the new picture whose centre lies in a triangle has the old picture's colour there, with bilinear filtering. A
-//! triangle so thin that a texel it touches neither has nor neighbours such a centre is sampled at its nearest point. The
-//! gutter around each island repeats the nearest of those texels, so that filters and the first mipmaps find no foreign
-//! colour. All other texels have the mean colour.
+//! A texel of the new picture whose centre lies in a triangle has the old picture's colour there, with bilinear
+//! filtering. Thin triangles may hold no centre: a texel that one touches has the colour at the triangle's nearest
+//! point, unless a texel beside it has a centre in the same piece. The gutter around each island repeats the nearest of
+//! those texels, so that filters and the first mipmaps find no foreign colour. All other texels have the mean colour.
 
 use glam::{DVec2, dvec2};
 
@@ -109,7 +109,7 @@ impl Painter<'_> {
         }
     }
 
-    /// Colours the texels that the triangle touches and that neither have nor neighbour a centre in the piece.
+    /// Colours the texels that the triangle touches, unless they or texels beside them have a centre in the piece.
     fn paint_touched(&mut self, patch: &Patch, covered: &[u32]) {
         for texel in self.near(patch, TOUCH) {
             let index = self.index(texel);

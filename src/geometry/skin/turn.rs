@@ -1,8 +1,9 @@
 //! Angles by which the pieces of a skin are turned, so that t axes agree across the edges between them.
 //!
 //! The sum over edges of length times angle is lessened piece by piece, each turned by the angle that is best while the
-//! others stay. That ends in a local minimum. Of three the lowest is taken: they begin with the skin as it is, with t axes
-//! that point upwards, and with pieces turned one after the other, each to agree with those before it.
+//! others stay. That ends in a local minimum. The search runs three times and the lowest sum is taken: it begins with
+//! the skin as it is, with t axes that point upwards, and with pieces turned one after the other, each to agree with
+//! those before it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,7 +1,7 @@
 //! The truth, and a picture's differences from it, as pictures.
 //!
-//! Grays show the truth, darker for less light; only errors have a colour. The colours are of the set that Okabe and Ito
-//! chose to be distinguishable with any colour vision, and differ in lightness from the gray below.
+//! Greys show the truth, darker for less light; only errors have a colour. The colours are of the set that Okabe and Ito
+//! chose to be distinguishable with any colour vision, and differ in lightness from the grey below.
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};

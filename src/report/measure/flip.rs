@@ -88,7 +88,7 @@ mod tests {
         assert!(flip(&black, &white).unwrap().mean() > 0.9);
     }
 
-    /// The published behaviour that RMSE lacks: a checker of single pixels melts into gray at 67 pixels a degree, one of large
+    /// The published behaviour that RMSE lacks: a checker of single pixels melts into grey at 67 pixels a degree, one of large
     /// squares does not. Both have the same RMSE.
     #[test]
     fn detail_that_no_eye_resolves_counts_less() {

@@ -72,7 +72,7 @@ fn warn_of_no_normals(texture: &Texture, origin: &Origin, assets: &mut Assets) {
     if 10 * off > texels.len() {
         let (share, name) = (100.0 * off as f64 / texels.len() as f64, &texture.name);
         assets.warn(format!(
-            "{origin}: {share:.0} % of the texels of {name} are no outward normals of a length near 1: is it a height field (`height`)?"
+            "{origin}: {share:.0} % of the texels of {name} are no outward unit normals: is it a height field? Then name it as `height`."
         ));
     }
 }
@@ -114,17 +114,17 @@ pub(super) fn shading(reader: &mut Reader<'_>) -> Result<BumpShading, Error> {
     let combiners = reader.file("combiners")?;
     let two_units = reader.boolean("two_units")?;
     if passes == 0 {
-        let message = "is of register combiners: choose bump = \"one-pass\" or \"three-pass\"";
+        let message = "belongs to register combiners: choose bump = \"one-pass\" or \"three-pass\"";
         reader.refuse(&["normalize", "precision"], message)?;
     }
     if passes != 1 {
         reader.refuse(&["combiners"], "replaces the program of bump = \"one-pass\"")?;
     }
     if passes != 3 {
-        reader.refuse(&["two_units"], "is of bump = \"three-pass\"")?;
+        reader.refuse(&["two_units"], "belongs to bump = \"three-pass\"")?;
     }
     if passes != 0 && combiners.is_none() {
-        let message = "is of bump = \"reference\": the programs of register combiners have the factor";
+        let message = "belongs to bump = \"reference\": the programs of register combiners always have the factor";
         reader.refuse(&["self_shadow"], message)?;
     }
     let has_own_program = combiners.is_some();

@@ -29,7 +29,7 @@ fn the_built_in_torus_has_the_directions_of_its_formula() {
         assert!(vector(directions.tangents[index]).distance(tangent) < 1e-6);
         assert!(vector(directions.bitangents[index]).distance(bitangent) < 1e-6);
         assert!(vector(torus.normals[index]).distance(normal) < 1e-6);
-        let place = DVec3::new(normal.x, 0.0, normal.z) * 0.0 + MINOR * normal;
+        let place = MINOR * normal;
         let (sin_u, cos_u) = (TAU * f64::from(*s)).sin_cos();
         assert!(vector(torus.positions[index]).distance(place + DVec3::new(sin_u, 0.0, cos_u)) < 1e-6);
     }
