@@ -54,13 +54,13 @@ pub struct RepackArgs {
     cut: f64,
 
     /// Fractions of a texel to which an MD2 model's places on the skin are rounded: 8 is eighths. The file's header
-    /// then has a skin N times as large as the picture, which other programs may not expect
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=128))]
-    steps: u32,
+    /// then has a skin N times as large as the picture, which other programs may not expect; absent: whole texels
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=128))]
+    steps: Option<u32>,
 
-    /// The key frame of an MD2 model in which angles are measured, counted from 0
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    frame: usize,
+    /// The key frame of an MD2 model in which angles are measured, counted from 0; absent: the first
+    #[arg(long, value_name = "N")]
+    frame: Option<usize>,
 
     /// Prints the numbers as JSON
     #[arg(long)]
@@ -101,6 +101,8 @@ pub enum Error {
     Skin { model: PathBuf, source: skin::Error },
     #[error("{}: cannot tell the format: a model ends in .md2 or .obj", .0.display())]
     UnknownFormat(PathBuf),
+    #[error("{}: is an OBJ model; {option} is of MD2 models", model.display())]
+    Md2Only { model: PathBuf, option: &'static str },
     #[error("{}: has no texture coordinates, so there is no skin to pack", .0.display())]
     NoSkin(PathBuf),
     #[error("{}: has {frames} frames; --frame {frame} counts from 0", model.display())]
@@ -151,7 +153,7 @@ fn repack(arguments: &RepackArgs) -> Result<Report, Error> {
         gutter: arguments.gutter,
         unmirror: arguments.unmirror,
         cut_degrees: arguments.cut,
-        steps: matches!(source, Source::Md2(_)).then_some(arguments.steps),
+        steps: matches!(source, Source::Md2(_)).then_some(arguments.steps.unwrap_or(1)),
     };
     let wrong = |source: skin::Error| Error::Skin { model: arguments.model.clone(), source };
     let new = skin::repack(&old, &options).map_err(wrong)?;
@@ -228,10 +230,16 @@ fn load(arguments: &RepackArgs) -> Result<(Source, Mesh), Error> {
     let say = |warnings: &[geometry::Warning]| {
         warnings.iter().for_each(|warning| super::say(format_args!("warning: {warning}")));
     };
+    if !is_md2(model) {
+        let given = [("--frame", arguments.frame.is_some()), ("--steps", arguments.steps.is_some())];
+        if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
+            return Err(Error::Md2Only { model: model.clone(), option });
+        }
+    }
     if is_md2(model) {
         let (loaded, warnings) = Model::load(model)?;
         say(&warnings);
-        let (frame, frames) = (arguments.frame, loaded.frame_count());
+        let (frame, frames) = (arguments.frame.unwrap_or(0), loaded.frame_count());
         if frame >= frames {
             return Err(Error::NoFrame { model: model.clone(), frame, frames });
         }
@@ -272,12 +280,12 @@ fn old_skin(arguments: &RepackArgs, source: &Source, mesh: &Mesh, pictures: &[Ra
 fn model_bytes(arguments: &RepackArgs, source: &Source, mesh: &Mesh, new: &Repacked) -> Result<Vec<u8>, Error> {
     match source {
         Source::Md2(model) => {
-            let [width, height] = new.skin.size().map(|side| side.saturating_mul(arguments.steps));
+            let [width, height] = new.skin.size().map(|side| side.saturating_mul(arguments.steps.unwrap_or(1)));
             if width.max(height) > MOST_STEPS {
-                let steps = arguments.steps;
+                let steps = arguments.steps.unwrap_or(1);
                 return Err(Error::TooManySteps { model: arguments.model.clone(), steps, side: width.max(height) });
             }
-            let file = model.with_skin([width, height], &new.skin.in_steps(arguments.steps));
+            let file = model.with_skin([width, height], &new.skin.in_steps(arguments.steps.unwrap_or(1)));
             Ok(md2::write(&file.ok_or_else(|| Error::TooManyTexels(arguments.model.clone()))?))
         }
         Source::Obj => {

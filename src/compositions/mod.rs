@@ -152,6 +152,11 @@ pub enum Error {
         "bump = \"three-pass\" multiplies the decal into the light of all pixels at once: light {light} is counted in the stencil buffer, and joins where its count is 0. Choose bump = \"one-pass\", which adds a light with its decal, or a technique with a map."
     )]
     CountedParts { light: usize },
+    /// A clip plane cuts surfaces that the second and third pass draw again.
+    #[error(
+        "guard = \"clip-plane\" (light {light}) cannot be combined with bump = \"three-pass\": clipping changes depth values, and decals and highlights are added with depth EQUAL. Choose another guard."
+    )]
+    CutParts { light: usize },
     /// Photographs beside bumps in three passes.
     #[error(
         "bump = \"three-pass\" puts surfaces' colours together from light, decal and highlights, and a photograph is none of them. Choose bump = \"one-pass\" or \"reference\", or leave out `photo`."

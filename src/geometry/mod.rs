@@ -35,6 +35,7 @@ pub use material::{Material, ObjectLinear, Placement};
 pub use mesh::{Mesh, MeshTangents, Part};
 pub use obj::{CREASE_DEGREES, decode_obj, load_obj};
 pub use primitives::{PRIMITIVES, primitive};
+pub use text::read_text;
 pub(crate) use texture::find_file;
 pub use texture::{Texture, decode_texture, load_texture};
 pub use wave::Wave;

@@ -134,7 +134,10 @@ impl Mesh {
         mesh.texcoords = self.texcoords.as_ref().map(|all| old.iter().map(|index| all[*index]).collect());
         mesh.indices = indices;
         mesh.tangents = Some(directions);
-        let Tangents { mirrored, skewed, without, .. } = bases;
+        // Also those that a vertex's normal lies in.
+        let is_lost = |corners: &&[TangentBasis; 3]| corners.iter().any(|corner| corner.tangent == DVec3::ZERO);
+        let without = bases.corners.as_chunks::<3>().0.iter().filter(is_lost).count();
+        let Tangents { mirrored, skewed, .. } = bases;
         Some((mesh, BasisCounts { triangles, mirrored, skewed, without, from_mesh: false }))
     }
 }

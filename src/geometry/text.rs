@@ -13,6 +13,15 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
+/// A file's text.
+///
+/// # Errors
+///
+/// A file that cannot be read, and those of [`decode`].
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    Ok(decode(&read(path)?, path)?.into_owned())
+}
+
 /// `bytes` as text whose lines end in `\n` or `\r\n`. Control characters are refused: they indicate a binary file.
 pub(super) fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>, Error> {
     let text = match bytes {

@@ -2,11 +2,11 @@
 
 use super::Notes;
 use crate::combiners::Precision;
-use crate::geometry::Bump;
-use crate::geometry::bump::{BumpSource, NormalFormat};
+use crate::geometry::bump::{BumpSource, Gloss, NormalFormat};
 use crate::geometry::normal_map::Difference;
 use crate::geometry::tangents::{BasisCounts, BasisFit};
-use crate::scene::{BumpMethod, Normalize, Object, Scene};
+use crate::geometry::{Bump, Material};
+use crate::scene::{BumpMethod, BumpShading, Normalize, Object, PicturePasses, Scene};
 
 /// Ratio of an object's scales from which register combiners light it visibly wrong: they take angles in its own space.
 const EVEN: f64 = 1.01;
@@ -16,10 +16,16 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
     let shading = &scene.shading.bumps;
     let mut any = false;
     for object in &scene.objects {
+        note_gloss(scene, object, notes);
         let bump = object.material.as_ref().and_then(|material| material.bump.as_ref());
         let Some((bump, counts)) = bump.zip(object.bases) else { continue };
         if !object.lit {
             notes.left_out(format!("bumps of {}", object.name), "lit = false: its normals do not count");
+            continue;
+        }
+        if scene.shading.passes == PicturePasses::Slide {
+            let why = "slide projectors multiply surfaces' colours: normals do not count";
+            notes.left_out(format!("bumps of {}", object.name), why);
             continue;
         }
         any = true;
@@ -50,10 +56,32 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
         (BumpMethod::Reference, false) => {}
         (method, false) => notes.left_out(format!("bump = \"{}\"", method.name()), "no lit object has a bump map"),
         (method, true) => {
-            notes.chosen("light on bumps", method.name(), of_combiners(method, shading.normalize, shading.precision));
+            notes.chosen("light on bumps", method.name(), of_combiners(shading));
             note_clamped_colors(scene, notes);
         }
     }
+}
+
+/// Notes a gloss that changes nothing.
+fn note_gloss(scene: &Scene, object: &Object, notes: &mut Notes) {
+    let Some((material, gloss)) = object.material.as_ref().and_then(|own| Some((own, own.gloss.as_ref()?))) else {
+        return;
+    };
+    let is_opaque = *gloss == Gloss::DecalAlpha && material.decal.as_ref().is_some_and(|decal| !decal.has_alpha);
+    let why = if material.specular == [0.0; 3] {
+        "its material is not specular"
+    } else if !object.lit {
+        "lit = false: nothing shines"
+    } else if scene.shading.passes == PicturePasses::Slide {
+        "slide projectors make no highlights"
+    } else if object.mesh.texcoords.is_none() && material.texgen.is_none() {
+        "its mesh has no texture coordinates"
+    } else if is_opaque {
+        "the decal's alpha is 1 everywhere"
+    } else {
+        return;
+    };
+    notes.left_out(format!("gloss of {}", object.name), why);
 }
 
 fn of_map(bump: &Bump) -> String {
@@ -84,8 +112,9 @@ fn of_bases(fit: BasisFit, counts: &BasisCounts) -> String {
     }
 }
 
-fn of_combiners(method: &BumpMethod, normalize: Normalize, precision: Precision) -> String {
-    let stages = match method {
+fn of_combiners(shading: &BumpShading) -> String {
+    let BumpShading { method, normalize, precision, has_own_program: own, .. } = shading.clone();
+    let stages = match &method {
         BumpMethod::OnePass(program) => format!("{} general stages", program.stages.len()),
         BumpMethod::ThreePass { diffuse, specular } => {
             format!(
@@ -103,20 +132,31 @@ fn of_combiners(method: &BumpMethod, normalize: Normalize, precision: Precision)
             format!("vectors normalised by a cube map of {size} texels a side{seams}")
         }
     };
+    let own = if own { " of a file, which `shininess` does not change" } else { "" };
     let precision = if precision == Precision::NineBits { "registers of 9 bits" } else { "registers of floats" };
-    format!("{stages}, {normalize}, {precision}")
+    format!("{stages}{own}, {normalize}, {precision}")
 }
 
-/// Warns of colours above 1, which registers clamp.
+/// Warns of colours above 1, which registers clamp: the light's times the material's, at the light itself.
 fn note_clamped_colors(scene: &Scene, notes: &mut Notes) {
+    let materials = scene.objects.iter().filter(|object| object.bases.is_some() && object.lit);
+    let materials: Vec<&Material> = materials.filter_map(|object| object.material.as_deref()).collect();
     for (index, light) in scene.lights.iter().enumerate() {
-        let brightest = light.diffuse.into_iter().chain(light.specular).fold(0.0, f32::max);
-        let brightest = brightest / light.attenuation()[0];
-        if brightest > 1.0 {
-            notes.warnings.push(format!(
-                "light {index}: its colour reaches {brightest}; register combiners clamp it to 1 before it meets the bumps"
-            ));
-        }
+        let of = |material: &&Material| {
+            let pairs = |light: [f32; 3], own: [f32; 3]| (0..3).map(move |k| light[k] * own[k]).fold(0.0, f32::max);
+            pairs(light.diffuse, material.diffuse).max(pairs(light.specular, material.specular))
+        };
+        let brightest = materials.iter().map(of).fold(0.0, f32::max);
+        let near = light.attenuation()[0];
+        let reaches = match brightest {
+            brightest if brightest <= near || brightest == 0.0 => continue,
+            _ if near == 0.0 => String::from("above 1 near the light"),
+            brightest => format!("{}", brightest / near),
+        };
+        notes.warnings.push(format!(
+            "light {index}: its colour on a bumped surface reaches {reaches}; register combiners clamp it to 1 before it meets \
+             the bumps"
+        ));
     }
 }
 

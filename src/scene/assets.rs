@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::resolve::bump::BumpKey;
 use super::resolve::pose::WrittenPose;
 use super::settings::{Origin, SettingsError, suggest};
 use super::{Error, ModelSkin};
 use crate::geometry::normal_map::{self, HeightField};
-use crate::geometry::{self, Mesh, Texture, find_file, md2};
+use crate::geometry::{self, Bump, Mesh, Texture, find_file, md2};
 
 /// Ends of the names of files that have a mesh.
 pub(super) const MODELS: [&str; 2] = ["obj", "md2"];
@@ -40,6 +41,9 @@ fn key_framed((model, warnings): (md2::Model, Vec<geometry::Warning>)) -> (Model
     (Model::KeyFramed(Arc::new(model)), warnings)
 }
 
+/// A mesh, and its pose if its model is key-framed.
+pub(super) type Posed = (Arc<Mesh>, Option<(md2::Pose, md2::NormalSource)>);
+
 /// A pose of a file's model, bit for bit.
 type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
 
@@ -54,6 +58,8 @@ pub(super) struct Assets {
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
+    /// Bump maps by all that their files and keys say.
+    pub bumps: HashMap<BumpKey, Arc<Bump>>,
     /// Pictures and models in memory, by the names that the scene file has for them.
     pictures: Files,
     files: Files,
@@ -68,7 +74,7 @@ impl Assets {
     }
 
     /// A built-in mesh, or one of a file named from `origin`, in a pose if its model is key-framed.
-    pub fn mesh(&mut self, name: &str, origin: &Origin, pose: &WrittenPose<'_>) -> Result<Arc<Mesh>, Error> {
+    pub fn mesh(&mut self, name: &str, origin: &Origin, pose: &WrittenPose<'_>) -> Result<Posed, Error> {
         let path = file(name, origin);
         let model = match self.primitive(name) {
             Some(model) => model,
@@ -86,12 +92,13 @@ impl Assets {
         match model {
             Model::Still(mesh) => {
                 pose.refuse()?;
-                Ok(mesh)
+                Ok((mesh, None))
             }
             Model::KeyFramed(model) => {
                 let (pose, source) = pose.resolve(&model)?;
                 let key = (canonical(&path), pose.frames, pose.blend.to_bits(), source);
-                Ok(self.poses.entry(key).or_insert_with(|| Arc::new(model.mesh(&pose, source))).clone())
+                let mesh = self.poses.entry(key).or_insert_with(|| Arc::new(model.mesh(&pose, source)));
+                Ok((mesh.clone(), Some((pose, source))))
             }
         }
     }

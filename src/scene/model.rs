@@ -6,6 +6,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 use super::{Falloff, ImageFilter, Interpolation, LightBeam, Shadow};
 use crate::combiners::{CombinerProgram, Precision};
+use crate::geometry::md2::{NormalSource, Pose};
 use crate::geometry::tangents::BasisCounts;
 use crate::geometry::{Gloss, Material, Mesh, Texture, Wave};
 
@@ -361,6 +362,8 @@ pub struct Object {
     /// A photograph of it, in place of its material's colour where the photograph shows it. Shared: objects with the same
     /// one need one depth map.
     pub photo: Option<Arc<Photo>>,
+    /// Pose of a key-framed model, and where its normals come from; `None`: the mesh has one pose.
+    pub pose: Option<(Pose, NormalSource)>,
     /// Counts of the tangent bases of a bump-mapped object; `None`: it has no bump map.
     pub bases: Option<BasisCounts>,
     /// True if fixed-function or Phong lighting applies; `false`: the decal or diffuse colour as it is.

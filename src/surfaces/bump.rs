@@ -34,7 +34,10 @@ impl Bumps {
             return Self::None;
         }
         match (&shading.method, ending, lights) {
-            (BumpMethod::OnePass(program), Ending::Lit, [_]) => Self::Combined(program.clone()),
+            // Without highlights and decal: a view.
+            (BumpMethod::OnePass(program), Ending::Lit | Ending::Part(FormulaPart::Diffuse), [_]) => {
+                Self::Combined(program.clone())
+            }
             (BumpMethod::ThreePass { diffuse, .. }, Ending::Part(FormulaPart::Diffuse), [_]) => {
                 Self::Combined(diffuse.clone())
             }

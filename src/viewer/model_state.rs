@@ -79,6 +79,14 @@ impl ModelState {
             Model::decode(Path::new(name), bytes).map_err(|source| Error::Asset { origin: Origin::BuiltIn, source })?;
         let object = scene.objects.iter().position(|object| is_model(&object.mesh.name));
         let object = object.ok_or_else(|| error("no object of the scene is a key-framed model"))?;
+        let file_name = |name: &str| Path::new(name).file_name().map(std::ffi::OsStr::to_owned);
+        if file_name(&scene.objects[object].mesh.name) != file_name(name) {
+            return Err(error("the program shows its own key-framed model: `glumbra render` shows others"));
+        }
+        let (pose, normals) = scene.objects[object].pose.unwrap_or_default();
+        if pose.blend != 0.0 && pose.frames[1] != pose.frames[0] + 1 {
+            return Err(error("the program blends a frame with the next: give the knight a `frame`"));
+        }
         let state = Self {
             embedded,
             overrides,
@@ -86,8 +94,8 @@ impl ModelState {
             model: Arc::new(model),
             object,
             material: scene.objects[object].material.clone(),
-            frame: 0.0,
-            normals: NormalSource::File,
+            frame: pose.frames[0] as f64 + pose.blend,
+            normals,
             mode,
             animates: false,
             speed: SPEED,

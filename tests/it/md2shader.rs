@@ -46,6 +46,9 @@ fn expected(frames: [usize; 2], blend: f64) -> Vec<[f32; 3]> {
 #[test]
 fn animations_go_round_at_three_key_frames_a_second() {
     let mut state = state();
+    // The scene's own frame.
+    assert_eq!(state.key_frame(), 8.0);
+    assert_eq!(places(&state), expected([8, 8], 0.0));
     for (frame, frames, blend) in
         [(0.0, [0, 0], 0.0), (3.25, [3, 4], 0.25), (7.5, [7, 0], 0.5), (8.0, [8, 8], 0.0), (15.75, [15, 8], 0.75)]
     {

@@ -35,7 +35,7 @@ impl Composition for ThreePass {
             return Err(Error::PhotoParts);
         }
         let cutting = terms.iter().find(|term| term.guard == crate::lights::guard::Guard::ClipPlane);
-        cutting.map_or(Ok(()), |term| Err(Error::CutGroups { light: term.index, lights: terms.len() }))
+        cutting.map_or(Ok(()), |term| Err(Error::CutParts { light: term.index }))
     }
 
     fn picture(

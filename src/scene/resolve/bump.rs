@@ -1,12 +1,13 @@
 //! `bump` and `gloss` of a material, and the keys of [shading] that say how bumps are lit.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::combiners::{self, CombinerProgram, Precision};
-use crate::geometry::Texture;
 use crate::geometry::bump::{Bump, BumpSource, Gloss, NormalFormat};
 use crate::geometry::normal_map::{Difference, HeightWrap, MipColors};
 use crate::geometry::tangents::BasisFit;
+use crate::geometry::{Texture, read_text};
 use crate::scene::assets::Assets;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError, Value};
 use crate::scene::{BumpMethod, BumpShading, Error, Normalize};
@@ -16,6 +17,20 @@ const MOST_SCALE: f64 = 1e6;
 
 /// Greatest side of a normalisation cube map.
 const MOST_CUBE: i64 = 1024;
+
+/// A bump map as written: objects with the same one share it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(in crate::scene) struct BumpKey {
+    file: Option<PathBuf>,
+    is_height: bool,
+    scale_bits: Option<u64>,
+    difference: Option<Difference>,
+    green: Option<bool>,
+    format: NormalFormat,
+    colors: MipColors,
+    border: HeightWrap,
+    fit: BasisFit,
+}
 
 /// `bump = { height = FILE, scale, difference }` or `bump = { normal_map = FILE, green }`, each with `format`, `mipmaps`,
 /// `border` and `basis`.
@@ -34,10 +49,17 @@ pub(super) fn read(table: &Settings, assets: &mut Assets) -> Result<Arc<Bump>, E
     let fits =
         [("orthogonal", BasisFit::Orthogonal), ("skewed", BasisFit::Skewed), ("per-polygon", BasisFit::PerPolygon)];
     let fit = reader.choice("basis", &fits)?.unwrap_or_default();
+    let (format, is_height) = (format.unwrap_or_default(), height.is_some());
+    let (scale_bits, difference) = (scale.map(f64::to_bits), difference);
+    let file = height.or(normal_map).map(|(name, origin)| crate::scene::assets::file(name, origin));
+    let key = BumpKey { file, is_height, scale_bits, difference, green, format, colors, border, fit };
     let source = match (height, normal_map) {
         (Some((name, origin)), None) => {
             reader.refuse(&["green"], "is read with `normal_map`, not with `height`")?;
             reader.finish()?;
+            if let Some(known) = assets.bumps.get(&key) {
+                return Ok(known.clone());
+            }
             let field = assets.heights(name, origin)?;
             let (scale, difference) = (scale.unwrap_or(1.0), difference.unwrap_or_default());
             BumpSource::Heights { field, scale, difference }
@@ -45,6 +67,9 @@ pub(super) fn read(table: &Settings, assets: &mut Assets) -> Result<Arc<Bump>, E
         (None, Some((name, origin))) => {
             reader.refuse(&["scale", "difference"], "is read with `height`, not with `normal_map`")?;
             reader.finish()?;
+            if let Some(known) = assets.bumps.get(&key) {
+                return Ok(known.clone());
+            }
             let texture = assets.texture(name, origin)?;
             warn_of_no_normals(&texture, origin, assets);
             BumpSource::normals(&texture, green.unwrap_or(false))
@@ -57,7 +82,9 @@ pub(super) fn read(table: &Settings, assets: &mut Assets) -> Result<Arc<Bump>, E
             return Err(reader.missing("height", what).into());
         }
     };
-    Ok(Arc::new(Bump::new(source, format.unwrap_or_default(), colors, border, fit)))
+    let bump = Arc::new(Bump::new(source, format, colors, border, fit));
+    assets.bumps.insert(key, bump.clone());
+    Ok(bump)
 }
 
 /// Warns of a picture that looks like no normal map.
@@ -78,6 +105,7 @@ fn warn_of_no_normals(texture: &Texture, origin: &Origin, assets: &mut Assets) {
 }
 
 /// `gloss` as written.
+#[derive(Clone, Copy)]
 pub(super) enum WrittenGloss<'a> {
     DecalAlpha,
     File(&'a str, &'a Origin),
@@ -92,15 +120,12 @@ pub(super) fn gloss<'a>(reader: &mut Reader<'a>) -> Result<Option<WrittenGloss<'
     }))
 }
 
-impl<'a> WrittenGloss<'a> {
-    pub fn load(
-        self,
-        load: &mut impl FnMut(Option<(&'a str, &'a Origin)>) -> Result<Option<Arc<Texture>>, Error>,
-    ) -> Result<Gloss, Error> {
-        match self {
-            Self::File(name, origin) => Ok(load(Some((name, origin)))?.map_or(Gloss::DecalAlpha, Gloss::Map)),
-            Self::DecalAlpha => Ok(Gloss::DecalAlpha),
-        }
+impl WrittenGloss<'_> {
+    pub fn load(self, assets: &mut Assets) -> Result<Gloss, Error> {
+        Ok(match self {
+            Self::DecalAlpha => Gloss::DecalAlpha,
+            Self::File(name, origin) => Gloss::Map(assets.texture(name, origin)?),
+        })
     }
 }
 
@@ -123,8 +148,8 @@ pub(super) fn shading(reader: &mut Reader<'_>) -> Result<BumpShading, Error> {
     if passes != 3 {
         reader.refuse(&["two_units"], "belongs to bump = \"three-pass\"")?;
     }
-    if passes != 0 && combiners.is_none() {
-        let message = "belongs to bump = \"reference\": the programs of register combiners always have the factor";
+    if passes != 0 {
+        let message = "belongs to bump = \"reference\": programs of register combiners have the factor or not";
         reader.refuse(&["self_shadow"], message)?;
     }
     let has_own_program = combiners.is_some();
@@ -176,10 +201,8 @@ fn normalize(reader: &mut Reader<'_>) -> Result<Option<Normalize>, SettingsError
 /// Reads a program of register combiners.
 fn load_combiners(name: &str, origin: &Origin) -> Result<Arc<CombinerProgram>, SettingsError> {
     let path = crate::scene::assets::file(name, origin);
-    let shown = path.display().to_string();
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| SettingsError::new(origin, format!("cannot read {shown}: {error}")))?;
-    read_program(&shown, &text).map_err(|message| SettingsError::new(origin, message))
+    let text = read_text(&path).map_err(|error| SettingsError::new(origin, error.to_string()))?;
+    read_program(&path.display().to_string(), &text).map_err(|message| SettingsError::new(origin, message))
 }
 
 fn read_program(name: &str, text: &str) -> Result<Arc<CombinerProgram>, String> {

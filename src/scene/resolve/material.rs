@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::bump;
 use super::photo::{self, PhotoKeys};
-use crate::geometry::{Gloss, Material, ObjectLinear};
+use crate::geometry::{Material, ObjectLinear};
 use crate::scene::Error;
 use crate::scene::assets::Assets;
 use crate::scene::settings::{Settings, SettingsError};
@@ -30,11 +30,8 @@ pub(super) fn read(
     reader.finish()?;
     let mut load = |file: Option<(&str, &_)>| file.map(|(name, origin)| assets.texture(name, origin)).transpose();
     let (decal, alpha) = (load(decal)?, load(alpha)?);
-    let gloss = gloss.map(|written| written.load(&mut load)).transpose()?;
+    let gloss = gloss.map(|written| written.load(assets)).transpose()?;
     let bump = bump.map(|table| bump::read(table, assets)).transpose()?;
-    if gloss == Some(Gloss::DecalAlpha) && decal.is_none() {
-        return Err(table.read().error("gloss", "is the alpha of the decal, and there is no `decal`").into());
-    }
     let photo = photo.map(|table| photo::read(table, assets)).transpose()?;
     let name = format!("material of {owner}");
     let material = Material {

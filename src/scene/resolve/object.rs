@@ -8,7 +8,7 @@ use super::material;
 use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
 use crate::geometry::tangents::BasisCounts;
-use crate::geometry::{Material, Mesh, Texture, Wave};
+use crate::geometry::{Gloss, Material, Mesh, Texture, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::{LARGEST, SMALLEST};
 use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
@@ -36,8 +36,13 @@ pub(in crate::scene) fn read(
     reader.finish()?;
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
-    let (mesh_name, mesh) = (mesh, assets.mesh(mesh, mesh_origin, &pose)?);
+    let mesh_name = mesh;
+    let (mesh, pose) = assets.mesh(mesh, mesh_origin, &pose)?;
     let (material, skin) = with_skin(material, &name, || assets.skin(mesh_name, mesh_origin));
+    if material.as_ref().is_some_and(|own| own.gloss == Some(Gloss::DecalAlpha) && own.decal.is_none()) {
+        let message = "has gloss = \"decal-alpha\", and there is no `decal`";
+        return Err(table.read().error("material", message).into());
+    }
     let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
     if closed {
         check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
@@ -45,8 +50,20 @@ pub(in crate::scene) fn read(
     let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
     let wave = wave.map(|wave| wave.relative_to(mesh.origin));
     let material = material.map(|material| relative_to(material, mesh.origin));
-    let object =
-        Object { name, mesh, world_from_model, wave, material, skin, photo: None, bases, lit, casts_shadow, closed };
+    let object = Object {
+        name,
+        mesh,
+        world_from_model,
+        wave,
+        material,
+        skin,
+        photo: None,
+        pose,
+        bases,
+        lit,
+        casts_shadow,
+        closed,
+    };
     check_reach(&object, table)?;
     warn_of_clear(&object, table, assets);
     Ok((object, photo))

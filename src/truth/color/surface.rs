@@ -42,8 +42,8 @@ pub(super) struct SurfaceTable<'a> {
     fallback: Material,
     /// Decals by their addresses.
     decals: HashMap<usize, Picture<'a>>,
-    /// Maps of gloss by the addresses of their pictures.
-    glosses: HashMap<usize, Picture<'a>>,
+    /// Maps of gloss by the addresses of their pictures and their channels.
+    glosses: HashMap<(usize, usize), Picture<'a>>,
     /// Bump maps by their addresses.
     bumps: HashMap<usize, BumpMap>,
 }
@@ -74,7 +74,7 @@ impl<'a> SurfaceTable<'a> {
         let decals = materials().filter_map(|material| material.decal.as_deref());
         let decals = decals.map(|decal| (key(decal), Picture::new(decal))).collect();
         let glosses = materials().filter_map(gloss_map);
-        let glosses = glosses.map(|(map, channel)| (key(map), Picture::of_channel(map, channel))).collect();
+        let glosses = glosses.map(|(map, channel)| ((key(map), channel), Picture::of_channel(map, channel))).collect();
         let bumps: Vec<&Arc<Bump>> = materials().filter_map(|material| material.bump.as_ref()).collect();
         let bumps = bumps.into_iter().map(|bump| (key(&**bump), BumpMap::new(bump))).collect();
         Self { normals, fallback: Material::default(), decals, glosses, bumps }
@@ -155,7 +155,7 @@ impl<'a> SurfaceTable<'a> {
 
     /// Share of the specular light, by the same filter.
     fn gloss(&self, own: &Lookup<'_>) -> Bounds {
-        let picture = gloss_map(own.material).and_then(|(map, _)| self.glosses.get(&key(map)));
+        let picture = gloss_map(own.material).and_then(|(map, channel)| self.glosses.get(&(key(map), channel)));
         let placement = match own.material.gloss {
             Some(Gloss::DecalAlpha) => own.material.decal_placement,
             _ => Placement::default(),

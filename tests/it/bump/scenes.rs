@@ -56,6 +56,25 @@ fn pictures_without_shadows_are_those_of_f64() {
     }
 }
 
+/// One picture is the gloss of two objects, by two of its channels.
+#[test]
+fn a_picture_may_be_gloss_in_two_ways() {
+    let (_context, mut renderer) = renderer();
+    let floor = "object.1.material={ decal = \"../textures/knight-gloss.png\", gloss = \"decal-alpha\", \
+                 specular = [0.6, 0.6, 0.6], shininess = 4 }";
+    let file = data("scenes/knight.toml").display().to_string();
+    let floor = floor.replace("..", &file.replace("/scenes/knight.toml", ""));
+    let mut scene = load(&data("scenes/knight.toml"), &[floor.clone()]);
+    scene.lights.iter_mut().for_each(|light| light.shadow = glumbra::techniques::unshadowed());
+    for _ in 0..2 {
+        let truth = colors(&scene, &[None]);
+        let found = tally(&scene, &[&truth], &picture(&scene, &mut renderer));
+        print("gloss in two ways", &found);
+        assert_eq!(found.wrong, 0, "{:?}", found.first);
+        scene.objects.reverse();
+    }
+}
+
 /// The first light alone has a shadow: with volumes every pixel's shade is known; with a map it may be either, and few
 /// pixels are none of the shadow that is due.
 #[test]

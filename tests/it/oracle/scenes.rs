@@ -47,6 +47,7 @@ pub fn object(name: &str, mesh: Mesh) -> Object {
         material: None,
         skin: None,
         photo: None,
+        pose: None,
         bases: None,
         lit: true,
         casts_shadow: true,

@@ -208,6 +208,8 @@ fn bad_input_gets_one_clear_error_and_no_file() {
         (&["far.obj", "--decal", "label.png", "-o", "out"], "need more than 8192x8192 texels"),
         (&["can.obj", "--decal", "label.png", "-o", "."], "can.obj: is read by this command; name another folder"),
         (&["can.obj", "--decal", "label.png", "--height", "copy/label.png", "-o", "out"], "rename copy/label.png"),
+        (&["can.obj", "--decal", "label.png", "--frame", "3", "-o", "out"], "--frame is of MD2 models"),
+        (&["can.obj", "--decal", "label.png", "--steps", "8", "-o", "out"], "--steps is of MD2 models"),
         (&[&knight, "--frame", "16", "-o", "out"], "has 16 frames; --frame 16 counts from 0"),
         (&[&knight, "--steps", "128", "-o", "out"], "--steps 128 makes a side of the skin 65536 steps long"),
         (&["can.obj", "--decal", "label.png", "-o", "file"], "file: cannot be written"),
