@@ -64,7 +64,7 @@ fn a_picture_may_be_gloss_in_two_ways() {
                  specular = [0.6, 0.6, 0.6], shininess = 4 }";
     let file = data("scenes/knight.toml").display().to_string();
     let floor = floor.replace("..", &file.replace("/scenes/knight.toml", ""));
-    let mut scene = load(&data("scenes/knight.toml"), &[floor.clone()]);
+    let mut scene = load(&data("scenes/knight.toml"), std::slice::from_ref(&floor));
     scene.lights.iter_mut().for_each(|light| light.shadow = glumbra::techniques::unshadowed());
     for _ in 0..2 {
         let truth = colors(&scene, &[None]);
