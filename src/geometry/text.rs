@@ -17,7 +17,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
 ///
 /// # Errors
 ///
-/// A file that cannot be read, and those of a file that is no text.
+/// A file that cannot be read or is no text.
 pub fn read_text(path: &Path) -> Result<String, Error> {
     Ok(decode(&read(path)?, path)?.into_owned())
 }
