@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::resolve::bump::BumpKey;
 use super::resolve::pose::WrittenPose;
 use super::settings::{Origin, SettingsError, suggest};
 use super::{Error, ModelSkin};
-use crate::geometry::normal_map::{self, HeightField};
+use crate::geometry::bump::NormalFormat;
+use crate::geometry::normal_map::{self, Difference, HeightField, HeightWrap, MipColors};
+use crate::geometry::tangents::BasisFit;
 use crate::geometry::{self, Bump, Mesh, Texture, find_file, md2};
 
 /// Ends of the names of files that have a mesh.
@@ -39,6 +40,20 @@ fn still((mesh, warnings): (Mesh, Vec<geometry::Warning>)) -> (Model, Vec<geomet
 
 fn key_framed((model, warnings): (md2::Model, Vec<geometry::Warning>)) -> (Model, Vec<geometry::Warning>) {
     (Model::KeyFramed(Arc::new(model)), warnings)
+}
+
+/// A bump map as written: objects with the same one share it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct BumpKey {
+    pub file: Option<PathBuf>,
+    pub is_height: bool,
+    pub scale_bits: Option<u64>,
+    pub difference: Option<Difference>,
+    pub green: Option<bool>,
+    pub format: NormalFormat,
+    pub colors: MipColors,
+    pub border: HeightWrap,
+    pub fit: BasisFit,
 }
 
 /// A mesh, and its pose if its model is key-framed.

@@ -1,6 +1,5 @@
 //! `bump` and `gloss` of a material, and the keys of [shading] that say how bumps are lit.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::combiners::{self, CombinerProgram, Precision};
@@ -8,7 +7,7 @@ use crate::geometry::bump::{Bump, BumpSource, Gloss, NormalFormat};
 use crate::geometry::normal_map::{Difference, HeightWrap, MipColors};
 use crate::geometry::tangents::BasisFit;
 use crate::geometry::{Texture, read_text};
-use crate::scene::assets::Assets;
+use crate::scene::assets::{Assets, BumpKey};
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError, Value};
 use crate::scene::{BumpMethod, BumpShading, Error, Normalize};
 
@@ -17,20 +16,6 @@ const MOST_SCALE: f64 = 1e6;
 
 /// Greatest side of a normalisation cube map.
 const MOST_CUBE: i64 = 1024;
-
-/// A bump map as written: objects with the same one share it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(in crate::scene) struct BumpKey {
-    file: Option<PathBuf>,
-    is_height: bool,
-    scale_bits: Option<u64>,
-    difference: Option<Difference>,
-    green: Option<bool>,
-    format: NormalFormat,
-    colors: MipColors,
-    border: HeightWrap,
-    fit: BasisFit,
-}
 
 /// `bump = { height = FILE, scale, difference }` or `bump = { normal_map = FILE, green }`, each with `format`, `mipmaps`,
 /// `border` and `basis`.

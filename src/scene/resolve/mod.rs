@@ -1,7 +1,7 @@
 //! [`Settings`] to a [`Scene`]: the keys of a scene, their allowed values, and their defaults.
 
 mod beam;
-pub(super) mod bump;
+mod bump;
 mod camera;
 mod falloff;
 mod light;
