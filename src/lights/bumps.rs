@@ -58,6 +58,7 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
         (method, true) => {
             notes.chosen("light on bumps", method.name(), of_combiners(shading));
             note_clamped_colors(scene, notes);
+            note_lenses(scene, notes);
         }
     }
 }
@@ -157,6 +158,19 @@ fn note_clamped_colors(scene: &Scene, notes: &mut Notes) {
             "light {index}: its colour on a bumped surface reaches {reaches}; register combiners clamp it to 1 before it meets \
              the bumps"
         ));
+    }
+}
+
+/// Warns of lights through a lens beside three passes: each lens point is added with its decal, in one pass.
+fn note_lenses(scene: &Scene, notes: &mut Notes) {
+    let is_apart = matches!(scene.shading.bumps.method, BumpMethod::ThreePass { .. });
+    for (index, light) in scene.lights.iter().enumerate().filter(|_| is_apart) {
+        if light.spot().is_some_and(|spot| spot.lens().is_some()) {
+            notes.warnings.push(format!(
+                "light {index}: its lens points are added one by one, with decal and highlight: bump = \"reference\" lights its \
+                 bumps, not the register combiners of three passes"
+            ));
+        }
     }
 }
 
