@@ -5,24 +5,12 @@
 
 use std::process::ExitCode;
 
-use glumbra::cli::sample_model::{self, ModelSample};
-use glumbra::scene::Embedded;
+use glumbra::cli::sample_model::{self, KNIGHT, ModelSample};
 
 const SAMPLE: ModelSample = ModelSample {
     name: "md2bump",
     about: "A bump-mapped key-framed knight in a room with one light, without shadows.",
-    scene: Embedded {
-        path: "data/scenes/md2shader.toml",
-        text: include_str!("../../data/scenes/md2shader.toml"),
-        pictures: &[
-            ("../textures/bricks.png", include_bytes!("../../data/textures/bricks.png")),
-            ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
-            ("../textures/knight.png", include_bytes!("../../data/textures/knight.png")),
-            ("../textures/knight-gloss.png", include_bytes!("../../data/textures/knight-gloss.png")),
-            ("../textures/knight-height.png", include_bytes!("../../data/textures/knight-height.png")),
-        ],
-        meshes: &[("../meshes/knight.md2", include_bytes!("../../data/meshes/knight.md2"))],
-    },
+    scene: KNIGHT,
     shadows: false,
 };
 

@@ -18,6 +18,20 @@ use crate::scene::Embedded;
 use crate::viewer::{self, ModelCommand, ModelMode, ModelState, Show, Shown};
 use crate::views::View;
 
+/// The room of md2shader and md2bump, with its files.
+pub const KNIGHT: Embedded = Embedded {
+    path: "data/scenes/md2shader.toml",
+    text: include_str!("../../data/scenes/md2shader.toml"),
+    pictures: &[
+        ("../textures/bricks.png", include_bytes!("../../data/textures/bricks.png")),
+        ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
+        ("../textures/knight.png", include_bytes!("../../data/textures/knight.png")),
+        ("../textures/knight-gloss.png", include_bytes!("../../data/textures/knight-gloss.png")),
+        ("../textures/knight-height.png", include_bytes!("../../data/textures/knight-height.png")),
+    ],
+    meshes: &[("../meshes/knight.md2", include_bytes!("../../data/meshes/knight.md2"))],
+};
+
 /// A sample program.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelSample {

@@ -2,6 +2,7 @@
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
+mod bumps;
 mod camera_framing;
 mod default_scene;
 mod error;
@@ -23,11 +24,12 @@ mod views;
 use std::fs;
 use std::path::Path;
 
+pub use bumps::{BumpMethod, BumpShading, Normalize};
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
-    Background, BumpMethod, BumpShading, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind,
-    LightShape, ModelSkin, Normalize, Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
+    Background, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind, LightShape, ModelSkin,
+    Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
 pub use photo::photos_of;
 pub use projected::{

@@ -6,8 +6,9 @@ use std::process::Command;
 
 use assert_cmd::cargo::CommandCargoExt;
 use glam::{DVec2, DVec3};
+use glumbra::cli::sample_model::KNIGHT;
 use glumbra::geometry::md2::{Model, NormalSource, Pose};
-use glumbra::scene::{BumpMethod, Embedded};
+use glumbra::scene::BumpMethod;
 use glumbra::viewer::{Button, ModelMode, ModelState, Reaction, Show};
 
 use crate::support::window::{Running, until};
@@ -15,15 +16,8 @@ use crate::support::xvfb::Xvfb;
 
 const SCENE: &str = "data/scenes/md2shader.toml";
 
-const EMBEDDED: Embedded = Embedded {
-    path: SCENE,
-    text: include_str!("../../data/scenes/md2shader.toml"),
-    pictures: &[],
-    meshes: &[("../meshes/knight.md2", include_bytes!("../../data/meshes/knight.md2"))],
-};
-
 fn state() -> ModelState {
-    let (state, warnings) = ModelState::new(EMBEDDED, Vec::new(), ModelMode::Scene).unwrap();
+    let (state, warnings) = ModelState::new(KNIGHT, Vec::new(), ModelMode::Scene).unwrap();
     assert!(warnings.is_empty(), "{warnings:?}");
     state
 }

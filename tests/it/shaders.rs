@@ -2,15 +2,17 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{c_char, c_void};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use glumbra::context::{self, Context, ContextRequest, LoadedContext};
+use glumbra::context::{self, Context, ContextRequest};
 use glumbra::device::{Device, Error, Measure};
 use glumbra::pass::{Batch, DrawPass, PassList, Program, Stage, Uniform, Work};
 use glumbra::plan::{self, Plan, Request, ViewRequest};
 use glumbra::views::View;
+
+use crate::support::replaced::Replaced;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -98,47 +100,18 @@ unsafe extern "system" fn keep_source(shader: u32, count: i32, strings: *const *
 }
 
 /// A context whose glShaderSource is [`keep_source`].
-struct Kept {
-    inner: Rc<dyn Context>,
-    gl: Rc<glow::Context>,
-}
-
-impl Kept {
-    fn new(inner: Rc<dyn Context>) -> Self {
-        let load = |name: &CStr| match name {
-            name if name == c"glShaderSource" => {
-                DRIVERS.set(inner.address_of(name));
-                keep_source as *const c_void
-            }
-            name => inner.address_of(name),
-        };
-        // SAFETY: the context is current.
-        let gl = Rc::new(unsafe { glow::Context::from_loader_function_cstr(load) });
-        Self { inner, gl }
-    }
-}
-
-impl Context for Kept {
-    fn loaded(&self) -> &LoadedContext {
-        self.inner.loaded()
-    }
-
-    fn make_current(&self) -> Result<(), context::Error> {
-        self.inner.make_current()
-    }
-
-    fn is_current(&self) -> bool {
-        self.inner.is_current()
-    }
-
-    fn gl(&self) -> &Rc<glow::Context> {
-        &self.gl
-    }
+fn keeping(inner: Rc<dyn Context>) -> Rc<dyn Context> {
+    Replaced::new(inner, |name, driver| {
+        (name == c"glShaderSource").then(|| {
+            DRIVERS.set(driver);
+            keep_source as *const c_void
+        })
+    })
 }
 
 #[test]
 fn the_device_compiles_what_is_printed() {
-    let context: Rc<dyn Context> = Rc::new(Kept::new(context::open(&ContextRequest::default()).unwrap()));
+    let context = keeping(context::open(&ContextRequest::default()).unwrap());
     let mut device = Device::new(&context);
     let mut compiled = BTreeSet::new();
     for plan in plans() {

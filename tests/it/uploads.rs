@@ -1,13 +1,15 @@
 //! Uploads of a still scene: all in its first frame. glBufferData and glTexImage2D are counted on their way to the driver.
 
 use std::cell::Cell;
-use std::ffi::{CStr, c_void};
+use std::ffi::c_void;
 use std::path::Path;
 use std::rc::Rc;
 
-use glumbra::context::{self, Context, ContextRequest, LoadedContext};
+use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::plan::Request;
+
+use crate::support::replaced::Replaced;
 
 type BufferData = extern "system" fn(u32, isize, *const c_void, u32);
 type TexImage2D = extern "system" fn(u32, i32, i32, i32, i32, i32, u32, u32, *const c_void);
@@ -44,55 +46,24 @@ extern "system" fn tex_image_2d(
 }
 
 /// A context whose uploads are counted.
-struct Counting {
-    inner: Rc<dyn Context>,
-    gl: Rc<glow::Context>,
-}
-
-impl Counting {
-    fn new(inner: Rc<dyn Context>) -> Self {
-        let load = |name: &CStr| {
-            let driver = inner.address_of(name);
-            match name {
-                name if name == c"glBufferData" => {
-                    BUFFER_DATA.set(driver);
-                    buffer_data as *const c_void
-                }
-                name if name == c"glTexImage2D" => {
-                    TEX_IMAGE_2D.set(driver);
-                    tex_image_2d as *const c_void
-                }
-                _ => driver,
-            }
-        };
-        // SAFETY: the context is current.
-        let gl = Rc::new(unsafe { glow::Context::from_loader_function_cstr(load) });
-        Self { inner, gl }
-    }
-}
-
-impl Context for Counting {
-    fn loaded(&self) -> &LoadedContext {
-        self.inner.loaded()
-    }
-
-    fn make_current(&self) -> Result<(), context::Error> {
-        self.inner.make_current()
-    }
-
-    fn is_current(&self) -> bool {
-        self.inner.is_current()
-    }
-
-    fn gl(&self) -> &Rc<glow::Context> {
-        &self.gl
-    }
+fn counting(inner: Rc<dyn Context>) -> Rc<dyn Context> {
+    Replaced::new(inner, |name, driver| match name {
+        name if name == c"glBufferData" => {
+            BUFFER_DATA.set(driver);
+            Some(buffer_data as *const c_void)
+        }
+        name if name == c"glTexImage2D" => {
+            TEX_IMAGE_2D.set(driver);
+            Some(tex_image_2d as *const c_void)
+        }
+        _ => None,
+    })
 }
 
 #[test]
 fn a_still_scene_uploads_nothing_after_its_first_frame() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/knight.toml");
-    let context: Rc<dyn Context> = Rc::new(Counting::new(context::open(&ContextRequest::default()).unwrap()));
+    let context = counting(context::open(&ContextRequest::default()).unwrap());
     const MAP: &str = "light.shadow.technique=shadow-map";
     for (changes, planned_anew) in [
         (&["shading.bump=reference", MAP][..], true),

@@ -4,6 +4,7 @@ pub mod contexts;
 pub mod gl_headers;
 pub mod lit_box;
 pub mod random;
+pub mod replaced;
 pub mod rims;
 #[cfg(unix)]
 pub mod shell;
