@@ -71,8 +71,13 @@ void main()
     tex3.a = 1.0;
 #endif
     // Constants and colours of the combiners are in [0, 1].
-    vec4 const0 = vec4(clamp(lit.ambient, 0.0, 1.0), 1.0);
-    vec4 col0 = vec4(clamp(lit.diffuse, 0.0, 1.0), 1.0);
-    vec4 col1 = vec4(clamp(lit.specular, 0.0, 1.0), 1.0);
+#ifdef COLORS_IN_RANGE
+#define in_range(color) (color)
+#else
+#define in_range(color) clamp(color, 0.0, 1.0)
+#endif
+    vec4 const0 = vec4(in_range(lit.ambient), 1.0);
+    vec4 col0 = vec4(in_range(lit.diffuse), 1.0);
+    vec4 col1 = vec4(in_range(lit.specular), 1.0);
     fragment = vec4(combine(const0, vec4(0.0), vec4(0.0), col0, col1, tex0, tex1, tex2, tex3).rgb, 1.0);
 }

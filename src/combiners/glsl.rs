@@ -65,7 +65,7 @@ pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
         }
         let _ = writeln!(code, "{writes}    }}");
     }
-    finish(&mut code, program, &ranges);
+    finish(&mut code, program, ranges);
     code
 }
 
@@ -113,35 +113,34 @@ fn general(code: &mut String, writes: &mut String, portion: &Portion, is_rgb: bo
             if portion.scale != Scale::One {
                 result = format!("{result} * {:?}", portion.scale.factor());
             }
-            let clamped = match (range.least < -1.0, range.most > 1.0) {
-                (true, true) => format!("clamp({result}, -1.0, 1.0)"),
-                (true, false) => format!("max({result}, -1.0)"),
-                (false, true) => format!("min({result}, 1.0)"),
-                (false, false) => result,
-            };
+            let clamped = range.clamped(result, -1.0, 1.0);
             let _ = writeln!(writes, "    {register}.{suffix} = kept({clamped});");
         }
     }
 }
 
-fn finish(code: &mut String, program: &CombinerProgram, ranges: &Ranges) {
+fn finish(code: &mut String, program: &CombinerProgram, mut ranges: Ranges) {
     let [a, b, c, d, e, f, g] = program.last.inputs;
     let reads = |wanted: Register| [a, b, c, d].iter().any(|input| input.register == wanted);
     if reads(Register::Product) {
-        let _ = writeln!(code, "    EXACT vec3 product = {} * {};", read(e, true, ranges), read(f, true, ranges));
+        let _ = writeln!(code, "    EXACT vec3 product = {} * {};", read(e, true, &ranges), read(f, true, &ranges));
+        ranges.write_final(Register::Product, ranges.final_product(e, f));
         code.push_str("    vec4 final_product = vec4(kept(product), 0.0);\n");
     }
     if reads(Register::ColorSum) {
-        let sum = "max(spare0.rgb + col1.rgb, 0.0)";
-        let sum = if program.last.clamps_sum { format!("min({sum}, 1.0)") } else { String::from(sum) };
+        let most = if program.last.clamps_sum { 1.0 } else { f32::INFINITY };
+        let range = ranges.color_sum();
+        let sum = range.clamped(String::from("(spare0.rgb + col1.rgb)"), 0.0, most);
+        ranges.write_final(Register::ColorSum, range.map(|value| value.clamp(0.0, most)));
         let _ = writeln!(code, "    vec4 color_sum = vec4({sum}, 0.0);");
     }
     let of_c = ranges.of(c);
-    let [a, b, c, d] = [a, b, c, d].map(|input| read(input, true, ranges));
+    let mixed = ranges.mixed([a, b, c, d]).clamped(String::from("mixed"), 0.0, 1.0);
+    let [a, b, c, d] = [a, b, c, d].map(|input| read(input, true, &ranges));
     let rest = if of_c == Range::ZERO { String::new() } else { format!(" + (1.0 - {a}) * {c}") };
     let _ = writeln!(code, "    EXACT vec3 mixed = {a} * {b}{rest} + {d};");
-    let alpha = read(g, false, ranges);
-    let _ = writeln!(code, "    return vec4(kept(clamp(mixed, 0.0, 1.0)), kept(clamp({alpha}, 0.0, 1.0)));\n}}");
+    let alpha = ranges.of(g).clamped(read(g, false, &ranges), 0.0, 1.0);
+    let _ = writeln!(code, "    return vec4(kept({mixed}), kept({alpha}));\n}}");
 }
 
 /// An input's expression: a vec3, or a float in an alpha portion.

@@ -19,7 +19,17 @@ impl Range {
     /// No bound: a register of which nothing is known.
     const ANY: Self = Self { least: f32::NEG_INFINITY, most: f32::INFINITY };
 
-    fn map(self, function: impl Fn(f32) -> f32) -> Self {
+    /// GLSL of `value`, which lies in this range, within the limits `least` and `most`: clamped only where it may lie outside.
+    pub fn clamped(self, value: String, least: f32, most: f32) -> String {
+        match (self.least < least, self.most > most) {
+            (true, true) => format!("clamp({value}, {least:?}, {most:?})"),
+            (true, false) => format!("max({value}, {least:?})"),
+            (false, true) => format!("min({value}, {most:?})"),
+            (false, false) => value,
+        }
+    }
+
+    pub fn map(self, function: impl Fn(f32) -> f32) -> Self {
         let [a, b] = [self.least, self.most].map(function);
         Self { least: a.min(b), most: a.max(b) }
     }
@@ -101,13 +111,43 @@ impl Ranges {
     /// Ranges of A B, C D and their sum, biased and scaled, before they are clamped.
     pub fn results(&self, portion: &Portion) -> [Range; 3] {
         let [a, b, c, d] = portion.inputs.map(|input| self.of(input));
-        let product = |x: Range, y: Range, dot: bool| {
+        let product = |x: Range, y: Range, dot: bool, is_square: bool| {
             let each = x.times(y);
+            let each = if is_square { Self::square(each) } else { each };
             if dot { each.plus(each).plus(each) } else { each }
         };
-        let (ab, cd) = (product(a, b, portion.dots[0]), product(c, d, portion.dots[1]));
+        let [ab_is_square, cd_is_square] = [0, 2].map(|first| portion.inputs[first] == portion.inputs[first + 1]);
+        let ab = product(a, b, portion.dots[0], ab_is_square);
+        let cd = product(c, d, portion.dots[1], cd_is_square);
         let bias = if portion.biased { 0.5 } else { 0.0 };
         [ab, cd, ab.plus(cd)].map(|range| range.map(|value| (value - bias) * portion.scale.factor()))
+    }
+
+    fn square(product: Range) -> Range {
+        Range { least: product.least.max(0.0), most: product.most }
+    }
+
+    /// Records the range of RGB of the final combiner's own registers.
+    pub fn write_final(&mut self, register: Register, rgb: Range) {
+        self.0.insert((register, true), rgb);
+    }
+
+    /// Range of the product E F of the final combiner.
+    pub fn final_product(&self, e: Variable, f: Variable) -> Range {
+        let product = self.of(e).times(self.of(f));
+        if e == f { Self::square(product) } else { product }
+    }
+
+    /// Range of spare0 + colour 1, before it is clamped.
+    pub fn color_sum(&self) -> Range {
+        let of = |register| self.0.get(&(register, true)).copied().unwrap_or(Range::ANY);
+        of(Register::Spare0).plus(of(Register::Color1))
+    }
+
+    /// Range of A B + (1 - A) C + D of the final combiner, before it is clamped.
+    pub fn mixed(&self, [a, b, c, d]: [Variable; 4]) -> Range {
+        let rest = self.of(a).map(|e| 1.0 - e).times(self.of(c));
+        self.of(a).times(self.of(b)).plus(rest).plus(self.of(d))
     }
 
     /// Records the ranges of a portion's results. `before`: the ranges that it reads.

@@ -2,6 +2,8 @@
 //! which the test is left out.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
@@ -27,6 +29,9 @@ pub const ONCE: Stencil = Stencil {
 const MOST_ITEMS: usize = 64;
 const MOST_TRIANGLES: usize = 64;
 
+/// Most triangles of an item whose vertices are bounded.
+const MOST_TRIANGLES_BOUND: usize = 1 << 16;
+
 /// Steps of a depth buffer of 24 bits by which items must be apart, so that no rounding makes their depths equal.
 const STEPS: f64 = 16.0;
 
@@ -41,23 +46,37 @@ impl Once {
     /// Finds it from the items in view: false only where each of them is one convex layer and their boxes are apart.
     pub fn find(passes: &Passes<'_>, lens: &CameraProjection) -> Self {
         let clip_from_world = lens.camera.clip_from_world();
-        let in_view = |item: &&Drawable| {
-            frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
-        };
-        let seen: Vec<&Drawable> = passes.items.iter().filter(in_view).take(MOST_ITEMS + 1).collect();
-        let boxes: Vec<Aabb> = seen.iter().map(|item| item.bounds.transformed(&item.world_from_model)).collect();
-        let is_apart = |(index, one): (usize, &Aabb)| {
-            boxes[index + 1..].iter().all(|other| apart(one, other, &lens.camera, passes.scene.camera.near))
-        };
         let is_single = |item: &&Drawable| {
             is_flat_quad(item)
                 || (shows_no_back_face(item, &(clip_from_world * item.world_from_model)) && is_convex(item))
         };
-        // Pieces of a cut surface may overlap by a rounding along the cut.
-        let is_cut = matches!(passes.cut_items(lens), Cow::Owned(_));
-        let proved =
-            !is_cut && seen.len() <= MOST_ITEMS && seen.iter().all(is_single) && boxes.iter().enumerate().all(is_apart);
-        Self(passes.keep_all || !proved)
+        let proved = |seen: Seen<'_>| {
+            seen.items.iter().all(is_single) && (0..seen.items.len()).all(|index| seen.is_alone(index, index + 1))
+        };
+        Self(passes.keep_all || !Seen::of(passes, lens).is_some_and(proved))
+    }
+
+    /// The items of the pass `label`, which blends; noted are those that it leaves out. These satisfy `is_idle`: the pass does
+    /// not change their colours, because `why`. And no other item can pass the test for equal depth in their pixels.
+    pub fn items<'a>(
+        passes: &mut Passes<'a>,
+        lens: &CameraProjection,
+        (label, why): (&str, &str),
+        is_idle: impl Fn(&Drawable) -> bool,
+    ) -> Cow<'a, [Drawable]> {
+        if passes.keep_all || !passes.items.iter().any(&is_idle) {
+            return passes.cut_items(lens);
+        }
+        let Some(seen) = Seen::of(passes, lens) else { return passes.cut_items(lens) };
+        let is_needed = |index: &usize| !is_idle(seen.items[*index]) || !seen.is_alone(*index, 0);
+        let (needed, idle): (Vec<usize>, Vec<usize>) = (0..seen.items.len()).partition(is_needed);
+        let names: BTreeSet<&str> = idle.iter().map(|index| seen.items[*index].label.as_str()).collect();
+        if !names.is_empty() {
+            let names = names.into_iter().collect::<Vec<_>>().join(", ");
+            let why = format!("{why}, and no other surface in view is close");
+            passes.notes.left_out(format!("{names} in pass \"{label}\""), why);
+        }
+        needed.into_iter().map(|index| seen.items[index].clone()).collect()
     }
 
     /// Stencil state of a pass that blends.
@@ -79,6 +98,45 @@ impl Once {
     }
 }
 
+/// The items in view, if they are few and none is cut: pieces of a cut surface may overlap by a rounding along the cut.
+struct Seen<'a> {
+    items: Vec<&'a Drawable>,
+    /// Their bounds in world space, of their boxes' corners.
+    boxes: Vec<Aabb>,
+    /// The same, of their vertices.
+    tight: OnceCell<Vec<Aabb>>,
+    viewer: Viewer,
+    near: f64,
+}
+
+impl<'a> Seen<'a> {
+    fn of(passes: &Passes<'a>, lens: &CameraProjection) -> Option<Self> {
+        if matches!(passes.cut_items(lens), Cow::Owned(_)) {
+            return None;
+        }
+        let clip_from_world = lens.camera.clip_from_world();
+        let in_view = |item: &&Drawable| {
+            frustum::overlap(&(clip_from_world * item.world_from_model), &item.bounds) != Overlap::Outside
+        };
+        let items: Vec<&Drawable> = passes.items.iter().filter(in_view).take(MOST_ITEMS + 1).collect();
+        let boxes = items.iter().map(|item| item.bounds.transformed(&item.world_from_model)).collect();
+        let seen = Self { items, boxes, tight: OnceCell::new(), viewer: lens.camera, near: passes.scene.camera.near };
+        (seen.items.len() <= MOST_ITEMS).then_some(seen)
+    }
+
+    /// Tests whether an item is apart from each other one from index `first` on.
+    fn is_alone(&self, index: usize, first: usize) -> bool {
+        let apart_in = |boxes: &[Aabb], other| apart(&boxes[index], &boxes[other], &self.viewer, self.near);
+        let others = (first..self.boxes.len()).filter(|other| *other != index);
+        let mut close = others.filter(|other| !apart_in(&self.boxes, *other));
+        close.all(|other| apart_in(self.tight.get_or_init(|| self.tight_boxes()), other))
+    }
+
+    fn tight_boxes(&self) -> Vec<Aabb> {
+        self.items.iter().zip(&self.boxes).map(|(item, bounds)| tight_box(item).unwrap_or(*bounds)).collect()
+    }
+}
+
 /// Tests whether two boxes are farther from each other, along the eye's ray too, than depths round.
 fn apart(one: &Aabb, other: &Aabb, viewer: &Viewer, near: f64) -> bool {
     let gap = (one.min - other.max).max(other.min - one.max).max_element();
@@ -89,6 +147,17 @@ fn apart(one: &Aabb, other: &Aabb, viewer: &Viewer, near: f64) -> bool {
     let scale = viewer.clip_from_eye;
     let cosine = 1.0 / (1.0 + scale.x_axis.x.powi(-2) + scale.y_axis.y.powi(-2)).sqrt();
     gap * cosine > STEPS * step
+}
+
+/// The bounds of an item's vertices in world space; `None` for a large mesh, and where the vertex stage moves vertices.
+fn tight_box(item: &Drawable) -> Option<Aabb> {
+    let indices = item.mesh.indices.get(item.indices.start as usize..item.indices.end as usize)?;
+    if indices.len() > 3 * MOST_TRIANGLES_BOUND || item.wave.is_some() {
+        return None;
+    }
+    let place = |index: &u32| item.mesh.positions.get(*index as usize).map(|at| DVec3::from_array(at.map(f64::from)));
+    let places = indices.iter().filter_map(place).map(|at| item.world_from_model.transform_point3(at));
+    Some(Aabb::from_points(places)).filter(|bounds| !bounds.is_empty())
 }
 
 /// The corners of an item's triangles; `None` for a large mesh, and where the vertex stage moves vertices.

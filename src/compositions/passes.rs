@@ -135,8 +135,24 @@ impl Passes<'_> {
         ending: &Ending,
     ) -> Result<(), Error> {
         let items = self.cut_items(onto.lens);
+        self.surfaces_of(&items, redraw, onto, terms, ending)
+    }
+
+    /// The same with `items` alone, which are the scene's or cut from them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Passes::surfaces`].
+    pub fn surfaces_of(
+        &mut self,
+        items: &[Drawable],
+        redraw: Redraw,
+        onto: &Onto<'_>,
+        terms: &[LightTerm],
+        ending: &Ending,
+    ) -> Result<(), Error> {
         let batches =
-            (self.surface)(self.scene, &items, &onto.lens.camera, terms, self.photos, ending, self.derived, self.list);
+            (self.surface)(self.scene, items, &onto.lens.camera, terms, self.photos, ending, self.derived, self.list);
         let mut batches = batches.ok_or_else(|| Self::singular(terms))?;
         self.cut_at_far(onto.lens, &mut batches);
         let Onto { target, viewport, clear, mut state, .. } = *onto;

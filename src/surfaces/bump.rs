@@ -11,8 +11,8 @@ use crate::lights::drawable::upload;
 use crate::lights::ending::FormulaPart;
 use crate::lights::{Drawable, Ending};
 use crate::pass::{
-    BumpMap, Chunk, Define, Filter, Format, GlossSource, ImageDesc, ImageId, Input, PassList, Sampler, Storage, Wrap,
-    glsl,
+    BumpMap, Chunk, Define, Filter, Format, GlossSource, ImageDesc, ImageId, Input, PassList, Sampler, Storage,
+    Uniform, UniformValue, Wrap, glsl,
 };
 use crate::scene::{BumpMethod, BumpShading, Normalize};
 
@@ -134,6 +134,18 @@ impl Bumps {
         let program = Chunk { name: "register combiners".into(), text: text.into() };
         Some([program, glsl!("surfaces/combined.frag").for_light(light.index)])
     }
+}
+
+/// Tests whether the colours of `lights` on a surface lie in [0, 1] without a clamp: products of colours and shares that do.
+pub fn are_in_range(uniforms: &[Uniform], lights: &[&LightParts]) -> bool {
+    let starts = ["scene_ambient", "material_diffuse", "material_specular", "light_diffuse_", "light_specular_"];
+    let is_color = |uniform: &&Uniform| starts.iter().any(|start| uniform.name.starts_with(start));
+    let is_in_range = |value: &UniformValue| match value {
+        UniformValue::Vec3(color) => color.min_element() >= 0.0 && color.max_element() <= 1.0,
+        _ => false,
+    };
+    let is_plain = |light: &&LightParts| !light.has_ambient && !light.has_attenuation && light.projected.is_none();
+    lights.iter().all(is_plain) && uniforms.iter().filter(is_color).all(|uniform| is_in_range(&uniform.value))
 }
 
 /// Binds a normal map.

@@ -143,6 +143,9 @@ pub fn of(
     let mut defines = defines(item, lights, ending, needs, &cut, viewer);
     defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
     defines.extend(gloss_defines);
+    if bumps.are_combined() && bump::are_in_range(&uniforms, lights) {
+        defines.push(Define::flag("COLORS_IN_RANGE"));
+    }
     if *ending == Ending::Part(FormulaPart::Specular) {
         defines.push(Define::flag("SPECULAR_ALONE"));
     }

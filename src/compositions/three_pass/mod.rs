@@ -10,7 +10,7 @@ use super::{Composition, Error};
 use crate::lights::ending::FormulaPart;
 use crate::lights::light::Addition;
 use crate::lights::{CameraView, Drawable, Ending, LightTerm};
-use crate::pass::{Blend, DrawState, Target, glsl};
+use crate::pass::{Blend, DrawState, Redraw, Target, glsl};
 use crate::scene::{PicturePasses, Scene};
 
 pub struct ThreePass;
@@ -60,17 +60,22 @@ impl Composition for ThreePass {
     }
 }
 
+/// Tests whether an item may show highlights.
+fn shines(item: &Drawable) -> bool {
+    item.lit && item.material.specular != [0.0; 3]
+}
+
 impl Passes<'_> {
     /// Tests whether any light makes a highlight on a surface in view.
     fn shines(&self, terms: &[LightTerm]) -> bool {
-        let shines = |item: &&Drawable| item.lit && item.material.specular != [0.0; 3];
         let is_specular = |term: &LightTerm| term.source.specular != [0.0; 3];
-        self.keep_all
-            || (terms.iter().any(is_specular) && CameraView::new(self.scene, self.items).visible.iter().any(shines))
+        let visible = CameraView::new(self.scene, self.items).visible;
+        self.keep_all || (terms.iter().any(is_specular) && visible.iter().any(|item| shines(item)))
     }
 
     /// The second pass. Without highlights its alpha is not read.
     fn decals(&mut self, target: Target, lens: &CameraProjection, once: Once, shines: bool) -> Result<(), Error> {
+        // Their alpha is 1 since the first pass.
         let is_white = |item: &Drawable| item.decal().is_none() && (!shines || item.gloss().is_none());
         if !self.keep_all && CameraView::new(self.scene, self.items).visible.iter().all(|item| is_white(item)) {
             self.notes.left_out("pass \"decals and gloss\"", "no surface in view has a decal or a gloss map");
@@ -80,7 +85,10 @@ impl Passes<'_> {
         let state = DrawState { stencil, blend, ..DrawState::REPEAT };
         let first = self.first("decals and gloss", target, lens, [0.0; 4]);
         let onto = Onto { state: lens.of_surfaces(state), clear: once.clear(), ..first };
-        self.surfaces(&onto, &[], &Ending::Part(FormulaPart::Decal(glsl!("three_pass/decal.frag"))))
+        let why = "no decal and no gloss map";
+        let items = Once::items(self, lens, (onto.label, why), is_white);
+        let ending = Ending::Part(FormulaPart::Decal(glsl!("three_pass/decal.frag")));
+        self.surfaces_of(&items, Redraw::Always, &onto, &[], &ending)
     }
 
     /// The third pass of one light, in the pixels that it may reach.
@@ -105,6 +113,7 @@ impl Passes<'_> {
         let first = self.first(&label, target, lens, [0.0; 4]);
         let onto = Onto { state: lens.of_surfaces(state), clear: once.clear(), ..first };
         let term = LightTerm { addition: Addition::Light, ..term.clone() };
-        self.surfaces(&onto, &[term], &Ending::Part(FormulaPart::Specular))
+        let items = Once::items(self, lens, (&label, "not specular"), |item| !shines(item));
+        self.surfaces_of(&items, Redraw::Always, &onto, &[term], &Ending::Part(FormulaPart::Specular))
     }
 }
