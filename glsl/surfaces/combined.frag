@@ -20,7 +20,7 @@ uniform sampler2D decal_map;
 uniform sampler2D gloss_map;
 #endif
 
-EXACT out vec4 fragment;
+out vec4 fragment;
 
 // A vector's direction as a colour, v / 2 + 1 / 2.
 vec4 direction_color(vec3 v)

@@ -26,12 +26,17 @@ pub fn unread(program: &CombinerProgram) -> Vec<String> {
 
 /// GLSL of the function `vec4 combine(vec4 const0, …, vec4 tex3)` and of those that it calls. Arguments: constants, fog,
 /// two colours, the four textures; result: RGBA of the final combiner in [0, 1]. The program's own constants replace the
-/// arguments. The macro `EXACT`, `precise` or nothing, must be defined. Arguments must lie in [0, 1].
+/// arguments. Arguments must lie in [0, 1]. The macro `REGISTER` qualifies what is written to registers: where `EXACT` is
+/// `precise`, `#define REGISTER EXACT` makes every driver round as the interpreter does. It is nothing by default for floats,
+/// as no colour shows their last bit; nine bits show it where they round.
 pub fn fragment(program: &CombinerProgram, precision: Precision) -> String {
     let mut code = String::from(match precision {
-        Precision::Float => "float kept(float x) { return x; }\nvec3 kept(vec3 x) { return x; }\n",
+        Precision::Float => {
+            "#ifndef REGISTER\n#define REGISTER\n#endif\nfloat kept(float x) { return x; }\nvec3 kept(vec3 x) { return x; }\n"
+        }
         Precision::NineBits => {
-            "float kept(float x) { return floor(x * 255.0 + 0.5) / 255.0; }\n\
+            "#ifndef REGISTER\n#define REGISTER EXACT\n#endif\n\
+             float kept(float x) { return floor(x * 255.0 + 0.5) / 255.0; }\n\
              vec3 kept(vec3 x) { return floor(x * 255.0 + 0.5) / 255.0; }\n"
         }
     });
@@ -95,13 +100,13 @@ fn general(code: &mut String, writes: &mut String, portion: &Portion, is_rgb: bo
     };
     let [a, b, c, d] = &inputs;
     if needs_ab || needs_sum {
-        let _ = writeln!(code, "    EXACT {kind} ab{name} = {};", product([a, b], portion.dots[0]));
+        let _ = writeln!(code, "    REGISTER {kind} ab{name} = {};", product([a, b], portion.dots[0]));
     }
     if needs_cd || needs_sum {
-        let _ = writeln!(code, "    EXACT {kind} cd{name} = {};", product([c, d], portion.dots[1]));
+        let _ = writeln!(code, "    REGISTER {kind} cd{name} = {};", product([c, d], portion.dots[1]));
     }
     if needs_sum {
-        let _ = writeln!(code, "    EXACT {kind} sum{name} = ab{name} + cd{name};");
+        let _ = writeln!(code, "    REGISTER {kind} sum{name} = ab{name} + cd{name};");
     }
     let unclamped = ranges.results(portion);
     for ((output, value), range) in portion.outputs.into_iter().zip(["ab", "cd", "sum"]).zip(unclamped) {
@@ -123,7 +128,7 @@ fn finish(code: &mut String, program: &CombinerProgram, mut ranges: Ranges) {
     let [a, b, c, d, e, f, g] = program.last.inputs;
     let reads = |wanted: Register| [a, b, c, d].iter().any(|input| input.register == wanted);
     if reads(Register::Product) {
-        let _ = writeln!(code, "    EXACT vec3 product = {} * {};", read(e, true, &ranges), read(f, true, &ranges));
+        let _ = writeln!(code, "    REGISTER vec3 product = {} * {};", read(e, true, &ranges), read(f, true, &ranges));
         ranges.write_final(Register::Product, ranges.final_product(e, f));
         code.push_str("    vec4 final_product = vec4(kept(product), 0.0);\n");
     }
@@ -138,7 +143,7 @@ fn finish(code: &mut String, program: &CombinerProgram, mut ranges: Ranges) {
     let mixed = ranges.mixed([a, b, c, d]).clamped(String::from("mixed"), 0.0, 1.0);
     let [a, b, c, d] = [a, b, c, d].map(|input| read(input, true, &ranges));
     let rest = if of_c == Range::ZERO { String::new() } else { format!(" + (1.0 - {a}) * {c}") };
-    let _ = writeln!(code, "    EXACT vec3 mixed = {a} * {b}{rest} + {d};");
+    let _ = writeln!(code, "    REGISTER vec3 mixed = {a} * {b}{rest} + {d};");
     let alpha = ranges.of(g).clamped(read(g, false, &ranges), 0.0, 1.0);
     let _ = writeln!(code, "    return vec4(kept({mixed}), kept({alpha}));\n}}");
 }

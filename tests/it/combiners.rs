@@ -292,7 +292,11 @@ fn by_gl(device: &mut Device, program: &CombinerProgram, precision: Precision, s
                 chunk("position.vert", include_str!("../../glsl/common/position.vert").to_owned()),
                 chunk("depth.vert", include_str!("../../glsl/common/depth.vert").to_owned()),
             ],
-            fragment: vec![chunk("combiners", combiners::fragment(program, precision)), chunk("main", main)],
+            fragment: vec![
+                chunk("exact", "#define REGISTER EXACT\n".into()),
+                chunk("combiners", combiners::fragment(program, precision)),
+                chunk("main", main),
+            ],
             attributes: vec![Attribute::Position],
         },
         meaning: FixedFunctionDesc::Shader("combiners"),
