@@ -17,12 +17,12 @@ faults! {
     "blend-a-draw-late" [GL_BLEND glEnable glDisable]
     "Blending is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::BLEND { call.hold() };
-        draw => release
+        drawn => release
     }
     "blend-func-a-draw-late" [glBlendFuncSeparate]
     "Factors hold from the second draw after they are set." {
         glBlendFuncSeparate => hold;
-        draw => release
+        drawn => release
     }
     "alpha-blended-as-rgb" [glBlendFuncSeparate]
     "Alpha is blended by the factors of RGB." {
@@ -110,7 +110,7 @@ faults! {
     "color-mask-a-draw-late" [glColorMask]
     "A colour mask holds from the second draw after it is set." {
         glColorMask => hold;
-        draw => release
+        drawn => release
     }
     "color-not-cleared-by-buffer" [glClearBufferfv GL_COLOR]
     "glClearBufferfv leaves colours as they are." {

@@ -110,13 +110,14 @@ pub type Invoke = unsafe fn(*const c_void, &[Value]) -> Value;
 /// What is done at a call.
 pub type Act = fn(&mut Call);
 
-/// Functions, and what is done at each call of one of them. `draw` stands for all that draw, `clear` for all that clear,
-/// `copy` for all that copy from a framebuffer.
+/// Functions, and what is done at each call of one of them. `draw` stands for those that draw from arrays, `drawn` for glEnd
+/// too, before which no state may be asked; `clear` for all that clear, `copy` for all that copy from a framebuffer.
 pub type Hook = (&'static [&'static str], Act);
 
 /// Functions that one word stands for.
-const GROUPS: [(&str, &[&str]); 3] = [
-    ("draw", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glEnd"]),
+const GROUPS: [(&str, &[&str]); 4] = [
+    ("draw", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements"]),
+    ("drawn", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glEnd"]),
     ("clear", &["glClear", "glClearBufferfv", "glClearBufferiv", "glClearBufferfi"]),
     ("copy", &["glCopyTexSubImage2D", "glCopyTexImage2D"]),
 ];

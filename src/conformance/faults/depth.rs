@@ -33,7 +33,7 @@ faults! {
     "depth-func-a-draw-late" [glDepthFunc]
     "A depth function holds from the second draw after it is set." {
         glDepthFunc => hold;
-        draw => release
+        drawn => release
     }
     "depth-test-ignored" [GL_DEPTH_TEST glEnable]
     "The depth test is never on." { glEnable => |call| if call.u(0) == glow::DEPTH_TEST { call.skip() } }
@@ -42,7 +42,7 @@ faults! {
     "depth-test-a-draw-late" [GL_DEPTH_TEST glEnable glDisable]
     "The depth test is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::DEPTH_TEST { call.hold() };
-        draw => release
+        drawn => release
     }
     "depth-written-without-test" [GL_DEPTH_TEST glDepthMask]
     "Depth is written where the depth test is off." {
@@ -69,7 +69,7 @@ faults! {
     "depth-mask-a-draw-late" [glDepthMask]
     "A depth mask holds from the second draw after it is set." {
         glDepthMask => hold;
-        draw => release
+        drawn => release
     }
     "depth-lost-without-colour" [glDepthMask glColorMask]
     "With colour writes off depth is not written." {
@@ -83,7 +83,7 @@ faults! {
     "The stencil test does not keep depth from being written." {
         draw => |call| {
             let writes = call.get(glow::DEPTH_WRITEMASK) != 0 && call.enabled(glow::DEPTH_TEST);
-            if call.enabled(glow::STENCIL_TEST) && writes && call.name != "glEnd" {
+            if call.enabled(glow::STENCIL_TEST) && writes {
                 call.other("glDepthMask", &[0.0]);
                 call.again();
                 call.other("glDepthMask", &[1.0]);
@@ -111,7 +111,7 @@ faults! {
     "depth-range-a-draw-late" [glDepthRangef]
     "A depth range holds from the second draw after it is set." {
         glDepthRangef glDepthRange => hold;
-        draw => release
+        drawn => release
     }
     "depth-clamp-ignored" [GL_DEPTH_CLAMP glEnable]
     "Near and far planes clip under depth clamp." { glEnable => |call| if call.u(0) == glow::DEPTH_CLAMP { call.skip() } }
@@ -120,7 +120,7 @@ faults! {
     "depth-clamp-a-draw-late" [GL_DEPTH_CLAMP glEnable glDisable]
     "Depth clamp is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::DEPTH_CLAMP { call.hold() };
-        draw => release
+        drawn => release
     }
     "depth-clamp-lost-without-colour" [GL_DEPTH_CLAMP glColorMask]
     "With colour writes off depth clamp is off." {

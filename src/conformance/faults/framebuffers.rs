@@ -72,7 +72,7 @@ faults! {
     "framebuffer-a-draw-late" [glBindFramebuffer]
     "Another framebuffer is drawn into from the second draw on." {
         glBindFramebuffer => hold;
-        draw clear glCheckFramebufferStatus glFramebufferTexture2D glReadPixels copy => release
+        drawn clear glCheckFramebufferStatus glFramebufferTexture2D glReadPixels copy => release
     }
     "framebuffer-read-only" [glBindFramebuffer GL_FRAMEBUFFER GL_DRAW_FRAMEBUFFER]
     "Binding for drawing and reading binds for drawing alone." {

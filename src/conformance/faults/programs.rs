@@ -6,7 +6,7 @@ faults! {
     "program-a-draw-late" [glUseProgram]
     "Another program is used from the second draw on." {
         glUseProgram => |call| if call.u(0) != 0 { call.hold() };
-        draw => release
+        drawn => release
     }
     "uniform-integers-ignored" [glUniform1i]
     "Integers stay 0: every sampler reads unit 0." { glUniform1i => |call| call.set(1, 0) }

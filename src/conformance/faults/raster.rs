@@ -23,7 +23,7 @@ faults! {
     "culling-a-draw-late" [GL_CULL_FACE glCullFace glEnable glDisable]
     "Culling is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::CULL_FACE { call.hold() };
-        draw => release
+        drawn => release
     }
     "cull-face-swapped" [glCullFace GL_FRONT GL_BACK]
     "FRONT culls back faces and BACK front faces." { glCullFace => |call| call.exchange(0, glow::FRONT, glow::BACK) }
@@ -32,7 +32,7 @@ faults! {
     "cull-face-a-draw-late" [glCullFace]
     "A face to cull is another from the second draw on." {
         glCullFace => hold;
-        draw => release
+        drawn => release
     }
     "winding-ignored" [glFrontFace GL_CW]
     "Counter-clockwise faces are the front whatever glFrontFace says." { glFrontFace => |call| call.set(0, glow::CCW) }
@@ -41,7 +41,7 @@ faults! {
     "winding-a-draw-late" [glFrontFace]
     "A winding holds from the second draw after it is set." {
         glFrontFace => hold;
-        draw => release
+        drawn => release
     }
     "offset-ignored" [GL_POLYGON_OFFSET_FILL glEnable]
     "Filled polygons have no offset." { glEnable => |call| if call.u(0) == glow::POLYGON_OFFSET_FILL { call.skip() } }
@@ -50,12 +50,12 @@ faults! {
     "offset-a-draw-late" [GL_POLYGON_OFFSET_FILL glPolygonOffset]
     "The offset is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::POLYGON_OFFSET_FILL { call.hold() };
-        draw => release
+        drawn => release
     }
     "offset-values-a-draw-late" [glPolygonOffset]
     "Factor and units of the offset hold from the second draw after they are set." {
         glPolygonOffset glPolygonOffsetClamp glPolygonOffsetClampEXT => hold;
-        draw => release
+        drawn => release
     }
     "offset-factor-ignored" [glPolygonOffset]
     "The factor of the offset is 0." {
@@ -128,7 +128,7 @@ faults! {
     "viewport-a-draw-late" [glViewport]
     "A viewport holds from the second draw after it is set." {
         glViewport => hold;
-        draw => release
+        drawn => release
     }
     "scissor-ignored" [GL_SCISSOR_TEST glEnable]
     "There is no scissor." { glEnable => |call| if call.u(0) == glow::SCISSOR_TEST { call.skip() } }
@@ -137,12 +137,12 @@ faults! {
     "scissor-a-draw-late" [GL_SCISSOR_TEST glScissor]
     "The scissor is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::SCISSOR_TEST { call.hold() };
-        draw => release
+        drawn => release
     }
     "scissor-box-a-draw-late" [glScissor]
     "The scissor's rectangle is another from the second draw on." {
         glScissor => hold;
-        draw => release
+        drawn => release
     }
     "scissor-one-pixel-left" [glScissor]
     "The scissor lies one pixel to the left." { glScissor => |call| call.add(0, -1.0) }
@@ -165,7 +165,7 @@ faults! {
     "clip-distances-a-draw-late" [GL_CLIP_DISTANCE0]
     "Clip distances are switched from the second draw on." {
         glEnable glDisable => |call| if (glow::CLIP_DISTANCE0..=glow::CLIP_DISTANCE7).contains(&call.u(0)) { call.hold() };
-        draw => release
+        drawn => release
     }
     "last-triangle-missing" [glDrawElements GL_TRIANGLES]
     "The last three indices are not drawn." {

@@ -210,7 +210,7 @@ faults! {
     "sampler-object-a-draw-late" [glBindSampler]
     "A sampler object is bound from the second draw on." {
         glBindSampler => hold;
-        draw => release
+        drawn => release
     }
     "cube-map-seams" [GL_TEXTURE_CUBE_MAP_SEAMLESS]
     "Cube maps are never seamless." { glEnable => |call| if call.u(0) == glow::TEXTURE_CUBE_MAP_SEAMLESS { call.skip() } }

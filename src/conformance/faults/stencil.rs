@@ -106,7 +106,7 @@ faults! {
     "stencil-ops-a-draw-late" [glStencilOpSeparate]
     "Stencil operations hold from the second draw after they are set." {
         glStencilOpSeparate => hold;
-        draw => release
+        drawn => release
     }
     "incr-wrap-saturates" [GL_INCR_WRAP glStencilOpSeparate]
     "INCR_WRAP stops at the largest value." {
@@ -167,7 +167,7 @@ faults! {
     "stencil-mask-a-draw-late" [glStencilMask]
     "A stencil write mask holds from the second draw after it is set." {
         glStencilMask glStencilMaskSeparate => hold;
-        draw => release
+        drawn => release
     }
     "stencil-read-mask-ignored" [glStencilFunc]
     "The stencil test compares every bit." {
@@ -199,7 +199,7 @@ faults! {
     "stencil-func-a-draw-late" [glStencilFunc]
     "A stencil function holds from the second draw after it is set." {
         glStencilFunc glStencilFuncSeparate => hold;
-        draw => release
+        drawn => release
     }
     "stencil-less-is-greater" [GL_LESS GL_GREATER glStencilFunc]
     "The stencil test has its operands exchanged under LESS and GREATER." {
@@ -228,7 +228,7 @@ faults! {
     "stencil-test-a-draw-late" [GL_STENCIL_TEST glEnable glDisable]
     "The stencil test is switched from the second draw on." {
         glEnable glDisable => |call| if call.u(0) == glow::STENCIL_TEST { call.hold() };
-        draw => release
+        drawn => release
     }
     "stencil-clears-to-zero" [glClearBufferiv GL_STENCIL]
     "The stencil buffer is cleared to 0 whatever is wanted." {
