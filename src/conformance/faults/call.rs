@@ -122,6 +122,15 @@ const GROUPS: [(&str, &[&str]); 4] = [
     ("copy", &["glCopyTexSubImage2D", "glCopyTexImage2D"]),
 ];
 
+/// Functions with those that a group's word stands for.
+pub fn whole(functions: &[&'static str]) -> Vec<&'static str> {
+    let members = |name: &&'static str| match GROUPS.iter().find(|(group, _)| group == name) {
+        Some((_, members)) => members.to_vec(),
+        None => vec![*name],
+    };
+    functions.iter().flat_map(members).collect()
+}
+
 /// What a context with a fault keeps from call to call.
 pub struct Layer {
     hooks: Vec<(Vec<&'static str>, Box<dyn Fn(&mut Call)>)>,
@@ -164,11 +173,7 @@ impl Layer {
 
     /// Has `act` done at each call of `functions`.
     pub fn hook(&mut self, functions: &[&'static str], act: impl Fn(&mut Call) + 'static) {
-        let whole = |name: &&'static str| match GROUPS.iter().find(|(group, _)| group == name) {
-            Some((_, members)) => members.to_vec(),
-            None => vec![*name],
-        };
-        self.hooks.push((functions.iter().flat_map(whole).collect(), Box::new(act)));
+        self.hooks.push((whole(functions), Box::new(act)));
     }
 
     /// Tests whether a function is changed.

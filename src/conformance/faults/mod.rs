@@ -73,6 +73,18 @@ enum Wrong {
     Text(fn(&Source) -> Option<String>),
 }
 
+impl Fault {
+    /// GL functions that it changes, or groups of them.
+    pub fn changes(&self) -> impl Iterator<Item = &'static str> {
+        match self.wrong {
+            Wrong::Calls(hooks) => hooks,
+            Wrong::Text(_) => &[],
+        }
+        .iter()
+        .flat_map(|(functions, _)| call::whole(functions))
+    }
+}
+
 /// The faults by kind.
 const KINDS: &[&[Fault]] = &[
     stencil::FAULTS,
