@@ -42,7 +42,7 @@ use self::bench::{Bench, Mutation};
 use crate::context::{Context, ContextInfo};
 
 /// One rule of GL, and how it is checked.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Rule {
     /// Id like `GL-C1`: a letter for the kind.
     pub id: &'static str,
