@@ -12,6 +12,8 @@ mod copies;
 mod cube_maps;
 mod depth;
 mod environment;
+#[doc(hidden)]
+pub mod faults;
 mod filter;
 mod findings;
 mod fixed;
