@@ -4,9 +4,11 @@ use std::cmp::Ordering;
 
 use glow::HasContext;
 
-use super::image::{GlFormat, GlImage, Sampling};
+use super::format::GlFormat;
+use super::image::GlImage;
 use super::mutation::Mutation;
 use super::program::Shader;
+use super::sampling::Sampling;
 use super::state::{GlCompare, GlState, apply};
 use super::surface::Surface;
 use super::{Bench, Error};
@@ -83,7 +85,7 @@ impl Bench {
         unsafe {
             gl.use_program(Some(program));
             for (unit, &(name, image, sampling)) in draw.images.iter().enumerate() {
-                self.bind_image(unit as u32, image, sampling);
+                self.bind_image(unit as u32, image, sampling)?;
                 gl.uniform_1_i32(gl.get_uniform_location(program, name).as_ref(), unit as i32);
                 if filter_first && let Some(compare) = sampling.compare {
                     let location = gl.get_uniform_location(program, "shadow_function");
@@ -128,9 +130,23 @@ impl Bench {
         inputs: &[[f32; 4]],
         images: &[(&str, &GlImage, Sampling)],
     ) -> Result<Vec<[f32; 4]>, Error> {
+        self.map_by(Shader::of(fragment), inputs, images)
+    }
+
+    /// The same with declarations, and another version of GLSL.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn map_by(
+        &self,
+        shader: Shader,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &GlImage, Sampling)],
+    ) -> Result<Vec<[f32; 4]>, Error> {
         let size = [ROW.min(inputs.len()).max(1), inputs.len().div_ceil(ROW).max(1)].map(|side| side as u32);
         let surface = self.surface(size, Some(GlFormat::Rgba32F), None)?;
-        self.map_into(&surface, GlState { depth: None, ..GlState::WRITE }, fragment, inputs, images)?;
+        self.map_into_by(&surface, GlState { depth: None, ..GlState::WRITE }, shader, inputs, images)?;
         let mut results = surface.floats();
         results.truncate(inputs.len());
         Ok(results)
@@ -149,11 +165,21 @@ impl Bench {
         inputs: &[[f32; 4]],
         images: &[(&str, &GlImage, Sampling)],
     ) -> Result<(), Error> {
+        self.map_into_by(surface, state, Shader::of(fragment), inputs, images)
+    }
+
+    fn map_into_by(
+        &self,
+        surface: &Surface,
+        state: GlState,
+        shader: Shader,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &GlImage, Sampling)],
+    ) -> Result<(), Error> {
         let mut padded = inputs.to_vec();
         padded.resize(surface.size[0] as usize * surface.size[1] as usize, [0.0; 4]);
         let inputs = self.float_image(surface.size, &padded)?;
         let images: Vec<_> = images.iter().copied().chain([("inputs", &inputs, Sampling::NEAREST)]).collect();
-        let shader = Shader { declarations: "uniform sampler2D inputs;", fragment, ..Shader::PLAIN };
         self.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(surface, state, &full(0.0)) })
     }
 }

@@ -1,6 +1,7 @@
 //! Texture environments as data, and the GL calls that set them: GL_COMBINE alone [GL 4.6 compatibility, 16.1].
 
-use super::image::{GlImage, Sampling};
+use super::image::GlImage;
+use super::sampling::Sampling;
 use crate::context::compatibility::{Binding, raw};
 
 /// GL_COMBINE's functions [GL 4.6 compatibility, tables 16.20 and 16.21].

@@ -168,7 +168,7 @@ impl FixedBench {
                 self.gl.disable(off);
             }
             if let Some((image, sampling, mode)) = draw.image {
-                bench.bind_image(0, image, sampling);
+                bench.bind_image(0, image, sampling)?;
                 let mode = match mode {
                     DepthMode::Luminance => raw::LUMINANCE,
                     DepthMode::Intensity => raw::INTENSITY,
@@ -229,16 +229,16 @@ impl FixedBench {
                 self.gl.disable(off);
             }
             for (index, unit) in (0..).zip(&units) {
-                bench.bind_image(index, unit.image, unit.sampling);
+                bench.bind_image(index, unit.image, unit.sampling)?;
                 self.load_matrix(glow::TEXTURE, DMat4::IDENTITY);
                 COORDINATES.iter().for_each(|(_, coordinate)| self.gl.disable(*coordinate));
-                self.gl.enable(unit.image.target);
+                self.gl.enable(unit.image.shape.target());
                 set(&self.binding, &unit.environment);
             }
             self.submit_units(draw, &units);
             for (index, unit) in (0..).zip(&units) {
                 self.gl.active_texture(glow::TEXTURE0 + index);
-                self.gl.disable(unit.image.target);
+                self.gl.disable(unit.image.shape.target());
             }
             self.gl.active_texture(glow::TEXTURE0);
         }
