@@ -14,6 +14,7 @@ mod program;
 mod sampling;
 mod state;
 mod surface;
+mod texgen;
 mod transfer;
 
 use std::cell::RefCell;
@@ -34,6 +35,7 @@ pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlBlend, GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
 pub use surface::Surface;
+pub use texgen::GlTexgen;
 pub use transfer::{GlBlit, GlCopyTo, GlReading};
 
 use crate::context::{Context, Profile, error_name};
@@ -161,6 +163,12 @@ impl Bench {
     /// Tests whether the stencil part of a packed format can be sampled.
     pub fn reads_stencil(&self) -> bool {
         self.has((4, 3), "GL_ARB_stencil_texturing")
+    }
+
+    /// GL_MAX_SAMPLES.
+    pub fn most_samples(&self) -> u32 {
+        // SAFETY: a query of one integer.
+        unsafe { self.gl.get_parameter_i32(glow::MAX_SAMPLES) }.max(0) as u32
     }
 
     /// GL_SUBPIXEL_BITS: what the driver says of its raster.

@@ -96,7 +96,8 @@ impl Bench {
         let Shader { version, declarations, .. } = shader;
         let vertex = format!("{version}{VERTEX_HEAD}{declarations}\nvoid main() {{\n{}\n}}\n", shader.vertex);
         let compare = if filter_first { FILTER_THEN_COMPARE } else { COMPARE };
-        let fragment = format!("{version}{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
+        let fragment =
+            format!("{version}{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
         let program = build(&self.gl, &vertex, &fragment)?;
         let name = program.name;
         self.programs.borrow_mut().insert(key, program);
@@ -106,11 +107,17 @@ impl Bench {
 
 /// Whole sources, linked.
 pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<GlProgram, Error> {
+    build_stages(gl, &[(glow::VERTEX_SHADER, vertex), (glow::FRAGMENT_SHADER, fragment)])
+}
+
+/// The same of any stages.
+pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
-        attach(gl, program.name, glow::VERTEX_SHADER, vertex)?;
-        attach(gl, program.name, glow::FRAGMENT_SHADER, fragment)?;
+        for (stage, source) in stages {
+            attach(gl, program.name, *stage, source)?;
+        }
         gl.bind_attrib_location(program.name, 0, "position");
         gl.bind_attrib_location(program.name, 1, "value");
         gl.link_program(program.name);

@@ -1,6 +1,6 @@
 //! Rules of kind C: comparison with depth textures.
 
-use crate::conformance::{Rule, compare, fixed};
+use crate::conformance::{Rule, compare, cube_comparison, fixed, packed, samplers};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -50,5 +50,61 @@ pub const RULES: &[Rule] = &[
         says: "The comparison becomes luminance, intensity, alpha or red, as the mode says.",
         tolerance: "the nearest 8-bit code, else a warning for the other of the two nearest",
         check: fixed::depth_mode,
+    },
+    Rule {
+        id: "GL-C7",
+        title: "sampler objects",
+        section: "8.2",
+        says: "A sampler object that is bound to a unit is in force there in place of the texture's own parameters: all of them.",
+        tolerance: "none; 1/64 where texels or levels are blended",
+        check: samplers::objects,
+    },
+    Rule {
+        id: "GL-C8",
+        title: "filtered comparison, each function",
+        section: "8.14, 8.23.1",
+        says: "LINEAR compares several texels by any of the eight functions.",
+        tolerance: "as GL-C3",
+        check: samplers::linear,
+    },
+    Rule {
+        id: "GL-C9",
+        title: "comparison in cube maps",
+        section: "8.13, 8.23.1",
+        says: "The fourth coordinate is compared with the texels of the face, or across its edges with TEXTURE_CUBE_MAP_SEAMLESS.",
+        tolerance: "as GL-M1 and GL-C3; any texel as a corner's fourth, with a warning",
+        check: cube_comparison::cubes,
+    },
+    Rule {
+        id: "GL-C10",
+        title: "comparison in arrays",
+        section: "8.14, 8.23.1",
+        says: "A layer is floor(r + 1/2), within what there is; in an array of cube maps floor(q + 1/2).",
+        tolerance: "as GL-C3 and GL-C9; NEAREST either way within 1/100 of the middle",
+        check: cube_comparison::arrays,
+    },
+    Rule {
+        id: "GL-C11",
+        title: "packed depth and stencil, sampled",
+        section: "8.19, 8.23.1",
+        says: "DEPTH_STENCIL_TEXTURE_MODE chooses whether a shader reads depth, compared or not, or stencil.",
+        tolerance: "none, but near ties; 2^-24 of a depth, else a warning to 2^-22",
+        check: packed::packed,
+    },
+    Rule {
+        id: "GL-C12",
+        title: "depths that are not compared",
+        section: "8.23.1, 16.1 compat.",
+        says: "Without comparison the depth itself becomes luminance, intensity, alpha or red; swizzles come after that.",
+        tolerance: "as GL-C6",
+        check: packed::raw_mode,
+    },
+    Rule {
+        id: "GL-C13",
+        title: "gathered comparisons",
+        section: "8.14, GLSL 8.9.4",
+        says: "textureGather compares four texels, from the upper left one against the clock.",
+        tolerance: "none",
+        check: packed::gather,
     },
 ];

@@ -1,6 +1,6 @@
 //! Rules of kind T: coordinates and interpolation.
 
-use crate::conformance::{Rule, coordinates, fixed};
+use crate::conformance::{Rule, coordinates, fixed, projective};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -34,5 +34,29 @@ pub const RULES: &[Rule] = &[
         says: "Nothing is promised, but maps are used so: offset (1, 1) should clear a floor of its own shadow.",
         tolerance: "none with offset (1, 1), else a warning while (2, 4) is enough",
         check: coordinates::self_shadow,
+    },
+    Rule {
+        id: "GL-T5",
+        title: "negative q and q near 0",
+        section: "GLSL 8.9.2",
+        says: "textureProj divides by q, whatever its sign and size.",
+        tolerance: "as GL-T2; colours to a code",
+        check: projective::divisors,
+    },
+    Rule {
+        id: "GL-T6",
+        title: "texture coordinate generation on every unit",
+        section: "12.1.3 compat.",
+        says: "Planes, modes and texture matrices are each unit's own.",
+        tolerance: "a weight to 2^-7, else a warning to 2^-4",
+        check: projective::units,
+    },
+    Rule {
+        id: "GL-T7",
+        title: "1D textures by planes",
+        section: "8.14, 12.1.3 compat.",
+        says: "One coordinate, from a shader or from glTexGen, looks up a 1D texture.",
+        tolerance: "a position to 2^-7 texel and a code, else a warning to 2^-4 and 2",
+        check: projective::lines,
     },
 ];

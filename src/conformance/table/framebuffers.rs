@@ -1,6 +1,6 @@
 //! Rules of kind F: framebuffers and colour.
 
-use crate::conformance::{Rule, blending, copies};
+use crate::conformance::{Rule, attachments, blending, copies, floats, transfers};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -42,5 +42,69 @@ pub const RULES: &[Rule] = &[
         says: "The stored alpha is a factor, and alpha has factors of its own: RGB can be multiplied and alpha replaced.",
         tolerance: "half a code a product, else a warning to 1.5; what is copied is exact",
         check: blending::stored_alpha,
+    },
+    Rule {
+        id: "GL-F6",
+        title: "attached levels, faces and layers",
+        section: "9.2.7, 9.2.8",
+        says: "Each level of each face or layer is attached by itself; renderbuffers are targets too.",
+        tolerance: "none but 1e-4 of a drawn depth",
+        check: attachments::parts,
+    },
+    Rule {
+        id: "GL-F7",
+        title: "copies to levels and faces",
+        section: "8.6",
+        says: "glCopyTexSubImage2D and glCopyTexImage2D copy any rectangle to any level or face.",
+        tolerance: "none in one format",
+        check: transfers::copies,
+    },
+    Rule {
+        id: "GL-F8",
+        title: "blits",
+        section: "18.3.1",
+        says: "A blit moves, turns and scales colour and depth, by NEAREST, within the scissor.",
+        tolerance: "none, but a code of 24 bits of a depth, with a warning; source pixels do not lie on edges",
+        check: transfers::blits,
+    },
+    Rule {
+        id: "GL-F9",
+        title: "incomplete framebuffers",
+        section: "9.4.1, 9.4.2",
+        says: "A framebuffer without attachments, of levels or layers that are not there, or of a format that cannot be attached there is not complete.",
+        tolerance: "none",
+        check: attachments::refused,
+    },
+    Rule {
+        id: "GL-F10",
+        title: "layered framebuffers",
+        section: "9.8, 11.3.4.4",
+        says: "gl_Layer of a geometry shader chooses the face or layer.",
+        tolerance: "1e-4 of a drawn depth",
+        check: attachments::layered,
+    },
+    Rule {
+        id: "GL-F11",
+        title: "several samples",
+        section: "14.3.1, 18.3.1",
+        says: "A blit resolves samples: a share of colours, and a depth between those of the samples.",
+        tolerance: "exact where all samples agree",
+        check: transfers::samples,
+    },
+    Rule {
+        id: "GL-F12",
+        title: "DEPTH_SCALE and DEPTH_BIAS",
+        section: "8.4.4.1, 18.2.4 compat.",
+        says: "Depths that are uploaded, copied or read back are scaled, biased and clamped.",
+        tolerance: "a code of 16 bits, twice",
+        check: transfers::scale_and_bias,
+    },
+    Rule {
+        id: "GL-F13",
+        title: "sums in floats",
+        section: "17.3.6",
+        says: "Blending in float formats is not clamped.",
+        tolerance: "none for sixteenths; a step of the format for each of the sums, else a warning to two",
+        check: floats::sums,
     },
 ];

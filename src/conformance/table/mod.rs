@@ -7,9 +7,11 @@ mod depth;
 mod environment;
 mod framebuffers;
 mod invariance;
+mod levels;
 mod offset;
 mod raster;
 mod stencil;
+mod uploads;
 
 use super::Rule;
 
@@ -25,6 +27,8 @@ const KINDS: &[&[Rule]] = &[
     framebuffers::RULES,
     environment::RULES,
     cube_maps::RULES,
+    levels::RULES,
+    uploads::RULES,
 ];
 
 /// Every rule, in the order of a report.
