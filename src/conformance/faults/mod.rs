@@ -7,13 +7,13 @@
 /// Faults as a table of the file: `"name" [what it breaks] "summary" (hole: "reason") functions => |call| act; ...`, the hole
 /// only where no rule sees it, or `"name" [...] "summary" text |source| another text;`.
 macro_rules! faults {
-    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? $wrong:tt)*) => {
+    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? { $($wrong:tt)* })*) => {
         pub(super) const FAULTS: &[$crate::conformance::faults::Fault] = &[$(
             $crate::conformance::faults::Fault {
                 name: $name,
                 breaks: &[$(stringify!($broken)),*],
                 says: $says,
-                wrong: faults!(@wrong $wrong),
+                wrong: faults!(@wrong { $($wrong)* }),
                 hole: faults!(@hole $($hole)?),
             }
         ),*];
