@@ -1,5 +1,7 @@
 //! Judges of a broken driver: the rules of `glumbra check`, and pictures of small scenes.
 
+#![allow(dead_code, reason = "the test and the program use parts of it")]
+
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Mutex;
