@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use glumbra::conformance::faults::{self, Fault};
 use judge::Row;
 
-/// What has no fault, each with the reason.
+/// Functions, enums and words that have no fault, each group with its reason.
 #[rustfmt::skip]
 const CANNOT_BE_CAUGHT: &[(&str, &[&str])] = &[
     ("makes or deletes names, which are the driver's to choose", &[
@@ -93,7 +93,7 @@ fn table() -> Vec<Row> {
     judge::rows(&page)
 }
 
-/// Of each fault's rules in the table at least one fails, the quickest tried first; a fault with a reason why none does has
+/// At least one rule fails of those that the table has for each fault, the quickest tried first; a fault with a reason why none does has
 /// none there.
 #[test]
 fn every_fault_turns_a_rule_red() {

@@ -1,4 +1,4 @@
-//! What GL functions, enums and words of GLSL the renderer uses, read from its code.
+//! GL functions, enums and words of GLSL that the renderer uses, read from its code.
 
 use std::collections::BTreeSet;
 use std::fs;
