@@ -1,6 +1,6 @@
 //! GL-C1 to GL-C5: comparison with depth textures [GL 4.6, 8.14, 8.23].
 
-use super::bench::{Error, GlCompare, GlFormat, GlImage, GlWrap, Sampling};
+use super::bench::{Error, GlCompare, GlFormat, GlImage, GlMipmap, GlSampledBy, GlWrap, Sampling};
 use super::verify::{self, GradeTally, NEAR_TIE};
 use super::{DriverUnderTest, Findings};
 
@@ -14,13 +14,20 @@ const FETCH: &str = "result = vec4(texture(map, texelFetch(inputs, ivec2(gl_Frag
 
 /// GL-C1: eight functions, references below, at and above stored depths.
 pub fn function(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
-        findings.part(|findings| function_of(subject, findings, format));
+    for format in GlFormat::PURE_DEPTHS {
+        for by in GlSampledBy::ALL {
+            findings.part(|findings| function_of(subject, findings, format, by));
+        }
     }
     Ok(())
 }
 
-fn function_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+fn function_of(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    format: GlFormat,
+    by: GlSampledBy,
+) -> Result<(), Error> {
     const STORED: [f32; 3] = [0.0, 0.5, 1.0];
     const REFERENCES: [f32; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
     let image = subject.bench.depth_image(format, [4, 1], &[&[STORED[0], STORED[1], STORED[2], 0.0]])?;
@@ -29,7 +36,8 @@ fn function_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFor
     let inputs: Vec<_> = pairs.iter().map(|&(texel, r)| [(texel as f32 + 0.5) / 4.0, 0.5, r, 0.0]).collect();
     let mut results = vec![[0.0_f32; 8]; pairs.len()];
     for (index, compare) in GlCompare::ALL.into_iter().enumerate() {
-        let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, Sampling::compare(compare))])?;
+        let sampling = Sampling { by, ..Sampling::compare(compare) };
+        let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, sampling)])?;
         values.iter().zip(&mut results).for_each(|(value, results)| results[index] = value[0]);
     }
     let mut tally = GradeTally::default();
@@ -40,13 +48,14 @@ fn function_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFor
     }
     // A near tie may go either way; quality does not depend on it.
     tally.good += std::mem::take(&mut tally.allowed);
-    findings.tally(format!("{}, 8 functions", format.name()), tally, "");
+    findings.tally(format!("{}, 8 functions{}", format.name(), by.suffix()), tally, "");
     Ok(())
 }
 
 /// GL-C2: references beyond [0, 1], and uploads.
 pub fn clamp(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    for (format, clamps) in [(GlFormat::Depth16, true), (GlFormat::Depth24, true), (GlFormat::Depth32F, false)] {
+    for format in GlFormat::PURE_DEPTHS {
+        let clamps = format != GlFormat::Depth32F;
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 1], &[&[0.0, 1.0]])?;
             let ask = |texel: f32, reference: f32, compare| {
@@ -77,7 +86,7 @@ pub fn clamp(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
             Ok(())
         });
     }
-    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
+    for format in GlFormat::PURE_DEPTHS {
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 1], &[&[-0.5, 1.5]])?;
             let stored = subject.bench.image_depths(&image)?;
@@ -94,8 +103,10 @@ const WEIGHTS: [f32; 9] = [0.0, 0.1, 0.2, 0.3, 0.5, 0.625, 0.7, 0.9, 1.0];
 
 /// GL-C3: filtered comparison, as a verifier of texture filters sees it.
 pub fn filtered(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
-        findings.part(|findings| filtered_of(subject, findings, format));
+    for format in GlFormat::PURE_DEPTHS {
+        for by in GlSampledBy::ALL {
+            findings.part(|findings| filtered_of(subject, findings, format, by));
+        }
     }
     findings.part(|findings| weight_bits(subject, findings));
     Ok(())
@@ -103,7 +114,12 @@ pub fn filtered(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
 
 /// All sixteen outcomes of four comparisons, at every pair of weights. The depths are apart so far from each other that
 /// filtering them first gives other results.
-fn filtered_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+fn filtered_of(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    format: GlFormat,
+    by: GlSampledBy,
+) -> Result<(), Error> {
     let mut tally = GradeTally::default();
     let weights: Vec<[f32; 2]> = WEIGHTS.iter().flat_map(|&beta| WEIGHTS.map(|alpha| [alpha, beta])).collect();
     // Centres of texels (0, 0) and (1, 1) lie at 0.25 and 0.75.
@@ -112,7 +128,7 @@ fn filtered_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFor
         let passes = [0, 1, 2, 3].map(|texel| outcome >> texel & 1 == 1);
         let depths = passes.map(|pass| if pass { 0.8 } else { 0.4 });
         let image = subject.bench.depth_image(format, [2, 2], &[&depths])?;
-        let sampling = Sampling::compare_linear(GlCompare::LessEqual);
+        let sampling = Sampling { by, ..Sampling::compare_linear(GlCompare::LessEqual) };
         let values = subject.bench.map(COMPARE, &inputs, &[("shadow", &image, sampling)])?;
         for ([alpha, beta], value) in weights.iter().zip(values) {
             let weights = [f64::from(*alpha), f64::from(*beta)];
@@ -121,7 +137,11 @@ fn filtered_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFor
             tally.add(verify::filtered(value, passes, weights), value - ideal);
         }
     }
-    findings.tally(format!("{}, 16 outcomes of 2x2 texels", format.name()), tally, "of the ideal weight");
+    findings.tally(
+        format!("{}, 16 outcomes of 2x2 texels{}", format.name(), by.suffix()),
+        tally,
+        "of the ideal weight",
+    );
     Ok(())
 }
 
@@ -144,19 +164,23 @@ fn weight_bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
 
 /// GL-C4: each level is compared, then levels are blended.
 pub fn levels(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    for format in [GlFormat::Depth24, GlFormat::Depth32F] {
+    for (format, by) in GlFormat::PURE_DEPTHS.into_iter().flat_map(|format| GlSampledBy::ALL.map(|by| (format, by))) {
         findings.part(|findings| {
             let image = subject.bench.depth_image(format, [2, 2], &[&[1.0; 4], &[0.0]])?;
             let lods: Vec<f32> = (0..=16).map(|step| step as f32 / 16.0).collect();
             let inputs: Vec<_> = lods.iter().map(|&lod| [0.5, 0.5, 0.5, lod]).collect();
-            let sampling = Sampling { mipmap: true, ..Sampling::compare_linear(GlCompare::LessEqual) };
+            let sampling = Sampling { mipmap: GlMipmap::Linear, by, ..Sampling::compare_linear(GlCompare::LessEqual) };
             let values = subject.bench.map(COMPARE_LEVEL, &inputs, &[("shadow", &image, sampling)])?;
             let mut tally = GradeTally::default();
             for (lod, value) in lods.iter().zip(values) {
                 let off = f64::from(value[0]) - f64::from(1.0 - lod);
                 tally.add(verify::within(off, 1.0 / 64.0 + 1.0 / 256.0, 1.0 / 16.0 + 1.0 / 256.0), off);
             }
-            findings.tally(format!("{}, between two levels", format.name()), tally, "of the level's weight");
+            findings.tally(
+                format!("{}, between two levels{}", format.name(), by.suffix()),
+                tally,
+                "of the level's weight",
+            );
             Ok(())
         });
     }
@@ -165,19 +189,19 @@ pub fn levels(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
 
 /// GL-C5: wrap modes and the border's depth.
 pub fn border(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    for format in [GlFormat::Depth24, GlFormat::Depth32F] {
+    for (format, by) in GlFormat::PURE_DEPTHS.into_iter().flat_map(|format| GlSampledBy::ALL.map(|by| (format, by))) {
         findings.part(|findings| {
             let row = subject.bench.depth_image(format, [2, 1], &[&[0.25, 0.75]])?;
             let flat = subject.bench.depth_image(format, [2, 2], &[&[0.5; 4]])?;
-            wraps(subject, findings, &row)?;
-            borders(subject, findings, &flat)
+            wraps(subject, findings, &row, by)?;
+            borders(subject, findings, &flat, by)
         });
     }
     Ok(())
 }
 
 /// The second texel alone passes against 0.5.
-fn wraps(subject: &DriverUnderTest, findings: &mut Findings, row: &GlImage) -> Result<(), Error> {
+fn wraps(subject: &DriverUnderTest, findings: &mut Findings, row: &GlImage, by: GlSampledBy) -> Result<(), Error> {
     let cases = [
         (GlWrap::Repeat, [(1.25, 0.0), (1.75, 1.0), (-0.25, 1.0), (-0.75, 0.0)]),
         (GlWrap::MirroredRepeat, [(1.25, 1.0), (1.75, 0.0), (-0.25, 0.0), (-0.75, 1.0)]),
@@ -185,18 +209,18 @@ fn wraps(subject: &DriverUnderTest, findings: &mut Findings, row: &GlImage) -> R
     ];
     let (mut wrong, mut count) = (0, 0);
     for (wrap, expected) in cases {
-        let sampling = Sampling { wrap, ..Sampling::compare(GlCompare::LessEqual) };
+        let sampling = Sampling { wrap: [wrap; 3], by, ..Sampling::compare(GlCompare::LessEqual) };
         let inputs = expected.map(|(s, _)| [s, 0.5, 0.5, 0.0]);
         let values = subject.bench.map(COMPARE, &inputs, &[("shadow", row, sampling)])?;
         wrong += values.iter().zip(expected).filter(|(value, (_, expected))| value[0] != *expected).count();
         count += expected.len();
     }
-    findings.none_wrong(format!("{}: repeat, mirror, edge", row.format.name()), wrong, count);
+    findings.none_wrong(format!("{}: repeat, mirror, edge{}", row.format.name(), by.suffix()), wrong, count);
     Ok(())
 }
 
 /// Inside 0.75 fails against 0.5; the border's depth is the first component, 1, and passes.
-fn borders(subject: &DriverUnderTest, findings: &mut Findings, flat: &GlImage) -> Result<(), Error> {
+fn borders(subject: &DriverUnderTest, findings: &mut Findings, flat: &GlImage, by: GlSampledBy) -> Result<(), Error> {
     let mut cases = vec![
         ("CLAMP_TO_BORDER", false, GlWrap::ClampToBorder, -0.25, 1.0),
         ("CLAMP_TO_BORDER inside", false, GlWrap::ClampToBorder, 0.25, 0.0),
@@ -206,16 +230,20 @@ fn borders(subject: &DriverUnderTest, findings: &mut Findings, flat: &GlImage) -
         cases.push(("CLAMP, LINEAR", true, GlWrap::Clamp, -0.25, 0.5));
         cases.push(("CLAMP, NEAREST", false, GlWrap::Clamp, -0.25, 0.0));
     } else {
-        findings.untestable("CLAMP", "a core context has no GL_CLAMP");
+        findings.untestable(format!("CLAMP{}", by.suffix()), "a core context has no GL_CLAMP");
     }
     for (name, linear, wrap, s, expected) in cases {
         let compare = Sampling::compare(GlCompare::LessEqual);
-        let sampling = Sampling { wrap, linear, border: [1.0, 0.0, 0.0, 0.0], ..compare };
+        let sampling = Sampling { wrap: [wrap; 3], linear, border: [1.0, 0.0, 0.0, 0.0], by, ..compare };
         let value = subject.bench.map(COMPARE, &[[s, 0.5, 0.75, 0.0]], &[("shadow", flat, sampling)])?[0][0];
         let grade = verify::within(f64::from(value) - expected, 1.0 / 64.0, 1.0 / 8.0);
         // A nearest texel's result is never 'about right' here.
         let grade = if linear { grade } else { grade.max(verify::within(f64::from(value) - expected, 0.0, 0.0)) };
-        findings.grade(format!("{}: {name}", flat.format.name()), grade, format!("{value}; {expected} is due"));
+        findings.grade(
+            format!("{}: {name}{}", flat.format.name(), by.suffix()),
+            grade,
+            format!("{value}; {expected} is due"),
+        );
     }
     Ok(())
 }

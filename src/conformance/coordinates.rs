@@ -48,7 +48,7 @@ fn fixed(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error
 }
 
 /// Tests whether `value` is what the map gives at `s/q, t/q` against `r/q`.
-fn texel_grade(value: f64, [s, t, r, q]: [f32; 4], stored: &[f64], linear: bool) -> Grade {
+pub(super) fn texel_grade(value: f64, [s, t, r, q]: [f32; 4], stored: &[f64], linear: bool) -> Grade {
     let [s, t, r] = [s, t, r].map(|coordinate| f64::from(coordinate) / f64::from(q));
     let place = |coordinate: f64| coordinate * SIDE as f64 - if linear { 0.5 } else { 0.0 };
     let [u, v] = [place(s), place(t)];

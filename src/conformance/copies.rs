@@ -23,7 +23,7 @@ fn scene() -> Vec<Vertex> {
         .collect()
 }
 
-fn drawn(subject: &DriverUnderTest, format: GlFormat) -> Result<Surface, Error> {
+pub(super) fn drawn(subject: &DriverUnderTest, format: GlFormat) -> Result<Surface, Error> {
     let surface = subject.bench.surface([SIDE; 2], None, Some(format))?;
     surface.clear_depth(1.0);
     subject.bench.draw(&GlDraw::plain(&surface, GlState { color_write: false, ..GlState::WRITE }, &scene()))?;

@@ -16,13 +16,13 @@ fn random_faces(random: &mut Random, side: u32) -> [Vec<[u8; 4]>; 6] {
 }
 
 /// A vector that meets a face at s and t, of a length between 2^-20 and 2^20; in f32.
-fn vector(random: &mut Random, face: usize, place: [f32; 2]) -> [f32; 4] {
+pub(super) fn vector(random: &mut Random, face: usize, place: [f32; 2]) -> [f32; 4] {
     let length = f64::from(random.between(-20.0, 20.0)).exp2();
     let [x, y, z] = cube::direction(face, place.map(f64::from)).map(|part| (part * length) as f32);
     [x, y, z, 1.0]
 }
 
-fn direction([x, y, z, _]: [f32; 4]) -> [f64; 3] {
+pub(super) fn direction([x, y, z, _]: [f32; 4]) -> [f64; 3] {
     [x, y, z].map(f64::from)
 }
 
@@ -111,14 +111,14 @@ pub fn faces(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
 
 /// Part of a face that vectors meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Region {
+pub(super) enum Region {
     Inside,
     Edge,
     Corner,
 }
 
 /// Places within half a texel of an edge or a corner, some of them on it; or none of these.
-fn places(random: &mut Random, region: Region, side: u32, count: usize) -> Vec<[f32; 4]> {
+pub(super) fn places(random: &mut Random, region: Region, side: u32, count: usize) -> Vec<[f32; 4]> {
     let half = 0.5 / side as f32;
     let mut beside = |on: bool| {
         let at = if on { 0.0 } else { random.unit() * half };

@@ -3,8 +3,8 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::bench::fixed_function::{DepthMode, FixedBench, FixedDraw, GlTexgen};
-use super::bench::{Error, GlCompare, GlFormat, GlImage, GlState, Sampling, Surface, Vertex, full};
+use super::bench::fixed_function::{DepthMode, FixedBench, FixedDraw};
+use super::bench::{Error, GlCompare, GlFormat, GlImage, GlState, GlTexgen, Sampling, Surface, Vertex, full};
 use super::random::Random;
 use super::verify::{self, Grade, GradeTally};
 use super::{DriverUnderTest, Findings};

@@ -18,7 +18,7 @@ invariant gl_Position;
 #endif";
 
 const fn shader(vertex: &'static str, fragment: &'static str) -> Shader {
-    Shader { declarations: DECLARATIONS, vertex, fragment }
+    Shader { declarations: DECLARATIONS, vertex, fragment, ..Shader::PLAIN }
 }
 
 const PLAIN: Shader = shader("gl_Position = clip_from_model * position; passed = value;", "result = vec4(1.0);");

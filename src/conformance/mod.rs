@@ -4,26 +4,39 @@
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
 //! To add a rule: one row in the table, one function in the file of its kind.
 
+mod attachments;
 pub mod bench;
 mod blending;
 mod compare;
 mod coordinates;
 mod copies;
+mod cube_comparison;
 mod cube_maps;
 mod depth;
 mod environment;
+#[doc(hidden)]
+pub mod faults;
 mod filter;
+mod filters;
 mod findings;
 mod fixed;
+mod floats;
 mod invariance;
+mod levels;
+mod mipmaps;
 mod offset;
+mod packed;
 mod planes;
 mod print;
 pub mod probe;
+mod projective;
 mod random;
 mod raster;
+mod samplers;
 mod stencil;
 mod table;
+mod transfers;
+mod uploads;
 pub mod verify;
 mod volumes;
 pub mod waivers;
@@ -42,7 +55,7 @@ use self::bench::{Bench, Mutation};
 use crate::context::{Context, ContextInfo};
 
 /// One rule of GL, and how it is checked.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Rule {
     /// Id like `GL-C1`: a letter for the kind.
     pub id: &'static str,

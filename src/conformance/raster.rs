@@ -231,7 +231,7 @@ fn complements(
     const SHADER: Shader = Shader {
         declarations: "uniform float side;\n#ifdef VERTEX\nout float gl_ClipDistance[2];\n#endif",
         vertex: "gl_Position = position; passed = value; gl_ClipDistance[0] = side * value.x; gl_ClipDistance[1] = side * value.y;",
-        fragment: "result = passed;",
+        ..Shader::PLAIN
     };
     let (mut wrong, mut count, mut cut) = (0, 0, 0);
     for _ in 0..8 {

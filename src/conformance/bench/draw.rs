@@ -4,9 +4,11 @@ use std::cmp::Ordering;
 
 use glow::HasContext;
 
-use super::image::{GlFormat, GlImage, Sampling};
+use super::format::GlFormat;
+use super::image::GlImage;
 use super::mutation::Mutation;
-use super::program::Shader;
+use super::program::{Shader, build_stages};
+use super::sampling::Sampling;
 use super::state::{GlCompare, GlState, apply};
 use super::surface::Surface;
 use super::{Bench, Error};
@@ -83,7 +85,7 @@ impl Bench {
         unsafe {
             gl.use_program(Some(program));
             for (unit, &(name, image, sampling)) in draw.images.iter().enumerate() {
-                self.bind_image(unit as u32, image, sampling);
+                self.bind_image(unit as u32, image, sampling)?;
                 gl.uniform_1_i32(gl.get_uniform_location(program, name).as_ref(), unit as i32);
                 if filter_first && let Some(compare) = sampling.compare {
                     let location = gl.get_uniform_location(program, "shadow_function");
@@ -98,15 +100,67 @@ impl Bench {
                     GlUniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(location.as_ref(), false, &value),
                 }
             }
+            self.submit(program, draw.vertices);
+        }
+        self.check("a draw")
+    }
+
+    /// Draws the triangles into each of the surface's first `layers` layers by a geometry shader: into layer n at depth n / 8.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_layers(&self, surface: &Surface, layers: u32, vertices: &[Vertex]) -> Result<(), Error> {
+        const VERTEX: &str = "#version 150
+in vec4 position;
+void main() { gl_Position = position; }
+";
+        const FRAGMENT: &str = "#version 150
+void main() {}
+";
+        let geometry = format!(
+            "#version 150
+layout(triangles) in;
+layout(triangle_strip, max_vertices = {}) out;
+void main() {{
+    for (int layer = 0; layer < {layers}; layer++) {{
+        for (int corner = 0; corner < 3; corner++) {{
+            gl_Layer = layer;
+            gl_Position = gl_in[corner].gl_Position;
+            gl_Position.z = (float(layer) / 4.0 - 1.0) * gl_Position.w;
+            EmitVertex();
+        }}
+        EndPrimitive();
+    }}
+}}
+",
+            3 * layers
+        );
+        let stages =
+            [(glow::VERTEX_SHADER, VERTEX), (glow::GEOMETRY_SHADER, &geometry), (glow::FRAGMENT_SHADER, FRAGMENT)];
+        let program = build_stages(&self.gl, &stages)?;
+        self.prepare(surface, GlState { color_write: false, ..GlState::WRITE });
+        // SAFETY: the context is current; the program lives until the draw is given.
+        unsafe { self.submit(program.name, vertices) };
+        self.check("a layered draw")
+    }
+
+    /// # Safety
+    ///
+    /// The context is current, and the program is in it.
+    unsafe fn submit(&self, program: glow::Program, vertices: &[Vertex]) {
+        let gl = &self.gl;
+        let floats: Vec<_> = vertices.iter().flat_map(|vertex| [vertex.position, vertex.value]).collect();
+        // SAFETY: as the caller promises; positions and values lie in turn, as the vertex array has it.
+        unsafe {
+            gl.use_program(Some(program));
             gl.bind_vertex_array(Some(self.vertex_array));
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.vertex_buffer));
-            let floats: Vec<_> = draw.vertices.iter().flat_map(|vertex| [vertex.position, vertex.value]).collect();
             gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, bytemuck::cast_slice(&floats), glow::STREAM_DRAW);
-            gl.draw_arrays(glow::TRIANGLES, 0, draw.vertices.len() as i32);
+            gl.draw_arrays(glow::TRIANGLES, 0, vertices.len() as i32);
             gl.bind_vertex_array(None);
             gl.use_program(None);
         }
-        self.check("a draw")
     }
 
     /// Binds the surface and sets the whole state.
@@ -128,9 +182,23 @@ impl Bench {
         inputs: &[[f32; 4]],
         images: &[(&str, &GlImage, Sampling)],
     ) -> Result<Vec<[f32; 4]>, Error> {
+        self.map_by(Shader::of(fragment), inputs, images)
+    }
+
+    /// The same with declarations, and another version of GLSL.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn map_by(
+        &self,
+        shader: Shader,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &GlImage, Sampling)],
+    ) -> Result<Vec<[f32; 4]>, Error> {
         let size = [ROW.min(inputs.len()).max(1), inputs.len().div_ceil(ROW).max(1)].map(|side| side as u32);
         let surface = self.surface(size, Some(GlFormat::Rgba32F), None)?;
-        self.map_into(&surface, GlState { depth: None, ..GlState::WRITE }, fragment, inputs, images)?;
+        self.map_into_by(&surface, GlState { depth: None, ..GlState::WRITE }, shader, inputs, images)?;
         let mut results = surface.floats();
         results.truncate(inputs.len());
         Ok(results)
@@ -149,11 +217,21 @@ impl Bench {
         inputs: &[[f32; 4]],
         images: &[(&str, &GlImage, Sampling)],
     ) -> Result<(), Error> {
+        self.map_into_by(surface, state, Shader::of(fragment), inputs, images)
+    }
+
+    fn map_into_by(
+        &self,
+        surface: &Surface,
+        state: GlState,
+        shader: Shader,
+        inputs: &[[f32; 4]],
+        images: &[(&str, &GlImage, Sampling)],
+    ) -> Result<(), Error> {
         let mut padded = inputs.to_vec();
         padded.resize(surface.size[0] as usize * surface.size[1] as usize, [0.0; 4]);
         let inputs = self.float_image(surface.size, &padded)?;
         let images: Vec<_> = images.iter().copied().chain([("inputs", &inputs, Sampling::NEAREST)]).collect();
-        let shader = Shader { declarations: "uniform sampler2D inputs;", fragment, ..Shader::PLAIN };
         self.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(surface, state, &full(0.0)) })
     }
 }

@@ -1,6 +1,10 @@
 //! Texture environments as data, and the GL calls that set them: GL_COMBINE alone [GL 4.6 compatibility, 16.1].
 
-use super::image::{GlImage, Sampling};
+use glam::DMat4;
+
+use super::image::GlImage;
+use super::sampling::Sampling;
+use super::texgen::GlTexgen;
 use crate::context::compatibility::{Binding, raw};
 
 /// GL_COMBINE's functions [GL 4.6 compatibility, tables 16.20 and 16.21].
@@ -122,12 +126,14 @@ pub struct GlEnvironment {
 }
 
 /// Source of a unit's texture coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GlCoordinates {
     /// The viewport as [0, 1] x [0, 1].
     Square,
     /// The vertex's value.
     Value,
+    /// glTexGen, and the unit's texture matrix.
+    Generated(GlTexgen, DMat4),
 }
 
 /// A texture unit.

@@ -9,6 +9,7 @@ use glam::{DMat4, DVec4};
 use glow::HasContext;
 
 use super::environment::{GlCoordinates, GlUnit, set};
+use super::texgen::GlTexgen;
 use super::{Bench, Error, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
 use crate::context::compatibility::{Binding, BindingError, raw};
@@ -20,17 +21,6 @@ pub enum DepthMode {
     Intensity,
     Alpha,
     Red,
-}
-
-/// glTexGen for all four coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GlTexgen {
-    /// EYE_LINEAR, else OBJECT_LINEAR.
-    pub eye: bool,
-    /// Rows give s, t, r and q of a vertex.
-    pub planes: DMat4,
-    /// The modelview when eye planes are given.
-    pub modelview: DMat4,
 }
 
 /// One draw. The colour is replaced by the texture's, where there is one.
@@ -168,7 +158,7 @@ impl FixedBench {
                 self.gl.disable(off);
             }
             if let Some((image, sampling, mode)) = draw.image {
-                bench.bind_image(0, image, sampling);
+                bench.bind_image(0, image, sampling)?;
                 let mode = match mode {
                     DepthMode::Luminance => raw::LUMINANCE,
                     DepthMode::Intensity => raw::INTENSITY,
@@ -206,6 +196,15 @@ impl FixedBench {
         }
     }
 
+    /// DEPTH_SCALE and DEPTH_BIAS of uploads, copies and read-backs.
+    pub fn set_depth_transfer(&self, scale: f32, bias: f32) {
+        // SAFETY: the context is current; sets state.
+        unsafe {
+            self.binding.PixelTransferf(raw::DEPTH_SCALE, scale);
+            self.binding.PixelTransferf(raw::DEPTH_BIAS, bias);
+        }
+    }
+
     /// GL_MAX_TEXTURE_UNITS.
     pub fn most_units(&self) -> usize {
         // SAFETY: a query of one integer.
@@ -220,8 +219,6 @@ impl FixedBench {
     pub fn draw_units(&self, bench: &Bench, draw: &UnitsDraw) -> Result<(), Error> {
         let units = self.mutation.map_or_else(|| draw.units.to_vec(), |mutation| mutation.units(draw.units));
         bench.prepare(draw.surface, draw.state);
-        self.load_matrix(raw::PROJECTION, DMat4::IDENTITY);
-        self.load_matrix(raw::MODELVIEW, DMat4::IDENTITY);
         // SAFETY: the context is current; images are not deleted.
         unsafe {
             self.gl.use_program(None);
@@ -229,16 +226,28 @@ impl FixedBench {
                 self.gl.disable(off);
             }
             for (index, unit) in (0..).zip(&units) {
-                bench.bind_image(index, unit.image, unit.sampling);
-                self.load_matrix(glow::TEXTURE, DMat4::IDENTITY);
-                COORDINATES.iter().for_each(|(_, coordinate)| self.gl.disable(*coordinate));
-                self.gl.enable(unit.image.target);
+                bench.bind_image(index, unit.image, unit.sampling)?;
+                let (texgen, matrix) = match unit.coordinates {
+                    GlCoordinates::Generated(texgen, matrix) => (Some(texgen), matrix),
+                    _ => (None, DMat4::IDENTITY),
+                };
+                self.load_matrix(glow::TEXTURE, matrix);
+                if let Some(texgen) = &texgen {
+                    self.set_texgen(texgen);
+                }
+                let switch = if texgen.is_some() { glow::Context::enable } else { glow::Context::disable };
+                COORDINATES.iter().for_each(|(_, coordinate)| switch(&self.gl, *coordinate));
+                self.gl.enable(unit.image.shape.target());
                 set(&self.binding, &unit.environment);
             }
+            self.load_matrix(raw::PROJECTION, DMat4::IDENTITY);
+            self.load_matrix(raw::MODELVIEW, DMat4::IDENTITY);
             self.submit_units(draw, &units);
             for (index, unit) in (0..).zip(&units) {
                 self.gl.active_texture(glow::TEXTURE0 + index);
-                self.gl.disable(unit.image.target);
+                COORDINATES.iter().for_each(|(_, coordinate)| self.gl.disable(*coordinate));
+                self.load_matrix(glow::TEXTURE, DMat4::IDENTITY);
+                self.gl.disable(unit.image.shape.target());
             }
             self.gl.active_texture(glow::TEXTURE0);
         }

@@ -3,14 +3,19 @@
 //!
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
+mod attach;
 mod draw;
 pub mod environment;
 pub mod fixed_function;
+mod format;
 mod image;
 mod mutation;
 mod program;
+mod sampling;
 mod state;
 mod surface;
+mod texgen;
+mod transfer;
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -19,14 +24,19 @@ use std::rc::Rc;
 
 use glow::HasContext;
 
+pub use attach::{GlPart, GlPlace};
 pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
-pub use image::{Encoding, GlFormat, GlImage, GlWrap, Sampling};
+pub use format::{Encoding, GlFormat};
+pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;
 pub(crate) use program::{GlProgram, build};
+pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlBlend, GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
 pub use surface::Surface;
+pub use texgen::GlTexgen;
+pub use transfer::{GlBlit, GlCopyTo, GlReading};
 
 use crate::context::{Context, Profile, error_name};
 
@@ -53,6 +63,8 @@ pub struct Bench {
     programs: RefCell<HashMap<(Shader, bool), program::GlProgram>>,
     vertex_array: glow::VertexArray,
     vertex_buffer: glow::Buffer,
+    /// Sampler objects that are bound, by unit.
+    samplers: RefCell<HashMap<u32, glow::Sampler>>,
     offset_clamp: Option<state::OffsetClamp>,
     compatibility: bool,
     mutation: Option<Mutation>,
@@ -83,9 +95,16 @@ impl Bench {
             gl.bind_vertex_array(None);
             (vertex_array, vertex_buffer)
         };
-        let programs = RefCell::default();
-        let (offset_clamp, compatibility, mutation) = (None, false, None);
-        Ok(Self { gl: gl.clone(), programs, vertex_array, vertex_buffer, offset_clamp, compatibility, mutation })
+        Ok(Self {
+            gl: gl.clone(),
+            programs: RefCell::default(),
+            vertex_array,
+            vertex_buffer,
+            samplers: RefCell::default(),
+            offset_clamp: None,
+            compatibility: false,
+            mutation: None,
+        })
     }
 
     /// A bench on `context`, which is current, with the functions that glow lacks.
@@ -135,6 +154,23 @@ impl Bench {
         self.compatibility
     }
 
+    /// Tests for a version of OpenGL, or an extension that has its functions.
+    pub fn has(&self, version: (u32, u32), extension: &str) -> bool {
+        let there = self.gl.version();
+        (there.major, there.minor) >= version || self.gl.supported_extensions().contains(extension)
+    }
+
+    /// Tests whether the stencil part of a packed format can be sampled.
+    pub fn reads_stencil(&self) -> bool {
+        self.has((4, 3), "GL_ARB_stencil_texturing")
+    }
+
+    /// GL_MAX_SAMPLES.
+    pub fn most_samples(&self) -> u32 {
+        // SAFETY: a query of one integer.
+        unsafe { self.gl.get_parameter_i32(glow::MAX_SAMPLES) }.max(0) as u32
+    }
+
     /// GL_SUBPIXEL_BITS: what the driver says of its raster.
     pub fn subpixel_bits(&self) -> u32 {
         // SAFETY: a query of one integer.
@@ -173,6 +209,10 @@ impl Drop for Bench {
     fn drop(&mut self) {
         // SAFETY: the objects are the bench's own and are not used again.
         unsafe {
+            for (unit, sampler) in self.samplers.borrow_mut().drain() {
+                self.gl.bind_sampler(unit, None);
+                self.gl.delete_sampler(sampler);
+            }
             self.gl.use_program(None);
             self.gl.bind_vertex_array(None);
             self.gl.bind_framebuffer(glow::FRAMEBUFFER, None);

@@ -1,7 +1,7 @@
 //! Mistakes that a test makes the bench commit, to see that a rule notices. Pure; no command line knows of it.
 
 use super::environment::{GlArgument, GlCombine, GlCombiner, GlEnvironment, GlOperand, GlSource, GlUnit};
-use super::image::Sampling;
+use super::sampling::Sampling;
 use super::state::{GlBlend, GlCompare, GlOffset, GlState, GlStencilOp};
 
 /// One mistake, made at every draw.

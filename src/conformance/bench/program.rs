@@ -10,9 +10,11 @@ use super::{Bench, Error, no};
 ///
 /// The vertex body sets gl_Position from `position`, and `passed`; it may read `value`. The fragment body sets
 /// `result` from `passed`, and may call `compare(vec3)`, `compare_proj(vec4)` and `compare_lod(vec3, float)`, which
-/// read the image bound as `shadow`.
+/// read the image bound as `shadow`; `map` and `cube` are images of colour, `inputs` those of [`Bench::map`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shader {
+    /// Before all else: `#version`, and extensions.
+    pub version: &'static str,
     /// Before both bodies; VERTEX is defined before the vertex shader's.
     pub declarations: &'static str,
     pub vertex: &'static str,
@@ -21,22 +23,32 @@ pub struct Shader {
 
 impl Shader {
     /// Clip-space positions as they come; the fragment's value is its colour.
-    pub const PLAIN: Self =
-        Self { declarations: "", vertex: "gl_Position = position; passed = value;", fragment: "result = passed;" };
+    pub const PLAIN: Self = Self {
+        version: "#version 150",
+        declarations: "",
+        vertex: "gl_Position = position; passed = value;",
+        fragment: "result = passed;",
+    };
+
+    /// The plain vertex stage, and this fragment's body.
+    pub const fn of(fragment: &'static str) -> Self {
+        Self { fragment, ..Self::PLAIN }
+    }
 }
 
-const VERTEX_HEAD: &str = "#version 150
+const VERTEX_HEAD: &str = "
 #define VERTEX
 in vec4 position;
 in vec4 value;
 out vec4 passed;
 ";
 
-const FRAGMENT_HEAD: &str = "#version 150
+const FRAGMENT_HEAD: &str = "
 in vec4 passed;
 out vec4 result;
 uniform sampler2D map;
 uniform samplerCube cube;
+uniform sampler2D inputs;
 ";
 
 const COMPARE: &str = "
@@ -81,10 +93,11 @@ impl Bench {
         if let Some(known) = self.programs.borrow().get(&key) {
             return Ok(known.name);
         }
-        let declarations = shader.declarations;
-        let vertex = format!("{VERTEX_HEAD}{declarations}\nvoid main() {{\n{}\n}}\n", shader.vertex);
+        let Shader { version, declarations, .. } = shader;
+        let vertex = format!("{version}{VERTEX_HEAD}{declarations}\nvoid main() {{\n{}\n}}\n", shader.vertex);
         let compare = if filter_first { FILTER_THEN_COMPARE } else { COMPARE };
-        let fragment = format!("{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
+        let fragment =
+            format!("{version}{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
         let program = build(&self.gl, &vertex, &fragment)?;
         let name = program.name;
         self.programs.borrow_mut().insert(key, program);
@@ -94,11 +107,17 @@ impl Bench {
 
 /// Whole sources, linked.
 pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Result<GlProgram, Error> {
+    build_stages(gl, &[(glow::VERTEX_SHADER, vertex), (glow::FRAGMENT_SHADER, fragment)])
+}
+
+/// The same of any stages.
+pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
-        attach(gl, program.name, glow::VERTEX_SHADER, vertex)?;
-        attach(gl, program.name, glow::FRAGMENT_SHADER, fragment)?;
+        for (stage, source) in stages {
+            attach(gl, program.name, *stage, source)?;
+        }
         gl.bind_attrib_location(program.name, 0, "position");
         gl.bind_attrib_location(program.name, 1, "value");
         gl.link_program(program.name);

@@ -1,20 +1,52 @@
-//! Render target of the bench: a framebuffer with its own images; clears, exact read-back, copies.
+//! Render target of the bench: a framebuffer with its attachments; clears, exact read-back.
 
 use std::rc::Rc;
 
 use glow::HasContext;
 
-use super::image::{GlFormat, GlImage};
-use super::mutation::Mutation;
+use super::format::{Encoding, GlFormat};
+use super::image::GlImage;
 use super::{Bench, Error};
+
+/// Texels that a framebuffer has: of an image, or of a renderbuffer.
+pub(super) enum Storage {
+    Image(Rc<GlImage>),
+    Renderbuffer(Renderbuffer),
+}
+
+/// A renderbuffer, deleted on drop.
+pub(super) struct Renderbuffer {
+    pub(super) gl: Rc<glow::Context>,
+    pub(super) name: glow::Renderbuffer,
+}
+
+impl Drop for Renderbuffer {
+    fn drop(&mut self) {
+        // SAFETY: the renderbuffer is its own and is not used again.
+        unsafe { self.gl.delete_renderbuffer(self.name) };
+    }
+}
+
+/// What is attached, and how it is read.
+pub(super) struct Attached {
+    pub(super) storage: Storage,
+    pub(super) format: GlFormat,
+    pub(super) encoding: Encoding,
+}
+
+impl Attached {
+    fn image(&self) -> Option<&GlImage> {
+        if let Storage::Image(image) = &self.storage { Some(image) } else { None }
+    }
+}
 
 /// A framebuffer and its attachments, deleted on drop.
 pub struct Surface {
-    gl: Rc<glow::Context>,
+    pub(super) gl: Rc<glow::Context>,
     pub(crate) name: glow::Framebuffer,
     pub size: [u32; 2],
-    color: Option<GlImage>,
-    depth: Option<GlImage>,
+    pub(super) color: Option<Attached>,
+    pub(super) depth: Option<Attached>,
 }
 
 impl Drop for Surface {
@@ -25,80 +57,6 @@ impl Drop for Surface {
 }
 
 impl Bench {
-    /// A framebuffer of new images; depth and stencil of one format.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Refused`] where the driver has no such image or framebuffer.
-    pub fn surface(&self, size: [u32; 2], color: Option<GlFormat>, depth: Option<GlFormat>) -> Result<Surface, Error> {
-        let image = |format: Option<GlFormat>| format.map(|format| self.image(format, size)).transpose();
-        let (color, depth) = (image(color)?, image(depth)?);
-        let gl = &self.gl;
-        // SAFETY: the context is current; the textures are complete.
-        let (surface, status) = unsafe {
-            let name = gl.create_framebuffer().map_err(super::no("framebuffer"))?;
-            let surface = Surface { gl: gl.clone(), name, size, color, depth };
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(name));
-            attach(gl, glow::COLOR_ATTACHMENT0, surface.color.as_ref());
-            let stencil = surface.depth.as_ref().is_some_and(|image| image.format.has_stencil());
-            let point = if stencil { glow::DEPTH_STENCIL_ATTACHMENT } else { glow::DEPTH_ATTACHMENT };
-            attach(gl, point, surface.depth.as_ref());
-            let buffer = if surface.color.is_some() { glow::COLOR_ATTACHMENT0 } else { glow::NONE };
-            gl.draw_buffer(buffer);
-            gl.read_buffer(buffer);
-            (surface, gl.check_framebuffer_status(glow::FRAMEBUFFER))
-        };
-        let format = depth_or_color(&surface);
-        self.check("a framebuffer")?;
-        match status {
-            glow::FRAMEBUFFER_COMPLETE => Ok(surface),
-            glow::FRAMEBUFFER_UNSUPPORTED => {
-                Err(Error::Refused { format, reason: "GL_FRAMEBUFFER_UNSUPPORTED".to_owned() })
-            }
-            status => Err(Error::Refused { format, reason: format!("framebuffer status {status:#06x}") }),
-        }
-    }
-
-    /// Tests whether a separate depth texture and stencil renderbuffer make a complete framebuffer.
-    ///
-    /// # Errors
-    ///
-    /// GL's, but not that of a framebuffer that it does not support.
-    pub fn separate_stencil_is_complete(&self) -> Result<bool, Error> {
-        let surface = self.surface([4, 4], None, Some(GlFormat::Depth24))?;
-        let gl = &self.gl;
-        // SAFETY: the context is current; the renderbuffer is deleted here.
-        let status = unsafe {
-            let buffer = gl.create_renderbuffer().map_err(super::no("renderbuffer"))?;
-            gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
-            gl.renderbuffer_storage(glow::RENDERBUFFER, glow::STENCIL_INDEX8, 4, 4);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name));
-            let point = glow::STENCIL_ATTACHMENT;
-            gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, point, glow::RENDERBUFFER, Some(buffer));
-            let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
-            gl.delete_renderbuffer(buffer);
-            status
-        };
-        self.check("a stencil buffer of its own")?;
-        Ok(status == glow::FRAMEBUFFER_COMPLETE)
-    }
-
-    /// glCopyTexSubImage2D from the surface's rectangle `from` (x, y, width, height) to `to` in `image`; GL's error, if
-    /// it makes one, is the answer.
-    pub fn copy_depth(&self, surface: &Surface, from: [i32; 4], image: &GlImage, to: [i32; 2]) -> Option<String> {
-        self.take_errors();
-        let [x, y, width, height] = from;
-        let x = if self.mutation == Some(Mutation::CopyShifted) { x + 1 } else { x };
-        // SAFETY: the context is current; both are not deleted. GL checks the rectangles.
-        unsafe {
-            self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name));
-            self.gl.active_texture(glow::TEXTURE0);
-            self.gl.bind_texture(glow::TEXTURE_2D, Some(image.name));
-            self.gl.copy_tex_sub_image_2d(glow::TEXTURE_2D, 0, to[0], to[1], x, y, width, height);
-        }
-        self.take_errors()
-    }
-
     /// The depths of an image, read through a framebuffer made for that.
     ///
     /// # Errors
@@ -111,10 +69,12 @@ impl Bench {
             let name = gl.create_framebuffer().map_err(super::no("framebuffer"))?;
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(name));
             let stencil = image.format.has_stencil();
-            attach(gl, if stencil { glow::DEPTH_STENCIL_ATTACHMENT } else { glow::DEPTH_ATTACHMENT }, Some(image));
+            let point = if stencil { glow::DEPTH_STENCIL_ATTACHMENT } else { glow::DEPTH_ATTACHMENT };
+            gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(image.name), 0);
             gl.draw_buffer(glow::NONE);
             gl.read_buffer(glow::NONE);
-            let depths = read_depths(gl, image, [0, 0, image.size[0] as i32, image.size[1] as i32]);
+            let area = [0, 0, image.size[0] as i32, image.size[1] as i32];
+            let depths = read_depths(gl, image.format, image.encoding, area);
             gl.delete_framebuffer(name);
             self.check("reading depths")?;
             Ok(depths)
@@ -122,29 +82,19 @@ impl Bench {
     }
 }
 
-fn depth_or_color(surface: &Surface) -> &'static str {
-    surface.depth.as_ref().or(surface.color.as_ref()).map_or("nothing", |image| image.format.name())
-}
-
-unsafe fn attach(gl: &glow::Context, point: u32, image: Option<&GlImage>) {
-    if let Some(image) = image {
-        // SAFETY: as the caller's: a framebuffer is bound, the texture exists.
-        unsafe { gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(image.name), 0) };
-    }
-}
-
 impl Surface {
     /// The colour image.
     pub fn color_image(&self) -> Option<&GlImage> {
-        self.color.as_ref()
+        self.color.as_ref().and_then(Attached::image)
     }
 
     /// The depth image.
     pub fn depth_image(&self) -> Option<&GlImage> {
-        self.depth.as_ref()
+        self.depth.as_ref().and_then(Attached::image)
     }
 
-    fn whole(&self) -> [i32; 4] {
+    /// All of it: x, y, width, height.
+    pub fn whole(&self) -> [i32; 4] {
         [0, 0, self.size[0] as i32, self.size[1] as i32]
     }
 
@@ -203,11 +153,11 @@ impl Surface {
 
     /// Reads depths of a rectangle: x, y, width, height.
     pub fn depths_in(&self, area: [i32; 4]) -> Vec<f64> {
-        let Some(image) = &self.depth else { return Vec::new() };
+        let Some(depth) = &self.depth else { return Vec::new() };
         // SAFETY: the context is current, and the framebuffer has the image.
         unsafe {
             self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(self.name));
-            read_depths(&self.gl, image, area)
+            read_depths(&self.gl, depth.format, depth.encoding, area)
         }
     }
 
@@ -241,7 +191,13 @@ impl Surface {
     }
 }
 
-unsafe fn read_pixels(gl: &glow::Context, [x, y, width, height]: [i32; 4], format: u32, kind: u32, bytes: &mut [u8]) {
+pub(super) unsafe fn read_pixels(
+    gl: &glow::Context,
+    [x, y, width, height]: [i32; 4],
+    format: u32,
+    kind: u32,
+    bytes: &mut [u8],
+) {
     // SAFETY: as the caller's: a framebuffer is bound, and the rectangle's pixels fill `bytes`.
     unsafe {
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
@@ -251,9 +207,9 @@ unsafe fn read_pixels(gl: &glow::Context, [x, y, width, height]: [i32; 4], forma
 
 /// Exactly: packed formats as they are stored; what has at most 24 bits as a float that rounds to the one code; more as
 /// an integer.
-unsafe fn read_depths(gl: &glow::Context, image: &GlImage, area: [i32; 4]) -> Vec<f64> {
-    let (encoding, count) = (image.encoding, area[2].max(0) as usize * area[3].max(0) as usize);
-    let packed = image.format.has_stencil() && !encoding.float && encoding.bits == 24;
+unsafe fn read_depths(gl: &glow::Context, format: GlFormat, encoding: Encoding, area: [i32; 4]) -> Vec<f64> {
+    let count = area[2].max(0) as usize * area[3].max(0) as usize;
+    let packed = format.has_stencil() && !encoding.float && encoding.bits == 24;
     let (format, kind) = match () {
         () if packed => (glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8),
         () if !encoding.float && encoding.bits > 24 => (glow::DEPTH_COMPONENT, glow::UNSIGNED_INT),

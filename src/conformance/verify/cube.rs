@@ -86,6 +86,25 @@ impl Cube<'_> {
         by_face.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).unwrap_or((Grade::Wrong, f64::NAN))
     }
 
+    /// Grade of a comparison that LINEAR found in faces of comparisons: channels are 255 where one passes, else 0.
+    pub fn compared(&self, value: f64, direction: [f64; 3]) -> Grade {
+        let by_face = faces(direction).map(|face| {
+            let places = on_face(face, direction).map(|coordinate| coordinate * f64::from(self.side) - 0.5);
+            let (low, weights) = (places.map(|place| place.floor() as i64), places.map(|place| place - place.floor()));
+            let texel = |x: i64, y: i64| self.texel(face, [low[0] + x, low[1] + y]).map(|texel| texel[0] / 255.0);
+            let texels = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+            let there: Vec<f64> = texels.into_iter().flatten().collect();
+            let with = |fourth: f64| super::filtered_of(value, texels.map(|texel| texel.unwrap_or(fourth)), weights);
+            let strict = with(there.iter().sum::<f64>() / there.len() as f64);
+            match there.len() {
+                4 => strict,
+                // Any of the three may stand for the fourth.
+                _ => there.iter().map(|fourth| with(*fourth).max(Grade::Allowed)).fold(strict, Grade::min),
+            }
+        });
+        by_face.min().unwrap_or(Grade::Wrong)
+    }
+
     /// Distance of a colour from the ranges of a tier.
     fn distance(&self, color: [f64; 4], face: usize, direction: [f64; 3], tier: usize) -> f64 {
         let places = on_face(face, direction).map(|coordinate| coordinate * f64::from(self.side) - 0.5);

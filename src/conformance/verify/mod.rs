@@ -3,6 +3,7 @@
 
 pub mod cube;
 pub mod environment;
+pub mod flat;
 
 use std::cmp::Ordering;
 
@@ -86,7 +87,11 @@ const POSITION_BITS: [i32; 2] = [7, 4];
 /// along y. Strictly the bilinear result. "Proportional to the number of comparison passes" [GL 4.6, 8.23.1] also
 /// allows the nearest texel alone, the mean of four, and what lies between these; not a depth that was filtered first.
 pub fn filtered(value: f64, passes: [bool; 4], weights: [f64; 2]) -> Grade {
-    let texels = passes.map(|pass| f64::from(u8::from(pass)));
+    filtered_of(value, passes.map(|pass| f64::from(u8::from(pass))), weights)
+}
+
+/// The same of comparisons that may be a mean themselves: the fourth texel of three at a cube's corner.
+pub fn filtered_of(value: f64, texels: [f64; 4], weights: [f64; 2]) -> Grade {
     let [strict, least] = POSITION_BITS.map(|bits| f64::from(-bits).exp2());
     let good = range(positions(weights, strict).map(|[alpha, beta]| bilinear(texels, alpha, beta)));
     let nearest = positions(weights, least).map(|[alpha, beta]| bilinear(texels, alpha.round(), beta.round()));
@@ -97,7 +102,7 @@ pub fn filtered(value: f64, passes: [bool; 4], weights: [f64; 2]) -> Grade {
     let inside = |[low, high]: [f64; 2]| (low - error..=high + error).contains(&value);
     match () {
         // If all agree, weights do not matter.
-        () if passes.iter().all(|pass| *pass == passes[0]) => within(value - texels[0], 1.0 / 512.0, 1.0 / 512.0),
+        () if texels.iter().all(|texel| *texel == texels[0]) => within(value - texels[0], 1.0 / 512.0, 1.0 / 512.0),
         () if inside(good) => Grade::Good,
         () if inside([low, high]) => Grade::Allowed,
         () => Grade::Wrong,

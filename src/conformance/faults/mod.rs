@@ -1,0 +1,185 @@
+//! Drivers that are broken on purpose, for tests: a layer over the GL function table in which one thing is wrong. Bench,
+//! device and fixed function draw through it as through a sound driver.
+//!
+//! A fault is data in the file of its kind, and [`all`] has them. To add one: a line in that file. A file of a new kind
+//! needs a line in [`KINDS`].
+
+/// Faults as a table of the file: `"name" [what it breaks] "summary" (hole: "reason") functions => |call| act; ...`, the hole
+/// only where no rule sees it, or `"name" [...] "summary" text |source| another text;`.
+macro_rules! faults {
+    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? { $($wrong:tt)* })*) => {
+        pub(super) const FAULTS: &[$crate::conformance::faults::Fault] = &[$(
+            $crate::conformance::faults::Fault {
+                name: $name,
+                breaks: &[$(stringify!($broken)),*],
+                says: $says,
+                wrong: faults!(@wrong { $($wrong)* }),
+                hole: faults!(@hole $($hole)?),
+            }
+        ),*];
+    };
+    (@hole) => { None };
+    (@hole $reason:literal) => { Some($reason) };
+    (@wrong { text $change:expr }) => { $crate::conformance::faults::Wrong::Text($change) };
+    (@wrong { $($($function:ident)+ => $act:expr);+ $(;)? }) => {
+        $crate::conformance::faults::Wrong::Calls(&[$((&[$(stringify!($function)),+], $act)),+])
+    };
+}
+
+mod blending;
+mod call;
+mod depth;
+mod fixed;
+mod framebuffers;
+mod functions;
+mod functions_of_glsl;
+mod groups;
+mod lights;
+mod lookups;
+mod programs;
+mod raster;
+mod samplers;
+mod shaders;
+mod stencil;
+mod text;
+mod textures;
+mod value;
+
+use std::ffi::{CStr, c_void};
+use std::rc::Rc;
+
+pub use call::{Act, Call, Hook};
+pub use text::{Source, Stage, words};
+pub use value::Value;
+
+use text::{after_main, anywhere, define, reworded};
+
+use crate::context::{self, Context, LoadedContext};
+use call::Layer;
+
+/// One thing that a broken driver does wrong.
+#[derive(Clone, Copy)]
+pub struct Fault {
+    pub name: &'static str,
+    /// GL functions, enums (with GL_) and GLSL's words that are no longer what they should be.
+    pub breaks: &'static [&'static str],
+    /// Summary of what the broken driver does.
+    pub says: &'static str,
+    wrong: Wrong,
+    /// Reason why no rule sees it.
+    pub hole: Option<&'static str>,
+}
+
+#[derive(Clone, Copy)]
+enum Wrong {
+    Calls(&'static [Hook]),
+    /// Another text for a shader; `None`: as it is.
+    Text(fn(&Source) -> Option<String>),
+}
+
+impl Fault {
+    /// GL functions that it changes, or groups of them.
+    pub fn changes(&self) -> impl Iterator<Item = &'static str> {
+        match self.wrong {
+            Wrong::Calls(hooks) => hooks,
+            Wrong::Text(_) => &[],
+        }
+        .iter()
+        .flat_map(|(functions, _)| groups::whole(functions))
+    }
+}
+
+/// The faults by kind.
+const KINDS: &[&[Fault]] = &[
+    stencil::FAULTS,
+    depth::FAULTS,
+    raster::FAULTS,
+    blending::FAULTS,
+    samplers::FAULTS,
+    textures::FAULTS,
+    framebuffers::FAULTS,
+    programs::FAULTS,
+    shaders::FAULTS,
+    functions_of_glsl::FAULTS,
+    lookups::FAULTS,
+    fixed::FAULTS,
+    lights::FAULTS,
+];
+
+/// Every fault.
+pub fn all() -> impl Iterator<Item = &'static Fault> {
+    KINDS.iter().flat_map(|kind| kind.iter())
+}
+
+/// Holds a call back until the next draw is over.
+fn hold(call: &mut Call) {
+    call.hold();
+}
+
+/// Draws, then makes the calls that were held back.
+fn release(call: &mut Call) {
+    call.release();
+}
+
+/// A context whose driver has the fault. `inner` is current, and stays so.
+pub fn broken(inner: Rc<dyn Context>, fault: &Fault) -> Rc<dyn Context> {
+    let own = inner.clone();
+    let mut layer = Layer::new(inner.gl().clone(), move |name| own.address_of(name), functions::invoke_of);
+    match fault.wrong {
+        Wrong::Calls(hooks) => hooks.iter().for_each(|(functions, act)| layer.hook(functions, act)),
+        Wrong::Text(change) => {
+            layer.hook(&["glCreateShader"], text::note);
+            layer.hook(&["glShaderSource"], move |call| text::rewrite(call, change));
+        }
+    }
+    let layer = Rc::new(layer);
+    call::make_current(&layer);
+    let load = |name: &CStr| address(&layer, inner.as_ref(), name);
+    // SAFETY: the context is current; wrappers have the signatures of the functions that they stand for.
+    let gl = Rc::new(unsafe { glow::Context::from_loader_function_cstr(load) });
+    Rc::new(Broken { inner, layer, gl })
+}
+
+/// The wrapper of a function that the fault changes and the driver has, else the driver's.
+fn address(layer: &Layer, inner: &dyn Context, name: &CStr) -> *const c_void {
+    let driver = inner.address_of(name);
+    match name.to_str() {
+        Ok(name) if !driver.is_null() && layer.changes(name) => functions::wrapper(name).unwrap_or(driver),
+        _ => driver,
+    }
+}
+
+/// Functions that have a wrapper.
+pub fn functions() -> &'static [&'static str] {
+    functions::NAMES
+}
+
+struct Broken {
+    inner: Rc<dyn Context>,
+    layer: Rc<Layer>,
+    gl: Rc<glow::Context>,
+}
+
+impl Context for Broken {
+    fn loaded(&self) -> &LoadedContext {
+        self.inner.loaded()
+    }
+
+    fn make_current(&self) -> Result<(), context::Error> {
+        self.inner.make_current()?;
+        call::make_current(&self.layer);
+        Ok(())
+    }
+
+    fn is_current(&self) -> bool {
+        self.inner.is_current() && call::is_current(&self.layer)
+    }
+
+    fn gl(&self) -> &Rc<glow::Context> {
+        &self.gl
+    }
+
+    fn address_of(&self, name: &CStr) -> *const c_void {
+        address(&self.layer, self.inner.as_ref(), name)
+    }
+}

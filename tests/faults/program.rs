@@ -1,0 +1,77 @@
+//! Tells which rules of `glumbra check` see each fault of `conformance::faults`, and which pictures it changes.
+//!
+//! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [NAME...]`: all rules for each fault whose name or
+//! whose broken functions contain one of the names, or for all; `--holes`: only those that no rule sees by the table of
+//! `ci/drivers.md`; `--write`: puts the results into that table; `--pictures`: draws the scenes too. 1: a fault changes a picture
+//! and no rule.
+
+mod judge;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use glumbra::conformance::TABLE;
+use glumbra::conformance::faults::{self, Fault};
+use judge::{END, MARKER, PAGE, Row, changed, each, red, rows, sound};
+
+/// The table's text, from all faults and what is known of them.
+fn table(known: &[Row]) -> String {
+    let mut text =
+        String::from("| fault | a driver that has it | rules that fail | scenes that change |\n|---|---|---|---|\n");
+    for fault in faults::all() {
+        let row = known.iter().find(|row| row.fault == fault.name).cloned().unwrap_or_default();
+        let red = match (row.red.is_empty(), fault.hole) {
+            (false, _) => row.red.join(" "),
+            (true, Some(reason)) => format!("none: {reason}"),
+            (true, None) => String::from("none"),
+        };
+        let changed = row.changed.map_or(String::from("-"), |count| count.to_string());
+        text += &format!("| {} | {} | {red} | {changed} |\n", fault.name, fault.says);
+    }
+    text
+}
+
+fn main() -> ExitCode {
+    let (options, names): (Vec<_>, Vec<_>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let has = |option: &str| options.iter().any(|given| given == option);
+    let page = std::fs::read_to_string(PAGE).unwrap_or_default();
+    let mut known = rows(&page);
+    let is_hole = |fault: &Fault| known.iter().all(|row| row.fault != fault.name || row.red.is_empty());
+    let named = |fault: &Fault| {
+        let meant = |name: &String| {
+            fault.name.contains(name.as_str()) || fault.breaks.iter().any(|broken| broken.contains(name.as_str()))
+        };
+        names.is_empty() || names.iter().any(meant)
+    };
+    let chosen: Vec<_> = faults::all().filter(|fault| named(fault) && (!has("--holes") || is_hole(fault))).collect();
+    let rules: Vec<_> = TABLE.iter().collect();
+    println!("a sound driver: {:?} fail", red(None, &rules, false));
+    let scenes = if has("--pictures") { sound() } else { Vec::new() };
+    println!("{} faults, {} rules, {} scenes", chosen.len(), rules.len(), scenes.len());
+    let start = Instant::now();
+    let results = each(&chosen, |fault| {
+        let red: Vec<_> = red(Some(fault), &rules, false).into_iter().map(str::to_owned).collect();
+        let differ = has("--pictures").then(|| changed(fault, &scenes));
+        println!("{}: {}; {}", fault.name, red.join(" "), differ.clone().unwrap_or_default().join(", "));
+        Row { fault: fault.name.to_owned(), red, changed: differ.map(|scenes| scenes.len()) }
+    });
+    println!("{:.0} s", start.elapsed().as_secs_f64());
+    let of = |test: fn(&Row) -> bool| {
+        results.iter().filter(|row| test(row)).map(|row| row.fault.as_str()).collect::<Vec<_>>()
+    };
+    let holes = of(|row| row.red.is_empty() && row.changed != Some(0));
+    let neither = of(|row| row.red.is_empty() && row.changed == Some(0));
+    println!("holes: {holes:#?}\nchange neither a rule nor a picture: {neither:#?}");
+    let fails = !holes.is_empty();
+    for mut row in results {
+        let before = known.iter().position(|known| known.fault == row.fault).map(|index| known.swap_remove(index));
+        row.changed = row.changed.or(before.and_then(|before| before.changed));
+        known.push(row);
+    }
+    if has("--write") {
+        let (before, rest) = page.split_once(MARKER).expect("the marker");
+        let (_, after) = rest.split_once(END).expect("the end's marker");
+        std::fs::write(PAGE, format!("{before}{MARKER}\n\n{}\n{END}{after}", table(&known))).expect("the page");
+    }
+    if fails { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
