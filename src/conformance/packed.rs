@@ -148,6 +148,9 @@ pub fn raw_mode(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
                 let grades = (0..4).map(|channel| verify::unorm8(seen[channel], f64::from(due[channel])));
                 grades.max().unwrap_or(Grade::Wrong)
             };
+            // The same texture compared just before: nothing of that is left.
+            let image = Some((&image, Sampling::compare(GlCompare::Never), mode));
+            fixed.draw(&subject.bench, &FixedDraw { image, color, ..FixedDraw::plain(&surface, state, &vertices) })?;
             let seen = draw(GlSwizzle::SAME, None)?;
             let name = format!("{}: {mode:?}, not compared", format.name());
             findings.grade(name, graded(seen, replaced), format!("{seen:?}; {replaced:?} is due"));

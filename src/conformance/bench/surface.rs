@@ -93,6 +93,11 @@ impl Surface {
         self.depth.as_ref().and_then(Attached::image)
     }
 
+    /// Encoding of depth.
+    pub fn depth_encoding(&self) -> Option<Encoding> {
+        self.depth.as_ref().map(|depth| depth.encoding)
+    }
+
     /// All of it: x, y, width, height.
     pub fn whole(&self) -> [i32; 4] {
         [0, 0, self.size[0] as i32, self.size[1] as i32]
