@@ -125,12 +125,11 @@ pub fn sound() -> Vec<Sound> {
         let path = format!("data/{file}.toml");
         let set: Vec<_> = ["image.size=[64, 64]"].iter().chain(set).map(|set| (*set).to_owned()).collect();
         let scene = glumbra::load(Path::new(&path), &set).unwrap_or_else(|error| panic!("{name}: {error}")).scene;
-        let shadowed = scene.lights.iter().any(|light| light.shadow.is_some());
-        let views = if shadowed { vec![ViewRequest { view: View::Depth, light: 0 }] } else { Vec::new() };
+        let views = [View::Shade, View::Depth].map(|view| ViewRequest { view, light: 0 }).to_vec();
         let request = Request { views, sampled_warnings: false, ..Request::default() };
-        let plan = renderer.plan(&scene, &request).or_else(|_| {
-            renderer.plan(&scene, &Request { sampled_warnings: false, ..Request::default() })
-        });
+        let plan = renderer
+            .plan(&scene, &request)
+            .or_else(|_| renderer.plan(&scene, &Request { sampled_warnings: false, ..Request::default() }));
         (name, plan.unwrap_or_else(|error| panic!("{name}: {error}")))
     };
     let scenes: Vec<_> = SCENES.iter().map(plan).collect();

@@ -16,7 +16,8 @@ use judge::{END, MARKER, PAGE, Row, changed, each, red, rows, sound};
 
 /// The table's text, from all faults and what is known of them.
 fn table(known: &[Row]) -> String {
-    let mut text = String::from("| fault | a driver that has it | rules that fail | scenes that change |\n|---|---|---|---|\n");
+    let mut text =
+        String::from("| fault | a driver that has it | rules that fail | scenes that change |\n|---|---|---|---|\n");
     for fault in faults::all() {
         let row = known.iter().find(|row| row.fault == fault.name).cloned().unwrap_or_default();
         let red = match (row.red.is_empty(), fault.hole) {
@@ -55,7 +56,9 @@ fn main() -> ExitCode {
         Row { fault: fault.name.to_owned(), red, changed: differ.map(|scenes| scenes.len()) }
     });
     println!("{:.0} s", start.elapsed().as_secs_f64());
-    let of = |test: fn(&Row) -> bool| results.iter().filter(|row| test(row)).map(|row| row.fault.as_str()).collect::<Vec<_>>();
+    let of = |test: fn(&Row) -> bool| {
+        results.iter().filter(|row| test(row)).map(|row| row.fault.as_str()).collect::<Vec<_>>()
+    };
     let holes = of(|row| row.red.is_empty() && row.changed != Some(0));
     let neither = of(|row| row.red.is_empty() && row.changed == Some(0));
     println!("holes: {holes:#?}\nchange neither a rule nor a picture: {neither:#?}");

@@ -7,6 +7,7 @@ mod after_pass;
 mod alpha_shadows;
 mod architecture;
 mod bad_scenes;
+mod broken_drivers;
 mod bump;
 mod bump_sheets;
 mod check;

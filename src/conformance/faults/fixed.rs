@@ -4,7 +4,8 @@ use super::Call;
 use crate::context::compatibility::raw;
 
 /// Sources of the environments' arguments.
-const SOURCES: [u32; 6] = [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB, raw::SRC0_ALPHA, glow::SRC1_ALPHA, raw::SRC2_ALPHA];
+const SOURCES: [u32; 6] =
+    [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB, raw::SRC0_ALPHA, glow::SRC1_ALPHA, raw::SRC2_ALPHA];
 
 /// Puts a function of GL_COMBINE where another is wanted.
 fn combine(call: &mut Call, from: u32, to: u32) {
@@ -87,7 +88,7 @@ faults! {
     "glTexGenfv does not keep object planes." { glTexGenfv => |call| ignore(call, raw::OBJECT_PLANE) }
     "texgen-mode-ignored" [GL_TEXTURE_GEN_MODE glTexGeni]
     "Coordinates are generated from the vertex in eye space whatever the mode." { glTexGeni => |call| call.skip() }
-    "texgen-s-is-t" [GL_TEXTURE_GEN_S GL_TEXTURE_GEN_T]
+    "texgen-s-is-t" [GL_TEXTURE_GEN_S GL_TEXTURE_GEN_T GL_S GL_T]
     "Planes of s and t are exchanged." { glTexGenfv glTexGendv => |call| call.exchange(0, raw::S, raw::T) }
     "texgen-s-off" [GL_TEXTURE_GEN_S] "s is not generated." { glEnable => |call| never_on(call, raw::TEXTURE_GEN_S) }
     "texgen-t-off" [GL_TEXTURE_GEN_T] "t is not generated." { glEnable => |call| never_on(call, raw::TEXTURE_GEN_T) }
@@ -99,7 +100,9 @@ faults! {
             call.skip();
         }
     }
-    "texgen-planes-read-as-given" [glGetTexGenfv]
+    "texgen-r-is-q" [GL_R GL_Q glTexGenfv]
+    "Planes of r and q are exchanged." { glTexGenfv glTexGendv => |call| call.exchange(0, raw::R, raw::Q) }
+    "texgen-planes-read-as-zeros" [glGetTexGenfv]
     "Planes that are read back are zeros." {
         glGetTexGenfv => |call| {
             call.now();

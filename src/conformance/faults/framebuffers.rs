@@ -46,6 +46,19 @@ faults! {
     "Textures are not attached for depth." {
         glFramebufferTexture2D => |call| if call.u(1) == glow::DEPTH_ATTACHMENT { call.skip() }
     }
+    "color-attached-as-second" [GL_COLOR_ATTACHMENT0 glFramebufferTexture2D]
+    "The first colour image is attached as the second." {
+        glFramebufferTexture2D => |call| { call.replace(1, glow::COLOR_ATTACHMENT0, glow::COLOR_ATTACHMENT1); }
+    }
+    "renderbuffer-binding-stays" [glBindRenderbuffer]
+    "The first renderbuffer stays bound." {
+        glBindRenderbuffer => |call| {
+            if call.u(1) != 0 && call.kept((0, 0)) != 0.0 {
+                call.skip();
+            }
+            call.keep((0, 0), 1.0);
+        }
+    }
     "renderbuffer-not-attached" [glFramebufferRenderbuffer]
     "Renderbuffers are not attached." { glFramebufferRenderbuffer => |call| call.skip() }
     "draw-buffer-none-ignored" [glDrawBuffers GL_NONE]

@@ -2,7 +2,8 @@
 
 use std::ffi::c_void;
 
-use super::call::{Invoke, Value, Word, dispatch};
+use super::call::{Invoke, dispatch};
+use super::value::{Value, Word};
 
 type Any = *const c_void;
 type Out = *mut c_void;

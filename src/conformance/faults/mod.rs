@@ -33,6 +33,7 @@ mod fixed;
 mod framebuffers;
 mod functions;
 mod functions_of_glsl;
+mod groups;
 mod lights;
 mod lookups;
 mod programs;
@@ -42,12 +43,15 @@ mod shaders;
 mod stencil;
 mod text;
 mod textures;
+mod value;
 
 use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 
-pub use call::{Act, Call, Hook, Value};
+pub use call::{Act, Call, Hook};
 pub use text::{Source, Stage, words};
+pub use value::Value;
+
 use text::{after_main, anywhere, define, reworded};
 
 use crate::context::{self, Context, LoadedContext};
@@ -71,6 +75,18 @@ enum Wrong {
     Calls(&'static [Hook]),
     /// Another text for a shader; `None`: as it is.
     Text(fn(&Source) -> Option<String>),
+}
+
+impl Fault {
+    /// GL functions that it changes, or groups of them.
+    pub fn changes(&self) -> impl Iterator<Item = &'static str> {
+        match self.wrong {
+            Wrong::Calls(hooks) => hooks,
+            Wrong::Text(_) => &[],
+        }
+        .iter()
+        .flat_map(|(functions, _)| groups::whole(functions))
+    }
 }
 
 /// The faults by kind.

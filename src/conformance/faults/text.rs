@@ -4,7 +4,8 @@ use std::ffi::{CStr, c_char};
 
 use glow::HasContext;
 
-use super::call::{Call, Value};
+use super::call::Call;
+use super::value::Value;
 
 /// Stage of a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
