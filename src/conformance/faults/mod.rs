@@ -7,13 +7,13 @@
 /// Faults as a table of the file: `"name" [what it breaks] "summary" (hole: "reason") functions => |call| act; ...`, the hole
 /// only where no rule sees it, or `"name" [...] "summary" text |source| another text;`.
 macro_rules! faults {
-    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? $wrong:tt)*) => {
+    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? { $($wrong:tt)* })*) => {
         pub(super) const FAULTS: &[$crate::conformance::faults::Fault] = &[$(
             $crate::conformance::faults::Fault {
                 name: $name,
                 breaks: &[$(stringify!($broken)),*],
                 says: $says,
-                wrong: faults!(@wrong $wrong),
+                wrong: faults!(@wrong { $($wrong)* }),
                 hole: faults!(@hole $($hole)?),
             }
         ),*];
@@ -34,6 +34,7 @@ mod framebuffers;
 mod functions;
 mod functions_of_glsl;
 mod groups;
+mod levels;
 mod lights;
 mod lookups;
 mod programs;
@@ -103,6 +104,7 @@ const KINDS: &[&[Fault]] = &[
     functions_of_glsl::FAULTS,
     lookups::FAULTS,
     fixed::FAULTS,
+    levels::FAULTS,
     lights::FAULTS,
 ];
 

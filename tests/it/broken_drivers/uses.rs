@@ -93,9 +93,10 @@ pub fn of_gl() -> (BTreeSet<String>, BTreeSet<String>) {
     (functions, enums)
 }
 
-/// Words before a parenthesis that are no function of GLSL: types, statements, the preprocessor's.
+/// Words before a parenthesis that are no function of GLSL: types, statements, the preprocessor's, and what is made from a
+/// program of register combiners.
 const NO_FUNCTIONS: &[&str] = &[
-    "if", "for", "while", "main", "defined", "float", "int", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "mat3",
+    "combine", "if", "for", "while", "main", "defined", "float", "int", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "mat3",
     "mat4",
 ];
 
