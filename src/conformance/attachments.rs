@@ -110,7 +110,7 @@ fn parts_of(subject: &DriverUnderTest, findings: &mut Findings, case: &Case, for
     Ok(())
 }
 
-/// What is stored, in codes of 8 bits.
+/// The stored values, in codes of 8 bits.
 fn codes_of(surface: &Surface, format: GlFormat) -> Vec<f64> {
     match format {
         GlFormat::Rgba8 => surface.colors().into_iter().map(|color| f64::from(color[0])).collect(),

@@ -27,7 +27,7 @@ impl Drop for Renderbuffer {
     }
 }
 
-/// What is attached, and how it is read.
+/// An attachment, and how it is read.
 pub(super) struct Attached {
     pub(super) storage: Storage,
     pub(super) format: GlFormat,
