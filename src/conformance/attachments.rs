@@ -1,4 +1,4 @@
-//! GL-F6, GL-F9 and GL-F10: levels, faces and layers that are drawn into, renderbuffers, and framebuffers that GL must refuse
+//! GL-F6, GL-F9, GL-F10 and GL-F14: levels, faces and layers that are drawn into, renderbuffers, and framebuffers that GL must refuse
 //! [GL 4.6, 9.2.7, 9.2.8, 9.4].
 
 use std::rc::Rc;
@@ -7,6 +7,7 @@ use super::bench::{
     Error, GlDraw, GlFormat, GlImage, GlImageDesc, GlPart, GlPlace, GlShape, GlState, Surface, Vertex, full,
     level_size, rectangle,
 };
+use super::verify::Grade;
 use super::{DriverUnderTest, Findings};
 
 /// Texels along a side of level 0.
@@ -109,7 +110,7 @@ fn parts_of(subject: &DriverUnderTest, findings: &mut Findings, case: &Case, for
     Ok(())
 }
 
-/// What is stored, in codes of 8 bits.
+/// The stored values, in codes of 8 bits.
 fn codes_of(surface: &Surface, format: GlFormat) -> Vec<f64> {
     match format {
         GlFormat::Rgba8 => surface.colors().into_iter().map(|color| f64::from(color[0])).collect(),
@@ -234,3 +235,40 @@ pub fn layered(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     }
     Ok(())
 }
+
+/// GL-F14: bits of formats: at least those that the name says, and of that type.
+pub fn bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    use super::bench::Encoding;
+    for format in GlFormat::DEPTHS {
+        let (bits, float) = match format {
+            GlFormat::Depth16 => (16, false),
+            GlFormat::Depth24 | GlFormat::Depth24Stencil8 => (24, false),
+            GlFormat::Depth32 => (32, false),
+            _ => (32, true),
+        };
+        let stencil = if format.has_stencil() { 8 } else { 0 };
+        let flat = subject.bench.blank(GlImageDesc::flat(format, [4, 4])).map(|image| image.encoding);
+        let cube = subject.bench.blank(GlImageDesc::cube(format, 4)).map(|image| image.encoding);
+        let buffer = subject.bench.renderbuffers([4, 4], None, Some(format), 0);
+        let buffer = buffer.map(|surface| surface.depth_encoding().unwrap_or(NO_BITS));
+        for (what, encoding) in [("texture", flat), ("cube map", cube), ("renderbuffer", buffer)] {
+            findings.part(|findings| {
+                let Encoding { bits: seen, stencil_bits, float: is_float } = encoding?;
+                // Table 8.13 has DEPTH_COMPONENT32, but 8.5.1 does not require its bits.
+                let least = if format == GlFormat::Depth32 { 24 } else { bits };
+                let grade = match () {
+                    () if is_float != float || stencil_bits < stencil || seen < least => Grade::Wrong,
+                    () if seen < bits => Grade::Allowed,
+                    () => Grade::Good,
+                };
+                let kind = if is_float { "float" } else { "fixed point" };
+                let measured = format!("{seen} bits, {kind}, {stencil_bits} of stencil");
+                findings.grade(format!("{}: {what}", format.name()), grade, measured);
+                Ok(())
+            });
+        }
+    }
+    Ok(())
+}
+
+const NO_BITS: super::bench::Encoding = super::bench::Encoding { bits: 0, stencil_bits: 0, float: false };

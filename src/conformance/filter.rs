@@ -79,9 +79,9 @@ mod tests {
 
     #[test]
     fn a_pattern_without_a_rule_names_the_nearest() {
-        let error = choose(&["C9".to_owned()]).unwrap_err();
+        let error = choose(&["C99".to_owned()]).unwrap_err();
         assert!(error.nearest.iter().all(|id| id.starts_with("GL-C")), "{error}");
-        assert!(error.to_string().starts_with("no rule is called `C9`: did you mean GL-C"), "{error}");
+        assert!(error.to_string().starts_with("no rule is called `C99`: did you mean GL-C"), "{error}");
         let error = choose(&["stensil".to_owned()]).unwrap_err();
         assert!(error.nearest[0].starts_with("GL-S"), "{error}");
     }

@@ -22,7 +22,7 @@ pub(super) fn texels(random: &mut Random, format: GlFormat, count: usize) -> (Ve
     let mut values = Vec::new();
     for _ in 0..count {
         let codes = [(); 4].map(|()| (random.unit() * 256.0) as u8);
-        // Quarters of codes: exact as halves.
+        // Quarters of codes: exact as halves. Floats of 32 bits have more.
         let floats = codes.map(|code| f32::from(code) / 64.0 - 1.0);
         values.push(match format {
             GlFormat::Rgba8 => {
@@ -37,13 +37,19 @@ pub(super) fn texels(random: &mut Random, format: GlFormat, count: usize) -> (Ve
                 bytes.extend(codes);
                 codes.map(|code| (f64::from(code as i8) / 127.0).max(-1.0))
             }
-            GlFormat::Rgba16F | GlFormat::Rgba32F => {
+            GlFormat::Rgba32F => {
+                let floats = floats.map(|value| value + random.unit() / 64.0);
+                bytes.extend(floats.map(f32::to_ne_bytes).concat());
+                floats.map(f64::from)
+            }
+            GlFormat::Rgba16F => {
                 bytes.extend(floats.map(f32::to_ne_bytes).concat());
                 floats.map(f64::from)
             }
             GlFormat::R32F => {
-                bytes.extend(floats[0].to_ne_bytes());
-                [f64::from(floats[0]), 0.0, 0.0, 1.0]
+                let value = floats[0] + random.unit() / 64.0;
+                bytes.extend(value.to_ne_bytes());
+                [f64::from(value), 0.0, 0.0, 1.0]
             }
             _ => {
                 // A depth as red alone: GLSL's `sampler2D` gives (D, 0, 0, 1), or what DEPTH_TEXTURE_MODE says.

@@ -142,7 +142,8 @@ pub fn units(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
     let image = ramp(subject)?;
     let count = fixed.most_units().min(8);
     for eye in [true, false] {
-        for unit in 0..count {
+        // Object planes are kept as eye planes are: two units will do.
+        for unit in (0..count).step_by(if eye { 1 } else { count.max(2) - 1 }) {
             let seen = draw_units(subject, fixed, &surface, &image, (unit, count), eye, Sampling::LINEAR)?;
             let (.., generated) = planes(unit, eye);
             let mut tally = GradeTally::default();
@@ -203,7 +204,7 @@ pub fn lines(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
     let count = fixed.most_units().min(8);
     for linear in [false, true] {
         let mut all = GradeTally::default();
-        for unit in 0..count {
+        for unit in (0..count).step_by(count.max(2) - 1) {
             let sampling = Sampling { linear, ..Sampling::NEAREST };
             let seen = draw_units(subject, fixed, &surface, &image, (unit, count), true, sampling)?;
             let (.., generated) = planes(unit, true);
@@ -217,7 +218,7 @@ pub fn lines(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
             all.worst = all.worst.max(tally.worst);
         }
         let filter = if linear { "LINEAR" } else { "NEAREST" };
-        findings.tally(format!("fixed function: planes of {count} units, {filter}"), all, "");
+        findings.tally(format!("fixed function: planes of the first and the last of {count} units, {filter}"), all, "");
     }
     Ok(())
 }

@@ -34,6 +34,41 @@ pub fn objects(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     }
     findings.part(|findings| in_turn(subject, findings));
     findings.part(|findings| colors(subject, findings));
+    findings.part(|findings| shapes(subject, findings));
+    Ok(())
+}
+
+const FOUR: Shader = Shader {
+    declarations: "uniform sampler1D line; uniform sampler2DArray layers;",
+    ..Shader::of(
+        "result = vec4(texture(map, vec2(0.5)).r, texture(cube, vec3(0.1, 0.2, -1.0)).r, texture(line, 0.5).r,
+            texture(layers, vec3(0.5, 0.5, 1.0)).r);",
+    )
+};
+
+/// Textures of four shapes on four units, by turns: each is bound where it should be.
+fn shapes(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let one = |shape, layers, value: u8| {
+        let desc = GlImageDesc { shape, layers, ..GlImageDesc::flat(GlFormat::Rgba8, [1, 1]) };
+        subject.bench.filled(desc, |_, _| vec![value; 4])
+    };
+    let images = [
+        ("map", one(GlShape::Flat, 1, 50)?),
+        ("cube", one(GlShape::Cube, 6, 100)?),
+        ("line", one(GlShape::Line, 1, 150)?),
+        ("layers", one(GlShape::Array, 2, 200)?),
+    ];
+    let (mut wrong, mut count) = (0, 0);
+    for turn in 0..8 {
+        let by = GlSampledBy::ALL[turn % 2];
+        let sampling = Sampling { by, ..Sampling::NEAREST };
+        let mut bound: Vec<_> = images.iter().map(|(name, image)| (*name, image, sampling)).collect();
+        bound.rotate_left(turn / 2);
+        let seen = subject.bench.map_by(FOUR, &[[0.0; 4]], &bound)?[0].map(|value| (value * 255.0).round() as u8);
+        wrong += usize::from(seen != [50, 100, 150, 200]);
+        count += 1;
+    }
+    findings.none_wrong("1D, 2D, cube and array on four units by turns", wrong, count);
     Ok(())
 }
 

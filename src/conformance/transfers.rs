@@ -23,7 +23,7 @@ fn colored(subject: &DriverUnderTest, format: GlFormat) -> Result<Surface, Error
     subject.bench.surface_at(Some(GlPlace::whole(&Rc::new(image))), None)
 }
 
-/// What is stored: depths, or packed colours.
+/// The stored values: depths, or packed colours.
 fn values(surface: &Surface, format: GlFormat) -> Vec<f64> {
     if format.is_depth() {
         return surface.depths();

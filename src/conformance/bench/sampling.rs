@@ -43,7 +43,7 @@ pub enum GlMipmap {
     Linear,
 }
 
-/// What the sampling state is a state of.
+/// Object that has the sampling state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GlSampledBy {
     /// The texture's own parameters.
@@ -55,7 +55,7 @@ pub enum GlSampledBy {
 impl GlSampledBy {
     pub const ALL: [Self; 2] = [Self::Texture, Self::Sampler];
 
-    /// What a finding's name ends in.
+    /// End of a finding's name.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Texture => "",
@@ -99,7 +99,7 @@ pub struct Sampling {
     /// LINEAR where a texture is magnified, if another than `linear`.
     pub magnified: Option<bool>,
     pub mipmap: GlMipmap,
-    /// Of s, t and r.
+    /// Wrap modes of s, t and r.
     pub wrap: [GlWrap; 3],
     pub border: [f32; 4],
     pub compare: Option<GlCompare>,
@@ -110,7 +110,7 @@ pub struct Sampling {
     pub by: GlSampledBy,
     /// TEXTURE_BASE_LEVEL and TEXTURE_MAX_LEVEL, of the texture always; `None`: all levels that there are.
     pub levels: Option<[u32; 2]>,
-    /// Of the texture always.
+    /// Sources of the channels, a state of the texture always.
     pub swizzle: [GlSwizzle; 4],
     /// DEPTH_STENCIL_TEXTURE_MODE is STENCIL_INDEX; of the texture always.
     pub stencil: bool,

@@ -27,7 +27,7 @@ impl Drop for Renderbuffer {
     }
 }
 
-/// What is attached, and how it is read.
+/// An attachment, and how it is read.
 pub(super) struct Attached {
     pub(super) storage: Storage,
     pub(super) format: GlFormat,
@@ -91,6 +91,11 @@ impl Surface {
     /// The depth image.
     pub fn depth_image(&self) -> Option<&GlImage> {
         self.depth.as_ref().and_then(Attached::image)
+    }
+
+    /// Encoding of depth.
+    pub fn depth_encoding(&self) -> Option<Encoding> {
+        self.depth.as_ref().map(|depth| depth.encoding)
     }
 
     /// All of it: x, y, width, height.

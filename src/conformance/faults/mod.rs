@@ -34,6 +34,7 @@ mod framebuffers;
 mod functions;
 mod functions_of_glsl;
 mod groups;
+mod levels;
 mod lights;
 mod lookups;
 mod programs;
@@ -103,6 +104,7 @@ const KINDS: &[&[Fault]] = &[
     functions_of_glsl::FAULTS,
     lookups::FAULTS,
     fixed::FAULTS,
+    levels::FAULTS,
     lights::FAULTS,
 ];
 

@@ -107,4 +107,12 @@ pub const RULES: &[Rule] = &[
         tolerance: "none for sixteenths; a step of the format for each of the sums, else a warning to two",
         check: floats::sums,
     },
+    Rule {
+        id: "GL-F14",
+        title: "bits of depth formats",
+        section: "8.5.1, 9.2.5",
+        says: "A sized format has at least the bits and exactly the types that its name says, in textures and in renderbuffers.",
+        tolerance: "DEPTH_COMPONENT32 may have 24 bits: a warning",
+        check: attachments::bits,
+    },
 ];

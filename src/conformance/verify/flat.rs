@@ -20,7 +20,7 @@ pub struct Flat<'a> {
     pub size: [u32; 2],
     /// Rows from t = 0.
     pub texels: &'a [[f64; 4]],
-    /// Of s and of t.
+    /// Wrap modes of s and of t.
     pub wrap: [Wrapping; 2],
     pub border: [f64; 4],
 }
