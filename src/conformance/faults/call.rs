@@ -1,6 +1,6 @@
 //! One call of a GL function, on its way to the driver: what a fault may look at and change.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_void};
 use std::rc::{Rc, Weak};
@@ -110,20 +110,28 @@ pub type Invoke = unsafe fn(*const c_void, &[Value]) -> Value;
 /// What is done at a call.
 pub type Act = fn(&mut Call);
 
-/// Functions, and what is done at each call of one of them.
+/// Functions, and what is done at each call of one of them. `draw` stands for all that draw, `clear` for all that clear,
+/// `copy` for all that copy from a framebuffer.
 pub type Hook = (&'static [&'static str], Act);
+
+/// Functions that one word stands for.
+const GROUPS: [(&str, &[&str]); 3] = [
+    ("draw", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glEnd"]),
+    ("clear", &["glClear", "glClearBufferfv", "glClearBufferiv", "glClearBufferfi"]),
+    ("copy", &["glCopyTexSubImage2D", "glCopyTexImage2D"]),
+];
 
 /// What a context with a fault keeps from call to call.
 pub struct Layer {
     hooks: Vec<(Vec<&'static str>, Box<dyn Fn(&mut Call)>)>,
     /// The driver's own functions.
     gl: Rc<glow::Context>,
+    invoke_of: fn(&str) -> Option<(&'static str, Invoke)>,
     address_of: Box<dyn Fn(&CStr) -> *const c_void>,
     addresses: RefCell<HashMap<&'static str, *const c_void>>,
     numbers: RefCell<HashMap<(u32, u32), f64>>,
     lists: RefCell<HashMap<(u32, u32), Vec<f32>>>,
     held: RefCell<Vec<Held>>,
-    acts: Cell<u64>,
 }
 
 /// A call that has not reached the driver yet.
@@ -135,33 +143,36 @@ struct Held {
 }
 
 impl Layer {
-    /// `gl` and `address_of` are the driver's own.
-    pub fn new(gl: Rc<glow::Context>, address_of: impl Fn(&CStr) -> *const c_void + 'static) -> Self {
+    /// `gl` and `address_of` are the driver's own; `invoke_of` knows how each function is called.
+    pub fn new(
+        gl: Rc<glow::Context>,
+        address_of: impl Fn(&CStr) -> *const c_void + 'static,
+        invoke_of: fn(&str) -> Option<(&'static str, Invoke)>,
+    ) -> Self {
         Self {
             hooks: Vec::new(),
             gl,
+            invoke_of,
             address_of: Box::new(address_of),
             addresses: RefCell::default(),
             numbers: RefCell::default(),
             lists: RefCell::default(),
             held: RefCell::default(),
-            acts: Cell::new(0),
         }
     }
 
     /// Has `act` done at each call of `functions`.
     pub fn hook(&mut self, functions: &[&'static str], act: impl Fn(&mut Call) + 'static) {
-        self.hooks.push((functions.to_vec(), Box::new(act)));
+        let whole = |name: &&'static str| match GROUPS.iter().find(|(group, _)| group == name) {
+            Some((_, members)) => members.to_vec(),
+            None => vec![*name],
+        };
+        self.hooks.push((functions.iter().flat_map(whole).collect(), Box::new(act)));
     }
 
     /// Tests whether a function is changed.
     pub fn changes(&self, function: &str) -> bool {
         self.hooks.iter().any(|(functions, _)| functions.contains(&function))
-    }
-
-    /// Number of calls in which something was changed.
-    pub fn acts(&self) -> u64 {
-        self.acts.get()
     }
 
     fn address(&self, name: &'static str) -> *const c_void {
@@ -216,9 +227,6 @@ pub fn dispatch(name: &'static str, arguments: &[Value], invoke: Invoke) -> Valu
     };
     for (_, act) in layer.hooks.iter().filter(|(functions, _)| functions.contains(&name)) {
         act(&mut call);
-    }
-    if call.arguments != arguments || call.done {
-        layer.acts.set(layer.acts.get() + 1);
     }
     call.now();
     call.result
@@ -384,6 +392,80 @@ impl Call<'_> {
     pub fn enabled(&self, name: u32) -> bool {
         // SAFETY: the context is current.
         unsafe { self.layer.gl.is_enabled(name) }
+    }
+
+    /// A float of the driver's state.
+    pub fn float(&self, name: u32) -> f64 {
+        // SAFETY: the context is current; `name` is of one number.
+        f64::from(unsafe { self.layer.gl.get_parameter_f32(name) })
+    }
+
+    /// Four integers of the driver's state.
+    pub fn get4(&self, name: u32) -> [i32; 4] {
+        let mut values = [0; 4];
+        // SAFETY: the context is current; `name` is of at most four integers.
+        unsafe { self.layer.gl.get_parameter_i32_slice(name, &mut values) };
+        values
+    }
+
+    /// Calls another function of the driver's own with numbers.
+    pub fn other(&self, name: &str, numbers: &[f64]) {
+        let Some((name, invoke)) = (self.layer.invoke_of)(name) else { return };
+        let address = self.layer.address(name);
+        let arguments: Vec<_> = numbers.iter().map(|number| Value::Double(*number)).collect();
+        if !address.is_null() {
+            // SAFETY: `invoke` is of this function, and makes the numbers its arguments.
+            unsafe { invoke(address, &arguments) };
+        }
+    }
+
+    /// Makes the call while something is on or off.
+    pub fn with(&mut self, what: u32, on: bool) {
+        let was = self.enabled(what);
+        let switch = |on| self.other(if on { "glEnable" } else { "glDisable" }, &[f64::from(what)]);
+        switch(on);
+        self.now();
+        let switch = |on| self.other(if on { "glEnable" } else { "glDisable" }, &[f64::from(what)]);
+        switch(was);
+    }
+
+    /// Adds to an argument.
+    pub fn add(&mut self, index: usize, value: f64) {
+        let number = self.arguments.get(index).map_or(0.0, |argument| argument.number());
+        self.set(index, number + value);
+    }
+
+    /// An integer of an attachment of the framebuffer that is drawn into; 0 if it has none.
+    pub fn attached(&self, point: u32, name: u32) -> i32 {
+        let gl = self.gl();
+        // SAFETY: the context is current; of a point without image only its type may be asked.
+        unsafe {
+            let kind = glow::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE;
+            let none = gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING).is_none()
+                || gl.get_framebuffer_attachment_parameter_i32(glow::DRAW_FRAMEBUFFER, point, kind) == 0;
+            if none { 0 } else { gl.get_framebuffer_attachment_parameter_i32(glow::DRAW_FRAMEBUFFER, point, name) }
+        }
+    }
+
+    /// Bits of the depth image that is drawn into, and its component type; zeros without one.
+    pub fn depth_format(&self) -> (i32, u32) {
+        let read = |name| self.attached(glow::DEPTH_ATTACHMENT, name);
+        let kind = read(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) as u32;
+        (read(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE), kind)
+    }
+
+    /// A parameter of a level of the 2D texture that is bound.
+    pub fn level(&self, level: i32, name: u32) -> i32 {
+        // SAFETY: the context is current.
+        unsafe { self.gl().get_tex_level_parameter_i32(glow::TEXTURE_2D, level, name) }
+    }
+
+    /// Gives a level of the 2D texture that is bound RGBA texels of 8 bits.
+    pub fn upload(&self, level: i32, [width, height]: [i32; 2], texels: &[u8]) {
+        let pixels = glow::PixelUnpackData::Slice(Some(texels));
+        let (format, kind) = (glow::RGBA, glow::UNSIGNED_BYTE);
+        // SAFETY: the context is current; the texels fill the rectangle.
+        unsafe { self.gl().tex_sub_image_2d(glow::TEXTURE_2D, level, 0, 0, width, height, format, kind, pixels) };
     }
 
     /// A number that was kept; 0 if none was.

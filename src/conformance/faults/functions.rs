@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::call::{Value, Word, dispatch};
+use super::call::{Invoke, Value, Word, dispatch};
 
 type Any = *const c_void;
 type Out = *mut c_void;
@@ -23,18 +23,32 @@ macro_rules! functions {
             }
         }
 
+        /// How a function is called by its address.
+        pub fn invoke_of(name: &str) -> Option<(&'static str, Invoke)> {
+            match name {
+                $(stringify!($name) => Some((stringify!($name), invokes::$name)),)*
+                _ => None,
+            }
+        }
+
+        #[allow(non_snake_case, reason = "GL's names")]
+        mod invokes {
+            use super::*;
+
+            $(pub unsafe fn $name(address: *const c_void, arguments: &[Value]) -> Value {
+                type Function = unsafe extern "system" fn($($type),*) -> functions!(@result $($result)?);
+                let [$($argument),*] = *arguments else { return Value::Nothing };
+                // SAFETY: the address is that of the function of this name, which has this signature.
+                unsafe { std::mem::transmute::<*const c_void, Function>(address)($(Word::unpack($argument)),*).pack() }
+            })*
+        }
+
         #[allow(non_snake_case, reason = "GL's names")]
         mod wrappers {
             use super::*;
 
             $(pub unsafe extern "system" fn $name($($argument: $type),*) -> functions!(@result $($result)?) {
-                unsafe fn invoke(address: *const c_void, arguments: &[Value]) -> Value {
-                    type Function = unsafe extern "system" fn($($type),*) -> functions!(@result $($result)?);
-                    let [$($argument),*] = *arguments else { return Value::Nothing };
-                    // SAFETY: the address is that of the function of this name, which has this signature.
-                    unsafe { std::mem::transmute::<*const c_void, Function>(address)($(Word::unpack($argument)),*).pack() }
-                }
-                Word::unpack(dispatch(stringify!($name), &[$($argument.pack()),*], invoke))
+                Word::unpack(dispatch(stringify!($name), &[$($argument.pack()),*], invokes::$name))
             })*
         }
     };

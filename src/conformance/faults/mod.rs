@@ -4,9 +4,40 @@
 //! A fault is data in the file of its kind, and [`all`] has them. To add one: a line in that file. A file of a new kind
 //! needs a line in [`KINDS`].
 
+/// Faults as a table of the file: `"name" [what it breaks] "summary" (hole: "reason") functions => |call| act; ...`, the hole
+/// only where no rule sees it, or `"name" [...] "summary" text |source| another text;`.
+macro_rules! faults {
+    ($($name:literal [$($broken:ident)*] $says:literal $((hole: $hole:literal))? $wrong:tt)*) => {
+        pub(super) const FAULTS: &[$crate::conformance::faults::Fault] = &[$(
+            $crate::conformance::faults::Fault {
+                name: $name,
+                breaks: &[$(stringify!($broken)),*],
+                says: $says,
+                wrong: faults!(@wrong $wrong),
+                hole: faults!(@hole $($hole)?),
+            }
+        ),*];
+    };
+    (@hole) => { None };
+    (@hole $reason:literal) => { Some($reason) };
+    (@wrong { text $change:expr }) => { $crate::conformance::faults::Wrong::Text($change) };
+    (@wrong { $($($function:ident)+ => $act:expr);+ $(;)? }) => {
+        $crate::conformance::faults::Wrong::Calls(&[$((&[$(stringify!($function)),+], $act)),+])
+    };
+}
+
+mod blending;
 mod call;
 mod depth;
+mod fixed;
+mod framebuffers;
 mod functions;
+mod functions_of_glsl;
+mod lights;
+mod lookups;
+mod programs;
+mod raster;
+mod samplers;
 mod shaders;
 mod stencil;
 mod text;
@@ -16,7 +47,8 @@ use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 
 pub use call::{Act, Call, Hook, Value};
-pub use text::{Source, Stage, after_main, define, words};
+pub use text::{Source, Stage, words};
+use text::{after_main, anywhere, define, reworded};
 
 use crate::context::{self, Context, LoadedContext};
 use call::Layer;
@@ -30,8 +62,6 @@ pub struct Fault {
     /// Summary of what the broken driver does.
     pub says: &'static str,
     wrong: Wrong,
-    /// Ids of rules that it turns red, the quickest first.
-    pub red: &'static [&'static str],
     /// Reason why no rule sees it.
     pub hole: Option<&'static str>,
 }
@@ -43,56 +73,42 @@ enum Wrong {
     Text(fn(&Source) -> Option<String>),
 }
 
-impl Fault {
-    /// Calls that are changed on their way.
-    const fn calls(
-        name: &'static str,
-        breaks: &'static [&'static str],
-        says: &'static str,
-        hooks: &'static [Hook],
-    ) -> Self {
-        Self { name, breaks, says, wrong: Wrong::Calls(hooks), red: &[], hole: None }
-    }
-
-    /// Shaders that are changed before they are compiled.
-    const fn text(
-        name: &'static str,
-        breaks: &'static [&'static str],
-        says: &'static str,
-        change: fn(&Source) -> Option<String>,
-    ) -> Self {
-        Self { name, breaks, says, wrong: Wrong::Text(change), red: &[], hole: None }
-    }
-
-    /// The same with rules that see it.
-    const fn red(mut self, rules: &'static [&'static str]) -> Self {
-        self.red = rules;
-        self
-    }
-
-    /// The same with the reason why no rule sees it.
-    #[allow(dead_code, reason = "best where there are none")]
-    const fn hole(mut self, reason: &'static str) -> Self {
-        self.hole = Some(reason);
-        self
-    }
-}
-
 /// The faults by kind.
-const KINDS: &[&[Fault]] = &[depth::FAULTS, shaders::FAULTS, stencil::FAULTS, textures::FAULTS];
+const KINDS: &[&[Fault]] = &[
+    stencil::FAULTS,
+    depth::FAULTS,
+    raster::FAULTS,
+    blending::FAULTS,
+    samplers::FAULTS,
+    textures::FAULTS,
+    framebuffers::FAULTS,
+    programs::FAULTS,
+    shaders::FAULTS,
+    functions_of_glsl::FAULTS,
+    lookups::FAULTS,
+    fixed::FAULTS,
+    lights::FAULTS,
+];
 
 /// Every fault.
 pub fn all() -> impl Iterator<Item = &'static Fault> {
     KINDS.iter().flat_map(|kind| kind.iter())
 }
 
-/// Functions that draw.
-const DRAWS: &[&str] = &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glEnd"];
+/// Holds a call back until the next draw is over.
+fn hold(call: &mut Call) {
+    call.hold();
+}
+
+/// Draws, then makes the calls that were held back.
+fn release(call: &mut Call) {
+    call.release();
+}
 
 /// A context whose driver has the fault. `inner` is current, and stays so.
 pub fn broken(inner: Rc<dyn Context>, fault: &Fault) -> Rc<dyn Context> {
     let own = inner.clone();
-    let mut layer = Layer::new(inner.gl().clone(), move |name| own.address_of(name));
+    let mut layer = Layer::new(inner.gl().clone(), move |name| own.address_of(name), functions::invoke_of);
     match fault.wrong {
         Wrong::Calls(hooks) => hooks.iter().for_each(|(functions, act)| layer.hook(functions, act)),
         Wrong::Text(change) => {

@@ -119,3 +119,26 @@ fn joined(call: &Call) -> String {
     };
     if texts.is_null() { String::new() } else { (0..call.i(1).max(0) as usize).map(part).collect() }
 }
+
+/// Lines before a shader of any stage that has `word`, from version 130.
+pub fn anywhere(source: &Source, word: &str, lines: &str) -> Option<String> {
+    define(source, source.stage, word, lines)
+}
+
+/// Another word for each `word` of a shader, from version 130.
+pub fn reworded(source: &Source, stage: Stage, word: &str, other: &str) -> Option<String> {
+    if source.stage != stage || source.version < 130 || !source.has(word) {
+        return None;
+    }
+    let is_letter = |letter: Option<char>| letter.is_some_and(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    let (mut text, mut rest) = (String::new(), source.text.as_str());
+    while let Some(at) = rest.find(word) {
+        let (before, after) = (&rest[..at], &rest[at + word.len()..]);
+        let whole = !is_letter(before.chars().last()) && !is_letter(after.chars().next());
+        text += before;
+        text += if whole { other } else { word };
+        rest = after;
+    }
+    text += rest;
+    Some(text)
+}
