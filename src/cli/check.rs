@@ -49,7 +49,7 @@ A rule passes, has a quality warning (it is allowed, but good drivers do better)
 tested here. Verdicts come from bounds on what the specification allows, never from a picture.
 
 Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
-F framebuffers.
+F framebuffers, B blending, masks and clears, G GLSL, V vertices, Q queries.
 
 A waiver names a deviation that is known, by driver, versions, rule and check:
   [[waiver]]

@@ -137,7 +137,11 @@ fn filtered_of(
             tally.add(verify::filtered(value, passes, weights), value - ideal);
         }
     }
-    findings.tally(format!("{}, 16 outcomes of 2x2 texels{}", format.name(), by.suffix()), tally, "of the ideal weight");
+    findings.tally(
+        format!("{}, 16 outcomes of 2x2 texels{}", format.name(), by.suffix()),
+        tally,
+        "of the ideal weight",
+    );
     Ok(())
 }
 
@@ -172,7 +176,11 @@ pub fn levels(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
                 let off = f64::from(value[0]) - f64::from(1.0 - lod);
                 tally.add(verify::within(off, 1.0 / 64.0 + 1.0 / 256.0, 1.0 / 16.0 + 1.0 / 256.0), off);
             }
-            findings.tally(format!("{}, between two levels{}", format.name(), by.suffix()), tally, "of the level's weight");
+            findings.tally(
+                format!("{}, between two levels{}", format.name(), by.suffix()),
+                tally,
+                "of the level's weight",
+            );
             Ok(())
         });
     }
@@ -193,12 +201,7 @@ pub fn border(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
 }
 
 /// The second texel alone passes against 0.5.
-fn wraps(
-    subject: &DriverUnderTest,
-    findings: &mut Findings,
-    row: &GlImage,
-    by: GlSampledBy,
-) -> Result<(), Error> {
+fn wraps(subject: &DriverUnderTest, findings: &mut Findings, row: &GlImage, by: GlSampledBy) -> Result<(), Error> {
     let cases = [
         (GlWrap::Repeat, [(1.25, 0.0), (1.75, 1.0), (-0.25, 1.0), (-0.75, 0.0)]),
         (GlWrap::MirroredRepeat, [(1.25, 1.0), (1.75, 0.0), (-0.25, 0.0), (-0.75, 1.0)]),
@@ -217,12 +220,7 @@ fn wraps(
 }
 
 /// Inside 0.75 fails against 0.5; the border's depth is the first component, 1, and passes.
-fn borders(
-    subject: &DriverUnderTest,
-    findings: &mut Findings,
-    flat: &GlImage,
-    by: GlSampledBy,
-) -> Result<(), Error> {
+fn borders(subject: &DriverUnderTest, findings: &mut Findings, flat: &GlImage, by: GlSampledBy) -> Result<(), Error> {
     let mut cases = vec![
         ("CLAMP_TO_BORDER", false, GlWrap::ClampToBorder, -0.25, 1.0),
         ("CLAMP_TO_BORDER inside", false, GlWrap::ClampToBorder, 0.25, 0.0),
@@ -241,7 +239,11 @@ fn borders(
         let grade = verify::within(f64::from(value) - expected, 1.0 / 64.0, 1.0 / 8.0);
         // A nearest texel's result is never 'about right' here.
         let grade = if linear { grade } else { grade.max(verify::within(f64::from(value) - expected, 0.0, 0.0)) };
-        findings.grade(format!("{}: {name}{}", flat.format.name(), by.suffix()), grade, format!("{value}; {expected} is due"));
+        findings.grade(
+            format!("{}: {name}{}", flat.format.name(), by.suffix()),
+            grade,
+            format!("{value}; {expected} is due"),
+        );
     }
     Ok(())
 }

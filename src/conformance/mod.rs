@@ -4,32 +4,48 @@
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
 //! To add a rule: one row in the table, one function in the file of its kind.
 
+mod alpha_test;
 pub mod bench;
 mod blending;
+mod clip_distances;
 mod compare;
 mod coordinates;
 mod copies;
 mod cube_maps;
 mod depth;
+mod derivatives;
 mod environment;
+mod faces;
+mod factors;
 #[doc(hidden)]
 pub mod faults;
+mod fetch;
 mod filter;
 mod findings;
 mod fixed;
+mod fragments;
+mod functions;
 mod invariance;
+mod masks;
 mod offset;
+mod offset_planes;
 mod planes;
 mod print;
 pub mod probe;
+mod programs;
+mod queries;
 mod random;
 mod raster;
 mod stencil;
 mod table;
+mod uniforms;
+mod varyings;
 pub mod verify;
 mod volumes;
 pub mod waivers;
+mod windows;
 mod write;
+mod zfail;
 
 use serde::Serialize;
 

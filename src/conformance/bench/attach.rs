@@ -79,7 +79,8 @@ impl Bench {
         depth: Option<GlFormat>,
         samples: u32,
     ) -> Result<Surface, Error> {
-        let buffer = |format: Option<GlFormat>| format.map(|format| self.renderbuffer(size, format, samples)).transpose();
+        let buffer =
+            |format: Option<GlFormat>| format.map(|format| self.renderbuffer(size, format, samples)).transpose();
         let (color, depth) = (buffer(color)?, buffer(depth)?);
         self.framebuffer(size, color, depth, [None; 2])
     }

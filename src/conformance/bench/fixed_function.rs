@@ -9,7 +9,7 @@ use glam::{DMat4, DVec4};
 use glow::HasContext;
 
 use super::environment::{GlCoordinates, GlUnit, set};
-use super::{Bench, Error, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
+use super::{Bench, Error, GlCompare, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
 use crate::context::compatibility::{Binding, BindingError, raw};
 
@@ -45,6 +45,8 @@ pub struct FixedDraw<'a> {
     pub texgen: Option<GlTexgen>,
     pub image: Option<(&'a GlImage, Sampling, DepthMode)>,
     pub color: [f32; 4],
+    /// Function and reference of the alpha test.
+    pub alpha_test: Option<(GlCompare, f32)>,
     /// Three for each triangle, positions in model space.
     pub vertices: &'a [Vertex],
     /// Vertex and fragment shader of GLSL 1.20 in place of the fixed stages; `map` is the image.
@@ -63,6 +65,7 @@ impl<'a> FixedDraw<'a> {
             texgen: None,
             image: None,
             color: [1.0; 4],
+            alpha_test: None,
             vertices,
             shaders: None,
         }
@@ -167,6 +170,10 @@ impl FixedBench {
             for off in [raw::LIGHTING, raw::FOG, raw::ALPHA_TEST] {
                 self.gl.disable(off);
             }
+            if let Some((function, reference)) = draw.alpha_test {
+                self.gl.enable(raw::ALPHA_TEST);
+                self.binding.AlphaFunc(function.code(), reference);
+            }
             if let Some((image, sampling, mode)) = draw.image {
                 bench.bind_image(0, image, sampling)?;
                 let mode = match mode {
@@ -186,6 +193,7 @@ impl FixedBench {
             self.submit(draw);
             self.gl.use_program(None);
             self.gl.disable(glow::TEXTURE_2D);
+            self.gl.disable(raw::ALPHA_TEST);
         }
         bench.check("a fixed-function draw")
     }

@@ -197,8 +197,7 @@ impl Bench {
                     }
                     GlShape::Flat | GlShape::Cube => {
                         for (layer, bytes) in (0..).zip(&bytes) {
-                            let (place, pixels) =
-                                (shape.place(layer), glow::PixelUnpackData::Slice(bytes.as_deref()));
+                            let (place, pixels) = (shape.place(layer), glow::PixelUnpackData::Slice(bytes.as_deref()));
                             gl.tex_image_2d(place, at, internal, width, height, 0, layout, kind, pixels);
                         }
                     }

@@ -96,7 +96,8 @@ impl Bench {
         let Shader { version, declarations, .. } = shader;
         let vertex = format!("{version}{VERTEX_HEAD}{declarations}\nvoid main() {{\n{}\n}}\n", shader.vertex);
         let compare = if filter_first { FILTER_THEN_COMPARE } else { COMPARE };
-        let fragment = format!("{version}{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
+        let fragment =
+            format!("{version}{FRAGMENT_HEAD}{compare}{declarations}\nvoid main() {{\n{}\n}}\n", shader.fragment);
         let program = build(&self.gl, &vertex, &fragment)?;
         let name = program.name;
         self.programs.borrow_mut().insert(key, program);

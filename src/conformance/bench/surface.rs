@@ -191,7 +191,13 @@ impl Surface {
     }
 }
 
-pub(super) unsafe fn read_pixels(gl: &glow::Context, [x, y, width, height]: [i32; 4], format: u32, kind: u32, bytes: &mut [u8]) {
+pub(super) unsafe fn read_pixels(
+    gl: &glow::Context,
+    [x, y, width, height]: [i32; 4],
+    format: u32,
+    kind: u32,
+    bytes: &mut [u8],
+) {
     // SAFETY: as the caller's: a framebuffer is bound, and the rectangle's pixels fill `bytes`.
     unsafe {
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);

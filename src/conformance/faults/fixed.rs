@@ -4,7 +4,8 @@ use super::Call;
 use crate::context::compatibility::raw;
 
 /// Sources of the environments' arguments.
-const SOURCES: [u32; 6] = [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB, raw::SRC0_ALPHA, glow::SRC1_ALPHA, raw::SRC2_ALPHA];
+const SOURCES: [u32; 6] =
+    [raw::SRC0_RGB, raw::SRC1_RGB, raw::SRC2_RGB, raw::SRC0_ALPHA, glow::SRC1_ALPHA, raw::SRC2_ALPHA];
 
 /// Puts a function of GL_COMBINE where another is wanted.
 fn combine(call: &mut Call, from: u32, to: u32) {

@@ -1,15 +1,19 @@
 //! The rules, as data: a file for each kind.
 
+mod blending;
 mod comparison;
 mod coordinates;
 mod cube_maps;
 mod depth;
 mod environment;
 mod framebuffers;
+mod glsl;
 mod invariance;
 mod offset;
+mod queries;
 mod raster;
 mod stencil;
+mod vertices;
 
 use super::Rule;
 
@@ -25,6 +29,10 @@ const KINDS: &[&[Rule]] = &[
     framebuffers::RULES,
     environment::RULES,
     cube_maps::RULES,
+    blending::RULES,
+    glsl::RULES,
+    vertices::RULES,
+    queries::RULES,
 ];
 
 /// Every rule, in the order of a report.
