@@ -37,6 +37,7 @@ pub fn leaves_alone(subject: &DriverUnderTest, findings: &mut Findings) -> Resul
     findings.none_wrong("the alpha test, 8 functions", wrong, count);
     // Without the test all is drawn.
     surface.clear_color([0.0; 4]);
+    surface.clear_depth(0.75);
     fixed.draw(
         &subject.bench,
         &FixedDraw { color: [1.0, 1.0, 1.0, 0.0], ..FixedDraw::plain(&surface, state, &vertices) },

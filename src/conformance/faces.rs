@@ -46,12 +46,13 @@ pub fn both(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
     let mut random = Random::new(301);
     judge(subject, findings, "operations", &operations(), false)?;
     judge(subject, findings, "functions, references and read masks", &functions(), false)?;
-    let mixed: Vec<Row> = (0..96).map(|_| mixed(&mut random)).collect();
+    let mixed: Vec<Row> = (0..20).map(|_| mixed(&mut random)).collect();
     judge(subject, findings, "all different, write masks too", &mixed, false)?;
     // As renderers set it that have one test and one mask: by the calls for both faces, and operations by face.
-    let tests = mixed.iter().map(|row| Row { sides: [row.sides[0], with_test(row.sides[1], row.sides[0])], ..*row });
+    let tests =
+        mixed[..8].iter().map(|row| Row { sides: [row.sides[0], with_test(row.sides[1], row.sides[0])], ..*row });
     judge(subject, findings, "one test and mask by glStencilFunc and glStencilMask", &tests.collect::<Vec<_>>(), true)?;
-    let same = mixed.iter().map(|row| Row { sides: [row.sides[0]; 2], ..*row });
+    let same = mixed[8..16].iter().map(|row| Row { sides: [row.sides[0]; 2], ..*row });
     judge(subject, findings, "one state by the calls without a face", &same.collect::<Vec<_>>(), true)?;
     wraps(subject, findings)
 }
@@ -71,10 +72,9 @@ fn operations() -> Vec<Row> {
             ops: [op(first + shift), op(first + shift + 1), op(first + shift + 3)],
             ..GlStencil::on_pass(GlStencilOp::Keep)
         };
-        for depth in [Some(GlCompare::Less), Some(GlCompare::Greater), Some(GlCompare::Never), None] {
-            for compare in [GlCompare::Always, GlCompare::Less, GlCompare::GreaterEqual] {
-                rows.push(Row { sides: [side(0, compare, 0x66), side(2, compare, 0x99)], depth });
-            }
+        // In turn the front's fragment passes the depth test and the back's fails, and the other way round.
+        for depth in [Some(GlCompare::Less), Some(GlCompare::Greater)] {
+            rows.push(Row { sides: [side(0, GlCompare::Less, 0x66), side(2, GlCompare::GreaterEqual, 0x99)], depth });
         }
     }
     rows
@@ -84,17 +84,17 @@ fn operations() -> Vec<Row> {
 fn functions() -> Vec<Row> {
     let mut rows = Vec::new();
     for (index, compare) in GlCompare::ALL.into_iter().enumerate() {
-        for (reference, other, read_mask) in [(0x80, 1, 0xFF), (1, 0xAB, 0x0F), (0xAB, 0x80, 0xF0)] {
-            let side = |compare, reference, read_mask| GlStencil {
-                compare,
-                reference,
-                read_mask,
-                ops: [GlStencilOp::Zero, GlStencilOp::Keep, GlStencilOp::Invert],
-                ..GlStencil::on_pass(GlStencilOp::Keep)
-            };
-            let next = GlCompare::ALL[(index + 3) % 8];
-            rows.push(Row { sides: [side(compare, reference, read_mask), side(next, other, 0xFF)], depth: None });
-            rows.push(Row { sides: [side(next, other, 0xFF), side(compare, reference, read_mask)], depth: None });
+        let side = |compare, reference, read_mask| GlStencil {
+            compare,
+            reference,
+            read_mask,
+            ops: [GlStencilOp::Zero, GlStencilOp::Keep, GlStencilOp::Invert],
+            ..GlStencil::on_pass(GlStencilOp::Keep)
+        };
+        let next = GlCompare::ALL[(index + 3) % 8];
+        for (reference, other, read_mask) in [(0x80, 1, 0xFF), (0xAB, 0x80, 0x0F)] {
+            let sides = [side(compare, reference, read_mask), side(next, other, 0xF0)];
+            rows.push(Row { sides, depth: None });
         }
     }
     rows

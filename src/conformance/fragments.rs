@@ -73,8 +73,9 @@ fn cleared(surface: &Surface) {
 /// GL-D6: a fragment that is discarded leaves colour, depth and stencil alone, whatever the tests would say.
 pub fn discarded(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), Some(GlFormat::Depth24Stencil8))?;
-    for (name, shader) in DISCARDING {
-        for (tests, state, due) in states() {
+    for (index, (name, shader)) in DISCARDING.into_iter().enumerate() {
+        // The ways of discarding differ in the shader: one of them with every state.
+        for (tests, state, due) in states().into_iter().take(if index == 0 { 4 } else { 2 }) {
             cleared(&surface);
             // Depth 0.25, which is less than 0.75.
             subject.bench.draw(&GlDraw { shader, ..GlDraw::plain(&surface, state, &full(-0.5)) })?;
@@ -98,7 +99,7 @@ pub fn written_depth(subject: &DriverUnderTest, findings: &mut Findings) -> Resu
     let mut depths = || (0..COUNT).map(|_| (random.unit() * 64.0).round() / 64.0).collect::<Vec<f32>>();
     let (first, second) = (depths(), depths());
     let inputs = |depths: &[f32]| depths.iter().map(|depth| [*depth; 4]).collect::<Vec<_>>();
-    for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F] {
+    for format in [GlFormat::Depth24, GlFormat::Depth32F] {
         findings.part(|findings| {
             let surface = subject.bench.surface([32; 2], Some(GlFormat::Rgba8), Some(format))?;
             let Some(encoding) = surface.depth_image().map(|image| image.encoding) else { return Ok(()) };

@@ -52,7 +52,7 @@ fn floats_too(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
     let (old, new) = ([1.5, -2.0, 3.25, 0.75], [-4.0, 8.0, 0.5, 16.0]);
     let quad = rectangle([-1.0; 2], [1.0; 2], 0.0, new);
     let mut bad = 0;
-    for bits in 0..16 {
+    for bits in [0, 1, 2, 4, 8, 7, 15] {
         subject.bench.clear(
             &surface,
             GlState::WRITE,
@@ -67,7 +67,7 @@ fn floats_too(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
         let due = [0, 1, 2, 3].map(|channel| if mask[channel] { new[channel] } else { old[channel] });
         bad += usize::from(surface.floats().into_iter().any(|color| color != due));
     }
-    findings.none_wrong("16 colour masks on floats", bad, 16);
+    findings.none_wrong("7 colour masks on floats", bad, 7);
     Ok(())
 }
 

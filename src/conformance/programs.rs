@@ -78,7 +78,9 @@ pub fn add_up(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
     for format in [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth24Stencil8, GlFormat::Depth32F] {
         findings.part(|findings| {
             let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), Some(format))?;
-            for (name, state, near_too) in shared() {
+            // Drivers compile each state: 16 bits and 24 alone have the first.
+            let all = matches!(format, GlFormat::Depth24Stencil8 | GlFormat::Depth32F);
+            for (name, state, near_too) in shared().into_iter().take(if all { 7 } else { 1 }) {
                 let mesh = mesh(near_too);
                 let turned = state.depth_range[0] > state.depth_range[1];
                 let (cleared, nearest) = if turned { (0.0, GlCompare::Greater) } else { (1.0, GlCompare::Less) };
@@ -103,7 +105,12 @@ pub fn add_up(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
                 let beside =
                     colors.iter().zip(&depths).filter(|(color, depth)| **depth == cleared && **color != [0; 4]);
                 let (count, wrong) = (drawn.count(), wrong + beside.count());
-                let grade = if wrong == 0 && count > 100 { Grade::Good } else { Grade::Wrong };
+                // `invariant` covers positions: an offset's slope is computed anew, and may round otherwise.
+                let grade = match wrong {
+                    0 if count > 100 => Grade::Good,
+                    _ if state.offset.is_some() && wrong < count / 100 => Grade::Allowed,
+                    _ => Grade::Wrong,
+                };
                 let measured = format!("{wrong} of {count} pixels wrong");
                 findings.grade(format!("{}: 5 programs under EQUAL, {name}", format.name()), grade, measured);
             }
