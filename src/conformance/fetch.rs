@@ -64,7 +64,7 @@ impl Vertices {
     }
 }
 
-/// What a pixel must show of the triangle's last vertex.
+/// Colours that a pixel must show: the attributes of the triangle's last vertex.
 fn due(vertex: usize) -> [[f32; 4]; 2] {
     let at = vertex as f32;
     [[at, at + 1.0, at + 2.0, at + 0.5], [-at, 0.5 * at, 0.0, 1.0]]

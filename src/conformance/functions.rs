@@ -40,7 +40,7 @@ fn length3(a: [f64; 4]) -> f64 {
     dot3(a, a).sqrt()
 }
 
-/// Whether as a number.
+/// 1 if it holds, else 0.
 fn number(holds: bool) -> f64 {
     f64::from(u8::from(holds))
 }

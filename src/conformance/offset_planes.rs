@@ -101,7 +101,7 @@ fn factors(
     Ok(())
 }
 
-/// Of floats, r is 2^(e - 23) by the greatest depth of the primitive, at each of its pixels. The triangle is not clipped:
+/// The r of floats is 2^(e - 23) by the greatest depth of the primitive, at each of its pixels. The triangle is not clipped:
 /// what clipping leaves is a primitive too.
 fn slanted_floats(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], None, Some(GlFormat::Depth32F))?;

@@ -101,7 +101,7 @@ fn places(
                 (f64::from(pixel[axis] - viewport[axis]) + 0.5) * 2.0 / f64::from(viewport[axis + 2]) - 1.0
             });
             let off = (0..2).map(|axis| (f64::from(color[axis]) - due[axis]).abs()).fold(0.0, f64::max);
-            // A sub-pixel of 2^-4 and of 2^-8 of the smallest viewport's width.
+            // Strictly roundings of f32, else a sub-pixel of 2^-4.
             let pixel_worth = 2.0 / f64::from(viewport[2].min(viewport[3]));
             at.add(verify::within(off, 1e-5, pixel_worth / 16.0), off);
             let z = 0.5 * due[0] + 0.25 * due[1];

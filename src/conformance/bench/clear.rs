@@ -4,7 +4,7 @@ use glow::HasContext;
 
 use super::{Bench, Error, GlState, Surface};
 
-/// What is cleared, to which value.
+/// Buffers that are cleared, each with its value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GlClear {
     pub color: Option<[f32; 4]>,
