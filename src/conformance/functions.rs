@@ -56,7 +56,7 @@ const FUNCTIONS: &[Function] = &[
     function("floor", "result = floor(a);", [-9.0, 9.0], 0.0, |a| a.map(f64::floor)),
     function("ceil", "result = ceil(a);", [-9.0, 9.0], 0.0, |a| a.map(f64::ceil)),
     function("fract", "result = fract(a);", [-9.0, 9.0], 16.0, |a| a.map(|x| x - x.floor())),
-    function("mod", "result = mod(a, 2.5);", [-9.0, 9.0], 64.0, |a| a.map(|x| x - 2.5 * (x / 2.5).floor())),
+    function("mod", "result = mod(a, 2.0);", [-9.0, 9.0], 64.0, |a| a.map(|x| x - 2.0 * (x / 2.0).floor())),
     function("min", "result = vec4(min(a.xy, a.zw), min(a.x, a.y), min(a.w, 0.25));", [-4.0, 4.0], 0.0, |a| {
         [a[0].min(a[2]), a[1].min(a[3]), a[0].min(a[1]), a[3].min(0.25)]
     }),
