@@ -50,7 +50,7 @@ tested here. Verdicts come from bounds on what the specification allows, never f
 
 Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
 F framebuffers, E texture environments, M cube maps, L levels and filters of textures,
-U uploads and read-backs.
+U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q queries.
 
 A waiver names a deviation that is known, by driver, versions, rule and check:
   [[waiver]]

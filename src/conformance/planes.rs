@@ -14,7 +14,7 @@ pub fn window(clip: [[f32; 4]; 3], origin: [f64; 2], side: f64) -> [[f64; 3]; 3]
 }
 
 /// Weights of the corners at a point, linear in window space.
-fn weights(corners: [[f64; 3]; 3], at: [f64; 2]) -> [f64; 3] {
+pub fn weights(corners: [[f64; 3]; 3], at: [f64; 2]) -> [f64; 3] {
     let area = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let [a, b, c] = corners.map(|corner| [corner[0], corner[1]]);
     let whole = area(a, b, c);

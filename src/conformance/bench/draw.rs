@@ -24,9 +24,19 @@ pub struct Vertex {
 /// The value of a uniform; matrices by columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GlUniform {
+    Int(i32),
     Float(f32),
+    Vec2([f32; 2]),
+    Vec3([f32; 3]),
     Vec4([f32; 4]),
+    /// An array of vec4, by one call.
+    Vec4s([[f32; 4]; 8]),
+    Mat3([f32; 9]),
     Mat4([f32; 16]),
+    /// By rows, with the transpose flag of glUniformMatrix.
+    Mat3ByRows([f32; 9]),
+    /// By rows, as before.
+    Mat4ByRows([f32; 16]),
 }
 
 /// All that a draw takes.
@@ -94,11 +104,7 @@ impl Bench {
             }
             for &(name, value) in draw.uniforms {
                 let location = gl.get_uniform_location(program, name);
-                match value {
-                    GlUniform::Float(value) => gl.uniform_1_f32(location.as_ref(), value),
-                    GlUniform::Vec4(value) => gl.uniform_4_f32_slice(location.as_ref(), &value),
-                    GlUniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(location.as_ref(), false, &value),
-                }
+                set_uniform(gl, location.as_ref(), value);
             }
             self.submit(program, draw.vertices);
         }
@@ -233,6 +239,27 @@ void main() {{
         let inputs = self.float_image(surface.size, &padded)?;
         let images: Vec<_> = images.iter().copied().chain([("inputs", &inputs, Sampling::NEAREST)]).collect();
         self.draw(&GlDraw { shader, images: &images, ..GlDraw::plain(surface, state, &full(0.0)) })
+    }
+}
+
+/// # Safety
+///
+/// The context is current, and the location is of the program in use.
+unsafe fn set_uniform(gl: &glow::Context, at: Option<&glow::UniformLocation>, value: GlUniform) {
+    // SAFETY: as the caller promises.
+    unsafe {
+        match value {
+            GlUniform::Int(value) => gl.uniform_1_i32(at, value),
+            GlUniform::Float(value) => gl.uniform_1_f32(at, value),
+            GlUniform::Vec2([x, y]) => gl.uniform_2_f32(at, x, y),
+            GlUniform::Vec3([x, y, z]) => gl.uniform_3_f32(at, x, y, z),
+            GlUniform::Vec4([x, y, z, w]) => gl.uniform_4_f32(at, x, y, z, w),
+            GlUniform::Vec4s(values) => gl.uniform_4_f32_slice(at, values.as_flattened()),
+            GlUniform::Mat3(value) => gl.uniform_matrix_3_f32_slice(at, false, &value),
+            GlUniform::Mat4(value) => gl.uniform_matrix_4_f32_slice(at, false, &value),
+            GlUniform::Mat3ByRows(value) => gl.uniform_matrix_3_f32_slice(at, true, &value),
+            GlUniform::Mat4ByRows(value) => gl.uniform_matrix_4_f32_slice(at, true, &value),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use glow::HasContext;
 
 use super::environment::{GlCoordinates, GlUnit, set};
 use super::texgen::GlTexgen;
-use super::{Bench, Error, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
+use super::{Bench, Error, GlCompare, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
 use crate::context::compatibility::{Binding, BindingError, raw};
 
@@ -35,6 +35,8 @@ pub struct FixedDraw<'a> {
     pub texgen: Option<GlTexgen>,
     pub image: Option<(&'a GlImage, Sampling, DepthMode)>,
     pub color: [f32; 4],
+    /// Function and reference of the alpha test.
+    pub alpha_test: Option<(GlCompare, f32)>,
     /// Three for each triangle, positions in model space.
     pub vertices: &'a [Vertex],
     /// Vertex and fragment shader of GLSL 1.20 in place of the fixed stages; `map` is the image.
@@ -53,6 +55,7 @@ impl<'a> FixedDraw<'a> {
             texgen: None,
             image: None,
             color: [1.0; 4],
+            alpha_test: None,
             vertices,
             shaders: None,
         }
@@ -157,6 +160,10 @@ impl FixedBench {
             for off in [raw::LIGHTING, raw::FOG, raw::ALPHA_TEST] {
                 self.gl.disable(off);
             }
+            if let Some((function, reference)) = draw.alpha_test {
+                self.gl.enable(raw::ALPHA_TEST);
+                self.binding.AlphaFunc(function.code(), reference);
+            }
             if let Some((image, sampling, mode)) = draw.image {
                 bench.bind_image(0, image, sampling)?;
                 let mode = match mode {
@@ -176,6 +183,7 @@ impl FixedBench {
             self.submit(draw);
             self.gl.use_program(None);
             self.gl.disable(glow::TEXTURE_2D);
+            self.gl.disable(raw::ALPHA_TEST);
         }
         bench.check("a fixed-function draw")
     }

@@ -4,13 +4,17 @@
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
 mod attach;
+mod blend;
+mod clear;
 mod draw;
+mod elements;
 pub mod environment;
 pub mod fixed_function;
 mod format;
 mod image;
 mod mutation;
 mod program;
+mod queries;
 mod sampling;
 mod state;
 mod surface;
@@ -25,7 +29,10 @@ use std::rc::Rc;
 use glow::HasContext;
 
 pub use attach::{GlPart, GlPlace};
+pub use blend::{GlBlend, GlEquation, GlFactor};
+pub use clear::GlClear;
 pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
+pub use elements::{GlAttribute, GlElements, GlIndices, GlPrimitive};
 pub use format::{Encoding, GlFormat};
 pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 #[doc(hidden)]
@@ -33,7 +40,7 @@ pub use mutation::Mutation;
 pub use program::Shader;
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
-pub use state::{GlBlend, GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
+pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
 pub use surface::Surface;
 pub use texgen::GlTexgen;
 pub use transfer::{GlBlit, GlCopyTo, GlReading};

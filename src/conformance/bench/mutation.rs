@@ -1,8 +1,9 @@
 //! Mistakes that a test makes the bench commit, to see that a rule notices. Pure; no command line knows of it.
 
+use super::blend::GlBlend;
 use super::environment::{GlArgument, GlCombine, GlCombiner, GlEnvironment, GlOperand, GlSource, GlUnit};
 use super::sampling::Sampling;
-use super::state::{GlBlend, GlCompare, GlOffset, GlState, GlStencilOp};
+use super::state::{GlCompare, GlOffset, GlState, GlStencilOp};
 
 /// One mistake, made at every draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,6 +4,8 @@ use std::cmp::Ordering;
 
 use glow::HasContext;
 
+use super::blend::{GlBlend, GlEquation};
+
 /// Comparison functions of the depth test, the stencil test and depth textures [GL 4.6, 17.3.4].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GlCompare {
@@ -127,39 +129,11 @@ pub enum GlFace {
     Back,
 }
 
-/// result = source * first + destination * second.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GlBlend {
-    /// ONE, ONE.
-    Add,
-    /// DST_COLOR, ZERO.
-    Multiply,
-    /// ONE, ZERO: the source alone, by way of the blender.
-    Replace,
-    /// DST_COLOR, ZERO for RGB; ONE, ZERO for alpha.
-    MultiplyRgb,
-    /// DST_ALPHA, ONE.
-    AddByStoredAlpha,
-}
-
-impl GlBlend {
-    /// Factors of glBlendFuncSeparate.
-    fn factors(self) -> [u32; 4] {
-        let [source, destination] = match self {
-            Self::Add => [glow::ONE, glow::ONE],
-            Self::Multiply => [glow::DST_COLOR, glow::ZERO],
-            Self::Replace => [glow::ONE, glow::ZERO],
-            Self::MultiplyRgb => return [glow::DST_COLOR, glow::ZERO, glow::ONE, glow::ZERO],
-            Self::AddByStoredAlpha => [glow::DST_ALPHA, glow::ONE],
-        };
-        [source, destination, source, destination]
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GlPolygonMode {
     Fill,
     Line,
+    Point,
 }
 
 /// All of GL's state that a bench draw can have.
@@ -173,6 +147,8 @@ pub struct GlState {
     pub offset: Option<GlOffset>,
     /// The polygon modes that the offset is for: POLYGON_OFFSET_FILL and POLYGON_OFFSET_LINE.
     pub offset_modes: [bool; 2],
+    /// POLYGON_OFFSET_POINT.
+    pub offset_points: bool,
     /// Stencil states of front and back faces.
     pub stencil: Option<[GlStencil; 2]>,
     /// Faces that are not drawn.
@@ -183,6 +159,8 @@ pub struct GlState {
     pub mode: [GlPolygonMode; 2],
     pub blend: Option<GlBlend>,
     pub color_write: bool,
+    /// Channels that are written where colour is: red, green, blue, alpha.
+    pub channels: [bool; 4],
     /// x, y, width, height in pixels from the lower left.
     pub scissor: Option<[i32; 4]>,
     /// Rectangle like the scissor; `None`: all of the surface.
@@ -190,6 +168,9 @@ pub struct GlState {
     /// Number of gl_ClipDistance values that clip.
     pub clip_distances: u32,
     pub encode_srgb: bool,
+    /// Uses the calls without a face (glStencilFunc, glStencilMask, glStencilOp) where both faces have the same,
+    /// glDepthRangef and glPolygonOffset; else the calls for a face, glDepthRange and glPolygonOffsetClamp.
+    pub short_calls: bool,
 }
 
 impl GlState {
@@ -201,16 +182,19 @@ impl GlState {
         depth_clamp: false,
         offset: None,
         offset_modes: [true; 2],
+        offset_points: false,
         stencil: None,
         cull: None,
         clockwise: false,
         mode: [GlPolygonMode::Fill; 2],
         blend: None,
         color_write: true,
+        channels: [true; 4],
         scissor: None,
         viewport: None,
         clip_distances: 0,
         encode_srgb: false,
+        short_calls: false,
     };
 
     /// Fragments only count: no depth test, no writes but the stencil's.
@@ -235,7 +219,12 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
         enable(glow::DEPTH_TEST, state.depth.is_some());
         gl.depth_func(state.depth.unwrap_or(GlCompare::Always).code());
         gl.depth_mask(state.depth_write);
-        gl.depth_range(state.depth_range[0], state.depth_range[1]);
+        let [near, far] = state.depth_range;
+        if state.short_calls {
+            gl.depth_range_f32(near as f32, far as f32);
+        } else {
+            gl.depth_range(near, far);
+        }
         enable(glow::DEPTH_CLAMP, state.depth_clamp);
         apply_stencil(gl, state);
         enable(glow::CULL_FACE, state.cull.is_some());
@@ -245,14 +234,16 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
         enable(glow::BLEND, state.blend.is_some());
         let [source, destination, source_alpha, destination_alpha] = state.blend.unwrap_or(GlBlend::Replace).factors();
         gl.blend_func_separate(source, destination, source_alpha, destination_alpha);
-        gl.color_mask(state.color_write, state.color_write, state.color_write, state.color_write);
+        gl.blend_equation(state.blend.map_or(GlEquation::Add, GlBlend::equation).code());
+        let [red, green, blue, alpha] = state.channels.map(|channel| channel && state.color_write);
+        gl.color_mask(red, green, blue, alpha);
         enable(glow::SCISSOR_TEST, state.scissor.is_some());
         let whole = [0, 0, size[0] as i32, size[1] as i32];
         let [x, y, width, height] = state.scissor.unwrap_or(whole);
         gl.scissor(x, y, width, height);
         let [x, y, width, height] = state.viewport.unwrap_or(whole);
         gl.viewport(x, y, width, height);
-        for index in 0..2 {
+        for index in 0..8 {
             enable(glow::CLIP_DISTANCE0 + index, index < state.clip_distances);
         }
         enable(glow::FRAMEBUFFER_SRGB, state.encode_srgb);
@@ -266,17 +257,41 @@ fn apply_stencil(gl: &glow::Context, state: &GlState) {
     unsafe {
         let Some(sides) = state.stencil else { return gl.disable(glow::STENCIL_TEST) };
         gl.enable(glow::STENCIL_TEST);
+        let test = |side: GlStencil| (side.compare, side.reference, side.read_mask);
+        let [front, back] = sides;
+        let both = |same: bool| state.short_calls && same;
+        let short = [test(front) == test(back), front.write_mask == back.write_mask, front.ops == back.ops].map(both);
+        if short[0] {
+            gl.stencil_func(front.compare.code(), front.reference, front.read_mask);
+        }
+        if short[1] {
+            gl.stencil_mask(front.write_mask);
+        }
+        if short[2] {
+            let [fail, depth_fail, pass] = front.ops.map(GlStencilOp::code);
+            gl.stencil_op(fail, depth_fail, pass);
+        }
         for (face, side) in [glow::FRONT, glow::BACK].into_iter().zip(sides) {
-            gl.stencil_func_separate(face, side.compare.code(), side.reference, side.read_mask);
-            gl.stencil_mask_separate(face, side.write_mask);
-            let [fail, depth_fail, pass] = side.ops.map(GlStencilOp::code);
-            gl.stencil_op_separate(face, fail, depth_fail, pass);
+            if !short[0] {
+                gl.stencil_func_separate(face, side.compare.code(), side.reference, side.read_mask);
+            }
+            if !short[1] {
+                gl.stencil_mask_separate(face, side.write_mask);
+            }
+            if !short[2] {
+                let [fail, depth_fail, pass] = side.ops.map(GlStencilOp::code);
+                gl.stencil_op_separate(face, fail, depth_fail, pass);
+            }
         }
     }
 }
 
 fn apply_mode(gl: &glow::Context, mode: [GlPolygonMode; 2]) {
-    let code = |mode| if mode == GlPolygonMode::Fill { glow::FILL } else { glow::LINE };
+    let code = |mode| match mode {
+        GlPolygonMode::Fill => glow::FILL,
+        GlPolygonMode::Line => glow::LINE,
+        GlPolygonMode::Point => glow::POINT,
+    };
     // SAFETY: as in `apply`.
     unsafe {
         if mode[0] == mode[1] {
@@ -294,11 +309,17 @@ fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &G
         for (mode, on) in [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE].into_iter().zip(state.offset_modes) {
             if on && state.offset.is_some() { gl.enable(mode) } else { gl.disable(mode) }
         }
+        let points = state.offset_points && state.offset.is_some();
+        if points {
+            gl.enable(glow::POLYGON_OFFSET_POINT)
+        } else {
+            gl.disable(glow::POLYGON_OFFSET_POINT)
+        }
         let GlOffset { factor, units, clamp } =
             state.offset.unwrap_or(GlOffset { factor: 0.0, units: 0.0, clamp: 0.0 });
         match offset_clamp {
-            Some(function) => function(factor, units, clamp),
-            None => gl.polygon_offset(factor, units),
+            Some(function) if !state.short_calls => function(factor, units, clamp),
+            _ => gl.polygon_offset(factor, units),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Rules of kind D: depth.
 
-use crate::conformance::{Rule, depth};
+use crate::conformance::{Rule, depth, fragments};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -42,5 +42,29 @@ pub const RULES: &[Rule] = &[
         says: "A fragment passes where its depth OP the stored depth holds.",
         tolerance: "none: depths are a quarter apart, or made by the same draw",
         check: depth::test,
+    },
+    Rule {
+        id: "GL-D6",
+        title: "discarded fragments",
+        section: "15.2, GLSL 6.4",
+        says: "A fragment that is discarded, or fails the alpha test, leaves colour, depth and stencil as they are.",
+        tolerance: "none: 2^-20 for depths that lie half apart",
+        check: fragments::discarded,
+    },
+    Rule {
+        id: "GL-D7",
+        title: "a shader's depth",
+        section: "15.2.3, 17.3.4",
+        says: "The depth that a shader writes is tested and stored in place of the fragment's own.",
+        tolerance: "1.5 codes of the stored depth; the test none: depths are equal or 1/64 apart",
+        check: fragments::written_depth,
+    },
+    Rule {
+        id: "GL-D8",
+        title: "depth writes",
+        section: "17.3.4, 17.4.2",
+        says: "Depth is written where the depth test and its mask are on and all tests pass; without the test never.",
+        tolerance: "none: 2^-20 for depths that lie half apart",
+        check: fragments::writes,
     },
 ];

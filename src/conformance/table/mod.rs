@@ -1,17 +1,21 @@
 //! The rules, as data: a file for each kind.
 
+mod blending;
 mod comparison;
 mod coordinates;
 mod cube_maps;
 mod depth;
 mod environment;
 mod framebuffers;
+mod glsl;
 mod invariance;
 mod levels;
 mod offset;
+mod queries;
 mod raster;
 mod stencil;
 mod uploads;
+mod vertices;
 
 use super::Rule;
 
@@ -29,6 +33,10 @@ const KINDS: &[&[Rule]] = &[
     cube_maps::RULES,
     levels::RULES,
     uploads::RULES,
+    blending::RULES,
+    glsl::RULES,
+    vertices::RULES,
+    queries::RULES,
 ];
 
 /// Every rule, in the order of a report.

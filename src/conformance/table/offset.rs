@@ -1,6 +1,6 @@
 //! Rules of kind O: polygon offset.
 
-use crate::conformance::{Rule, offset};
+use crate::conformance::{Rule, offset, offset_planes};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -18,5 +18,13 @@ pub const RULES: &[Rule] = &[
         says: "POLYGON_OFFSET_FILL and _LINE hold for the sides that are drawn in that mode, by the same r.",
         tolerance: "half a unit of 64, or a code: r is measured by 1024",
         check: offset::modes,
+    },
+    Rule {
+        id: "GL-O3",
+        title: "polygon offset of planes and points",
+        section: "14.6.5",
+        says: "Units are of the buffer, slopes of window depth; for floats r follows the primitive's greatest depth; POLYGON_OFFSET_POINT is for points.",
+        tolerance: "as GL-O1",
+        check: offset_planes::planes,
     },
 ];

@@ -1,6 +1,6 @@
 //! Rules of kind R: raster and clipping.
 
-use crate::conformance::{Rule, raster};
+use crate::conformance::{Rule, clip_distances, raster, windows};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -18,5 +18,21 @@ pub const RULES: &[Rule] = &[
         says: "-w <= x, y, z <= w before the division: w = 0 is a direction; a clip plane and its opposite make the whole, one that is not enabled does nothing.",
         tolerance: "none; 1/32 pixel along edges of triangles with corners behind the eye",
         check: raster::clipping,
+    },
+    Rule {
+        id: "GL-R3",
+        title: "viewport and scissor",
+        section: "13.8.1, 17.3.1",
+        says: "A viewport maps [-1, 1] to its pixels, and a depth range to its depths; a scissor lets its own pixels through.",
+        tolerance: "none for pixels; places 1e-5 of the viewport, else a warning to 1/16 pixel",
+        check: windows::windows,
+    },
+    Rule {
+        id: "GL-R4",
+        title: "clip distances",
+        section: "13.7",
+        says: "Each of eight distances that is on cuts where it is below 0; what is left keeps its varyings.",
+        tolerance: "none, but for 1/16 pixel along the cut; varyings 1e-5, else a warning to 1/8 pixel",
+        check: clip_distances::distances,
     },
 ];

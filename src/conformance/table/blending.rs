@@ -1,0 +1,30 @@
+//! Rules of kind B: masks, clears, blending.
+
+use crate::conformance::{Rule, factors, masks};
+
+pub const RULES: &[Rule] = &[
+    Rule {
+        id: "GL-B1",
+        title: "colour masks",
+        section: "17.4.2",
+        says: "Each channel is written where its mask is on, blended or not, in floats too.",
+        tolerance: "none: codes are given and sums exact",
+        check: masks::draws,
+    },
+    Rule {
+        id: "GL-B2",
+        title: "clears",
+        section: "17.4.2, 17.4.3",
+        says: "Clears go through the scissor and the masks of colour, depth and front stencil, and leave other buffers alone.",
+        tolerance: "none: codes are given; 2^-20 for depths that lie half apart",
+        check: masks::clears,
+    },
+    Rule {
+        id: "GL-B3",
+        title: "blend factors and equations",
+        section: "17.3.6",
+        says: "Ten factors for RGB and for alpha, five equations; floats are not clamped.",
+        tolerance: "a code for two products that round, else a warning to 2; floats 4e-7 of the terms, else a warning to 2^-10",
+        check: factors::factors,
+    },
+];

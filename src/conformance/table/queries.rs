@@ -1,0 +1,22 @@
+//! Rules of kind Q: queries.
+
+use crate::conformance::{Rule, queries};
+
+pub const RULES: &[Rule] = &[
+    Rule {
+        id: "GL-Q1",
+        title: "samples that pass",
+        section: "4.3, 17.3.5",
+        says: "SAMPLES_PASSED is the number of samples that pass scissor, stencil and depth tests and are not discarded.",
+        tolerance: "none",
+        check: queries::samples,
+    },
+    Rule {
+        id: "GL-Q2",
+        title: "elapsed time",
+        section: "4.2",
+        says: "TIME_ELAPSED is there after glFinish, grows with the work, and is no more than passes on the clock.",
+        tolerance: "a tenth and 0.1 ms over the clock",
+        check: queries::time,
+    },
+];

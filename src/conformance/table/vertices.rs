@@ -1,0 +1,12 @@
+//! Rules of kind V: vertices.
+
+use crate::conformance::{Rule, fetch};
+
+pub const RULES: &[Rule] = &[Rule {
+    id: "GL-V1",
+    title: "vertices by index",
+    section: "10.3, 10.4",
+    says: "Attributes come from their buffers by index, offset and stride, completed by 0, 0, 1; primitives take theirs in turn.",
+    tolerance: "none: values are copied",
+    check: fetch::fetch,
+}];
