@@ -29,6 +29,8 @@ pub enum Heard {
     Context(Box<ContextInfo>),
     Begins(&'static Rule),
     Ended(RuleOutcome),
+    /// What a process that ended as it should has written on standard error: warnings of the driver.
+    Said(String),
     /// Nothing for a while.
     Tick,
 }
@@ -83,13 +85,19 @@ pub fn run(
             }
         };
         let said = process.finish();
+        if end.is_none() && !said.is_empty() {
+            hear(Heard::Said(said.clone()));
+        }
         match end {
             _ if done == batch.len() => alone = each_alone,
             // A lost context: the process has told it, and ended.
             None if done > 0 => alone = each_alone,
             None | Some(_) if !has_context => {
                 let (_, how) = end.unwrap_or((RuleVerdict::Crash, "ended without a word".to_owned()));
-                return Err(ChildError::Ended(format!("no context: the process that checks {how}{}", quoted(&said))));
+                return Err(ChildError::Ended(format!(
+                    "no context: the process that checks {how}\n{}",
+                    said.trim_end()
+                )));
             }
             end => {
                 let (verdict, how) = end.unwrap_or((RuleVerdict::Crash, "ended without a word".to_owned()));
@@ -122,9 +130,10 @@ fn verdict_of(verdict: RuleVerdict, said: &str) -> RuleVerdict {
     }
 }
 
-/// The last line that a process wrote on standard error.
+/// The last error that a process wrote on standard error, or its last line.
 fn quoted(said: &str) -> String {
-    let last = said.lines().rfind(|line| !line.trim().is_empty());
+    let lines = || said.lines().filter(|line| !line.trim().is_empty());
+    let last = lines().rfind(|line| line.starts_with("error: ")).or_else(|| lines().last());
     last.map_or_else(String::new, |line| format!(": \"{}\"", line.trim()))
 }
 

@@ -230,6 +230,7 @@ impl Run<'_> {
                 }
                 self.dirty = true;
             }
+            Heard::Said(text) => self.bar.suspend(|| super::say(text.trim_end())),
             Heard::Tick => self.bar.tick(),
         }
         if self.dirty && self.error.is_none() {
