@@ -89,15 +89,21 @@ pub fn run(
             hear(Heard::Said(said.clone()));
         }
         match end {
-            _ if done == batch.len() => alone = each_alone,
+            end if done == batch.len() => {
+                if let Some((_, how)) = end {
+                    let rule = batch.last().copied().unwrap_or_default();
+                    hear(Heard::Said(format!(
+                        "warning: behind {rule}, its last rule, a process that checks {how}{}",
+                        quoted(&said)
+                    )));
+                }
+                alone = each_alone;
+            }
             // A lost context: the process has told it, and ended.
             None if done > 0 => alone = each_alone,
             None | Some(_) if !has_context => {
                 let (_, how) = end.unwrap_or((RuleVerdict::Crash, "ended without a word".to_owned()));
-                return Err(ChildError::Ended(format!(
-                    "no context: the process that checks {how}\n{}",
-                    said.trim_end()
-                )));
+                return Err(ChildError::Ended(without_context(&how, &said)));
             }
             end => {
                 let (verdict, how) = end.unwrap_or((RuleVerdict::Crash, "ended without a word".to_owned()));
@@ -127,6 +133,14 @@ fn verdict_of(verdict: RuleVerdict, said: &str) -> RuleVerdict {
         () if said.contains("out of memory") => RuleVerdict::OutOfMemory,
         () if said.contains("has done nothing for") => RuleVerdict::Hang,
         () => verdict,
+    }
+}
+
+/// The error of a process that ended before it had a context: its own words, if it had any.
+fn without_context(how: &str, said: &str) -> String {
+    match said.split_once("error: ") {
+        Some((_, error)) => error.trim_end().to_owned(),
+        None => format!("no context: the process that checks {how}"),
     }
 }
 
