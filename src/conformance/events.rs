@@ -15,7 +15,7 @@ pub enum Event {
     Context(Box<ContextInfo>),
     /// The rule of this id begins.
     Begins(String),
-    /// A rule has ended. `lost`: the context is no more, and the process ends.
+    /// A rule has ended. `lost`: the context is of no more use, and the process ends.
     Ends { id: String, findings: Vec<Finding>, facts: Vec<Fact>, seconds: f64, lost: bool },
 }
 

@@ -1,6 +1,6 @@
 //! The process that checks: it opens the context, runs rules, and tells how far it is by a line each step.
 
-use std::io::{Read, Write};
+use std::io::Read;
 use std::rc::Rc;
 
 use super::CheckArgs;
@@ -18,8 +18,14 @@ pub fn run(arguments: &CheckArgs, ids: &[String]) -> Result<(), Error> {
     end_with_parent();
     let rules: Vec<&Rule> = ids.iter().filter_map(|id| rule(id)).collect();
     steps(arguments, &rules, |event| {
+        let is_lost = matches!(event, Event::Ends { lost: true, .. });
         // A driver may have written on standard output, and left a line open.
-        super::super::print(&format!("\n{}\n", serde_json::to_string(&event)?))
+        super::super::print(&format!("\n{}\n", serde_json::to_string(&event)?))?;
+        if is_lost {
+            // Objects of a lost context are not deleted.
+            crate::process::leave(0);
+        }
+        Ok(())
     })
 }
 
@@ -56,13 +62,10 @@ pub fn steps(
         if let Some(why) = reset.why() {
             outcome.findings.push(conformance::Finding::new("the context", RuleVerdict::ContextLost, why));
         }
-        let lost = outcome.findings.iter().any(|finding| finding.verdict == RuleVerdict::ContextLost);
+        // What GL does after it has run out of memory is undefined [GL 4.6, 2.3.1].
+        let ends = [RuleVerdict::ContextLost, RuleVerdict::OutOfMemory];
+        let lost = outcome.findings.iter().any(|finding| ends.contains(&finding.verdict));
         tell(Event::ends(outcome, lost))?;
-        if lost {
-            // Objects of a lost context are not deleted.
-            let _ = std::io::stdout().flush();
-            crate::process::leave(0);
-        }
     }
     Ok(())
 }
