@@ -71,7 +71,7 @@ impl Finding {
         Self { what: what.into(), verdict, measured: measured.into(), waiver: None }
     }
 
-    /// What was checked, and what was measured.
+    /// The check and its measurement, as one line.
     pub fn message(&self) -> String {
         format!("{}: {}", self.what, self.measured)
     }

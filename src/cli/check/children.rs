@@ -24,12 +24,12 @@ pub enum ChildError {
     Ended(String),
 }
 
-/// What is heard while rules are run.
+/// News while rules are run.
 pub enum Heard {
     Context(Box<ContextInfo>),
     Begins(&'static Rule),
     Ended(RuleOutcome),
-    /// What a process that ended as it should has written on standard error: warnings of the driver.
+    /// Standard error of a process that ended as it should: warnings of the driver.
     Said(String),
     /// Nothing for a while.
     Tick,
@@ -161,7 +161,7 @@ enum Next {
 struct Process {
     child: Child,
     lines: Receiver<String>,
-    /// What it wrote on standard error, at the end of the thread that reads it.
+    /// The text that it wrote on standard error, at the end of the thread that reads it.
     said: Option<JoinHandle<String>>,
     since: Instant,
 }
