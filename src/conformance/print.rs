@@ -1,4 +1,4 @@
-//! A run as text: the table, the driver's numbers, a line that sums up.
+//! A run as text: the table, the driver's numbers, and the end of the screen's text.
 
 use std::fmt::Write;
 
@@ -76,30 +76,4 @@ fn numbers(text: &mut String, checked: &Checked) -> std::fmt::Result {
         writeln!(text, "  {id}  {}: {}", fact.name, fact.value)?;
     }
     writeln!(text)
-}
-
-/// Counts of rules and checks, and the time.
-pub(super) fn summary(checked: &Checked) -> String {
-    let verdicts = [
-        (RuleVerdict::Pass, "pass"),
-        (RuleVerdict::Warning, "with a quality warning"),
-        (RuleVerdict::Waived, "waived"),
-        (RuleVerdict::Fail, "FAIL"),
-        (RuleVerdict::OutOfMemory, "OUT OF MEMORY"),
-        (RuleVerdict::ContextLost, "CONTEXT LOST"),
-        (RuleVerdict::Hang, "HANG"),
-        (RuleVerdict::Crash, "CRASH"),
-        (RuleVerdict::Untestable, "cannot be tested here"),
-    ];
-    let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
-    let parts: Vec<String> =
-        counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
-    let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
-    let findings: usize = checked.outcomes.iter().map(|outcome| outcome.findings.len()).sum();
-    format!(
-        "{} rule{}, {findings} checks: {}; {seconds:.1} s",
-        checked.outcomes.len(),
-        if checked.outcomes.len() == 1 { "" } else { "s" },
-        parts.join(", "),
-    )
 }

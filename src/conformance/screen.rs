@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use anstyle::{AnsiColor, Style};
 
-use super::{Checked, Finding, Rule, RuleOutcome, RuleVerdict, print};
+use super::{Checked, Finding, Rule, RuleOutcome, RuleVerdict};
 
 /// A line each rule: id, title, section.
 pub fn list(rules: &[&'static Rule]) -> String {
@@ -140,7 +140,7 @@ impl Page {
         let context = &checked.context;
         let driver = format!("{}, {} ({}, {})", context.renderer, context.version, context.backend, context.profile);
         self.lines(0, None, &driver);
-        self.lines(0, None, &print::summary(checked));
+        self.lines(0, None, &summary(checked));
         if !checked.unfinished.is_empty() {
             self.lines(0, Some(("not run:", style(RuleVerdict::Fail))), &checked.unfinished.join(", "));
         }
@@ -157,6 +157,32 @@ impl Page {
             self.text += &format!("{fail}FAIL:{fail:#} {}\n", failing.join(", "));
         }
     }
+}
+
+/// Counts of rules and checks, and the time.
+fn summary(checked: &Checked) -> String {
+    let verdicts = [
+        (RuleVerdict::Pass, "pass"),
+        (RuleVerdict::Warning, "with a quality warning"),
+        (RuleVerdict::Waived, "waived"),
+        (RuleVerdict::Fail, "FAIL"),
+        (RuleVerdict::OutOfMemory, "OUT OF MEMORY"),
+        (RuleVerdict::ContextLost, "CONTEXT LOST"),
+        (RuleVerdict::Hang, "HANG"),
+        (RuleVerdict::Crash, "CRASH"),
+        (RuleVerdict::Untestable, "cannot be tested here"),
+    ];
+    let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
+    let parts: Vec<String> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+    let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
+    let findings: usize = checked.outcomes.iter().map(|outcome| outcome.findings.len()).sum();
+    format!(
+        "{} rule{}, {findings} checks: {}; {seconds:.1} s",
+        checked.outcomes.len(),
+        if checked.outcomes.len() == 1 { "" } else { "s" },
+        parts.join(", "),
+    )
 }
 
 #[cfg(test)]

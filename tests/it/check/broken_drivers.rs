@@ -115,7 +115,7 @@ fn a_run_that_is_killed_leaves_its_results_and_no_process() {
         let mut run = broken(folder.path(), "busy", &arguments).stdout(Stdio::null()).spawn().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap_or_default();
         let start = Instant::now();
-        while !(read("x.json").contains("\"GL-C1\"") && read("x.xml").contains("name=\"GL-F1\"")) {
+        while !(read("x.json").contains("\"id\": \"GL-C1\"") && read("x.xml").contains("name=\"GL-F1\"")) {
             assert!(start.elapsed() < Duration::from_secs(20), "nothing is written: {}", read("x.json"));
             std::thread::sleep(Duration::from_millis(50));
         }
