@@ -30,6 +30,12 @@ enum ContextKind {
 }
 
 impl ContextArgs {
+    /// The same arguments as words of a command line.
+    pub fn to_words(self) -> Vec<String> {
+        let kind = self.context.to_possible_value().map(|value| format!("--context={}", value.get_name()));
+        kind.into_iter().chain(self.device.map(|device| format!("--device={device}"))).collect()
+    }
+
     /// The request for these arguments. Debug builds ask for a debug context.
     pub fn request(&self, profile: Profile) -> ContextRequest {
         let choice = match self.context {

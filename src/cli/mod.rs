@@ -113,6 +113,12 @@ pub enum Error {
     Filter(#[from] crate::conformance::UnknownFilter),
     #[error(transparent)]
     Waivers(#[from] crate::conformance::waivers::Error),
+    #[error(transparent)]
+    Baseline(#[from] crate::conformance::baseline::Error),
+    #[error("the waivers: {0}")]
+    WriteWaivers(#[from] toml::ser::Error),
+    #[error(transparent)]
+    Child(#[from] check::ChildError),
     #[error("JUnit: {0}")]
     JUnit(#[from] quick_junit::SerializeError),
     #[error("{path}: cannot be written: {error}", path = .path.display())]

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::bench::Error;
 use super::verify::{Grade, GradeTally};
 use super::{Rule, RuleOutcome};
 
 /// Verdicts, in order of severity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RuleVerdict {
     /// This context cannot be tested.
@@ -20,6 +20,21 @@ pub enum RuleVerdict {
     /// Fails, as a waiver says it does.
     Waived,
     Fail,
+    /// The driver reports that memory has run out, or the system ended the process for want of it.
+    OutOfMemory,
+    /// The context was lost: the GPU was reset.
+    ContextLost,
+    /// The rule did not end in time.
+    Hang,
+    /// The process that checked the rule was ended by a signal, or ended itself.
+    Crash,
+}
+
+impl RuleVerdict {
+    /// Tests whether a run with this verdict fails.
+    pub fn fails(self) -> bool {
+        self >= Self::Fail
+    }
 }
 
 impl fmt::Display for RuleVerdict {
@@ -30,28 +45,40 @@ impl fmt::Display for RuleVerdict {
             Self::Warning => "quality warning",
             Self::Waived => "waived",
             Self::Fail => "FAIL",
+            Self::OutOfMemory => "OUT OF MEMORY",
+            Self::ContextLost => "CONTEXT LOST",
+            Self::Hang => "HANG",
+            Self::Crash => "CRASH",
         })
     }
 }
 
 /// One check of a rule, and its result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
     pub what: String,
     pub verdict: RuleVerdict,
     /// The measurement, or the reason why there is none.
     pub measured: String,
+    /// The reason why it is waived.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waiver: Option<String>,
 }
 
 impl Finding {
-    /// Message that a waiver quotes.
+    /// A finding that nothing waives.
+    pub fn new(what: impl Into<String>, verdict: RuleVerdict, measured: impl Into<String>) -> Self {
+        Self { what: what.into(), verdict, measured: measured.into(), waiver: None }
+    }
+
+    /// The check and its measurement, as one line.
     pub fn message(&self) -> String {
         format!("{}: {}", self.what, self.measured)
     }
 }
 
 /// A number that a user of the driver wants to know.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fact {
     pub name: String,
     pub value: String,
@@ -66,7 +93,7 @@ pub struct Findings {
 
 impl Findings {
     pub fn add(&mut self, what: impl Into<String>, verdict: RuleVerdict, measured: impl Into<String>) {
-        self.list.push(Finding { what: what.into(), verdict, measured: measured.into() });
+        self.list.push(Finding::new(what, verdict, measured));
     }
 
     /// Fails unless `holds`; `measured` says what was seen.
@@ -120,7 +147,14 @@ impl Findings {
     pub fn error(&mut self, error: &Error) {
         match error {
             Error::Refused { format, reason } => self.untestable(*format, format!("refused: {reason}")),
-            error => self.add("draws", RuleVerdict::Fail, error.to_string()),
+            error => {
+                let verdict = match error {
+                    Error::Gl { codes, .. } if codes.contains("GL_CONTEXT_LOST") => RuleVerdict::ContextLost,
+                    Error::Gl { codes, .. } if codes.contains("GL_OUT_OF_MEMORY") => RuleVerdict::OutOfMemory,
+                    _ => RuleVerdict::Fail,
+                };
+                self.add("draws", verdict, error.to_string());
+            }
         }
     }
 
@@ -132,17 +166,6 @@ impl Findings {
     }
 
     pub(super) fn outcome(self, rule: &Rule, seconds: f64) -> RuleOutcome {
-        let verdict = self.list.iter().map(|finding| finding.verdict).max().unwrap_or(RuleVerdict::Untestable);
-        RuleOutcome {
-            id: rule.id,
-            title: rule.title,
-            section: rule.section,
-            says: rule.says,
-            tolerance: rule.tolerance,
-            verdict,
-            findings: self.list,
-            facts: self.facts,
-            seconds,
-        }
+        RuleOutcome::new(rule, self.list, self.facts, seconds)
     }
 }

@@ -6,6 +6,7 @@
 
 mod alpha_test;
 mod attachments;
+pub mod baseline;
 pub mod bench;
 mod blending;
 mod clip_distances;
@@ -17,6 +18,7 @@ mod cube_maps;
 mod depth;
 mod derivatives;
 mod environment;
+pub mod events;
 mod faces;
 mod factors;
 #[doc(hidden)]
@@ -44,7 +46,10 @@ mod projective;
 mod queries;
 mod random;
 mod raster;
+mod repeats;
+mod reset;
 mod samplers;
+mod screen;
 mod stencil;
 mod table;
 mod transfers;
@@ -63,6 +68,9 @@ use serde::Serialize;
 pub use filter::{UnknownFilter, choose};
 pub use findings::{Fact, Finding, Findings, RuleVerdict};
 pub use print::print;
+pub use repeats::{Flake, join};
+pub use reset::ResetStatus;
+pub use screen::{list, screen};
 pub use table::TABLE;
 pub use write::{json, junit};
 
@@ -121,6 +129,23 @@ pub struct RuleOutcome {
     pub seconds: f64,
 }
 
+impl RuleOutcome {
+    /// The outcome of a rule with these findings.
+    pub fn new(rule: &Rule, findings: Vec<Finding>, facts: Vec<Fact>, seconds: f64) -> Self {
+        let Rule { id, title, section, says, tolerance, .. } = *rule;
+        let verdict = RuleVerdict::Untestable;
+        let mut outcome = Self { id, title, section, says, tolerance, verdict, findings, facts, seconds };
+        outcome.judge();
+        outcome
+    }
+
+    /// Finds the verdict again, after its findings have changed.
+    pub(crate) fn judge(&mut self) {
+        let worst = self.findings.iter().map(|finding| finding.verdict).max();
+        self.verdict = worst.unwrap_or(RuleVerdict::Untestable);
+    }
+}
+
 /// Results of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Checked {
@@ -128,6 +153,12 @@ pub struct Checked {
     pub outcomes: Vec<RuleOutcome>,
     /// Waivers for this driver that nothing needed: each is a failure.
     pub stale_waivers: Vec<String>,
+    /// Rules that have not been run yet: the run goes on, or was ended.
+    pub unfinished: Vec<&'static str>,
+    /// Findings that differ from repeat to repeat.
+    pub flakes: Vec<Flake>,
+    /// Changes since the run that is the baseline.
+    pub since: Option<baseline::Changes>,
 }
 
 impl Checked {
@@ -136,9 +167,18 @@ impl Checked {
         self.outcomes.iter().filter(|outcome| outcome.verdict == verdict).count()
     }
 
-    /// Tests whether a rule failed that is not waived, or a waiver is out of date.
+    /// Tests whether the run fails. Without a baseline: a rule failed that is not waived, or a waiver is out of date. With
+    /// one: something fails that did not fail there.
     pub fn fails(&self) -> bool {
-        self.count(RuleVerdict::Fail) > 0 || !self.stale_waivers.is_empty()
+        match &self.since {
+            Some(changes) => !changes.new_failures.is_empty(),
+            None => self.failing().next().is_some() || !self.stale_waivers.is_empty(),
+        }
+    }
+
+    /// The rules that fail.
+    pub fn failing(&self) -> impl Iterator<Item = &RuleOutcome> {
+        self.outcomes.iter().filter(|outcome| outcome.verdict.fails())
     }
 
     /// Tests whether nothing could be tested.
@@ -149,16 +189,17 @@ impl Checked {
 
 /// Runs `rules` and gives `seen` each outcome.
 pub fn run(subject: &DriverUnderTest, rules: &[&'static Rule], mut seen: impl FnMut(&RuleOutcome)) -> Vec<RuleOutcome> {
-    let one = |rule: &&'static Rule| {
-        let start = std::time::Instant::now();
-        let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));
-        let mut findings = Findings::default();
-        if let Err(error) = (rule.check)(subject, &mut findings) {
-            findings.error(&error);
-        }
-        let outcome = findings.outcome(rule, start.elapsed().as_secs_f64());
-        seen(&outcome);
-        outcome
-    };
-    rules.iter().map(one).collect()
+    let outcomes = rules.iter().map(|rule| run_rule(subject, rule));
+    outcomes.inspect(|outcome| seen(outcome)).collect()
+}
+
+/// Runs one rule.
+pub fn run_rule(subject: &DriverUnderTest, rule: &Rule) -> RuleOutcome {
+    let start = std::time::Instant::now();
+    let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));
+    let mut findings = Findings::default();
+    if let Err(error) = (rule.check)(subject, &mut findings) {
+        findings.error(&error);
+    }
+    findings.outcome(rule, start.elapsed().as_secs_f64())
 }

@@ -1,4 +1,4 @@
-//! A run as text: the table, the driver's numbers, a line that sums up.
+//! A run as text: the table, the driver's numbers, and the end of the screen's text.
 
 use std::fmt::Write;
 
@@ -32,10 +32,7 @@ pub fn print(checked: &Checked, width: u16, all: bool) -> String {
     let mut text = format!("{table}\n");
     // Writing to a string cannot fail.
     let _ = numbers(&mut text, checked);
-    for stale in &checked.stale_waivers {
-        let _ = writeln!(text, "FAIL: {stale}");
-    }
-    let _ = writeln!(text, "{}", summary(checked));
+    text += &super::screen::ending(checked, usize::from(width));
     text
 }
 
@@ -63,8 +60,8 @@ fn line(finding: &Finding) -> String {
         RuleVerdict::Pass => "",
         RuleVerdict::Warning => "warning: ",
         RuleVerdict::Waived => "waived: ",
-        RuleVerdict::Fail => "FAIL: ",
         RuleVerdict::Untestable => "not here: ",
+        verdict => return format!("{verdict}: {}", finding.message()),
     };
     format!("{mark}{}", finding.message())
 }
@@ -79,29 +76,4 @@ fn numbers(text: &mut String, checked: &Checked) -> std::fmt::Result {
         writeln!(text, "  {id}  {}: {}", fact.name, fact.value)?;
     }
     writeln!(text)
-}
-
-fn summary(checked: &Checked) -> String {
-    let verdicts = [
-        (RuleVerdict::Pass, "pass"),
-        (RuleVerdict::Warning, "with a quality warning"),
-        (RuleVerdict::Waived, "waived"),
-        (RuleVerdict::Fail, "FAIL"),
-        (RuleVerdict::Untestable, "cannot be tested here"),
-    ];
-    let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
-    let parts: Vec<String> =
-        counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
-    let context = &checked.context;
-    let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
-    format!(
-        "{} rule{}: {}; {seconds:.1} s on {} ({}, {}, {} profile)",
-        checked.outcomes.len(),
-        if checked.outcomes.len() == 1 { "" } else { "s" },
-        parts.join(", "),
-        context.renderer,
-        context.version,
-        context.backend,
-        context.profile
-    )
 }

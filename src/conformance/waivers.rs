@@ -3,16 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::{RuleOutcome, RuleVerdict};
+use super::{Checked, RuleOutcome, RuleVerdict};
 use crate::context::ContextInfo;
 
 /// The built-in file.
 const SHIPPED: &str = include_str!("../../data/waivers.toml");
 
 /// One known deviation.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Waiver {
     /// A part of GL_RENDERER.
@@ -25,15 +25,15 @@ pub struct Waiver {
     pub until: Option<Number>,
     /// The rule's id.
     pub rule: String,
-    /// Name of the check, to the letter; any measurement there is waived.
-    pub finding: String,
+    /// Name of the check, to the letter; any measurement there is waived. Absent: every check of the rule.
+    pub finding: Option<String>,
     /// Reason for the waiver.
     pub reason: String,
 }
 
 /// A version's number, by its parts: 22.3.6.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(try_from = "String")]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Number(Vec<u32>);
 
 impl TryFrom<String> for Number {
@@ -42,6 +42,12 @@ impl TryFrom<String> for Number {
     fn try_from(text: String) -> Result<Self, String> {
         let parts: Result<Vec<u32>, _> = text.split('.').map(str::parse).collect();
         parts.map(Self).map_err(|_| format!("\"{text}\" is no version: write numbers with dots between, like 22.3"))
+    }
+}
+
+impl From<Number> for String {
+    fn from(number: Number) -> Self {
+        number.0.iter().map(u32::to_string).collect::<Vec<_>>().join(".")
     }
 }
 
@@ -55,6 +61,11 @@ impl Number {
 }
 
 impl Waiver {
+    /// Tests whether it waives the check of this name.
+    fn names(&self, what: &str) -> bool {
+        self.finding.as_deref().is_none_or(|finding| finding == what)
+    }
+
     /// Tests whether it names this driver and one of its versions.
     fn is_of(&self, context: &ContextInfo) -> bool {
         let Some((_, after)) = context.version.split_once(&self.version) else { return false };
@@ -65,7 +76,7 @@ impl Waiver {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
@@ -118,27 +129,94 @@ pub fn apply(waivers: &[Waiver], context: &ContextInfo, outcomes: &mut [RuleOutc
         let Some(outcome) = outcomes.iter_mut().find(|outcome| outcome.id == waiver.rule) else { continue };
         let mut used = false;
         for finding in &mut outcome.findings {
-            if finding.verdict == RuleVerdict::Fail && finding.what == waiver.finding {
+            if finding.verdict.fails() && waiver.names(&finding.what) {
                 finding.verdict = RuleVerdict::Waived;
+                finding.waiver = Some(waiver.reason.clone());
                 used = true;
             }
         }
-        outcome.verdict = outcome.findings.iter().map(|finding| finding.verdict).max().unwrap_or(outcome.verdict);
+        outcome.judge();
         if !used && !may_be_untested(outcome, waiver) {
             stale.push(format!(
                 "a waiver of {} no longer applies to {} {}: remove it, or end it with `until`: \"{}\"",
-                waiver.rule, context.renderer, context.version, waiver.finding
+                waiver.rule,
+                context.renderer,
+                context.version,
+                waiver.finding.as_deref().unwrap_or("every check")
             ));
         }
     }
     stale
 }
 
+/// A waiver file for what fails on this driver and for what is waived already, to be read in place of the file at hand.
+///
+/// # Errors
+///
+/// Those of the TOML writer.
+pub fn write(checked: &Checked, waivers: &[Waiver]) -> Result<String, toml::ser::Error> {
+    let context = &checked.context;
+    let (version, from) = version_of(&context.version);
+    let renderer = context.renderer.split(" (").next().unwrap_or_default().to_owned();
+    let mut waiver: Vec<Waiver> = Vec::new();
+    for (outcome, finding) in
+        checked.outcomes.iter().flat_map(|outcome| outcome.findings.iter().map(move |f| (outcome, f)))
+    {
+        let known =
+            |waiver: &&Waiver| waiver.is_of(context) && waiver.rule == outcome.id && waiver.names(&finding.what);
+        if finding.verdict == RuleVerdict::Waived {
+            let known = waivers.iter().find(known).filter(|known| !waiver.contains(known));
+            waiver.extend(known.cloned());
+        } else if finding.verdict.fails() {
+            waiver.push(Waiver {
+                renderer: renderer.clone(),
+                version: version.clone(),
+                from: from.clone(),
+                until: None,
+                rule: outcome.id.to_owned(),
+                finding: Some(finding.what.clone()),
+                reason: format!("{} (GL 4.6, {})", finding.measured, outcome.section),
+            });
+        }
+    }
+    let head = format!(
+        "# What fails on {}, {}: `glumbra check --waivers FILE` calls it no failure.\n\
+         # `renderer` and `version` are parts of GL_RENDERER and GL_VERSION; versions from `from` up to, but not at, `until`.\n\
+         # Say in `reason` where the bug is reported.\n\n",
+        context.renderer, context.version
+    );
+    Ok(head + &toml::to_string(&File { waiver })?)
+}
+
+/// The words of GL_VERSION before the driver's own number, and that number: `Mesa ` and 22.3.6. GL's number comes first,
+/// so that a driver's is the last one with a dot.
+fn version_of(text: &str) -> (String, Option<Number>) {
+    let mut words = text.split_whitespace().collect::<Vec<_>>();
+    while let (Some(word), true) = (words.pop(), words.len() > 0) {
+        let name = words[words.len() - 1];
+        if word.contains('.')
+            && !name.contains('.')
+            && let Some(number) = Number::leading(word)
+        {
+            return (format!("{name} "), Some(number));
+        }
+    }
+    (String::new(), Number::leading(text))
+}
+
 /// Tests whether this context could not test what the waiver names.
 fn may_be_untested(outcome: &RuleOutcome, waiver: &Waiver) -> bool {
     let untestable = || outcome.findings.iter().filter(|finding| finding.verdict == RuleVerdict::Untestable);
     let mut asked = outcome.findings.iter().filter(|finding| finding.verdict != RuleVerdict::Untestable);
-    !asked.any(|finding| finding.what == waiver.finding) && untestable().next().is_some()
+    !asked.any(|finding| waiver.names(&finding.what)) && untestable().next().is_some()
+}
+
+/// A waiver of every driver.
+#[cfg(test)]
+pub(super) fn parse_for_test(rule: &str, finding: &str) -> Vec<Waiver> {
+    let text = ["renderer", "version", "rule", "finding", "reason"].into_iter().zip(["", "", rule, finding, "known"]);
+    let text: String = text.map(|(key, value)| format!("{key} = \"{value}\"\n")).collect();
+    parse(Path::new("test"), &format!("[[waiver]]\n{text}")).expect("a waiver")
 }
 
 #[cfg(test)]

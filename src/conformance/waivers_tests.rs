@@ -29,7 +29,7 @@ fn context(renderer: &str) -> ContextInfo {
         renderer: renderer.to_owned(),
         version: "4.5 Mesa 22.3.6".to_owned(),
         shading_language: String::new(),
-        profile: "core",
+        profile: "core".to_owned(),
         khr_debug: false,
         debug_output: false,
         timer_bits: 0,
@@ -39,7 +39,7 @@ fn context(renderer: &str) -> ContextInfo {
 
 /// GL-O1 with one finding.
 fn outcome(what: &str, verdict: RuleVerdict, measured: &str) -> RuleOutcome {
-    let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned() }];
+    let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned(), waiver: None }];
     RuleOutcome {
         id: "GL-O1",
         title: "",
@@ -56,7 +56,7 @@ fn outcome(what: &str, verdict: RuleVerdict, measured: &str) -> RuleOutcome {
 fn waiver(finding: &str) -> Vec<Waiver> {
     let [renderer, version, rule, reason] = ["llvmpipe", "Mesa ", "GL-O1", "known"].map(str::to_owned);
     let [from, until] = ["22.3", "25.1"].map(|number| Number::try_from(number.to_owned()).ok());
-    vec![Waiver { renderer, version, from, until, rule, finding: finding.to_owned(), reason }]
+    vec![Waiver { renderer, version, from, until, rule, finding: Some(finding.to_owned()), reason }]
 }
 
 #[test]

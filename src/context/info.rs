@@ -1,12 +1,12 @@
 //! Names, versions and limits of a context, for `glumbra info` and for reports.
 
 use glow::HasContext;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::load::LoadedContext;
 
 /// The driver of a context, and its limits.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
     pub backend: String,
@@ -19,7 +19,7 @@ pub struct ContextInfo {
     /// GL_SHADING_LANGUAGE_VERSION.
     pub shading_language: String,
     /// `core` or `compatibility`, by GL_CONTEXT_PROFILE_MASK; `none` before OpenGL 3.2.
-    pub profile: &'static str,
+    pub profile: String,
     /// True if the driver has GL_KHR_debug, or OpenGL 4.3, which includes it.
     pub khr_debug: bool,
     /// True if errors are reported with their text, at the call that made them.
@@ -31,7 +31,7 @@ pub struct ContextInfo {
 }
 
 /// Limits of a context, as its GL_MAX_* queries answer.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ContextLimits {
     /// GL_MAX_TEXTURE_SIZE, in texels.
     pub texture_size: i32,
@@ -78,7 +78,7 @@ pub(super) fn describe(loaded: &LoadedContext) -> ContextInfo {
         renderer: text(glow::RENDERER),
         version: text(glow::VERSION),
         shading_language: text(glow::SHADING_LANGUAGE_VERSION),
-        profile: profile(gl),
+        profile: profile(gl).to_owned(),
         khr_debug: gl.supports_debug(),
         debug_output: loaded.debug_log.is_some(),
         timer_bits: loaded.timer_bits,

@@ -51,6 +51,27 @@ pub(crate) fn patience() -> u32 {
     set_patience().unwrap_or(PATIENCE)
 }
 
+/// Ends the process at once, without what the driver has registered for a regular end: it might wait for ever.
+pub(crate) fn leave(status: i32) -> ! {
+    unfinished::remove_all();
+    #[cfg(unix)]
+    // SAFETY: ends the process.
+    unsafe {
+        libc::_exit(status)
+    }
+    #[cfg(not(unix))]
+    std::process::exit(status)
+}
+
+/// Name of a signal that ended another process.
+#[cfg(unix)]
+pub(crate) fn signal_name(signal: i32) -> String {
+    let ends =
+        [(libc::SIGKILL, "SIGKILL"), (libc::SIGTERM, "SIGTERM"), (libc::SIGINT, "SIGINT"), (libc::SIGSYS, "SIGSYS")];
+    let known = signals::CRASHES.iter().chain(&ends).find(|(known, _)| *known == signal);
+    known.map_or_else(|| format!("signal {signal}"), |(_, name)| (*name).to_owned())
+}
+
 /// Writes on standard error without taking memory or a lock.
 fn say(parts: &[&[u8]]) {
     for part in parts {

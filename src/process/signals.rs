@@ -12,7 +12,7 @@ use libc::{c_int, c_void, siginfo_t};
 use super::{digits, doing, patience, say, unfinished};
 
 /// Faults of the process itself, with their names.
-const CRASHES: [(c_int, &str); 5] = [
+pub(super) const CRASHES: [(c_int, &str); 5] = [
     (libc::SIGSEGV, "SIGSEGV"),
     (libc::SIGBUS, "SIGBUS"),
     (libc::SIGILL, "SIGILL"),

@@ -207,7 +207,8 @@ impl Bench {
             glow::NO_ERROR => None,
             code => Some(error_name(code)),
         };
-        let names: Vec<String> = std::iter::from_fn(next).take(MOST_FLAGS).collect();
+        let mut names: Vec<String> = std::iter::from_fn(next).take(MOST_FLAGS).collect();
+        names.dedup();
         (!names.is_empty()).then(|| names.join(", "))
     }
 }

@@ -1,0 +1,277 @@
+//! `glumbra check`: GL's rules for shadows and bump mapping on the driver at hand.
+
+mod child;
+mod children;
+mod files;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+pub use self::children::ChildError;
+use self::children::Heard;
+use self::files::Files;
+use super::{ContextArgs, Error};
+use crate::conformance::events::Event;
+use crate::conformance::{self, Checked, Rule, RuleOutcome, baseline, events, waivers};
+use crate::context::ContextInfo;
+
+/// Runs GL's rules for shadows and bump mapping on the driver at hand: does it do what the specification says?
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub struct CheckArgs {
+    /// Only rules with this id, kind or word: GL-C1, s, stencil; may be given again
+    #[arg(long, value_name = "PATTERN")]
+    filter: Vec<String>,
+
+    /// Lists the rules, a line each, and draws nothing
+    #[arg(long)]
+    list: bool,
+
+    /// Shows the full table: checks that pass, tolerances, the driver's numbers
+    #[arg(short, long)]
+    verbose: bool,
+
+    /// Uses a core context, where rules of the fixed-function pipeline cannot be tested
+    #[arg(long)]
+    core: bool,
+
+    /// Writes a JUnit report, for continuous integration: a case each check; - is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Results")]
+    junit: Option<PathBuf>,
+
+    /// Writes all measurements as JSON; - is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Results")]
+    json: Option<PathBuf>,
+
+    /// Compares with an earlier run that --json wrote: only what fails now and did not then fails this run
+    #[arg(long, value_name = "FILE", help_heading = "Known failures")]
+    baseline: Option<PathBuf>,
+
+    /// Known deviations (TOML), in place of those that come with glumbra
+    #[arg(long, value_name = "FILE", help_heading = "Known failures")]
+    waivers: Option<PathBuf>,
+
+    /// Writes waivers for all that fails, to be read by --waivers
+    #[arg(long, value_name = "FILE", help_heading = "Known failures")]
+    write_waivers: Option<PathBuf>,
+
+    /// Seconds that a rule may take before it is ended, and its verdict is HANG
+    #[arg(long, value_name = "SECONDS", default_value_t = 30, help_heading = "Processes",
+        value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    timeout: u32,
+
+    /// Runs all N times, keeps the worst of each check, and names checks that do not answer alike
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Processes",
+        value_parser = clap::value_parser!(u16).range(1..=1000))]
+    repeat: u16,
+
+    /// Runs each rule in a process of its own, so that no rule meets what another has left
+    #[arg(long, help_heading = "Processes")]
+    isolate: bool,
+
+    /// Runs all in this process, for a debugger or a tracer; a crash then ends the run
+    #[arg(long, conflicts_with_all = ["isolate", "timeout"], help_heading = "Processes")]
+    here: bool,
+
+    /// Rules to run, as a child process
+    #[arg(long, hide = true, value_delimiter = ',')]
+    child: Vec<String>,
+
+    #[command(flatten)]
+    context: ContextArgs,
+}
+
+const HELP: &str = "\
+A rule passes, has a quality warning (it is allowed, but good drivers do better), fails, or cannot be
+tested here. Verdicts come from bounds on what the specification allows, never from a picture.
+
+Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
+F framebuffers, E texture environments, M cube maps, L levels and filters of textures,
+U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q queries.
+--list has all.
+
+The rules run in a child process. What ends it is a verdict of the rule that it was at, and the rest
+goes on in a new one:
+  CRASH          a signal, such as SIGSEGV, or an exit of the driver's own
+  HANG           no end within --timeout
+  OUT OF MEMORY  the driver, the system or GL says so
+  CONTEXT LOST   GL says so: the GPU was reset
+Files are tried before the run and written as results come. A run that is ended leaves what it has:
+`unfinished` names the rules that are missing.
+
+The screen has what does not pass; its last line names the rules that fail. Colours: NO_COLOR turns
+them off. With `--json -` or `--junit -` the screen's text goes to standard error.
+
+A waiver names a deviation that is known, by driver, versions, rule and check:
+  [[waiver]]
+  renderer = \"llvmpipe\"         # a part of GL_RENDERER
+  version = \"Mesa \"            # a part of GL_VERSION
+  from = \"22.3\"               # the first such version, by the number behind it; may be absent
+  until = \"27\"                # the first that is sound again; may be absent
+  rule = \"GL-O1\"
+  finding = \"DEPTH_COMPONENT32: one unit\"  # absent: every check of the rule
+  reason = \"f32 has 24 bits\"
+One that no longer applies is a failure. --write-waivers writes such a file.
+
+Exit status: 0 nothing fails, 1 a rule fails (with --baseline: one that did not fail before), 2 nothing
+could be run.
+
+Examples:
+  glumbra check
+  glumbra check --filter stencil --filter GL-O1 --verbose
+  glumbra check --junit out/check.xml --json out/check.json
+  glumbra check --json out/now.json --baseline out/before.json    what have I broken, what mended?
+  glumbra check --filter GL-F3 --repeat 20                        does it always answer alike?
+  gdb --args glumbra check --here --filter GL-R1
+  GALLIUM_DRIVER=softpipe glumbra check --context egl";
+
+/// Columns of the text without --verbose, at most.
+const WIDTH: usize = 80;
+
+/// Checks, prints, writes.
+pub fn run(arguments: &CheckArgs) -> ExitCode {
+    let result = match () {
+        () if !arguments.child.is_empty() => child::run(arguments, &arguments.child).map(|()| None),
+        () if arguments.list => list(arguments).map(|()| None),
+        () => check(arguments).map(Some),
+    };
+    match result {
+        Ok(None) => ExitCode::SUCCESS,
+        Ok(Some(checked)) if checked.is_empty() => ExitCode::from(2),
+        Ok(Some(checked)) => ExitCode::from(u8::from(checked.fails())),
+        Err(error) => super::failure(error, 2),
+    }
+}
+
+fn list(arguments: &CheckArgs) -> Result<(), Error> {
+    super::print(&conformance::list(&conformance::choose(&arguments.filter)?))
+}
+
+fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
+    let rules = conformance::choose(&arguments.filter)?;
+    let known = waivers::load(arguments.waivers.as_deref())?;
+    let before = arguments.baseline.as_deref().map(baseline::load).transpose()?;
+    let files = Files::new(arguments)?;
+    let bar = ProgressBar::new(rules.len() as u64 * u64::from(arguments.repeat));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
+        bar.set_style(style);
+    }
+    let mut run =
+        Run { context: None, repeats: Vec::new(), rules, known, before, files, bar, dirty: false, error: None };
+    for _ in 0..arguments.repeat {
+        run.repeats.push(Vec::new());
+        run.once(arguments)?;
+    }
+    run.bar.finish_and_clear();
+    if let Some(error) = run.error.take() {
+        return Err(error);
+    }
+    let Some(checked) = run.checked() else {
+        return Err(ChildError::Ended("the process that checks has told no driver".to_owned()).into());
+    };
+    run.files.write_all(&checked, &run.known)?;
+    print(&checked, arguments.verbose, run.files.take_standard_output())?;
+    Ok(checked)
+}
+
+/// A run so far.
+struct Run<'a> {
+    context: Option<ContextInfo>,
+    /// Outcomes of each repeat.
+    repeats: Vec<Vec<RuleOutcome>>,
+    rules: Vec<&'static Rule>,
+    known: Vec<waivers::Waiver>,
+    before: Option<baseline::Baseline>,
+    files: Files<'a>,
+    bar: ProgressBar,
+    /// Results are not in the files yet.
+    dirty: bool,
+    /// The first error of the files.
+    error: Option<Error>,
+}
+
+impl Run<'_> {
+    /// Runs all rules once.
+    fn once(&mut self, arguments: &CheckArgs) -> Result<(), Error> {
+        let rules = self.rules.clone();
+        if arguments.here {
+            return child::steps(arguments, &rules, |event| {
+                match event {
+                    Event::Refused(error) => return Err(ChildError::Refused(error).into()),
+                    Event::Context(info) => self.hear(Heard::Context(info)),
+                    Event::Begins(id) => events::rule(&id).into_iter().for_each(|rule| self.hear(Heard::Begins(rule))),
+                    Event::Ends { id, findings, facts, seconds, .. } => {
+                        let outcome = events::rule(&id).map(|rule| RuleOutcome::new(rule, findings, facts, seconds));
+                        outcome.into_iter().for_each(|outcome| self.hear(Heard::Ended(outcome)));
+                    }
+                }
+                Ok(())
+            });
+        }
+        let mut for_child = arguments.context.to_words();
+        for_child.extend(arguments.core.then(|| "--core".to_owned()));
+        let limit = Duration::from_secs(arguments.timeout.into());
+        Ok(children::run(&for_child, &rules, limit, arguments.isolate, &mut |heard| self.hear(heard))?)
+    }
+
+    fn hear(&mut self, heard: Heard) {
+        match heard {
+            Heard::Context(info) => {
+                self.context.get_or_insert(*info);
+                self.dirty = true;
+            }
+            Heard::Begins(rule) => self.bar.set_message(format!("{} {}", rule.id, rule.title)),
+            Heard::Ended(outcome) => {
+                self.bar.inc(1);
+                if let Some(repeat) = self.repeats.last_mut() {
+                    repeat.push(outcome);
+                }
+                self.dirty = true;
+            }
+            Heard::Said(text) => self.bar.suspend(|| super::say(text.trim_end())),
+            Heard::Tick => self.bar.tick(),
+        }
+        if self.dirty && self.error.is_none() {
+            let written = self.checked().map_or(Ok(false), |checked| self.files.write_unfinished(&checked));
+            match written {
+                Ok(written) => self.dirty = !written,
+                Err(error) => self.error = Some(error),
+            }
+        }
+    }
+
+    /// The results so far; nothing before there is a context.
+    fn checked(&self) -> Option<Checked> {
+        let context = self.context.clone()?;
+        let last = self.repeats.last().map_or(0, Vec::len);
+        let unfinished = self.rules.iter().skip(last).map(|rule| rule.id).collect();
+        let (mut outcomes, flakes) = conformance::join(self.repeats.clone());
+        let stale_waivers = waivers::apply(&self.known, &context, &mut outcomes);
+        let mut checked = Checked { context, outcomes, stale_waivers, unfinished, flakes, since: None };
+        checked.since = self.before.as_ref().map(|before| baseline::compare(before, &checked));
+        Some(checked)
+    }
+}
+
+/// On standard output, or on standard error if the other is for a file's text.
+fn print(checked: &Checked, verbose: bool, to_error: bool) -> Result<(), Error> {
+    use std::io::Write;
+    const UNKNOWN_WIDTH: u16 = 160;
+    let terminal = terminal_size::terminal_size().map(|(width, _)| width.0);
+    let text = match verbose {
+        true => conformance::print(checked, terminal.unwrap_or(UNKNOWN_WIDTH), true),
+        false => conformance::screen(checked, terminal.map_or(WIDTH, |width| WIDTH.min(width.into()))),
+    };
+    if to_error {
+        // If standard error is closed, the text is lost; the results are in the files.
+        let _ = anstream::stderr().write_all(text.as_bytes());
+        return Ok(());
+    }
+    let mut out = anstream::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    Ok(out.flush()?)
+}
