@@ -26,9 +26,10 @@ fn with(outcomes: &[RuleOutcome], verdict: RuleVerdict) -> Vec<&'static str> {
 
 #[test]
 fn without_a_mistake_no_rule_fails() {
-    for (profile, untestable) in
-        [(Profile::Compatibility, vec![]), (Profile::Core33, vec!["GL-C6", "GL-C12", "GL-T1", "GL-T6", "GL-F12", "GL-E1", "GL-E2", "GL-E3"])]
-    {
+    for (profile, untestable) in [
+        (Profile::Compatibility, vec![]),
+        (Profile::Core33, vec!["GL-C6", "GL-C12", "GL-T1", "GL-T6", "GL-F12", "GL-E1", "GL-E2", "GL-E3"]),
+    ] {
         let outcomes = outcomes(profile, None);
         let failing: Vec<_> = outcomes
             .iter()
@@ -54,12 +55,15 @@ const MUTATIONS: [(Mutation, &[&str]); 25] = [
     (
         Mutation::FilterThenCompare,
         &[
-            "GL-C2", "GL-C3", "GL-C4", "GL-C5", "GL-C6", "GL-C7", "GL-C8", "GL-C9", "GL-C10", "GL-C11", "GL-C13", "GL-T1",
-            "GL-T2", "GL-T5",
+            "GL-C2", "GL-C3", "GL-C4", "GL-C5", "GL-C6", "GL-C7", "GL-C8", "GL-C9", "GL-C10", "GL-C11", "GL-C13",
+            "GL-T1", "GL-T2", "GL-T5",
         ],
     ),
     (Mutation::FrontAndBackSwapped, &["GL-O2", "GL-S2"]),
-    (Mutation::DepthRangeReversed, &["GL-T3", "GL-T4", "GL-D2", "GL-D3", "GL-D5", "GL-O1", "GL-S3", "GL-F6", "GL-F10", "GL-F11"]),
+    (
+        Mutation::DepthRangeReversed,
+        &["GL-T3", "GL-T4", "GL-D2", "GL-D3", "GL-D5", "GL-O1", "GL-S3", "GL-F6", "GL-F10", "GL-F11"],
+    ),
     (Mutation::DepthClampIgnored, &["GL-D3"]),
     (Mutation::StencilMaskIgnored, &["GL-S1"]),
     (Mutation::CopyShifted, &["GL-F1", "GL-F7"]),
