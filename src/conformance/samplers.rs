@@ -169,12 +169,20 @@ pub fn linear(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
         for by in GlSampledBy::ALL {
             findings.part(|findings| {
                 let image = subject.bench.depth_image(format, [2, 2], &[&STORED])?;
+                let (mut blended, mut nearest) = (0, 0);
                 for compare in GlCompare::ALL {
                     let tally =
                         linear_of(subject, &image, Sampling { by, ..Sampling::compare_linear(compare) }, compare)?;
                     let name = format!("{}, {compare:?}{}", format.name(), by.suffix());
+                    // NEVER and ALWAYS are the same by any filter.
+                    if !matches!(compare, GlCompare::Never | GlCompare::Always) {
+                        *(if tally.allowed == 0 { &mut blended } else { &mut nearest }) += 1;
+                    }
                     findings.tally(name, tally, "of the ideal weight");
                 }
+                // LINEAR may be coarse, but not for some functions alone: the filter is no question of the function.
+                let what = format!("{}, one filter for all functions{}", format.name(), by.suffix());
+                findings.must_hold(what, blended * nearest == 0, format!("{blended} blend, {nearest} do not"));
                 Ok(())
             });
         }

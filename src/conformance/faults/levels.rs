@@ -1,7 +1,7 @@
 //! Faults of what the renderer does not use of textures and framebuffers, and the rules of `glumbra check` ask all the same:
 //! arrays, gathers, rows of the client's memory, biases, layers, samples.
 
-use super::{Stage, Value, anywhere, reworded};
+use super::{Value, anywhere};
 
 faults! {
     "base-level-ignored" [GL_TEXTURE_BASE_LEVEL] "BASE_LEVEL is 0." {
@@ -44,7 +44,7 @@ faults! {
         glFramebufferTextureLayer => |call| call.set(4, 0)
     }
     "layer-of-geometry-ignored" [gl_Layer] "Geometry shaders draw into layer 0." {
-        text |source| reworded(source, Stage::Other, "gl_Layer = layer", "gl_Layer = 0")
+        text |source| source.has("gl_Layer").then(|| source.text.replace("gl_Layer = layer", "gl_Layer = 0"))
     }
     "incomplete-is-complete" [glCheckFramebufferStatus] "Each framebuffer is complete." {
         glCheckFramebufferStatus => |call| {
