@@ -122,6 +122,7 @@ fn every_fault_turns_a_rule_red() {
 fn no_hole_is_open() {
     let rows = table();
     let is_seen = |fault: &&Fault| rows.iter().any(|row| row.fault == fault.name && !row.red.is_empty());
-    let open: Vec<_> = faults::all().filter(|fault| fault.hole.is_none() && !is_seen(fault)).map(|fault| fault.name).collect();
+    let open: Vec<_> =
+        faults::all().filter(|fault| fault.hole.is_none() && !is_seen(fault)).map(|fault| fault.name).collect();
     assert!(open.is_empty(), "{} faults that no rule sees: {open:#?}\n{HOW}", open.len());
 }

@@ -96,8 +96,8 @@ pub fn of_gl() -> (BTreeSet<String>, BTreeSet<String>) {
 /// Words before a parenthesis that are no function of GLSL: types, statements, the preprocessor's, and what is made from a
 /// program of register combiners.
 const NO_FUNCTIONS: &[&str] = &[
-    "combine", "if", "for", "while", "main", "defined", "float", "int", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "mat3",
-    "mat4",
+    "combine", "if", "for", "while", "main", "defined", "float", "int", "bool", "vec2", "vec3", "vec4", "ivec2",
+    "ivec3", "mat3", "mat4",
 ];
 
 /// Qualifiers and statements that a driver may take wrongly.
