@@ -13,14 +13,14 @@ use super::value::{Value, Word};
 /// Calls the function at an address with arguments of its signature.
 pub type Invoke = unsafe fn(*const c_void, &[Value]) -> Value;
 
-/// What is done at a call.
+/// Act at a call.
 pub type Act = fn(&mut Call);
 
 /// Functions, and what is done at each call of one of them. `draw` stands for those that draw from arrays, `drawn` for glEnd
 /// too, before which no state may be asked; `clear` for all that clear, `copy` for all that copy from a framebuffer.
 pub type Hook = (&'static [&'static str], Act);
 
-/// What a context with a fault keeps from call to call.
+/// Memory of a context with a fault, from call to call.
 pub struct Layer {
     hooks: Vec<(Vec<&'static str>, Box<dyn Fn(&mut Call)>)>,
     /// The driver's own functions.
@@ -98,7 +98,7 @@ pub fn is_current(layer: &Rc<Layer>) -> bool {
 pub struct Call<'a> {
     /// The function's name: one act may serve several.
     pub name: &'static str,
-    /// What the driver answered, after [`now`](Self::now).
+    /// Answer of the driver, after [`now`](Self::now).
     pub result: Value,
     layer: &'a Layer,
     arguments: Vec<Value>,
