@@ -142,14 +142,14 @@ fn blended(
     };
     for (pixel, seen) in seen.into_iter().enumerate() {
         let [source, destination] = [&colors.source, &colors.destination].map(|colors| colors[pixel].map(f64::from));
-        for channel in 0..4 {
+        for (channel, seen) in seen.into_iter().enumerate() {
             let [value, terms] = due(factors, equation, source, destination, channel);
             if is_float {
                 // Products and sums in f32: some roundings of the terms; half floats' worth is allowed.
-                let off = (seen[channel] - value) / terms.max(1.0);
+                let off = (seen - value) / terms.max(1.0);
                 tally.add(verify::within(off, 4e-7, 1.0 / 1024.0), off);
             } else {
-                let off = (seen[channel] - value.clamp(0.0, 1.0)) * 255.0;
+                let off = (seen - value.clamp(0.0, 1.0)) * 255.0;
                 // Each of two products may round by itself.
                 tally.add(verify::within(off, 1.0, 2.0), off);
             }

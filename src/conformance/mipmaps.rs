@@ -88,9 +88,9 @@ fn generated_of(
                         .map(|texel| texel[channel])
                         .fold([f64::MAX, f64::MIN], |[low, high], value| [low.min(value), high.max(value)])
                 };
-                for channel in 0..3 {
+                for (channel, value) in texel.iter().enumerate().take(3) {
                     let [low, high] = bounds(channel);
-                    let off = (low - texel[channel]).max(texel[channel] - high).max(0.0);
+                    let off = (low - value).max(value - high).max(0.0);
                     slope.add(verify::within(off, rounds, rounds), off);
                 }
                 // The last level's one texel takes all: it is near the middle of a slope.

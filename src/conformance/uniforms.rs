@@ -30,7 +30,7 @@ struct Values {
 
 impl Values {
     fn at(self, index: usize) -> f32 {
-        self.seed + index as f32 / 8.0 * if index % 3 == 0 { -1.0 } else { 1.0 }
+        self.seed + index as f32 / 8.0 * if index.is_multiple_of(3) { -1.0 } else { 1.0 }
     }
 
     fn vec4(self, first: usize) -> [f32; 4] {
@@ -124,7 +124,7 @@ pub fn uniforms(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
             ("mat4 times vec4", 1),
         ])
         .collect();
-    let mut wrong = vec![0; WIDTH];
+    let mut wrong = [0; WIDTH];
     for (seed, by_rows) in [(3.0, false), (-7.0, false), (12.0, true), (3.0, true), (5.0, false)] {
         let values = Values { seed };
         for (pixel, seen) in drawn(shader, &values.uniforms(by_rows))?.into_iter().enumerate() {

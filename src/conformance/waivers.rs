@@ -192,7 +192,7 @@ pub fn write(checked: &Checked, waivers: &[Waiver]) -> Result<String, toml::ser:
 /// so that a driver's is the last one with a dot.
 fn version_of(text: &str) -> (String, Option<Number>) {
     let mut words = text.split_whitespace().collect::<Vec<_>>();
-    while let (Some(word), true) = (words.pop(), words.len() > 0) {
+    while let (Some(word), true) = (words.pop(), !words.is_empty()) {
         let name = words[words.len() - 1];
         if word.contains('.')
             && !name.contains('.')

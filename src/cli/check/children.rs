@@ -147,7 +147,7 @@ fn without_context(how: &str, said: &str) -> String {
 /// The last error that a process wrote on standard error, or its last line.
 fn quoted(said: &str) -> String {
     let lines = || said.lines().filter(|line| !line.trim().is_empty());
-    let last = lines().rfind(|line| line.starts_with("error: ")).or_else(|| lines().last());
+    let last = lines().rfind(|line| line.starts_with("error: ")).or_else(|| lines().next_back());
     last.map_or_else(String::new, |line| format!(": \"{}\"", line.trim()))
 }
 

@@ -127,6 +127,7 @@ pub struct GlEnvironment {
 
 /// Source of a unit's texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a few on the stack")]
 pub enum GlCoordinates {
     /// The viewport as [0, 1] x [0, 1].
     Square,

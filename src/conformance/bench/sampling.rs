@@ -176,6 +176,7 @@ impl Sampling {
     }
 
     /// The parameters that textures and sampler objects share: integers, then floats.
+    #[allow(clippy::type_complexity, reason = "two lists, used once")]
     fn parameters(self) -> ([(u32, u32); 7], [(u32, f32); 3]) {
         let filter = |linear| if linear { glow::LINEAR } else { glow::NEAREST };
         let min = match (self.mipmap, self.linear) {

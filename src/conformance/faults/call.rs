@@ -20,9 +20,12 @@ pub type Act = fn(&mut Call);
 /// too, before which no state may be asked; `clear` for all that clear, `copy` for all that copy from a framebuffer.
 pub type Hook = (&'static [&'static str], Act);
 
+/// What is done at each call of one of the functions that are named.
+type OwnHook = (Vec<&'static str>, Box<dyn Fn(&mut Call)>);
+
 /// Memory of a context with a fault, from call to call.
 pub struct Layer {
-    hooks: Vec<(Vec<&'static str>, Box<dyn Fn(&mut Call)>)>,
+    hooks: Vec<OwnHook>,
     /// The driver's own functions.
     gl: Rc<glow::Context>,
     invoke_of: fn(&str) -> Option<(&'static str, Invoke)>,

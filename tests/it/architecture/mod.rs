@@ -198,7 +198,10 @@ fn nothing_is_kept_in_globals() {
         }
         // Signals and crash messages are the process's own; a window system's events are the thread's.
         let inside = path.strip_prefix(root().join("src")).unwrap().to_owned();
-        if inside.starts_with("process") || inside == Path::new("context/window.rs") {
+        // A GL function's arguments do not name the broken driver that it belongs to.
+        let is_excused =
+            ["context/window.rs", "conformance/faults/call.rs"].iter().any(|path| inside == Path::new(path));
+        if inside.starts_with("process") || is_excused {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
