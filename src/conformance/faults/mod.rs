@@ -2,7 +2,7 @@
 //! device and fixed function draw through it as through a sound driver.
 //!
 //! A fault is data in the file of its kind, and [`all`] has them. To add one: a line in that file. A file of a new kind
-//! needs a line in [`KINDS`].
+//! needs a line in `KINDS`.
 
 /// Faults as a table of the file: `"name" [what it breaks] "summary" (hole: "reason") functions => |call| act; ...`, the hole
 /// only where no rule sees it, or `"name" [...] "summary" text |source| another text;`.
