@@ -72,7 +72,9 @@ mod tests {
         assert_eq!(ids(&["c1"]), ["GL-C1"]);
         assert_eq!(ids(&["gl-c1"]), ["GL-C1"]);
         assert_eq!(ids(&["S3", "C1"]), ["GL-C1", "GL-S3"]);
-        assert_eq!(ids(&["s"]), ["GL-S1", "GL-S2", "GL-S3"]);
+        let of_kind_s: Vec<_> = ids(&[]).into_iter().filter(|id| id.starts_with("GL-S")).collect();
+        assert!(of_kind_s.len() > 1);
+        assert_eq!(ids(&["s"]), of_kind_s);
         assert!(ids(&["stencil"]).contains(&"GL-S1"));
         assert_eq!(ids(&[]).len(), super::TABLE.len());
     }

@@ -33,6 +33,7 @@ mod fragments;
 mod functions;
 mod invariance;
 mod levels;
+mod lighting;
 mod masks;
 mod mipmaps;
 mod offset;

@@ -100,6 +100,14 @@ impl FixedBench {
         Ok(Self { gl: context.gl().clone(), binding, programs: RefCell::default(), mutation })
     }
 
+    pub(super) fn gl(&self) -> &glow::Context {
+        &self.gl
+    }
+
+    pub(super) fn binding(&self) -> &Binding {
+        &self.binding
+    }
+
     fn load_matrix(&self, mode: u32, matrix: DMat4) {
         // SAFETY: the context is current; sixteen numbers, by columns.
         unsafe {

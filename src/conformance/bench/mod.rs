@@ -12,6 +12,7 @@ pub mod environment;
 pub mod fixed_function;
 mod format;
 mod image;
+pub mod lit;
 mod mutation;
 mod program;
 mod queries;

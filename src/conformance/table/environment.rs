@@ -1,6 +1,6 @@
 //! Rules of kind E: texture environments.
 
-use crate::conformance::{Rule, environment};
+use crate::conformance::{Rule, environment, lighting};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -26,5 +26,13 @@ pub const RULES: &[Rule] = &[
         says: "TEXTUREn is a source in every unit's environment.",
         tolerance: "as GL-E1",
         check: environment::crossbar,
+    },
+    Rule {
+        id: "GL-E4",
+        title: "lighting",
+        section: "12.2.1 compat.",
+        says: "A vertex's colour is emission, ambient, diffuse and specular light of each light that is on, which fades with distance; then clamped and interpolated.",
+        tolerance: "a code, else a warning to 2: a power and an interpolation of f32",
+        check: lighting::lighting_of_vertices,
     },
 ];
