@@ -93,11 +93,26 @@ pub fn of_gl() -> (BTreeSet<String>, BTreeSet<String>) {
     (functions, enums)
 }
 
-/// Words before a parenthesis that are no function of GLSL: types, statements, the preprocessor's, and what is made from a
-/// program of register combiners.
+/// Words before a parenthesis that are no function of GLSL: types, statements, the preprocessor's, what is made from a
+/// program of register combiners, and a main function under another name.
 const NO_FUNCTIONS: &[&str] = &[
-    "combine", "if", "for", "while", "main", "defined", "float", "int", "bool", "vec2", "vec3", "vec4", "ivec2",
-    "ivec3", "mat3", "mat4",
+    "combine",
+    "main_before_far",
+    "if",
+    "for",
+    "while",
+    "main",
+    "defined",
+    "float",
+    "int",
+    "bool",
+    "vec2",
+    "vec3",
+    "vec4",
+    "ivec2",
+    "ivec3",
+    "mat3",
+    "mat4",
 ];
 
 /// Qualifiers and statements that a driver may take wrongly.
