@@ -20,7 +20,7 @@ pub type Act = fn(&mut Call);
 /// too, before which no state may be asked; `clear` for all that clear, `copy` for all that copy from a framebuffer.
 pub type Hook = (&'static [&'static str], Act);
 
-/// What is done at each call of one of the functions that are named.
+/// Names of functions, and the act at each call of one of them.
 type OwnHook = (Vec<&'static str>, Box<dyn Fn(&mut Call)>);
 
 /// Memory of a context with a fault, from call to call.
