@@ -25,7 +25,7 @@ faults! {
         glEnable => |call| if (raw::LIGHT1..=raw::LIGHT7).contains(&call.u(0)) { call.skip() }
     }
     "normalize-off" [GL_NORMALIZE] "Normals are not made of unit length." { glEnable => |call| never_on(call, raw::NORMALIZE) }
-    "color-sum-on" [GL_COLOR_SUM] "The secondary colour stays added." { glDisable => |call| never_on(call, raw::COLOR_SUM) }
+    "color-sum-on" [GL_COLOR_SUM] "The secondary colour stays added." (hole: "the secondary colour is black, as nothing sets another") { glDisable => |call| never_on(call, raw::COLOR_SUM) }
     "color-material-on" [GL_COLOR_MATERIAL] "The primary colour stays the material's." {
         glDisable => |call| never_on(call, raw::COLOR_MATERIAL);
         glEnable => |call| if call.u(0) == raw::LIGHTING { call.other("glEnable", &[f64::from(raw::COLOR_MATERIAL)]) }
