@@ -2,67 +2,26 @@
 //! [`mod@bench`]. Knows no scene and no technique.
 //!
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
-//! To add a rule: one row in the table, one function in the file of its kind.
+//! To add a rule: one row in the table, one function in `rules/`.
 
-mod alpha_test;
-mod attachments;
 pub mod baseline;
 pub mod bench;
-mod blending;
-mod clip_distances;
-mod compare;
-mod coordinates;
-mod copies;
-mod cube_comparison;
-mod cube_maps;
-mod depth;
-mod derivatives;
-mod environment;
 pub mod events;
-mod faces;
-mod factors;
 #[doc(hidden)]
 pub mod faults;
-mod fetch;
 mod filter;
-mod filters;
 mod findings;
-mod fixed;
-mod floats;
-mod fragments;
-mod functions;
-mod invariance;
-mod levels;
-mod lighting;
-mod masks;
-mod mipmaps;
-mod offset;
-mod offset_planes;
-mod packed;
-mod planes;
 mod print;
 pub mod probe;
-mod programs;
-mod projective;
-mod queries;
 mod random;
-mod raster;
 mod repeats;
 mod reset;
-mod samplers;
+mod rules;
 mod screen;
-mod stencil;
 mod table;
-mod transfers;
-mod uniforms;
-mod uploads;
-mod varyings;
 pub mod verify;
-mod volumes;
 pub mod waivers;
-mod windows;
 mod write;
-mod zfail;
 
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! Rules of kind B: masks, clears, blending.
 
-use crate::conformance::{Rule, factors, masks};
+use crate::conformance::Rule;
+use crate::conformance::rules::{factors, masks};
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind C: comparison with depth textures.
 
-use crate::conformance::{Rule, compare, cube_comparison, fixed, packed, samplers};
+use crate::conformance::Rule;
+use crate::conformance::rules::{compare, cube_comparison, fixed, packed, samplers};
 
 pub const RULES: &[Rule] = &[
     Rule {

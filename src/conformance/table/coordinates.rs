@@ -1,6 +1,7 @@
 //! Rules of kind T: coordinates and interpolation.
 
-use crate::conformance::{Rule, coordinates, fixed, projective};
+use crate::conformance::Rule;
+use crate::conformance::rules::{coordinates, fixed, projective};
 
 pub const RULES: &[Rule] = &[
     Rule {

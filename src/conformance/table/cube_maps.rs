@@ -1,6 +1,7 @@
 //! Rules of kind M: cube maps.
 
-use crate::conformance::{Rule, cube_maps};
+use crate::conformance::Rule;
+use crate::conformance::rules::cube_maps;
 
 pub const RULES: &[Rule] = &[
     Rule {

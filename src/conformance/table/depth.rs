@@ -1,6 +1,7 @@
 //! Rules of kind D: depth.
 
-use crate::conformance::{Rule, depth, fragments};
+use crate::conformance::Rule;
+use crate::conformance::rules::{depth, fragments};
 
 pub const RULES: &[Rule] = &[
     Rule {

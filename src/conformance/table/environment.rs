@@ -1,6 +1,7 @@
 //! Rules of kind E: texture environments.
 
-use crate::conformance::{Rule, environment, lighting};
+use crate::conformance::Rule;
+use crate::conformance::rules::{environment, lighting};
 
 pub const RULES: &[Rule] = &[
     Rule {

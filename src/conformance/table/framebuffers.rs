@@ -1,6 +1,7 @@
 //! Rules of kind F: framebuffers and colour.
 
-use crate::conformance::{Rule, attachments, blending, copies, floats, transfers};
+use crate::conformance::Rule;
+use crate::conformance::rules::{attachments, blending, copies, floats, transfers};
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind G: GLSL's functions, uniforms and varyings.
 
-use crate::conformance::{Rule, derivatives, functions, uniforms, varyings};
+use crate::conformance::Rule;
+use crate::conformance::rules::{derivatives, functions, uniforms, varyings};
 
 pub const RULES: &[Rule] = &[
     Rule {

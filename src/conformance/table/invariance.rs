@@ -1,6 +1,7 @@
 //! Rules of kind I: invariance.
 
-use crate::conformance::{Rule, invariance, programs};
+use crate::conformance::Rule;
+use crate::conformance::rules::{invariance, programs};
 
 pub const RULES: &[Rule] = &[
     Rule {

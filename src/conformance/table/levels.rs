@@ -1,6 +1,7 @@
 //! Rules of kind L: levels and filters of textures.
 
-use crate::conformance::{Rule, filters, levels, mipmaps};
+use crate::conformance::Rule;
+use crate::conformance::rules::{filters, levels, mipmaps};
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind O: polygon offset.
 
-use crate::conformance::{Rule, offset, offset_planes};
+use crate::conformance::Rule;
+use crate::conformance::rules::{offset, offset_planes};
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind Q: queries.
 
-use crate::conformance::{Rule, queries};
+use crate::conformance::Rule;
+use crate::conformance::rules::queries;
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind R: raster and clipping.
 
-use crate::conformance::{Rule, clip_distances, raster, windows};
+use crate::conformance::Rule;
+use crate::conformance::rules::{clip_distances, raster, windows};
 
 pub const RULES: &[Rule] = &[
     Rule {

@@ -1,6 +1,7 @@
 //! Rules of kind S: stencil.
 
-use crate::conformance::{Rule, faces, stencil, volumes, zfail};
+use crate::conformance::Rule;
+use crate::conformance::rules::{faces, stencil, volumes, zfail};
 
 pub const RULES: &[Rule] = &[
     Rule {

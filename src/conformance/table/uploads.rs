@@ -1,6 +1,7 @@
 //! Rules of kind U: uploads and read-backs.
 
-use crate::conformance::{Rule, uploads};
+use crate::conformance::Rule;
+use crate::conformance::rules::uploads;
 
 pub const RULES: &[Rule] = &[
     Rule {

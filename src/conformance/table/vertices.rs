@@ -1,6 +1,7 @@
 //! Rules of kind V: vertices.
 
-use crate::conformance::{Rule, fetch};
+use crate::conformance::Rule;
+use crate::conformance::rules::fetch;
 
 pub const RULES: &[Rule] = &[Rule {
     id: "GL-V1",

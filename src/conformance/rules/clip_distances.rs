@@ -1,0 +1,78 @@
+//! GL-R4: each of eight clip distances alone and several at once, and what is interpolated where they cut [GL 4.6, 13.7].
+
+use crate::conformance::bench::{Error, GlDraw, GlFormat, GlState, GlUniform, Shader, Surface, Vertex, full};
+use crate::conformance::random::Random;
+use crate::conformance::verify::{self, GradeTally};
+use crate::conformance::{DriverUnderTest, Findings};
+
+const SIDE: u32 = 32;
+const SHADER: Shader = Shader {
+    declarations: "uniform vec4 planes[8];\n#ifdef VERTEX\nout float gl_ClipDistance[8];\n#endif",
+    vertex: "gl_Position = position; passed = value;
+        for (int k = 0; k < 8; ++k) gl_ClipDistance[k] = dot(planes[k], position);",
+    fragment: "result = vec4(passed.xy / passed.w, 1.0, 1.0);",
+    ..Shader::PLAIN
+};
+
+/// GL-R4: 1 to 8 distances, the last of which cuts, then all that are on.
+pub fn distances(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba32F), None)?;
+    let mut random = Random::new(351);
+    let mut place = GradeTally::default();
+    let (mut alone, mut together) = (GradeTally::default(), GradeTally::default());
+    for on in 1..=8_usize {
+        let keep = [0.0, 0.0, 0.0, 1.0];
+        let mut cutting = || {
+            let angle = random.between(0.0, std::f32::consts::TAU);
+            [angle.cos(), angle.sin(), 0.0, random.between(-0.2, 0.6)]
+        };
+        // The last that is on cuts; those that are off would leave nothing.
+        let mut planes = [[0.0, 0.0, 0.0, -1.0]; 8];
+        planes[..on].fill(keep);
+        planes[on - 1] = cutting();
+        judge(subject, &surface, &planes, on, &mut alone, &mut place)?;
+        planes[..on].iter_mut().for_each(|plane| *plane = cutting());
+        judge(subject, &surface, &planes, on, &mut together, &mut place)?;
+    }
+    findings.tally("each of 8 distances alone, others off", alone, "");
+    findings.tally("1 to 8 distances at once", together, "");
+    findings.tally("varyings of what is cut", place, "of the viewport");
+    Ok(())
+}
+
+/// A viewport with several w against the half-planes in f64, but for a sixteenth of a pixel along their edges.
+fn judge(
+    subject: &DriverUnderTest,
+    surface: &Surface,
+    planes: &[[f32; 4]; 8],
+    on: usize,
+    tally: &mut GradeTally,
+    place: &mut GradeTally,
+) -> Result<(), Error> {
+    surface.clear_color([0.0; 4]);
+    let vertices = full(0.0).map(|vertex| {
+        let [x, y, ..] = vertex.position;
+        let w = 2.0 + 0.5 * x + 0.25 * y;
+        let position = [x * w, y * w, 0.0, w];
+        Vertex { position, value: position }
+    });
+    let state = GlState { depth: None, clip_distances: on as u32, ..GlState::WRITE };
+    let uniforms = [("planes", GlUniform::Vec4s(*planes))];
+    subject.bench.draw(&GlDraw { shader: SHADER, uniforms: &uniforms, ..GlDraw::plain(surface, state, &vertices) })?;
+    for (index, color) in surface.floats().into_iter().enumerate() {
+        let [x, y] =
+            [index as u32 % SIDE, index as u32 / SIDE].map(|at| (f64::from(at) + 0.5) * 2.0 / f64::from(SIDE) - 1.0);
+        let distances = planes[..on].iter().map(|[a, b, _, d]| f64::from(*a) * x + f64::from(*b) * y + f64::from(*d));
+        let least = distances.fold(f64::MAX, f64::min);
+        if least.abs() < 1.0 / 8.0 / f64::from(SIDE) {
+            continue;
+        }
+        let drawn = color[2] == 1.0;
+        tally.add(verify::within(if drawn == (least > 0.0) { 0.0 } else { 1.0 }, 0.0, 0.0), 0.0);
+        if drawn {
+            let off = (f64::from(color[0]) - x).abs().max((f64::from(color[1]) - y).abs());
+            place.add(verify::within(off, 1e-5, 1.0 / 8.0 / f64::from(SIDE)), off);
+        }
+    }
+    Ok(())
+}
