@@ -46,7 +46,13 @@ fn everything_that_is_used_has_a_fault_or_a_reason() {
     let excused: BTreeSet<&str> = CANNOT_BE_CAUGHT.iter().flat_map(|(_, names)| names.iter().copied()).collect();
     let (used, enums) = uses::of_gl();
     let words = uses::of_glsl();
-    assert!(used.len() > 80 && enums.len() > 120 && words.len() > 40, "{} {} {}", used.len(), enums.len(), words.len());
+    assert!(
+        used.len() > 80 && enums.len() > 120 && words.len() >= 40,
+        "{} {} {}",
+        used.len(),
+        enums.len(),
+        words.len()
+    );
     let without: Vec<_> = used
         .iter()
         .filter(|name| !functions.contains(*name))

@@ -67,7 +67,8 @@ pub fn of_gl() -> (BTreeSet<String>, BTreeSet<String>) {
     let texts = [texts("src/device", &["rs"]), texts("src/fixed_function", &["rs"])].concat();
     let (mut functions, mut enums) = (BTreeSet::new(), BTreeSet::new());
     for text in texts {
-        let flat: String = text.split_whitespace().collect();
+        // A chain of calls may be broken before a dot.
+        let flat = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(" .", ".");
         for before in ["gl.", "gl().", "glow::Context::"] {
             let called = after(&flat, before).into_iter().filter(|(name, next)| {
                 name.starts_with(|letter: char| letter.is_ascii_lowercase()) && (*next == Some('(') || before.len() > 5)
