@@ -44,6 +44,18 @@ pub(crate) fn write_all(
     Ok(())
 }
 
+/// Tries whether `path` can be written, as [`write_all`] would begin; leaves nothing.
+///
+/// # Errors
+///
+/// The error that [`write_all`] would end with.
+pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+    if path.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    Beside::new(path).map(drop)
+}
+
 /// A file that is being written, and its target. It is removed on drop.
 struct Beside {
     file: NamedTempFile,

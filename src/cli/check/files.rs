@@ -98,19 +98,12 @@ fn put(files: &[(&Path, String)]) -> Result<(), Error> {
     written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })
 }
 
-/// Makes the folder, and a file in it that is gone again.
+/// Makes the folder of a file, and tries whether the file can be written.
 fn try_to_write(path: &Path) -> io::Result<()> {
-    match path.metadata() {
-        Ok(found) if found.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory)),
-        // A pipe or a device.
-        Ok(found) if !found.is_file() => return Ok(()),
-        _ => {}
+    if let Some(folder) = path.parent().filter(|folder| *folder != Path::new("")) {
+        std::fs::create_dir_all(folder)?;
     }
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
-    let tried = tempfile::Builder::new().prefix(".glumbra-").tempfile_in(folder);
-    // The system's own error, without the name of that file.
-    tried.map(drop).map_err(|error| io::Error::from(error.kind()))
+    atomic_write::try_to_write(path)
 }
 
 fn refuse_one_file_for_two(arguments: &CheckArgs) -> Result<(), Error> {
