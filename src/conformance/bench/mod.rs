@@ -3,6 +3,7 @@
 //!
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
+pub mod arrays;
 mod attach;
 mod blend;
 mod clear;
@@ -19,6 +20,7 @@ mod queries;
 mod sampling;
 mod state;
 mod surface;
+mod targets;
 mod texgen;
 mod transfer;
 

@@ -53,7 +53,7 @@ pub use call::{Act, Call, Hook};
 pub use text::{Source, Stage, words};
 pub use value::Value;
 
-use text::{after_main, anywhere, define, reworded};
+use text::{after_main, anywhere, define, loops_once};
 
 use crate::context::{self, Context, LoadedContext};
 use call::Layer;

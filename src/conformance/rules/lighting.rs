@@ -1,6 +1,6 @@
 //! GL-E4: lighting of vertices by glLight and glMaterial [GL 4.6 compatibility, 12.2.1].
 
-use glam::{DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::fixed;
 use crate::conformance::bench::fixed_function::FixedDraw;
@@ -15,8 +15,16 @@ const SIDE: u32 = 64;
 /// Pixels along a side of a cell of two triangles.
 const CELL: u32 = 16;
 
-/// Clip space is eye space by these: x and y within 4, z within 10.
-const PROJECTION: DVec3 = DVec3::new(0.25, 0.25, -0.1);
+/// Clip space from eye space: a scale, a shift, and a shear of x and y along z. z within 10.
+const SCALE: DVec3 = DVec3::new(0.25, 0.25, -0.1);
+const SHIFT: DVec2 = DVec2::new(0.125, -0.25);
+const SHEAR: DVec2 = DVec2::new(0.03125, -0.0625);
+const PROJECTION: DMat4 = DMat4::from_cols_array_2d(&[
+    [SCALE.x, 0.0, 0.0, 0.0],
+    [0.0, SCALE.y, 0.0, 0.0],
+    [SHEAR.x, SHEAR.y, SCALE.z, 0.0],
+    [SHIFT.x, SHIFT.y, 0.0, 1.0],
+]);
 
 const FLAT: GlState = GlState { depth: None, ..GlState::WRITE };
 
@@ -89,7 +97,8 @@ pub fn lighting_of_vertices(subject: &DriverUnderTest, findings: &mut Findings) 
             let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|at| {
                 let window = corner + DVec2::from_array(at) * f64::from(CELL);
                 let clip = window / f64::from(SIDE) * 2.0 - 1.0;
-                let place = (clip / PROJECTION.truncate()).extend(f64::from(random.between(-6.0, -2.0)));
+                let z = f64::from(random.between(-6.0, -2.0));
+                let place = ((clip - SHIFT - SHEAR * z) / SCALE.truncate()).extend(z);
                 let normal = [random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(0.1, 1.0)];
                 (window, place, DVec3::from_array(normal.map(f64::from)))
             });

@@ -130,15 +130,27 @@ fn in_turn(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Err
     Ok(())
 }
 
-/// Parameters that colours have: each alone differs from what the texture says.
+/// Parameters that colours have: each alone differs from what the texture says. Without an object the texture's are in force.
 fn colors(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    const FETCH: &str =
-        "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = textureLod(map, at.xy, at.w);";
     let desc = GlImageDesc { shape: GlShape::Flat, levels: 2, ..GlImageDesc::flat(GlFormat::Rgba32F, [2, 2]) };
     let texel = |value: f32| [value; 4];
     let levels = [vec![texel(0.0), texel(0.25), texel(0.5), texel(1.0)], vec![texel(0.75)]];
     let image = subject.bench.filled(desc, |level, _| bytemuck::cast_slice(&levels[level as usize]).to_vec())?;
-    let sampler = Sampling { by: GlSampledBy::Sampler, ..Sampling::NEAREST };
+    for by in GlSampledBy::ALL {
+        colors_by(subject, findings, &image, by)?;
+    }
+    Ok(())
+}
+
+fn colors_by(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    image: &GlImage,
+    by: GlSampledBy,
+) -> Result<(), Error> {
+    const FETCH: &str =
+        "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = textureLod(map, at.xy, at.w);";
+    let sampler = Sampling { by, ..Sampling::NEAREST };
     let linear = Sampling { linear: true, ..sampler };
     let wrapped = |s, t| Sampling { wrap: [s, t, GlWrap::ClampToEdge], border: [0.875; 4], ..sampler };
     let cases = [
@@ -149,16 +161,19 @@ fn colors(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Erro
         ("BORDER_COLOR", wrapped(GlWrap::ClampToBorder, GlWrap::ClampToEdge), [-0.25, 0.25, 0.0, 0.0], 0.875),
         ("levels", Sampling { mipmap: GlMipmap::Nearest, ..sampler }, [0.1, 0.1, 0.0, 1.0], 0.75),
         ("between levels", Sampling { mipmap: GlMipmap::Linear, ..sampler }, [0.1, 0.1, 0.0, 0.5], 0.375),
+        ("LINEAR_MIPMAP_LINEAR", Sampling { mipmap: GlMipmap::Linear, ..linear }, [0.5, 0.5, 0.0, 0.5], 0.59375),
+        ("LINEAR_MIPMAP_NEAREST", Sampling { mipmap: GlMipmap::Nearest, ..linear }, [0.5, 0.5, 0.0, 0.25], 0.4375),
         ("MIN_LOD", Sampling { mipmap: GlMipmap::Nearest, lod: [1.0, 9.0], ..sampler }, [0.1, 0.1, 0.0, 0.0], 0.75),
         ("MAX_LOD", Sampling { mipmap: GlMipmap::Nearest, lod: [-9.0, 0.0], ..sampler }, [0.1, 0.1, 0.0, 1.0], 0.0),
     ];
     for (name, sampling, input, due) in cases {
-        let value = subject.bench.map(FETCH, &[input], &[("map", &image, sampling)])?[0][0];
+        let value = subject.bench.map(FETCH, &[input], &[("map", image, sampling)])?[0][0];
         let off = f64::from(value) - due;
         // Positions and levels to 1/128 of differences of at most 1.
-        let grade =
-            verify::within(off, if name == "LINEAR" || name == "between levels" { 1.0 / 64.0 } else { 0.0 }, 0.0);
-        findings.grade(format!("a sampler object's {name}"), grade, format!("{value}; {due} is due"));
+        let blends = name.contains("LINEAR") || name == "between levels";
+        let grade = verify::within(off, if blends { 1.0 / 64.0 } else { 0.0 }, 0.0);
+        let of = if by == GlSampledBy::Sampler { "a sampler object's" } else { "a texture's own" };
+        findings.grade(format!("{of} {name}"), grade, format!("{value}; {due} is due"));
     }
     Ok(())
 }
