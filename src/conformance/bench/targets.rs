@@ -16,7 +16,8 @@ impl Bench {
     ///
     /// As [`surface`](Self::surface).
     pub fn several(&self, size: [u32; 2], colors: &[GlFormat]) -> Result<Surface, Error> {
-        let images = colors.iter().map(|format| self.image(*format, size).map(Rc::new)).collect::<Result<Vec<_>, _>>()?;
+        let images =
+            colors.iter().map(|format| self.image(*format, size).map(Rc::new)).collect::<Result<Vec<_>, _>>()?;
         let mut surface = self.surface_at(images.first().map(GlPlace::whole), None)?;
         // SAFETY: the context is current; the images live as long as the surface.
         let status = unsafe {

@@ -26,6 +26,7 @@ macro_rules! faults {
     };
 }
 
+mod beyond;
 mod blending;
 mod call;
 mod depth;
@@ -106,6 +107,7 @@ const KINDS: &[&[Fault]] = &[
     fixed::FAULTS,
     levels::FAULTS,
     lights::FAULTS,
+    beyond::FAULTS,
 ];
 
 /// Every fault.

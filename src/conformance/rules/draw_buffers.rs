@@ -9,7 +9,7 @@ use crate::conformance::{DriverUnderTest, Findings};
 const SIDE: u32 = 4;
 const FORMATS: [GlFormat; 4] = [GlFormat::Rgba8, GlFormat::Rgba32F, GlFormat::Rgba16F, GlFormat::Rgba8];
 
-/// What stands in every image beforehand, and what the shader's four outputs are made of by turns.
+/// Colour that stands in every image beforehand, and the one that the shader's outputs are made of by turns.
 const OLD: [f32; 4] = [0.0625, 0.25, 0.125, 0.1875];
 const NEW: [f32; 4] = [0.75, 0.375, 0.5, 0.625];
 

@@ -26,11 +26,8 @@ struct Switch {
 const OFF: GlState = GlState { depth: None, stale_values: true, ..GlState::WRITE };
 
 fn switches() -> Vec<Switch> {
-    let inverted = GlStencil {
-        compare: GlCompare::Never,
-        ops: [GlStencilOp::Invert; 3],
-        ..GlStencil::on_pass(GlStencilOp::Keep)
-    };
+    let inverted =
+        GlStencil { compare: GlCompare::Never, ops: [GlStencilOp::Invert; 3], ..GlStencil::on_pass(GlStencilOp::Keep) };
     // The stored colour stays.
     let kept = GlBlend::By([GlFactor::Zero, GlFactor::One, GlFactor::Zero, GlFactor::One], GlEquation::Add);
     let smallest = GlBlend::By([GlFactor::One, GlFactor::One, GlFactor::One, GlFactor::One], GlEquation::Min);
@@ -53,7 +50,11 @@ fn switches() -> Vec<Switch> {
             ..plain("POLYGON_OFFSET_FILL", GlState { offset: Some(offset), ..GlState::WRITE })
         },
         // Beyond the far plane: clamped to it, then clipped away.
-        Switch { due: (UNDER, 1.0, 3), z: 1.5, ..plain("DEPTH_CLAMP", GlState { depth_clamp: true, ..GlState::WRITE }) },
+        Switch {
+            due: (UNDER, 1.0, 3),
+            z: 1.5,
+            ..plain("DEPTH_CLAMP", GlState { depth_clamp: true, ..GlState::WRITE })
+        },
     ]
 }
 
@@ -66,9 +67,8 @@ pub fn switched_off(subject: &DriverUnderTest, findings: &mut Findings) -> Resul
             surface.clear_color([0.0; 4]);
             surface.clear_depth(0.75);
             surface.clear_stencil(3);
-            let quad = |color: [u8; 4]| {
-                rectangle([-1.0; 2], [1.0; 2], switch.z, color.map(|code| f32::from(code) / 255.0))
-            };
+            let quad =
+                |color: [u8; 4]| rectangle([-1.0; 2], [1.0; 2], switch.z, color.map(|code| f32::from(code) / 255.0));
             subject.bench.draw(&GlDraw::plain(&surface, switch.on, &quad(UNDER)))?;
             // An offset shows in depths alone.
             let depth = switch.on.offset.and(switch.on.depth);

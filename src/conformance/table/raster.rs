@@ -1,7 +1,7 @@
 //! Rules of kind R: raster and clipping.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{clip_distances, raster, switches, windows};
+use crate::conformance::rules::{clip_distances, not_numbers, raster, switches, windows};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -43,5 +43,13 @@ pub const RULES: &[Rule] = &[
         says: "What is disabled does nothing, whatever its function, factors or rectangle: scissor, blending, depth and stencil tests, culling, offset, depth clamp.",
         tolerance: "none; 1e-6 for depths",
         check: switches::switched_off,
+    },
+    Rule {
+        id: "GL-R6",
+        title: "positions that are no numbers",
+        section: "2.3.4.1",
+        says: "A position that is infinite or no number may draw anything, but ends nothing and leaves the draws after it alone.",
+        tolerance: "none for the next draw; neighbours in the same draw no more than a warning: unspecified",
+        check: not_numbers::positions,
     },
 ];

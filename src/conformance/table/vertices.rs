@@ -1,7 +1,7 @@
 //! Rules of kind V: vertices.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{coordinate_arrays, fetch};
+use crate::conformance::rules::{coordinate_arrays, fetch, instances};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -19,5 +19,13 @@ pub const RULES: &[Rule] = &[
         says: "Each unit reads the array that glClientActiveTexture chose, of 2 to 4 numbers a vertex; one without an array has its current coordinate.",
         tolerance: "a weight to 2^-7, else a warning to 2^-4",
         check: coordinate_arrays::arrays,
+    },
+    Rule {
+        id: "GL-V3",
+        title: "instances",
+        section: "10.3.4, 10.4, GLSL 7.1",
+        says: "gl_InstanceID counts the instances of a draw from 0; an attribute with a divisor goes on after so many of them.",
+        tolerance: "none: values are copied",
+        check: instances::instances,
     },
 ];
