@@ -112,7 +112,7 @@ impl FixedBench {
         // SAFETY: the context is current; sixteen numbers, by columns.
         unsafe {
             self.binding.MatrixMode(mode);
-            self.binding.LoadMatrixd(matrix.to_cols_array().as_ptr());
+            self.binding.LoadMatrixf(matrix.as_mat4().to_cols_array().as_ptr());
         }
     }
 

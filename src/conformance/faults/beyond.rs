@@ -33,16 +33,6 @@ faults! {
     "QUERY_WAIT is QUERY_WAIT_INVERTED and the other way round." {
         glBeginConditionalRender => |call| call.exchange(1, glow::QUERY_WAIT, glow::QUERY_WAIT_INVERTED)
     }
-    "condition-stays" [glEndConditionalRender]
-    "The condition holds after its end." {
-        glEndConditionalRender => |call| {
-            call.keep((0, 0), 1.0);
-            call.skip();
-        };
-        glBeginConditionalRender => |call| if call.kept((0, 0)) != 0.0 {
-            call.other("glEndConditionalRender", &[]);
-        }
-    }
     "condition-by-region-never-draws" [glBeginConditionalRender]
     "QUERY_BY_REGION_WAIT draws nothing where it should." {
         glBeginConditionalRender => |call| { call.replace(1, glow::QUERY_BY_REGION_WAIT, glow::QUERY_WAIT_INVERTED); }

@@ -38,6 +38,7 @@ mod groups;
 mod levels;
 mod lights;
 mod lookups;
+mod partial;
 mod programs;
 mod raster;
 mod samplers;
@@ -108,6 +109,7 @@ const KINDS: &[&[Fault]] = &[
     levels::FAULTS,
     lights::FAULTS,
     beyond::FAULTS,
+    partial::FAULTS,
 ];
 
 /// Every fault.

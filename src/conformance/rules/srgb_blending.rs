@@ -71,6 +71,9 @@ fn judge(
     Ok(tally)
 }
 
+/// Codes that two rounded products may be off, as GL-B3 has it.
+const TWO_PRODUCTS: f64 = 2.0 + 1e-6;
+
 /// A code for a blended value: strictly as GL-F4 has it; else what is stored may be decoded as coarsely as GL-U3 allows.
 fn graded(code: f64, value: f64, encoded: bool) -> (Grade, f64) {
     let codes = |value: f64| {
@@ -79,7 +82,7 @@ fn graded(code: f64, value: f64, encoded: bool) -> (Grade, f64) {
     };
     let off = code - codes(value);
     let slack = if encoded { 0.5 / 255.0 } else { 0.0 };
-    let [low, high] = [codes(value - slack) - 1.5, codes(value + slack) + 1.5];
+    let [low, high] = [codes(value - slack) - TWO_PRODUCTS, codes(value + slack) + TWO_PRODUCTS];
     let grade = match () {
         () if off.abs() <= 0.6 => Grade::Good,
         () if (low..=high).contains(&code) => Grade::Allowed,

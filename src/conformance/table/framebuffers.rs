@@ -64,7 +64,7 @@ pub const RULES: &[Rule] = &[
         id: "GL-F8",
         title: "blits",
         section: "18.3.1",
-        says: "A blit moves, turns and scales colour and depth, by NEAREST, within the scissor.",
+        says: "A blit moves, turns and scales colour and depth, by NEAREST, within the scissor; of depth and stencil it takes those that are asked for.",
         tolerance: "none, but a code of 24 bits of a depth, with a warning; source pixels do not lie on edges",
         check: transfers::blits,
     },

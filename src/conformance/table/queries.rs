@@ -16,8 +16,8 @@ pub const RULES: &[Rule] = &[
         id: "GL-Q2",
         title: "elapsed time",
         section: "4.2",
-        says: "TIME_ELAPSED is there after glFinish, grows with the work, and is no more than passes on the clock.",
-        tolerance: "a tenth and 0.1 ms over the clock",
+        says: "TIME_ELAPSED is there after glFinish, in nanoseconds, grows with the work, and is no more than passes on the clock.",
+        tolerance: "a tenth and 0.1 ms over the clock; a hundredth of it for work that is waited for",
         check: queries::time,
     },
     Rule {
