@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::bench::Error;
+use super::bench::{Error, GlFormat};
 use super::verify::{Grade, GradeTally};
 use super::{Rule, RuleOutcome};
 
@@ -143,14 +143,20 @@ impl Findings {
         self.facts.push(Fact { name: name.into(), value: value.into() });
     }
 
-    /// A format that is not there cannot be tested; any other error is a failure.
+    /// A format that no driver needs to have cannot be tested without; any other error is a failure.
     pub fn error(&mut self, error: &Error) {
         match error {
-            Error::Refused { format, reason } => self.untestable(*format, format!("refused: {reason}")),
+            Error::Refused { format, reason } if !GlFormat::is_required(format) => {
+                self.untestable(*format, format!("refused: {reason}"));
+            }
             error => {
                 let verdict = match error {
                     Error::Gl { codes, .. } if codes.contains("GL_CONTEXT_LOST") => RuleVerdict::ContextLost,
-                    Error::Gl { codes, .. } if codes.contains("GL_OUT_OF_MEMORY") => RuleVerdict::OutOfMemory,
+                    Error::Gl { codes: told, .. } | Error::Refused { reason: told, .. }
+                        if told.contains("GL_OUT_OF_MEMORY") =>
+                    {
+                        RuleVerdict::OutOfMemory
+                    }
                     _ => RuleVerdict::Fail,
                 };
                 self.add("draws", verdict, error.to_string());

@@ -123,7 +123,7 @@ impl Bench {
         // SAFETY: the context is current; the attachments live as long as the surface.
         let (surface, status) = unsafe {
             let name = gl.create_framebuffer().map_err(super::no("framebuffer"))?;
-            let surface = Surface { gl: gl.clone(), name, size, color, depth };
+            let surface = Surface { gl: gl.clone(), name, size, color, depth, others: Vec::new() };
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(name));
             let point = surface.depth.as_ref().map_or(glow::DEPTH_ATTACHMENT, |depth| depth_point(depth.format));
             for ((attached, point), place) in

@@ -108,16 +108,31 @@ impl FixedBench {
         &self.binding
     }
 
-    fn load_matrix(&self, mode: u32, matrix: DMat4) {
+    pub(super) fn load_matrix(&self, mode: u32, matrix: DMat4) {
         // SAFETY: the context is current; sixteen numbers, by columns.
         unsafe {
             self.binding.MatrixMode(mode);
-            self.binding.LoadMatrixd(matrix.to_cols_array().as_ptr());
+            self.binding.LoadMatrixf(matrix.as_mat4().to_cols_array().as_ptr());
         }
     }
 
-    /// Gives GL the planes, eye planes under their modelview.
+    /// Gives GL the planes as doubles, eye planes under their modelview.
     pub fn set_texgen(&self, texgen: &GlTexgen) {
+        self.set_planes(texgen, |coordinate, name, plane| {
+            // SAFETY: the context is current; four numbers.
+            unsafe { self.binding.TexGendv(coordinate, name, plane.as_ptr()) };
+        });
+    }
+
+    /// The same as floats, as a device does.
+    fn set_texgen_by_floats(&self, texgen: &GlTexgen) {
+        self.set_planes(texgen, |coordinate, name, plane| {
+            // SAFETY: the context is current; four numbers.
+            unsafe { self.binding.TexGenfv(coordinate, name, plane.map(|number| number as f32).as_ptr()) };
+        });
+    }
+
+    fn set_planes(&self, texgen: &GlTexgen, set: impl Fn(u32, u32, [f64; 4])) {
         let transposed = self.mutation == Some(Mutation::PlanesTransposed);
         let planes = if transposed { texgen.planes.transpose() } else { texgen.planes };
         let wrong = self.mutation == Some(Mutation::PlanesUnderWrongModelview);
@@ -126,11 +141,9 @@ impl FixedBench {
             if texgen.eye { (raw::EYE_LINEAR, raw::EYE_PLANE) } else { (raw::OBJECT_LINEAR, raw::OBJECT_PLANE) };
         for (row, (coordinate, _)) in COORDINATES.into_iter().enumerate() {
             let plane: [f64; 4] = planes.row(row).to_array();
-            // SAFETY: the context is current; four numbers.
-            unsafe {
-                self.binding.TexGeni(coordinate, raw::TEXTURE_GEN_MODE, mode as i32);
-                self.binding.TexGendv(coordinate, name, plane.as_ptr());
-            }
+            // SAFETY: the context is current.
+            unsafe { self.binding.TexGeni(coordinate, raw::TEXTURE_GEN_MODE, mode as i32) };
+            set(coordinate, name, plane);
         }
     }
 
@@ -203,7 +216,8 @@ impl FixedBench {
         // SAFETY: as the caller promises; each call reads four numbers.
         unsafe {
             self.binding.Begin(glow::TRIANGLES);
-            self.binding.Color4fv(draw.color.as_ptr());
+            let [red, green, blue, alpha] = draw.color;
+            self.binding.Color4f(red, green, blue, alpha);
             for vertex in draw.vertices {
                 self.binding.TexCoord4fv(vertex.value.as_ptr());
                 self.binding.Vertex4fv(vertex.position.as_ptr());
@@ -249,7 +263,7 @@ impl FixedBench {
                 };
                 self.load_matrix(glow::TEXTURE, matrix);
                 if let Some(texgen) = &texgen {
-                    self.set_texgen(texgen);
+                    self.set_texgen_by_floats(texgen);
                 }
                 let switch = if texgen.is_some() { glow::Context::enable } else { glow::Context::disable };
                 COORDINATES.iter().for_each(|(_, coordinate)| switch(&self.gl, *coordinate));

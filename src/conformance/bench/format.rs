@@ -50,6 +50,12 @@ impl GlFormat {
     /// The depth formats without stencil.
     pub const PURE_DEPTHS: [Self; 4] = [Self::Depth16, Self::Depth24, Self::Depth32, Self::Depth32F];
 
+    /// Tests whether each driver must have the format of this name as a texture and as a renderbuffer, alone and beside
+    /// others [GL 4.6, 8.5.1, 9.2.5, 9.4.3]. RGBA8_SNORM need not be drawn into.
+    pub fn is_required(name: &str) -> bool {
+        ![Self::Depth, Self::Depth32, Self::Rgba8Signed].iter().any(|format| format.name() == name)
+    }
+
     pub fn is_depth(self) -> bool {
         self == Self::Depth || Self::DEPTHS.contains(&self)
     }

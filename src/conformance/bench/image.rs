@@ -20,6 +20,8 @@ pub enum GlShape {
     Array,
     /// GL_TEXTURE_CUBE_MAP_ARRAY: six layers for each cube.
     CubeArray,
+    /// GL_TEXTURE_3D: layers along r, of one level.
+    Volume,
 }
 
 impl GlShape {
@@ -30,6 +32,7 @@ impl GlShape {
             Self::Cube => glow::TEXTURE_CUBE_MAP,
             Self::Array => glow::TEXTURE_2D_ARRAY,
             Self::CubeArray => glow::TEXTURE_CUBE_MAP_ARRAY,
+            Self::Volume => glow::TEXTURE_3D,
         }
     }
 
@@ -201,7 +204,7 @@ impl Bench {
                             gl.tex_image_2d(place, at, internal, width, height, 0, layout, kind, pixels);
                         }
                     }
-                    GlShape::Array | GlShape::CubeArray => {
+                    GlShape::Array | GlShape::CubeArray | GlShape::Volume => {
                         let (depth, pixels) = (layers as i32, glow::PixelUnpackData::Slice(whole.as_deref()));
                         gl.tex_image_3d(target, at, internal, width, height, depth, 0, layout, kind, pixels);
                     }

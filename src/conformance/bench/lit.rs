@@ -1,6 +1,6 @@
 //! Draws lit by glLight and glMaterial, from arrays of positions and normals. Knows no pass and no scene.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use glow::HasContext;
 
 use super::fixed_function::FixedBench;
@@ -40,8 +40,8 @@ pub struct LitDraw<'a> {
     pub lighting: &'a GlLighting,
     pub scale: DVec3,
     pub offset: DVec3,
-    /// Clip space is eye space times this.
-    pub projection: DVec3,
+    /// Matrix from eye space to clip space.
+    pub projection: DMat4,
     /// Three for each triangle, in model space.
     pub positions: &'a [[f32; 3]],
     /// One for each position, of any length.
@@ -85,8 +85,7 @@ impl FixedBench {
             }
             fixed.MatrixMode(raw::PROJECTION);
             fixed.LoadIdentity();
-            let projection = glam::Mat4::from_scale(draw.projection.as_vec3());
-            fixed.MultMatrixf(projection.to_cols_array().as_ptr());
+            fixed.MultMatrixf(draw.projection.as_mat4().to_cols_array().as_ptr());
             fixed.MatrixMode(raw::MODELVIEW);
             let offset = glam::Mat4::from_translation(glam::Vec3::new(draw.offset.x as f32, draw.offset.y as f32, 0.0));
             fixed.LoadMatrixf(offset.to_cols_array().as_ptr());

@@ -3,6 +3,7 @@
 //!
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
+pub mod arrays;
 mod attach;
 mod blend;
 mod clear;
@@ -12,6 +13,7 @@ pub mod environment;
 pub mod fixed_function;
 mod format;
 mod image;
+mod instances;
 pub mod lit;
 mod mutation;
 mod program;
@@ -19,6 +21,7 @@ mod queries;
 mod sampling;
 mod state;
 mod surface;
+mod targets;
 mod texgen;
 mod transfer;
 
@@ -36,6 +39,7 @@ pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
 pub use elements::{GlAttribute, GlElements, GlIndices, GlPrimitive};
 pub use format::{Encoding, GlFormat};
 pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
+pub use instances::GlInstances;
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;
@@ -65,6 +69,8 @@ pub(super) fn no(what: &'static str) -> impl FnOnce(String) -> Error {
     move |reason| Error::Object { what, reason }
 }
 
+type ProvokingVertex = unsafe extern "system" fn(u32);
+
 /// GL objects that every draw needs. The context must be current in every call, and outlive the bench.
 pub struct Bench {
     gl: Rc<glow::Context>,
@@ -74,6 +80,9 @@ pub struct Bench {
     /// Sampler objects that are bound, by unit.
     samplers: RefCell<HashMap<u32, glow::Sampler>>,
     offset_clamp: Option<state::OffsetClamp>,
+    /// glBeginConditionalRender and glEndConditionalRender.
+    conditional: Option<(queries::BeginConditional, queries::EndConditional)>,
+    provoking_vertex: Option<ProvokingVertex>,
     compatibility: bool,
     mutation: Option<Mutation>,
 }
@@ -110,6 +119,8 @@ impl Bench {
             vertex_buffer,
             samplers: RefCell::default(),
             offset_clamp: None,
+            conditional: None,
+            provoking_vertex: None,
             compatibility: false,
             mutation: None,
         })
@@ -134,6 +145,21 @@ impl Bench {
             let function = unsafe { std::mem::transmute::<*const c_void, state::OffsetClamp>(address) };
             bench.offset_clamp = Some(function);
         }
+        let [begin, end, provoking] = [c"glBeginConditionalRender", c"glEndConditionalRender", c"glProvokingVertex"]
+            .map(|name| context.address_of(name));
+        if !begin.is_null() && !end.is_null() {
+            // SAFETY: the functions are there, with these signatures.
+            bench.conditional = Some(unsafe {
+                (
+                    std::mem::transmute::<*const c_void, queries::BeginConditional>(begin),
+                    std::mem::transmute::<*const c_void, queries::EndConditional>(end),
+                )
+            });
+        }
+        if !provoking.is_null() {
+            // SAFETY: as above.
+            bench.provoking_vertex = Some(unsafe { std::mem::transmute::<*const c_void, ProvokingVertex>(provoking) });
+        }
         bench.compatibility = context.profile() == Profile::Compatibility;
         Ok(bench)
     }
@@ -155,6 +181,14 @@ impl Bench {
     /// Tests whether glPolygonOffsetClamp exists.
     pub fn has_offset_clamp(&self) -> bool {
         self.offset_clamp.is_some()
+    }
+
+    /// Takes flat varyings from the first vertex, or from the last as at the start: glProvokingVertex, if it is there.
+    pub fn provoke(&self, first: bool) -> bool {
+        let Some(function) = self.provoking_vertex else { return false };
+        // SAFETY: the context is current; sets state.
+        unsafe { function(if first { glow::FIRST_VERTEX_CONVENTION } else { glow::LAST_VERTEX_CONVENTION }) };
+        true
     }
 
     /// Tests whether the context has the functions that the core profile removed.

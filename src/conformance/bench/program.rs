@@ -73,6 +73,9 @@ float compare_proj(vec4 at) { return decide(at.z / at.w, texture(shadow, at.xy /
 float compare_lod(vec3 at, float lod) { return decide(at.z, textureLod(shadow, at.xy, lod).r); }
 ";
 
+/// Outputs of a fragment shader, in the order of draw buffers; others than the first are declared by the snippet.
+const OUTPUTS: [&str; 4] = ["result", "second", "third", "fourth"];
+
 /// A linked program, deleted on drop.
 pub(crate) struct GlProgram {
     gl: Rc<glow::Context>,
@@ -120,6 +123,9 @@ pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Re
         }
         gl.bind_attrib_location(program.name, 0, "position");
         gl.bind_attrib_location(program.name, 1, "value");
+        for (buffer, output) in (0..).zip(OUTPUTS) {
+            gl.bind_frag_data_location(program.name, buffer, output);
+        }
         gl.link_program(program.name);
         if gl.get_program_link_status(program.name) {
             Ok(program)

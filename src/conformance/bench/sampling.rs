@@ -245,10 +245,10 @@ impl Bench {
         self.bind_sampler(unit, by_sampler.then_some(sampling))
     }
 
-    /// Binds a new sampler object, or none, and deletes the one of the draw before.
+    /// Binds a new sampler object, or none. The one before lives on until the next is made: nothing but the call unbinds it.
     fn bind_sampler(&self, unit: u32, sampling: Option<Sampling>) -> Result<(), Error> {
         let gl = &self.gl;
-        // SAFETY: the context is current; an object is deleted once it is no longer bound.
+        // SAFETY: the context is current; an object is deleted once another is bound in its place.
         unsafe {
             let name = match sampling {
                 None => None,
@@ -266,11 +266,7 @@ impl Bench {
                 }
             };
             gl.bind_sampler(unit, name);
-            let before = match name {
-                Some(name) => self.samplers.borrow_mut().insert(unit, name),
-                None => self.samplers.borrow_mut().remove(&unit),
-            };
-            if let Some(before) = before {
+            if let Some(before) = name.and_then(|name| self.samplers.borrow_mut().insert(unit, name)) {
                 gl.delete_sampler(before);
             }
         }

@@ -171,6 +171,9 @@ pub struct GlState {
     /// Uses the calls without a face (glStencilFunc, glStencilMask, glStencilOp) where both faces have the same,
     /// glDepthRangef and glPolygonOffset; else the calls for a face, glDepthRange and glPolygonOffsetClamp.
     pub short_calls: bool,
+    /// Leaves the values of what is off as they are: functions, factors, the scissor's rectangle, the offset. Else each has
+    /// one that changes nothing.
+    pub stale_values: bool,
 }
 
 impl GlState {
@@ -195,7 +198,13 @@ impl GlState {
         clip_distances: 0,
         encode_srgb: false,
         short_calls: false,
+        stale_values: false,
     };
+
+    /// Tests whether the values of something are set that is on or off.
+    fn sets(&self, on: bool) -> bool {
+        on || !self.stale_values
+    }
 
     /// Fragments only count: no depth test, no writes but the stencil's.
     pub const fn counting(front: GlStencilOp, back: GlStencilOp) -> Self {
@@ -217,7 +226,9 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
     // SAFETY: the context is current; only state is set.
     unsafe {
         enable(glow::DEPTH_TEST, state.depth.is_some());
-        gl.depth_func(state.depth.unwrap_or(GlCompare::Always).code());
+        if state.sets(state.depth.is_some()) {
+            gl.depth_func(state.depth.unwrap_or(GlCompare::Always).code());
+        }
         gl.depth_mask(state.depth_write);
         let [near, far] = state.depth_range;
         if state.short_calls {
@@ -228,19 +239,26 @@ pub(super) fn apply(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state
         enable(glow::DEPTH_CLAMP, state.depth_clamp);
         apply_stencil(gl, state);
         enable(glow::CULL_FACE, state.cull.is_some());
-        gl.cull_face(if state.cull == Some(GlFace::Front) { glow::FRONT } else { glow::BACK });
+        if state.sets(state.cull.is_some()) {
+            gl.cull_face(if state.cull == Some(GlFace::Front) { glow::FRONT } else { glow::BACK });
+        }
         gl.front_face(if state.clockwise { glow::CW } else { glow::CCW });
         apply_mode(gl, state.mode);
         enable(glow::BLEND, state.blend.is_some());
-        let [source, destination, source_alpha, destination_alpha] = state.blend.unwrap_or(GlBlend::Replace).factors();
-        gl.blend_func_separate(source, destination, source_alpha, destination_alpha);
-        gl.blend_equation(state.blend.map_or(GlEquation::Add, GlBlend::equation).code());
+        if state.sets(state.blend.is_some()) {
+            let [source, destination, source_alpha, destination_alpha] =
+                state.blend.unwrap_or(GlBlend::Replace).factors();
+            gl.blend_func_separate(source, destination, source_alpha, destination_alpha);
+            gl.blend_equation(state.blend.map_or(GlEquation::Add, GlBlend::equation).code());
+        }
         let [red, green, blue, alpha] = state.channels.map(|channel| channel && state.color_write);
         gl.color_mask(red, green, blue, alpha);
         enable(glow::SCISSOR_TEST, state.scissor.is_some());
         let whole = [0, 0, size[0] as i32, size[1] as i32];
         let [x, y, width, height] = state.scissor.unwrap_or(whole);
-        gl.scissor(x, y, width, height);
+        if state.sets(state.scissor.is_some()) {
+            gl.scissor(x, y, width, height);
+        }
         let [x, y, width, height] = state.viewport.unwrap_or(whole);
         gl.viewport(x, y, width, height);
         for index in 0..8 {
@@ -314,6 +332,9 @@ fn apply_offset(gl: &glow::Context, offset_clamp: Option<OffsetClamp>, state: &G
             gl.enable(glow::POLYGON_OFFSET_POINT)
         } else {
             gl.disable(glow::POLYGON_OFFSET_POINT)
+        }
+        if !state.sets(state.offset.is_some()) {
+            return;
         }
         let GlOffset { factor, units, clamp } =
             state.offset.unwrap_or(GlOffset { factor: 0.0, units: 0.0, clamp: 0.0 });

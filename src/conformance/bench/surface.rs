@@ -47,6 +47,8 @@ pub struct Surface {
     pub size: [u32; 2],
     pub(super) color: Option<Attached>,
     pub(super) depth: Option<Attached>,
+    /// Colour images behind the first.
+    pub(super) others: Vec<Rc<GlImage>>,
 }
 
 impl Drop for Surface {

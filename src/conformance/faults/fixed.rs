@@ -181,7 +181,9 @@ faults! {
     "Arrays of positions are not read." { glEnableClientState => |call| never_on(call, raw::VERTEX_ARRAY) }
     "normals-not-enabled" [glEnableClientState GL_NORMAL_ARRAY]
     "Arrays of normals are not read." { glEnableClientState => |call| never_on(call, raw::NORMAL_ARRAY) }
-    "coordinate-arrays-stay-on" [glDisableClientState glTexCoordPointer]
+    "coordinate-arrays-stay-on" [glDisableClientState GL_TEXTURE_COORD_ARRAY]
+    "An array of coordinates is read ever after." { glDisableClientState => |call| never_on(call, raw::TEXTURE_COORD_ARRAY) }
+    "coordinates-of-two" [glTexCoordPointer]
     "Arrays of coordinates are read with two components." { glTexCoordPointer => |call| call.set(0, 2) }
     "positions-of-two" [glVertexPointer]
     "Positions in arrays have two components." { glVertexPointer => |call| { call.replace(0, 3, 2); } }

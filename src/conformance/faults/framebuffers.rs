@@ -23,6 +23,13 @@ fn read(call: &mut Call, change: fn(usize, &mut Vec<u8>)) {
     }
 }
 
+/// Other buffers for glDrawBuffers, from each output's number and buffer.
+fn change_buffers(call: &mut Call, change: fn(u32, u32) -> u32) {
+    let given = call.integers(1, call.u(0) as usize);
+    let other = (0..).zip(given).map(|(output, buffer)| change(output, buffer as u32));
+    call.set_bytes(1, &other.flat_map(u32::to_ne_bytes).collect::<Vec<_>>());
+}
+
 faults! {
     "attached-level-one-less" [glFramebufferTexture2D]
     "Level n is attached as level n - 1." { glFramebufferTexture2D => |call| call.set(4, (call.f(4) - 1.0).max(0.0)) }
@@ -155,6 +162,37 @@ faults! {
             call.add(6, 1.0);
         }
     }
+    "copies-of-first-image" [glReadBuffer glCopyTexSubImage2D]
+    "Copies take the first colour image, whatever the buffer that is read." {
+        copy => |call| if call.get(glow::READ_BUFFER) as u32 > glow::COLOR_ATTACHMENT0 {
+            let buffer = f64::from(call.get(glow::READ_BUFFER));
+            call.other("glReadBuffer", &[f64::from(glow::COLOR_ATTACHMENT0)]);
+            call.now();
+            call.other("glReadBuffer", &[buffer]);
+        }
+    }
+    "draw-buffers-in-order" [glDrawBuffers]
+    "Outputs go to the images of their own numbers." {
+        glDrawBuffers => |call| change_buffers(call, |output, buffer| if buffer == 0 { 0 } else { glow::COLOR_ATTACHMENT0 + output })
+    }
+    "draw-buffers-beyond-first-none" [glDrawBuffers]
+    "Outputs beyond the first are drawn nowhere." {
+        glDrawBuffers => |call| change_buffers(call, |output, buffer| if output == 0 { buffer } else { 0 })
+    }
+    "draw-buffers-without-none" [glDrawBuffers GL_NONE]
+    "An output without an image is drawn into the first that none has." {
+        glDrawBuffers => |call| {
+            let given = call.integers(1, call.u(0) as usize);
+            let free = (0..4_u32).map(|image| glow::COLOR_ATTACHMENT0 + image).find(|point| !given.contains(&(*point as i32)));
+            if let (Some(free), Some(none)) = (free, given.iter().position(|buffer| *buffer == 0)) {
+                let mut buffers = given;
+                buffers[none] = free as i32;
+                call.set_bytes(1, &buffers.into_iter().flat_map(i32::to_ne_bytes).collect::<Vec<_>>());
+            }
+        }
+    }
+    "clears-of-first-image" [glClearBufferfv]
+    "glClearBufferfv clears the first output's image." { glClearBufferfv => |call| if call.u(0) == glow::COLOR { call.set(1, 0) } }
     "read-buffer-ignored" [glReadBuffer]
     "The buffer that is read stays as it was." { glReadBuffer => |call| call.skip() }
 }

@@ -183,6 +183,8 @@ functions! {
     glDrawArrays(mode: u32, first: i32, count: i32);
     glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
     glDrawElements(mode: u32, count: i32, kind: u32, offset: Any);
+    glDrawElementsInstanced(mode: u32, count: i32, kind: u32, offset: Any, instances: i32);
+    glVertexAttribDivisor(index: u32, divisor: u32);
     // Queries.
     glBeginQuery(target: u32, query: u32);
     glEndQuery(target: u32);

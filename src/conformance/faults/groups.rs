@@ -2,8 +2,8 @@
 
 /// Functions that one word stands for.
 const GROUPS: [(&str, &[&str]); 4] = [
-    ("draw", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements"]),
-    ("drawn", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glEnd"]),
+    ("draw", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glDrawElementsInstanced"]),
+    ("drawn", &["glDrawArrays", "glDrawArraysInstanced", "glDrawElements", "glDrawElementsInstanced", "glEnd"]),
     ("clear", &["glClear", "glClearBufferfv", "glClearBufferiv", "glClearBufferfi"]),
     ("copy", &["glCopyTexSubImage2D", "glCopyTexImage2D"]),
 ];

@@ -26,6 +26,7 @@ macro_rules! faults {
     };
 }
 
+mod beyond;
 mod blending;
 mod call;
 mod depth;
@@ -37,6 +38,7 @@ mod groups;
 mod levels;
 mod lights;
 mod lookups;
+mod partial;
 mod programs;
 mod raster;
 mod samplers;
@@ -53,7 +55,7 @@ pub use call::{Act, Call, Hook};
 pub use text::{Source, Stage, words};
 pub use value::Value;
 
-use text::{after_main, anywhere, define, reworded};
+use text::{after_main, anywhere, define, loops_once};
 
 use crate::context::{self, Context, LoadedContext};
 use call::Layer;
@@ -106,6 +108,8 @@ const KINDS: &[&[Fault]] = &[
     fixed::FAULTS,
     levels::FAULTS,
     lights::FAULTS,
+    beyond::FAULTS,
+    partial::FAULTS,
 ];
 
 /// Every fault.

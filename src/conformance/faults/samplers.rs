@@ -145,6 +145,12 @@ faults! {
             value(call, glow::TEXTURE_MIN_FILTER, glow::LINEAR_MIPMAP_LINEAR, glow::NEAREST_MIPMAP_LINEAR);
         }
     }
+    "texture-mipmaps-of-nearest-texels" [GL_LINEAR_MIPMAP_LINEAR glTexParameteri]
+    "LINEAR_MIPMAP_LINEAR of a texture's own parameters takes the nearest texel of each level." {
+        glTexParameteri => |call| {
+            value(call, glow::TEXTURE_MIN_FILTER, glow::LINEAR_MIPMAP_LINEAR, glow::NEAREST_MIPMAP_LINEAR);
+        }
+    }
     "sampler-min-lod-ignored" [GL_TEXTURE_MIN_LOD glSamplerParameterf]
     "The least level of detail of a sampler object is not kept." { glSamplerParameterf => |call| ignore(call, glow::TEXTURE_MIN_LOD) }
     "sampler-max-lod-ignored" [GL_TEXTURE_MAX_LOD glSamplerParameterf]
@@ -165,6 +171,8 @@ faults! {
     "Textures repeat in t by their own parameters." { glTexParameteri => |call| ignore(call, glow::TEXTURE_WRAP_T) }
     "texture-wrap-r-ignored" [GL_TEXTURE_WRAP_R glTexParameteri]
     "The wrap mode in r is not kept." { glTexParameteri => |call| ignore(call, glow::TEXTURE_WRAP_R) }
+    "sampler-wrap-r-ignored" [GL_TEXTURE_WRAP_R glSamplerParameteri]
+    "Sampler objects repeat in r." { glSamplerParameteri => |call| ignore(call, glow::TEXTURE_WRAP_R) }
     "sampler-border-is-edge" [GL_CLAMP_TO_BORDER glSamplerParameteri]
     "CLAMP_TO_BORDER of a sampler object is CLAMP_TO_EDGE." {
         glSamplerParameteri => |call| for name in [glow::TEXTURE_WRAP_S, glow::TEXTURE_WRAP_T] {

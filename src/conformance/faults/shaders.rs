@@ -1,6 +1,6 @@
 //! Faults of shaders: derivatives, GLSL's variables, qualifiers, `discard`.
 
-use super::{Stage, after_main, anywhere, define, reworded};
+use super::{Stage, after_main, anywhere, define, loops_once};
 
 const FRAGMENT: Stage = Stage::Fragment;
 const VERTEX: Stage = Stage::Vertex;
@@ -94,7 +94,7 @@ faults! {
         None
     } }
     "loops-once" [for] "A loop is gone through once."
-    { text |source| reworded(source, FRAGMENT, "for", "for (int once = 0; once < 1; once++) for") }
+    { text |source| loops_once(source, FRAGMENT) }
     "divisions-coarse" [gl_Position] "w of positions is right to 2^-8 alone."
     { text |source| after_main(source, VERTEX, "gl_Position.w *= 1.0 + 1.0 / 256.0;") }
 }

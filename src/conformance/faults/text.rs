@@ -121,25 +121,47 @@ fn joined(call: &Call) -> String {
     if texts.is_null() { String::new() } else { (0..call.i(1).max(0) as usize).map(part).collect() }
 }
 
+/// A shader of this stage whose loops by `for` are gone through at most once, from version 130.
+pub fn loops_once(source: &Source, stage: Stage) -> Option<String> {
+    if source.stage != stage || source.version < 130 {
+        return None;
+    }
+    let is_letter = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let (mut text, mut rest, mut found) = (String::new(), source.text.as_str(), false);
+    while let Some(at) = rest.find("for") {
+        let (before, after) = (&rest[..at], &rest[at + 3..]);
+        let head = after.trim_start().strip_prefix('(').filter(|_| !before.ends_with(is_letter)).and_then(head_of_loop);
+        text += before;
+        text += "for";
+        rest = after;
+        if let Some([first, holds, step, behind]) = head {
+            // The loop around it counts the turns from 0 each time.
+            text += &format!(" (int turns = 0; turns < 1; turns = 9) for ({first}; ({holds}) && turns++ < 1; {step})");
+            (rest, found) = (behind, true);
+        }
+    }
+    found.then(|| text + rest)
+}
+
+/// The three parts of a loop's head after its parenthesis, and what is behind it.
+fn head_of_loop(text: &str) -> Option<[&str; 4]> {
+    let (mut depth, mut ends) = (1, Vec::new());
+    for (index, letter) in text.char_indices() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            ';' if depth == 1 => ends.push(index),
+            _ => {}
+        }
+        if depth == 0 {
+            let [first, second] = ends[..] else { return None };
+            return Some([&text[..first], &text[first + 1..second], &text[second + 1..index], &text[index + 1..]]);
+        }
+    }
+    None
+}
+
 /// Lines before a shader of any stage that has `word`, from version 130.
 pub fn anywhere(source: &Source, word: &str, lines: &str) -> Option<String> {
     define(source, source.stage, word, lines)
-}
-
-/// Another word for each `word` of a shader, from version 130.
-pub fn reworded(source: &Source, stage: Stage, word: &str, other: &str) -> Option<String> {
-    if source.stage != stage || source.version < 130 || !source.has(word) {
-        return None;
-    }
-    let is_letter = |letter: Option<char>| letter.is_some_and(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    let (mut text, mut rest) = (String::new(), source.text.as_str());
-    while let Some(at) = rest.find(word) {
-        let (before, after) = (&rest[..at], &rest[at + word.len()..]);
-        let whole = !is_letter(before.chars().last()) && !is_letter(after.chars().next());
-        text += before;
-        text += if whole { other } else { word };
-        rest = after;
-    }
-    text += rest;
-    Some(text)
 }

@@ -98,8 +98,22 @@ faults! {
     "DEPTH_COMPONENT32 has 24 bits." { glTexImage2D => |call| format(call, DEPTH_COMPONENT32, glow::DEPTH_COMPONENT24) }
     "depth-32f-is-24" [GL_DEPTH_COMPONENT32F]
     "DEPTH_COMPONENT32F has 24 bits." { glTexImage2D => |call| format(call, glow::DEPTH_COMPONENT32F, glow::DEPTH_COMPONENT24) }
-    "unsized-depth-is-16" [GL_DEPTH_COMPONENT]
-    "DEPTH_COMPONENT without a size has 16 bits." { glTexImage2D => |call| format(call, glow::DEPTH_COMPONENT, glow::DEPTH_COMPONENT16) }
+    "unsized-depth-keeps-16" [GL_DEPTH_COMPONENT]
+    "DEPTH_COMPONENT without a size keeps 16 bits, and says that it has 24." {
+        glTexImage2D => |call| {
+            let texture = call.get(glow::TEXTURE_BINDING_2D) as u32;
+            let is_unsized = call.replace(2, glow::DEPTH_COMPONENT, glow::DEPTH_COMPONENT16);
+            call.keep((0, texture), f64::from(u8::from(is_unsized)));
+        };
+        glGetTexLevelParameteriv => |call| if call.u(2) == glow::TEXTURE_DEPTH_SIZE {
+            call.now();
+            if call.kept((0, call.get(glow::TEXTURE_BINDING_2D) as u32)) != 0.0 {
+                call.write(3, &[24_i32]);
+            }
+        }
+    }
+    "depth-32f-refused" [GL_DEPTH_COMPONENT32F]
+    "DEPTH_COMPONENT32F is not there." { glTexImage2D glRenderbufferStorage => |call| format(call, glow::DEPTH_COMPONENT32F, 0) }
     "packed-depth-is-float" [GL_DEPTH24_STENCIL8 GL_UNSIGNED_INT_24_8 GL_DEPTH_STENCIL]
     "DEPTH24_STENCIL8 has depths of floats." {
         glTexImage2D => |call| if call.u(2) == glow::DEPTH24_STENCIL8 && call.pointer(8).is_null() {

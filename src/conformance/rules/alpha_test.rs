@@ -36,7 +36,9 @@ pub fn leaves_alone(subject: &DriverUnderTest, findings: &mut Findings) -> Resul
         }
     }
     findings.none_wrong("the alpha test, 8 functions", wrong, count);
-    // Without the test all is drawn.
+    // Without the test all is drawn, even after one that nothing passes.
+    let never = Some((GlCompare::Never, 0.5));
+    fixed.draw(&subject.bench, &FixedDraw { alpha_test: never, ..FixedDraw::plain(&surface, state, &vertices) })?;
     surface.clear_color([0.0; 4]);
     surface.clear_depth(0.75);
     fixed.draw(

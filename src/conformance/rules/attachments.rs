@@ -4,10 +4,10 @@
 use std::rc::Rc;
 
 use crate::conformance::bench::{
-    Error, GlDraw, GlFormat, GlImage, GlImageDesc, GlPart, GlPlace, GlShape, GlState, Surface, Vertex, full,
+    Error, GlDraw, GlFormat, GlImage, GlImageDesc, GlPart, GlPlace, GlShape, GlState, Sampling, Surface, Vertex, full,
     level_size, rectangle,
 };
-use crate::conformance::verify::Grade;
+use crate::conformance::verify::{self, Grade, GradeTally};
 use crate::conformance::{DriverUnderTest, Findings};
 
 /// Texels along a side of level 0.
@@ -236,9 +236,37 @@ pub fn layered(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     Ok(())
 }
 
-/// GL-F14: bits of formats: at least those that the name says, and of that type.
+/// Depths that 16 bits cannot tell.
+const FINE: [f32; 8] = [0.1, 0.3, 0.7, 0.9, 0.123_456, 0.654_321, 0.987_654, 1.0 / 3.0];
+
+/// The bits that the driver tells are kept: what is uploaded comes back by a look-up.
+fn kept(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+    const FETCH: &str = "result = texelFetch(map, ivec2(gl_FragCoord.xy), 0);";
+    let image = subject.bench.depth_image(format, [8, 1], &[&FINE])?;
+    let images = [("map", &image, Sampling::NEAREST)];
+    let seen = subject.bench.map(FETCH, &[[0.0; 4]; 8], &images)?;
+    let mut tally = GradeTally::default();
+    for (value, due) in seen.into_iter().zip(FINE) {
+        let off = f64::from(value[0]) - f64::from(due);
+        // The nearest code or the next, looked up in f32.
+        let step = image.encoding.step(f64::from(due));
+        let lookup = f64::from(-22).exp2();
+        tally.add(verify::within(off, 0.5 * step + lookup, step + lookup), off / step);
+    }
+    findings.tally(format!("{}: {} bits are told, and kept", format.name(), image.encoding.bits), tally, "steps");
+    if format == GlFormat::Depth {
+        findings.fact("bits of DEPTH_COMPONENT without a size", image.encoding.bits.to_string());
+    }
+    Ok(())
+}
+
+/// GL-F14: bits of formats: at least those that the name says, and of that type. How many DEPTH_COMPONENT has is the driver's
+/// choice, which it tells.
 pub fn bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     use crate::conformance::bench::Encoding;
+    for format in GlFormat::PURE_DEPTHS.into_iter().chain([GlFormat::Depth]) {
+        findings.part(|findings| kept(subject, findings, format));
+    }
     for format in GlFormat::DEPTHS {
         let (bits, float) = match format {
             GlFormat::Depth16 => (16, false),

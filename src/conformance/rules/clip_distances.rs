@@ -14,13 +14,14 @@ const SHADER: Shader = Shader {
     ..Shader::PLAIN
 };
 
-/// GL-R4: 1 to 8 distances, the last of which cuts, then all that are on.
+/// GL-R4: 8 distances down to 1, the last of which cuts, then all that are on.
 pub fn distances(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba32F), None)?;
     let mut random = Random::new(351);
     let mut place = GradeTally::default();
     let (mut alone, mut together) = (GradeTally::default(), GradeTally::default());
-    for on in 1..=8_usize {
+    // From more to fewer: none of those before may stay on.
+    for on in (1..=8_usize).rev() {
         let keep = [0.0, 0.0, 0.0, 1.0];
         let mut cutting = || {
             let angle = random.between(0.0, std::f32::consts::TAU);

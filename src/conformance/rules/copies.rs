@@ -176,7 +176,7 @@ pub fn eight_bits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<
 }
 
 /// Linear to sRGB [GL 4.6, 17.3.7].
-fn srgb(linear: f64) -> f64 {
+pub(super) fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 

@@ -161,13 +161,18 @@ fn layers(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) 
             [0.25 + alpha / 2.0, 0.25 + beta / 2.0, places[index % places.len()], REFERENCES[index % 3]]
         })
         .collect();
-    for linear in [false, true] {
-        let sampling = Sampling { linear, ..Sampling::compare(GlCompare::LessEqual) };
+    for (linear, compare) in [
+        (false, GlCompare::LessEqual),
+        (true, GlCompare::LessEqual),
+        (false, GlCompare::Greater),
+        (true, GlCompare::Greater),
+    ] {
+        let sampling = Sampling { linear, ..Sampling::compare(compare) };
         let values = subject.bench.map_by(ARRAY, &inputs, &[("layers_shadow", &image, sampling)])?;
         let mut tally = GradeTally::default();
         for ([s, t, layer, reference], value) in inputs.iter().copied().zip(values) {
             let texels = &texels[(layer + 0.5).floor().clamp(0.0, LAYERS as f32 - 1.0) as usize];
-            let passes = [0, 1, 2, 3].map(|texel| reference <= texels[texel]);
+            let passes = [0, 1, 2, 3].map(|texel| compare.holds(reference.total_cmp(&texels[texel])));
             let weights = [s, t].map(|coordinate| f64::from((coordinate - 0.25) * 2.0));
             let value = f64::from(value[0]);
             let grade = match weights.map(|weight| (weight - 0.5).abs() < 0.01) {
@@ -181,7 +186,8 @@ fn layers(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) 
             tally.add(grade, 0.0);
         }
         let filter = if linear { "LINEAR" } else { "NEAREST" };
-        findings.tally(format!("{}: layers of an array, {filter}", format.name()), tally, "");
+        let function = if compare == GlCompare::LessEqual { String::new() } else { format!(", {compare:?}") };
+        findings.tally(format!("{}: layers of an array, {filter}{function}", format.name()), tally, "");
     }
     Ok(())
 }

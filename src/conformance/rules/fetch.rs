@@ -20,7 +20,7 @@ const fn shader(fragment: &'static str) -> Shader {
     Shader {
         version: "#version 330",
         declarations: DECLARATIONS,
-        vertex: "gl_Position = position; passed = value; first_seen = vec4(third, value.x); second_seen = vec4(fourth, fifth.z, fifth.w);",
+        vertex: "gl_Position = position; passed = value; first_seen = vec4(third, value.x); second_seen = vec4(fourth, fifth.x, fifth.y + fifth.z + 2.0 * fifth.w);",
         fragment,
     }
 }
@@ -70,7 +70,7 @@ impl Vertices {
 /// Colours that a pixel must show: the attributes of the triangle's last vertex.
 fn due(vertex: usize) -> [[f32; 4]; 2] {
     let at = vertex as f32;
-    [[at, at + 1.0, at + 2.0, at + 0.5], [-at, 0.5 * at, 0.0, 1.0]]
+    [[at, at + 1.0, at + 2.0, at + 0.5], [-at, 0.5 * at, at, 2.0]]
 }
 
 /// GL-V1: the product's way of drawing, then other index types, strides, offsets, bases and primitives.

@@ -93,6 +93,7 @@ pub fn wrapping(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
         findings.part(|findings| wrapping_of(subject, findings, format));
     }
     findings.part(|findings| lines(subject, findings));
+    findings.part(|findings| volumes(subject, findings));
     Ok(())
 }
 
@@ -180,6 +181,36 @@ fn lines(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error
             let filter = if linear { "LINEAR" } else { "NEAREST" };
             findings.tally(format!("1D {}, {filter}", format.name()), tally, "");
         }
+    }
+    Ok(())
+}
+
+/// r of 3D textures: a row of layers. The modes of s and t are others, and change nothing in the middle of one texel.
+fn volumes(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    const VOLUME: Shader = Shader {
+        declarations: "uniform sampler3D volume;",
+        ..Shader::of("result = texture(volume, vec3(0.5, 0.5, texelFetch(inputs, ivec2(gl_FragCoord.xy), 0).x));")
+    };
+    let mut random = Random::new(129);
+    let (bytes, values) = texels(&mut random, GlFormat::Rgba8, 5);
+    let desc = GlImageDesc { shape: GlShape::Volume, layers: 5, ..GlImageDesc::flat(GlFormat::Rgba8, [1, 1]) };
+    let image = subject.bench.filled(desc, |_, layer| bytes[4 * layer as usize..][..4].to_vec())?;
+    let inputs: Vec<_> = (0..256).map(|_| [random.between(-2.5, 3.5), 0.0, 0.0, 0.0]).collect();
+    let (border, border_due) = border(GlFormat::Rgba8, [0.25, 0.75, 0.5, 0.125]);
+    for (by, linear) in GlSampledBy::ALL.into_iter().flat_map(|by| [(by, false), (by, true)]) {
+        let mut tally = GradeTally::default();
+        for (r, wrapping) in wraps(subject) {
+            let across = if r == GlWrap::Repeat { GlWrap::ClampToEdge } else { GlWrap::Repeat };
+            let sampling = Sampling { linear, wrap: [across, across, r], border, by, ..Sampling::NEAREST };
+            let seen = subject.bench.map_by(VOLUME, &inputs, &[("volume", &image, sampling)])?;
+            let flat = Flat { size: [5, 1], texels: &values, wrap: [wrapping, Wrapping::Edge], border: border_due };
+            for (input, value) in inputs.iter().zip(seen) {
+                let (grade, off) = judged(&flat, GlFormat::Rgba8, value, [f64::from(input[0]), 0.5], linear);
+                tally.add(grade, off);
+            }
+        }
+        let filter = if linear { "LINEAR" } else { "NEAREST" };
+        findings.tally(format!("r of 3D RGBA8, {filter}{}", by.suffix()), tally, "");
     }
     Ok(())
 }

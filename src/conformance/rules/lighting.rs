@@ -1,6 +1,6 @@
 //! GL-E4: lighting of vertices by glLight and glMaterial [GL 4.6 compatibility, 12.2.1].
 
-use glam::{DVec2, DVec3};
+use glam::{DMat4, DVec2, DVec3};
 
 use super::fixed;
 use crate::conformance::bench::fixed_function::FixedDraw;
@@ -15,8 +15,16 @@ const SIDE: u32 = 64;
 /// Pixels along a side of a cell of two triangles.
 const CELL: u32 = 16;
 
-/// Clip space is eye space by these: x and y within 4, z within 10.
-const PROJECTION: DVec3 = DVec3::new(0.25, 0.25, -0.1);
+/// Clip space from eye space: a scale, a shift, and a shear of x and y along z. z within 10.
+const SCALE: DVec3 = DVec3::new(0.25, 0.25, -0.1);
+const SHIFT: DVec2 = DVec2::new(0.125, -0.25);
+const SHEAR: DVec2 = DVec2::new(0.03125, -0.0625);
+const PROJECTION: DMat4 = DMat4::from_cols_array_2d(&[
+    [SCALE.x, 0.0, 0.0, 0.0],
+    [0.0, SCALE.y, 0.0, 0.0],
+    [SHEAR.x, SHEAR.y, SCALE.z, 0.0],
+    [SHIFT.x, SHIFT.y, 0.0, 1.0],
+]);
 
 const FLAT: GlState = GlState { depth: None, ..GlState::WRITE };
 
@@ -44,22 +52,29 @@ fn color(lighting: &GlLighting, position: DVec3, normal: DVec3) -> DVec3 {
     sum.clamp(DVec3::ZERO, DVec3::ONE)
 }
 
-/// Three lights: one at infinity, and two whose light fades.
-fn lighting(random: &mut Random) -> GlLighting {
+/// Positions and attenuations of lights: at infinity, and such whose light fades.
+const LIGHTS: [([f32; 4], [f32; 3]); 8] = [
+    ([0.4, 0.7, 0.9, 0.0], [1.0, 0.0, 0.0]),
+    ([-2.0, 3.0, 1.0, 1.0], [0.5, 0.2, 0.03]),
+    ([6.0, -2.0, -2.0, 2.0], [0.8, 0.0, 0.1]),
+    ([-0.5, -0.2, 1.0, 0.0], [1.0, 0.0, 0.0]),
+    ([1.0, 1.0, 2.0, 1.0], [1.0, 0.05, 0.0]),
+    ([0.1, -0.8, 0.7, 0.0], [1.0, 0.0, 0.0]),
+    ([-3.0, -3.0, 3.0, 1.0], [0.7, 0.0, 0.01]),
+    ([0.3, 0.1, 1.5, 0.0], [1.0, 0.0, 0.0]),
+];
+
+/// A material in the light of the first of [`LIGHTS`], `share` of it each.
+fn lighting(random: &mut Random, count: usize, share: f32) -> GlLighting {
     let mut rgb = |most: f32| [(); 3].map(|()| random.between(0.1 * most, most));
-    let lights = [
-        ([0.4, 0.7, 0.9, 0.0], [1.0, 0.0, 0.0]),
-        ([-2.0, 3.0, 1.0, 1.0], [0.5, 0.2, 0.03]),
-        ([6.0, -2.0, -2.0, 2.0], [0.8, 0.0, 0.1]),
-    ]
-    .map(|(position, attenuation)| GlLight {
+    let light = |(position, attenuation): ([f32; 4], [f32; 3])| GlLight {
         position,
-        ambient: rgb(0.2),
-        diffuse: rgb(0.8),
-        specular: rgb(0.8),
+        ambient: rgb(0.2 * share),
+        diffuse: rgb(0.8 * share),
+        specular: rgb(0.8 * share),
         attenuation,
-    })
-    .to_vec();
+    };
+    let lights = LIGHTS.into_iter().take(count).map(light).collect();
     GlLighting {
         scene_ambient: rgb(0.4),
         emission: rgb(0.1),
@@ -78,8 +93,12 @@ pub fn lighting_of_vertices(subject: &DriverUnderTest, findings: &mut Findings) 
     let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba8), None)?;
     let mut random = Random::new(91);
     let (scale, offset) = (DVec3::new(0.5, 2.0, 1.25), DVec3::new(0.5, -0.25, -4.0));
-    for (name, turned) in [("counter-clockwise triangles", false), ("clockwise triangles", true)] {
-        let lighting = lighting(&mut random);
+    for (name, turned, count, share) in [
+        ("counter-clockwise triangles", false, 3, 1.0),
+        ("clockwise triangles", true, 3, 1.0),
+        ("eight lights", false, 8, 0.375),
+    ] {
+        let lighting = lighting(&mut random, count, share);
         let cells = SIDE / CELL;
         // Corners in the window, eye-space positions and model-space normals of each triangle.
         let mut triangles: Vec<[(DVec2, DVec3, DVec3); 3]> = Vec::new();
@@ -89,7 +108,8 @@ pub fn lighting_of_vertices(subject: &DriverUnderTest, findings: &mut Findings) 
             let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|at| {
                 let window = corner + DVec2::from_array(at) * f64::from(CELL);
                 let clip = window / f64::from(SIDE) * 2.0 - 1.0;
-                let place = (clip / PROJECTION.truncate()).extend(f64::from(random.between(-6.0, -2.0)));
+                let z = f64::from(random.between(-6.0, -2.0));
+                let place = ((clip - SHIFT - SHEAR * z) / SCALE.truncate()).extend(z);
                 let normal = [random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(0.1, 1.0)];
                 (window, place, DVec3::from_array(normal.map(f64::from)))
             });

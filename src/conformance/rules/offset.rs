@@ -150,7 +150,17 @@ fn clamp(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error
         Ok::<f64, Error>(slanted_depth(subject, &surface, slope, Some(GlOffset { factor, units: 0.0, clamp }))? - plain)
     };
     if subject.bench.has_offset_clamp() {
-        for (factor, clamp, due) in [(5.0, 0.05, 0.05), (-5.0, -0.05, -0.05), (5.0, 0.5, 0.1), (5.0, 0.0, 0.1)] {
+        let cases = [
+            (5.0, 0.05, 0.05),
+            (-5.0, -0.05, -0.05),
+            (5.0, 0.5, 0.1),
+            (5.0, 0.0, 0.1),
+            // A positive clamp is an upper bound alone, a negative one a lower bound.
+            (-5.0, 0.05, -0.1),
+            (5.0, -0.05, 0.1),
+            (-5.0, 0.0, -0.1),
+        ];
+        for (factor, clamp, due) in cases {
             let moved = moved(factor, clamp)?;
             let grade = verify::within(moved - due, 1e-4, 1e-3);
             findings.grade(format!("offset of {due:.2} at most, by a clamp of {clamp}"), grade, format!("{moved:.4}"));

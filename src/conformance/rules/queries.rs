@@ -75,6 +75,16 @@ pub fn time(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
     findings.must_hold("results are there after glFinish", first && second, format!("{first}, {second}"));
     let measured = format!("{nothing} ns without work, {much} ns for four draws, {wall} ns on the clock");
     findings.must_hold("work takes time, and more than none", much > 0 && much > nothing, measured.clone());
+    // All of the work is waited for: what is not the driver's own time is a small part of it, at least once.
+    let share = (0..4)
+        .map(|_| {
+            let start = Instant::now();
+            let (time, _) = subject.bench.elapsed(|| (0..4).try_for_each(|_| subject.bench.draw(&draw)))?;
+            Ok::<f64, Error>(time as f64 / start.elapsed().as_nanos() as f64)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let share = share.into_iter().fold(much as f64 / wall as f64, f64::max);
+    findings.must_hold("a hundredth of the clock's at least", share >= 0.01, format!("{share:.3} of the clock's time"));
     // A clock of its own may run a little faster.
     findings.must_hold("no more than passes on the clock", much <= wall + wall / 10 + 100_000, measured);
     Ok(())

@@ -35,6 +35,7 @@ pub fn objects(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     findings.part(|findings| in_turn(subject, findings));
     findings.part(|findings| colors(subject, findings));
     findings.part(|findings| shapes(subject, findings));
+    findings.part(|findings| all_units(subject, findings));
     Ok(())
 }
 
@@ -69,6 +70,56 @@ fn shapes(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Erro
         count += 1;
     }
     findings.none_wrong("1D, 2D, cube and array on four units by turns", wrong, count);
+    Ok(())
+}
+
+/// Sixteen units, the least that a fragment shader has: fifteen textures beside the inputs'.
+fn all_units(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    const UNITS: [&str; 15] = [
+        "units[0]",
+        "units[1]",
+        "units[2]",
+        "units[3]",
+        "units[4]",
+        "units[5]",
+        "units[6]",
+        "units[7]",
+        "units[8]",
+        "units[9]",
+        "units[10]",
+        "units[11]",
+        "units[12]",
+        "units[13]",
+        "units[14]",
+    ];
+    const SHADER: Shader = Shader {
+        declarations: "uniform sampler2D units[15];\n#define AT(k) texture(units[k], vec2(0.4, 0.5)).r",
+        ..Shader::of(
+            "float four = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0).x;
+            result = four < 0.5 ? vec4(AT(0), AT(1), AT(2), AT(3)) : four < 1.5 ? vec4(AT(4), AT(5), AT(6), AT(7))
+                : four < 2.5 ? vec4(AT(8), AT(9), AT(10), AT(11)) : vec4(AT(12), AT(13), AT(14), 1.0);",
+        )
+    };
+    let value = |unit: usize| (unit as f32 + 1.0) / 16.0;
+    let image = |unit| subject.bench.float_image([2, 1], &[[value(unit); 4], [1.0 - value(unit); 4]]);
+    let images = (0..UNITS.len()).map(image).collect::<Result<Vec<_>, _>>()?;
+    let inputs = [0.0, 1.0, 2.0, 3.0].map(|four| [four; 4]);
+    for (by, linear) in GlSampledBy::ALL.into_iter().flat_map(|by| [(by, false), (by, true)]) {
+        let sampling = Sampling { by, linear, ..Sampling::NEAREST };
+        let bound: Vec<_> = UNITS.into_iter().zip(&images).map(|(name, image)| (name, image, sampling)).collect();
+        let seen = subject.bench.map_by(SHADER, &inputs, &bound)?;
+        let wrong = (0..UNITS.len()).filter(|unit| {
+            // 0.3 of the way to the second texel.
+            let due = if linear { 0.7 * value(*unit) + 0.3 * (1.0 - value(*unit)) } else { value(*unit) };
+            (seen[unit / 4][unit % 4] - due).abs() > 1.0 / 64.0
+        });
+        let filter = if linear { "LINEAR" } else { "NEAREST" };
+        findings.none_wrong(
+            format!("15 textures on as many units, {filter}{}", by.suffix()),
+            wrong.count(),
+            UNITS.len(),
+        );
+    }
     Ok(())
 }
 
@@ -130,15 +181,27 @@ fn in_turn(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Err
     Ok(())
 }
 
-/// Parameters that colours have: each alone differs from what the texture says.
+/// Parameters that colours have: each alone differs from what the texture says. Without an object the texture's are in force.
 fn colors(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    const FETCH: &str =
-        "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = textureLod(map, at.xy, at.w);";
     let desc = GlImageDesc { shape: GlShape::Flat, levels: 2, ..GlImageDesc::flat(GlFormat::Rgba32F, [2, 2]) };
     let texel = |value: f32| [value; 4];
     let levels = [vec![texel(0.0), texel(0.25), texel(0.5), texel(1.0)], vec![texel(0.75)]];
     let image = subject.bench.filled(desc, |level, _| bytemuck::cast_slice(&levels[level as usize]).to_vec())?;
-    let sampler = Sampling { by: GlSampledBy::Sampler, ..Sampling::NEAREST };
+    for by in GlSampledBy::ALL {
+        colors_by(subject, findings, &image, by)?;
+    }
+    Ok(())
+}
+
+fn colors_by(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    image: &GlImage,
+    by: GlSampledBy,
+) -> Result<(), Error> {
+    const FETCH: &str =
+        "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0); result = textureLod(map, at.xy, at.w);";
+    let sampler = Sampling { by, ..Sampling::NEAREST };
     let linear = Sampling { linear: true, ..sampler };
     let wrapped = |s, t| Sampling { wrap: [s, t, GlWrap::ClampToEdge], border: [0.875; 4], ..sampler };
     let cases = [
@@ -149,16 +212,19 @@ fn colors(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Erro
         ("BORDER_COLOR", wrapped(GlWrap::ClampToBorder, GlWrap::ClampToEdge), [-0.25, 0.25, 0.0, 0.0], 0.875),
         ("levels", Sampling { mipmap: GlMipmap::Nearest, ..sampler }, [0.1, 0.1, 0.0, 1.0], 0.75),
         ("between levels", Sampling { mipmap: GlMipmap::Linear, ..sampler }, [0.1, 0.1, 0.0, 0.5], 0.375),
+        ("LINEAR_MIPMAP_LINEAR", Sampling { mipmap: GlMipmap::Linear, ..linear }, [0.5, 0.5, 0.0, 0.5], 0.59375),
+        ("LINEAR_MIPMAP_NEAREST", Sampling { mipmap: GlMipmap::Nearest, ..linear }, [0.5, 0.5, 0.0, 0.25], 0.4375),
         ("MIN_LOD", Sampling { mipmap: GlMipmap::Nearest, lod: [1.0, 9.0], ..sampler }, [0.1, 0.1, 0.0, 0.0], 0.75),
         ("MAX_LOD", Sampling { mipmap: GlMipmap::Nearest, lod: [-9.0, 0.0], ..sampler }, [0.1, 0.1, 0.0, 1.0], 0.0),
     ];
     for (name, sampling, input, due) in cases {
-        let value = subject.bench.map(FETCH, &[input], &[("map", &image, sampling)])?[0][0];
+        let value = subject.bench.map(FETCH, &[input], &[("map", image, sampling)])?[0][0];
         let off = f64::from(value) - due;
         // Positions and levels to 1/128 of differences of at most 1.
-        let grade =
-            verify::within(off, if name == "LINEAR" || name == "between levels" { 1.0 / 64.0 } else { 0.0 }, 0.0);
-        findings.grade(format!("a sampler object's {name}"), grade, format!("{value}; {due} is due"));
+        let blends = name.contains("LINEAR") || name == "between levels";
+        let grade = verify::within(off, if blends { 1.0 / 64.0 } else { 0.0 }, 0.0);
+        let of = if by == GlSampledBy::Sampler { "a sampler object's" } else { "a texture's own" };
+        findings.grade(format!("{of} {name}"), grade, format!("{value}; {due} is due"));
     }
     Ok(())
 }

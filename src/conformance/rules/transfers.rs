@@ -135,6 +135,9 @@ pub fn blits(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
     for format in GlFormat::DEPTHS.into_iter().chain([GlFormat::Rgba8]) {
         findings.part(|findings| blits_of(subject, findings, format));
     }
+    for format in [GlFormat::Depth24Stencil8, GlFormat::Depth32FStencil8] {
+        findings.part(|findings| stencil_blits(subject, findings, format));
+    }
     Ok(())
 }
 
@@ -183,6 +186,39 @@ fn blits_of(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat
             tally.add(verify::within(off, 0.0, if format.is_depth() { 1.5 } else { 0.0 }), off);
         }
         findings.tally(what, tally, if format.is_depth() { "of 2^-24" } else { "" });
+    }
+    Ok(())
+}
+
+/// Stencil values beside depths, or alone.
+fn stencil_blits(subject: &DriverUnderTest, findings: &mut Findings, format: GlFormat) -> Result<(), Error> {
+    const CELLS: i32 = SIDE as i32;
+    let [from, to] = [(); 2].map(|()| subject.bench.surface([SIDE as u32; 2], None, Some(format)));
+    let (from, to) = (from?, to?);
+    from.clear_depth(0.25);
+    (0..CELLS).for_each(|row| from.clear_stencil_in(Some([0, row, CELLS, 1]), 7 * row as u8));
+    for (name, mask) in [
+        ("stencil alone", glow::STENCIL_BUFFER_BIT),
+        ("depth alone", glow::DEPTH_BUFFER_BIT),
+        ("depth and stencil", glow::DEPTH_BUFFER_BIT | glow::STENCIL_BUFFER_BIT),
+    ] {
+        to.clear_depth(0.75);
+        to.clear_stencil(255);
+        let corners = [[0, 0, CELLS, CELLS]; 2];
+        let what = format!("{}, {name}", format.name());
+        if let Some(error) =
+            subject.bench.blit(&GlBlit { from: &from, to: &to, corners, mask, linear: false, scissor: None })
+        {
+            findings.must_hold(what, false, error);
+            continue;
+        }
+        let depth = if mask & glow::DEPTH_BUFFER_BIT != 0 { 0.25 } else { 0.75 };
+        let seen = to.stencils().into_iter().zip(to.depths()).enumerate();
+        let wrong = seen.filter(|(index, (value, seen))| {
+            let due = if mask & glow::STENCIL_BUFFER_BIT != 0 { 7 * (index / SIDE) as u8 } else { 255 };
+            *value != due || (seen - depth).abs() > 1e-6
+        });
+        findings.none_wrong(what, wrong.count(), SIDE * SIDE);
     }
     Ok(())
 }

@@ -266,6 +266,6 @@ pub fn srgb(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
 }
 
 /// sRGB to linear [GL 4.6, 8.24].
-fn linear(encoded: f64) -> f64 {
+pub(super) fn linear(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,7 +1,7 @@
 //! Rules of kind B: masks, clears, blending.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{factors, masks};
+use crate::conformance::rules::{factors, masks, srgb_blending};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -27,5 +27,13 @@ pub const RULES: &[Rule] = &[
         says: "Ten factors for RGB and for alpha, five equations; floats are not clamped.",
         tolerance: "a code for two products that round, else a warning to 2; floats 4e-7 of the terms, else a warning to 2^-10",
         check: factors::factors,
+    },
+    Rule {
+        id: "GL-B4",
+        title: "blending in sRGB",
+        section: "17.3.6, 17.3.7",
+        says: "With FRAMEBUFFER_SRGB stored red, green and blue are decoded, blended and encoded, alpha is not; without it codes are blended.",
+        tolerance: "0.6 of a code, else a warning to 2 with what is stored decoded to half a code: two products round",
+        check: srgb_blending::blended,
     },
 ];

@@ -1,7 +1,7 @@
 //! Rules of kind F: framebuffers and colour.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{attachments, blending, copies, floats, transfers};
+use crate::conformance::rules::{attachments, blending, copies, draw_buffers, floats, transfers};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -64,7 +64,7 @@ pub const RULES: &[Rule] = &[
         id: "GL-F8",
         title: "blits",
         section: "18.3.1",
-        says: "A blit moves, turns and scales colour and depth, by NEAREST, within the scissor.",
+        says: "A blit moves, turns and scales colour and depth, by NEAREST, within the scissor; of depth and stencil it takes those that are asked for.",
         tolerance: "none, but a code of 24 bits of a depth, with a warning; source pixels do not lie on edges",
         check: transfers::blits,
     },
@@ -112,8 +112,16 @@ pub const RULES: &[Rule] = &[
         id: "GL-F14",
         title: "bits of depth formats",
         section: "8.5.1, 9.2.5",
-        says: "A sized format has at least the bits and exactly the types that its name says, in textures and in renderbuffers.",
+        says: "A sized format has at least the bits and exactly the types that its name says, in textures and in renderbuffers; the bits that are told are kept.",
         tolerance: "DEPTH_COMPONENT32 may have 24 bits: a warning",
         check: attachments::bits,
+    },
+    Rule {
+        id: "GL-F15",
+        title: "several colour images",
+        section: "17.4.1, 17.4.3, 18.2.1",
+        says: "Each output of a shader goes to its draw buffer, GL_NONE leaves images alone; the read buffer is what is read, copied and blitted.",
+        tolerance: "a code of 8 bits: values lie a sixteenth apart",
+        check: draw_buffers::several,
     },
 ];

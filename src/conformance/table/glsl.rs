@@ -1,7 +1,7 @@
 //! Rules of kind G: GLSL's functions, uniforms and varyings.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{derivatives, functions, uniforms, varyings};
+use crate::conformance::rules::{centroid, derivatives, functions, provoking, uniforms, varyings};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -35,5 +35,21 @@ pub const RULES: &[Rule] = &[
         says: "smooth has perspective, noperspective none, flat is the last vertex's; gl_FragCoord has centres, depth and 1/w.",
         tolerance: "none where copied; 4e-6 of the values, else a warning to a sub-pixel of 2^-4",
         check: varyings::varyings,
+    },
+    Rule {
+        id: "GL-G5",
+        title: "provoking vertex",
+        section: "13.6",
+        says: "A flat varying is the last vertex's of its primitive, or the first one's by glProvokingVertex.",
+        tolerance: "none: values are copied; pixels within 1/20 of an edge are left out",
+        check: provoking::provoking,
+    },
+    Rule {
+        id: "GL-G6",
+        title: "centroid varyings",
+        section: "14.3.1, GLSL 4.5",
+        says: "A centroid varying has a value of a place inside of the pixel and of the primitive.",
+        tolerance: "1/16 pixel beyond an edge, where vertices are snapped",
+        check: centroid::centroid,
     },
 ];

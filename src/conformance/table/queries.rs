@@ -1,7 +1,7 @@
 //! Rules of kind Q: queries.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::queries;
+use crate::conformance::rules::{conditional, queries};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -16,8 +16,16 @@ pub const RULES: &[Rule] = &[
         id: "GL-Q2",
         title: "elapsed time",
         section: "4.2",
-        says: "TIME_ELAPSED is there after glFinish, grows with the work, and is no more than passes on the clock.",
-        tolerance: "a tenth and 0.1 ms over the clock",
+        says: "TIME_ELAPSED is there after glFinish, in nanoseconds, grows with the work, and is no more than passes on the clock.",
+        tolerance: "a tenth and 0.1 ms over the clock; a hundredth of it for work that is waited for",
         check: queries::time,
+    },
+    Rule {
+        id: "GL-Q3",
+        title: "conditional rendering",
+        section: "10.9",
+        says: "After a query of no samples draws, clears and blits do nothing; after one of some they do all; inverted modes the other way round.",
+        tolerance: "a mode that does not wait may draw all; one by region may leave out where no sample passed",
+        check: conditional::conditional,
     },
 ];

@@ -1,7 +1,7 @@
 //! Rules of kind R: raster and clipping.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{clip_distances, raster, windows};
+use crate::conformance::rules::{clip_distances, not_numbers, raster, switches, windows};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -35,5 +35,21 @@ pub const RULES: &[Rule] = &[
         says: "Each of eight distances that is on cuts where it is below 0; what is left keeps its varyings.",
         tolerance: "none, but for 1/16 pixel along the cut; varyings 1e-5, else a warning to 1/8 pixel",
         check: clip_distances::distances,
+    },
+    Rule {
+        id: "GL-R5",
+        title: "states that are switched off",
+        section: "13.7, 14.6, 17.3",
+        says: "What is disabled does nothing, whatever its function, factors or rectangle: scissor, blending, depth and stencil tests, culling, offset, depth clamp.",
+        tolerance: "none; 1e-6 for depths",
+        check: switches::switched_off,
+    },
+    Rule {
+        id: "GL-R6",
+        title: "positions that are no numbers",
+        section: "2.3.4.1",
+        says: "A position that is infinite or no number may draw anything, but ends nothing and leaves the draws after it alone.",
+        tolerance: "none for the next draw; neighbours in the same draw no more than a warning: unspecified",
+        check: not_numbers::positions,
     },
 ];
