@@ -26,6 +26,9 @@ macro_rules! faults {
     };
 }
 
+mod apart;
+mod apart_inputs;
+mod apart_shaders;
 mod blending;
 mod call;
 mod depth;
@@ -106,6 +109,9 @@ const KINDS: &[&[Fault]] = &[
     fixed::FAULTS,
     levels::FAULTS,
     lights::FAULTS,
+    apart::FAULTS,
+    apart_inputs::FAULTS,
+    apart_shaders::FAULTS,
 ];
 
 /// Every fault.
