@@ -3,7 +3,7 @@
 use super::{Source, Stage, after_main};
 
 /// Half floats: eleven bits of what a number has.
-const HALVES: &str = "
+pub(super) const HALVES: &str = "
 float apart_half(float x) {
     float unit = exp2(floor(log2(max(abs(x), 6.2e-5))) - 10.0);
     return floor(x / unit + 0.5) * unit;
@@ -14,7 +14,7 @@ vec4 apart_half(vec4 v) { return vec4(apart_half(v.xyz), apart_half(v.w)); }
 ";
 
 /// Look-ups by `texture`, each a function.
-const LOOKUPS: &str = "
+pub(super) const LOOKUPS: &str = "
 vec4 apart(sampler1D map, float at) { return texture(map, at); }
 vec4 apart(sampler1D map, float at, float bias) { return texture(map, at, bias); }
 vec4 apart(sampler2D map, vec2 at) { return texture(map, at); }
@@ -42,7 +42,7 @@ float apart_proj(sampler2DShadow map, vec4 at) { return textureProj(map, at); }
 #define textureProj apart_proj";
 
 /// A fragment shader with other look-ups: in `functions` the second text stands where the first did.
-fn lookups(source: &Source, word: &str, functions: &str, [from, to]: [&str; 2]) -> Option<String> {
+pub(super) fn lookups(source: &Source, word: &str, functions: &str, [from, to]: [&str; 2]) -> Option<String> {
     let is_meant = source.stage == Stage::Fragment && source.version >= 130 && source.has(word);
     // Arrays of cube maps need a later version than most shaders have.
     if !is_meant || source.has("samplerCubeArray") || source.has("samplerCubeArrayShadow") || !functions.contains(from)
@@ -53,7 +53,7 @@ fn lookups(source: &Source, word: &str, functions: &str, [from, to]: [&str; 2]) 
 }
 
 /// Varyings of a vertex shader that are floats, in their order.
-fn varyings(source: &Source) -> Vec<String> {
+pub(super) fn varyings(source: &Source) -> Vec<String> {
     if source.stage != Stage::Vertex || source.version < 130 {
         return Vec::new();
     }

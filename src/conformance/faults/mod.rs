@@ -27,6 +27,7 @@ macro_rules! faults {
 }
 
 mod apart;
+mod apart_again;
 mod apart_inputs;
 mod apart_shaders;
 mod blending;
@@ -110,6 +111,7 @@ const KINDS: &[&[Fault]] = &[
     levels::FAULTS,
     lights::FAULTS,
     apart::FAULTS,
+    apart_again::FAULTS,
     apart_inputs::FAULTS,
     apart_shaders::FAULTS,
 ];
