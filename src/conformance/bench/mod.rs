@@ -17,6 +17,7 @@ mod mutation;
 mod program;
 mod queries;
 mod sampling;
+mod sequence;
 mod state;
 mod surface;
 mod texgen;

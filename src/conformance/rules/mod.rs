@@ -1,9 +1,11 @@
 //! The checks of the rules, by subject. Each is a function of the driver that adds findings; the [table](super::TABLE) names it.
 
+pub mod alpha_arrays;
 mod alpha_test;
 pub mod attachments;
 pub mod blending;
 pub mod clip_distances;
+pub mod clipped;
 pub mod compare;
 pub mod coordinates;
 pub mod copies;
@@ -21,8 +23,15 @@ pub mod floats;
 pub mod fragments;
 pub mod functions;
 pub mod invariance;
+pub mod kept;
+pub mod large;
+pub mod large_maps;
 pub mod levels;
 pub mod lighting;
+pub mod magnitudes;
+pub mod many_varyings;
+pub mod many_vertices;
+pub mod masked_blends;
 pub mod masks;
 pub mod mipmaps;
 pub mod offset;
@@ -33,7 +42,10 @@ pub mod programs;
 pub mod projective;
 pub mod queries;
 pub mod raster;
+pub mod renderbuffers;
 pub mod samplers;
+pub mod shared_images;
+pub mod single_values;
 pub mod stencil;
 pub mod transfers;
 pub mod uniforms;

@@ -1,0 +1,106 @@
+//! Rules of kind K: sequences of calls, and large numbers of things.
+
+use crate::conformance::Rule;
+use crate::conformance::rules::{
+    alpha_arrays, clipped, kept, large, large_maps, magnitudes, many_varyings, many_vertices, masked_blends,
+    renderbuffers, shared_images, single_values,
+};
+
+pub const RULES: &[Rule] = &[
+    Rule {
+        id: "GL-K1",
+        title: "state is kept",
+        section: "2.2.1, A.1",
+        says: "State stays as it was set, whatever is cleared, copied, uploaded or drawn elsewhere before the next draw.",
+        tolerance: "none: the same commands on the same state give the same picture",
+        check: kept::kept,
+    },
+    Rule {
+        id: "GL-K2",
+        title: "an image in two framebuffers",
+        section: "9.2.7, 9.2.8, 17.4.3",
+        says: "What one framebuffer clears or draws is there in each that has the same image, and can be cleared again.",
+        tolerance: "none but 1e-4 of a drawn depth",
+        check: shared_images::shared,
+    },
+    Rule {
+        id: "GL-K3",
+        title: "one value at a time",
+        section: "7.6.1, 17.3.3",
+        says: "A uniform of which one number changes, and a stencil test of which one value changes, are set anew.",
+        tolerance: "none: values are copied",
+        check: single_values::alone,
+    },
+    Rule {
+        id: "GL-K4",
+        title: "large surfaces",
+        section: "9.2.7, 17.4.3, 18.2",
+        says: "Clears, draws and copies reach the last pixel of surfaces of 4099 pixels along a side.",
+        tolerance: "none but 1e-4 of a drawn depth",
+        check: large::large,
+    },
+    Rule {
+        id: "GL-K5",
+        title: "blending under a colour mask",
+        section: "17.3.6, 17.4.2",
+        says: "A channel that is not written is kept, and is a factor of the others all the same.",
+        tolerance: "none in floats; 1.5 codes of 8 bits, else a warning to 2.5",
+        check: masked_blends::masked,
+    },
+    Rule {
+        id: "GL-K6",
+        title: "renderbuffers",
+        section: "8.6, 9.2.4, 18.2",
+        says: "Renderbuffers are drawn into, read, and copied to textures and faces of cube maps, each pixel to its place.",
+        tolerance: "1e-4 of a drawn depth",
+        check: renderbuffers::renderbuffers,
+    },
+    Rule {
+        id: "GL-K7",
+        title: "many vertices",
+        section: "10.3.1, 10.3.6, 10.4",
+        says: "A draw has all of its triangles, however many; no index ends a primitive where no restart is on.",
+        tolerance: "0.01 of whole numbers that are interpolated",
+        check: many_vertices::many,
+    },
+    Rule {
+        id: "GL-K8",
+        title: "alpha test from arrays",
+        section: "17.3.2 compat.",
+        says: "What is drawn by glDrawElements and fails the alpha test leaves colour, depth and stencil alone.",
+        tolerance: "1e-6 of a drawn depth",
+        check: alpha_arrays::from_arrays,
+    },
+    Rule {
+        id: "GL-K9",
+        title: "look-ups in large maps",
+        section: "2.3.4.1, 8.14.2",
+        says: "NEAREST finds each of 4096 texels along a side, compared or not, projected or not.",
+        tolerance: "a tenth of a texel: floats are good to 1e-5 of a coordinate",
+        check: large_maps::large,
+    },
+    Rule {
+        id: "GL-K10",
+        title: "short and long vectors",
+        section: "GLSL 4.7.1, 8.2, 8.5",
+        says: "normalize, length, distance, dot, cross and roots are as good at scales from 2^-40 to 2^40.",
+        tolerance: "16 roundings, else a warning to 2^-10",
+        check: magnitudes::magnitudes,
+    },
+    Rule {
+        id: "GL-K11",
+        title: "triangles that are cut",
+        section: "13.7, 14.6.1",
+        says: "Depth and varyings of what the view volume leaves of a triangle are those of the whole.",
+        tolerance: "2^-14, else a warning to 2^-12; 64 times that for corners thousands of viewports away",
+        check: clipped::clipped,
+    },
+    Rule {
+        id: "GL-K12",
+        title: "many varyings",
+        section: "GLSL 4.3.4, 7.3",
+        says: "Twelve varyings and more, of any size, keep their values apart.",
+        tolerance: "1e-4 of numbers up to 15",
+        check: many_varyings::many,
+    },
+];
