@@ -23,7 +23,7 @@ pub fn from_arrays(subject: &DriverUnderTest, findings: &mut Findings) -> Result
     ];
     for (name, state) in states {
         let (mut wrong, mut count) = (0, 0);
-        for compare in GlCompare::ALL {
+        for compare in [GlCompare::GreaterEqual, GlCompare::Less] {
             for alpha in [0.25, REFERENCE, 0.75] {
                 surface.clear_color([0.0; 4]);
                 surface.clear_depth(0.75);
@@ -41,7 +41,7 @@ pub fn from_arrays(subject: &DriverUnderTest, findings: &mut Findings) -> Result
                 count += 1;
             }
         }
-        findings.none_wrong(format!("8 functions, {name}"), wrong, count);
+        findings.none_wrong(format!("GEQUAL and LESS, {name}"), wrong, count);
     }
     Ok(())
 }

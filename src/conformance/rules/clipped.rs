@@ -1,5 +1,7 @@
 //! GL-K11: depth and varyings of triangles that the view volume cuts [GL 4.6, 13.7, 13.7.1, 14.6.1].
 
+use glam::{DMat3, DVec3};
+
 use crate::conformance::bench::{Error, GlCompare, GlDraw, GlFormat, GlState, Shader, Surface, Vertex};
 use crate::conformance::random::Random;
 use crate::conformance::verify::{self, GradeTally};
@@ -66,20 +68,30 @@ pub fn clipped(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
             surface.clear_depth(1.0);
             let state = GlState { depth: Some(GlCompare::Always), ..GlState::WRITE };
             subject.bench.draw(&GlDraw { shader: SHADER, ..GlDraw::plain(&surface, state, &vertices) })?;
-            judge(&surface, kind.reach > 100.0, &mut tallies);
+            let bits = subject.bench.subpixel_bits().min(8) as i32;
+            let sub_pixel = 2.0 / f64::from(SIDE) * f64::from(-bits).exp2();
+            judge(&surface, if kind.reach > 100.0 { 16.0 } else { 1.0 } * sub_pixel, slope(&vertices), &mut tallies);
         }
         let [places, depths] = tallies;
-        findings.tally(format!("varyings of triangles {}", kind.name), places, "2^-16");
-        findings.tally(format!("depths of triangles {}", kind.name), depths, "2^-16");
+        findings.tally(format!("varyings of triangles {}", kind.name), places, "sub-pixels");
+        findings.tally(format!("depths of triangles {}", kind.name), depths, "sub-pixels");
     }
     Ok(())
 }
 
-/// Each fragment lies where the interpolated position says, at the depth that it says.
-fn judge(surface: &Surface, far: bool, [places, depths]: &mut [GradeTally; 2]) {
-    // A part in 10^5 of each of the sums, whose terms are of the size of the corners.
-    let scale = if far { 64.0 } else { 1.0 };
-    let (strict, allowed) = (scale / 16384.0, scale / 4096.0);
+/// What z / w changes in one unit of x / w and of y / w, together: the plane through three clip positions.
+fn slope(corners: &[Vertex]) -> f64 {
+    let column = |part: usize| {
+        let [a, b, c] = [0, 1, 2].map(|corner| f64::from(corners[corner].position[part]));
+        DVec3::new(a, b, c)
+    };
+    let plane = DMat3::from_cols(column(0), column(1), column(3)).inverse() * column(2);
+    plane.x.abs() + plane.y.abs()
+}
+
+/// Each fragment lies where the interpolated position says, at the depth that it says. Vertices are moved to whole
+/// sub-pixels, and values may be of the vertices as they were.
+fn judge(surface: &Surface, sub_pixel: f64, slope: f64, [places, depths]: &mut [GradeTally; 2]) {
     for (index, (seen, depth)) in (0..).zip(surface.floats().into_iter().zip(surface.depths())) {
         if seen[3] == 7.0 {
             continue;
@@ -88,8 +100,10 @@ fn judge(surface: &Surface, far: bool, [places, depths]: &mut [GradeTally; 2]) {
         let due = [center(index % SIDE), center(index / SIDE), 2.0 * depth - 1.0, 1.0];
         let off = [0, 1, 3].map(|part| (f64::from(seen[part]) - due[part]).abs());
         let off = off.into_iter().fold(0.0_f64, |most, off| if off.is_nan() { f64::INFINITY } else { most.max(off) });
-        places.add(verify::within(off, strict, allowed), off * 65536.0);
-        let off = f64::from(seen[2]) - due[2];
-        depths.add(verify::within(off, strict, allowed), off * 65536.0);
+        places.add(verify::within(off, sub_pixel, 4.0 * sub_pixel), off / sub_pixel);
+        let off = (f64::from(seen[2]) - due[2]).abs();
+        let off = if off.is_nan() { f64::INFINITY } else { off };
+        let strict = sub_pixel * (0.25 + slope);
+        depths.add(verify::within(off, strict, 2.0 * strict), off / strict);
     }
 }

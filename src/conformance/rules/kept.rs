@@ -171,11 +171,16 @@ pub fn kept(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
         }),
     ];
     let states = states();
+    let alone: Vec<_> = states.iter().map(|shown| drawn(subject, &surface, shown, &|| Ok(()), true)).collect();
+    let alone = alone.into_iter().collect::<Result<Vec<_>, _>>()?;
     for (name, between) in calls {
+        // What leaves the surface alone must leave the picture as it is without it.
+        let clears = ["a clear of colour", "a clear of depth", "a clear of stencil"].contains(&name);
         let mut lost = Vec::new();
-        for shown in &states {
-            let [left, anew] = [false, true].map(|anew| drawn(subject, &surface, shown, between, anew));
-            if left? != anew? {
+        for (shown, alone) in states.iter().zip(&alone) {
+            let left = drawn(subject, &surface, shown, between, false)?;
+            let is_kept = if clears { left == drawn(subject, &surface, shown, between, true)? } else { left == *alone };
+            if !is_kept {
                 lost.push(shown.name);
             }
         }

@@ -1,7 +1,8 @@
 //! GL-K4: surfaces of thousands of pixels along a side are cleared, drawn and copied to their ends [GL 4.6, 9.2.7, 17.4.3, 18.2].
 
 use crate::conformance::bench::{
-    Error, GlClear, GlCopyTo, GlDraw, GlFormat, GlState, GlStencil, GlStencilOp, Surface, rectangle,
+    Error, GlClear, GlCopyTo, GlDraw, GlFormat, GlState, GlStencil, GlStencilOp, Sampling, Shader, Surface, full,
+    rectangle,
 };
 use crate::conformance::{DriverUnderTest, Findings};
 
@@ -27,7 +28,33 @@ pub fn large(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
     let long = LONG.min(subject.bench.largest_side());
     for (name, size) in [("wide", [long, SHORT]), ("high", [SHORT, long])] {
         findings.part(|findings| strip(subject, findings, name, size));
+        findings.part(|findings| places(subject, findings, name, size));
     }
+    Ok(())
+}
+
+/// gl_FragCoord, texelFetch and textureSize: each pixel knows its place, and each texel is found.
+fn places(subject: &DriverUnderTest, findings: &mut Findings, name: &str, size: [u32; 2]) -> Result<(), Error> {
+    const FRAGMENT: &str = "vec2 other = texelFetch(map, textureSize(map, 0) - 1 - ivec2(gl_FragCoord.xy), 0).xy;
+result = vec4(gl_FragCoord.xy, other);";
+    let [width, height] = size;
+    let place = |index: u32| [(index % width) as f32, (index / width) as f32];
+    let texels: Vec<_> = (0..width * height).map(|index| [place(index)[0], place(index)[1], 0.0, 1.0]).collect();
+    let image = subject.bench.float_image(size, &texels)?;
+    let surface = subject.bench.surface(size, Some(GlFormat::Rgba32F), None)?;
+    let vertices = full(0.0);
+    let draw = GlDraw {
+        shader: Shader { version: "#version 150", ..Shader::of(FRAGMENT) },
+        images: &[("map", &image, Sampling::NEAREST)],
+        ..GlDraw::plain(&surface, GlState { depth: None, ..GlState::WRITE }, &vertices)
+    };
+    subject.bench.draw(&draw)?;
+    let due = |index: u32| {
+        let ([x, y], [s, t]) = (place(index), place(width * height - 1 - index));
+        [x + 0.5, y + 0.5, s, t]
+    };
+    let wrong = (0..).zip(surface.floats()).filter(|(index, seen)| *seen != due(*index)).count();
+    findings.none_wrong(format!("places of a {name} surface"), wrong, texels.len());
     Ok(())
 }
 

@@ -17,12 +17,32 @@ const SETS: [Set; 2] = [
     Set {
         name: "twelve vec4",
         declarations: "#ifdef VERTEX
-#define BETWEEN out
+out vec4 a;
+out vec4 b;
+out vec4 c;
+out vec4 d;
+out vec4 e;
+out vec4 f;
+out vec4 g;
+out vec4 h;
+out vec4 i;
+out vec4 j;
+out vec4 k;
+out vec4 l;
 #else
-#define BETWEEN in
-#endif
-BETWEEN vec4 a; BETWEEN vec4 b; BETWEEN vec4 c; BETWEEN vec4 d; BETWEEN vec4 e; BETWEEN vec4 f;
-BETWEEN vec4 g; BETWEEN vec4 h; BETWEEN vec4 i; BETWEEN vec4 j; BETWEEN vec4 k; BETWEEN vec4 l;",
+in vec4 a;
+in vec4 b;
+in vec4 c;
+in vec4 d;
+in vec4 e;
+in vec4 f;
+in vec4 g;
+in vec4 h;
+in vec4 i;
+in vec4 j;
+in vec4 k;
+in vec4 l;
+#endif",
         vertex: "gl_Position = position; passed = value; vec4 x = value;
 a = x + 1.0; b = x + 2.0; c = x + 3.0; d = x + 4.0; e = x + 5.0; f = x + 6.0;
 g = x + 7.0; h = x + 8.0; i = x + 9.0; j = x + 10.0; k = x + 11.0; l = x + 12.0;",
@@ -35,12 +55,32 @@ result = seen;",
     Set {
         name: "floats, vec2, vec3 and vec4",
         declarations: "#ifdef VERTEX
-#define BETWEEN out
+out float a;
+out vec3 b;
+out vec2 c;
+out vec3 d;
+out vec4 e;
+out float f;
+out vec2 g;
+out vec3 h;
+out float i;
+out vec4 j;
+out vec3 k;
+out vec2 l;
 #else
-#define BETWEEN in
-#endif
-BETWEEN float a; BETWEEN vec3 b; BETWEEN vec2 c; BETWEEN vec3 d; BETWEEN vec4 e; BETWEEN float f;
-BETWEEN vec2 g; BETWEEN vec3 h; BETWEEN float i; BETWEEN vec4 j; BETWEEN vec3 k; BETWEEN vec2 l;",
+in float a;
+in vec3 b;
+in vec2 c;
+in vec3 d;
+in vec4 e;
+in float f;
+in vec2 g;
+in vec3 h;
+in float i;
+in vec4 j;
+in vec3 k;
+in vec2 l;
+#endif",
         vertex: "gl_Position = position; passed = value; vec4 x = value;
 a = x.x + 1.0; b = x.xyz + 2.0; c = x.xy + 3.0; d = x.xyz + 4.0; e = x + 5.0; f = x.x + 6.0;
 g = x.xy + 7.0; h = x.xyz + 8.0; i = x.x + 9.0; j = x + 10.0; k = x.xyz + 11.0; l = x.xy + 12.0;",

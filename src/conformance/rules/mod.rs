@@ -22,6 +22,7 @@ pub mod fixed;
 pub mod floats;
 pub mod fragments;
 pub mod functions;
+pub mod highlights;
 pub mod invariance;
 pub mod kept;
 pub mod large;

@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use crate::conformance::bench::{
-    Error, GlClear, GlDraw, GlFormat, GlImage, GlPlace, GlState, GlStencil, GlStencilOp, Surface, rectangle,
+    Error, GlClear, GlDraw, GlFormat, GlImage, GlImageDesc, GlPart, GlPlace, GlShape, GlState, GlStencil, GlStencilOp,
+    Surface, rectangle,
 };
 use crate::conformance::{DriverUnderTest, Findings};
 
@@ -49,9 +50,10 @@ fn has(surface: &Surface, (color, depth, stencil): Pixel) -> Pixel {
 /// Pixels that are not as `due` says: on the left, and on the right.
 fn wrong(surface: &Surface, due: [Pixel; 2]) -> usize {
     let (color, depth, stencil) = has(surface, CLEARED);
-    let due: Vec<Pixel> =
-        (0..SIDE * SIDE).map(|pixel| has(surface, due[usize::from(pixel % SIDE >= SIDE / 2)])).collect();
-    let mut wrong = vec![false; SIDE * SIDE];
+    let [width, height] = surface.size.map(|side| side as usize);
+    let place = |pixel: usize| usize::from(2 * (pixel % width) >= width);
+    let due: Vec<Pixel> = (0..width * height).map(|pixel| has(surface, due[place(pixel)])).collect();
+    let mut wrong = vec![false; width * height];
     if color.is_some() {
         surface.colors().iter().enumerate().for_each(|(pixel, seen)| wrong[pixel] |= due[pixel].0 != Some(*seen));
     }
@@ -107,6 +109,48 @@ pub fn shared(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
             }
             Ok(())
         });
+    }
+    for format in [GlFormat::Rgba8, GlFormat::Depth24Stencil8] {
+        for (name, shape, layers) in [("2D", GlShape::Flat, 1), ("cube map", GlShape::Cube, 6)] {
+            findings.part(|findings| {
+                levels(
+                    subject,
+                    findings,
+                    name,
+                    GlImageDesc { shape, layers, levels: 4, ..GlImageDesc::flat(format, [SIDE as u32; 2]) },
+                )
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Clears without a scissor reach all of a level and nothing else of the image.
+fn levels(subject: &DriverUnderTest, findings: &mut Findings, name: &str, desc: GlImageDesc) -> Result<(), Error> {
+    let image = Rc::new(subject.bench.blank(desc)?);
+    let parts: Vec<_> = (0..desc.levels).flat_map(|level| (0..desc.layers).map(move |layer| (level, layer))).collect();
+    let at = |&(level, layer): &(u32, u32)| {
+        let place = Some(GlPlace { image: &image, level, part: GlPart::Face(layer) });
+        if desc.format.is_depth() {
+            subject.bench.surface_at(None, place)
+        } else {
+            subject.bench.surface_at(place, None)
+        }
+    };
+    let code = |(level, layer): (u32, u32), call: usize| (1 + 32 * level + layer) as u8 + 8 * call as u8;
+    let pixel = |code: u8| -> Pixel { (Some([code; 4]), Some(f64::from(code) / 255.0), Some(code)) };
+    for (call, by_buffer) in [false, true].into_iter().enumerate() {
+        for part in &parts {
+            clear(subject, &at(part)?, pixel(code(*part, call)), by_buffer)?;
+        }
+        let (mut bad, mut count) = (0, 0);
+        for part in &parts {
+            let surface = at(part)?;
+            bad += wrong(&surface, [pixel(code(*part, call)); 2]);
+            count += (surface.size[0] * surface.size[1]) as usize;
+        }
+        let call = if by_buffer { "glClearBuffer" } else { "glClear" };
+        findings.none_wrong(format!("{}, levels of a {name} image, {call}", desc.format.name()), bad, count);
     }
     Ok(())
 }

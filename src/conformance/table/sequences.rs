@@ -2,8 +2,8 @@
 
 use crate::conformance::Rule;
 use crate::conformance::rules::{
-    alpha_arrays, clipped, kept, large, large_maps, magnitudes, many_varyings, many_vertices, masked_blends,
-    renderbuffers, shared_images, single_values,
+    alpha_arrays, clipped, highlights, kept, large, large_maps, magnitudes, many_varyings, many_vertices,
+    masked_blends, renderbuffers, shared_images, single_values,
 };
 
 pub const RULES: &[Rule] = &[
@@ -35,7 +35,7 @@ pub const RULES: &[Rule] = &[
         id: "GL-K4",
         title: "large surfaces",
         section: "9.2.7, 17.4.3, 18.2",
-        says: "Clears, draws and copies reach the last pixel of surfaces of 4099 pixels along a side.",
+        says: "Clears, draws, copies and look-ups by texel reach the last pixel of surfaces of 4099 pixels along a side.",
         tolerance: "none but 1e-4 of a drawn depth",
         check: large::large,
     },
@@ -92,7 +92,7 @@ pub const RULES: &[Rule] = &[
         title: "triangles that are cut",
         section: "13.7, 14.6.1",
         says: "Depth and varyings of what the view volume leaves of a triangle are those of the whole.",
-        tolerance: "2^-14, else a warning to 2^-12; 64 times that for corners thousands of viewports away",
+        tolerance: "a sub-pixel (depth: what the plane rises in one, and a quarter more), else a warning to 4 (2); 16 for corners far away",
         check: clipped::clipped,
     },
     Rule {
@@ -102,5 +102,13 @@ pub const RULES: &[Rule] = &[
         says: "Twelve varyings and more, of any size, keep their values apart.",
         tolerance: "1e-4 of numbers up to 15",
         check: many_varyings::many,
+    },
+    Rule {
+        id: "GL-K13",
+        title: "exponents of highlights",
+        section: "12.2.1.1 compat.",
+        says: "SHININESS is any number from 0 to 128, the exponent of the half vector's share along the normal.",
+        tolerance: "a code of 8 bits, else a warning to 2",
+        check: highlights::exponents,
     },
 ];
