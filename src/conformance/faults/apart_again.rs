@@ -261,6 +261,7 @@ faults! {
     { text |source| super::anywhere(source, "texelFetch", "
 int apart_even(int at) { return at > 2048 ? at / 2 * 2 : at; }
 ivec2 apart_even(ivec2 at) { return ivec2(apart_even(at.x), apart_even(at.y)); }
+ivec3 apart_even(ivec3 at) { return ivec3(apart_even(at.xy), at.z); }
 #define texelFetch(map, at, level) texelFetch(map, apart_even(at), level)") }
     "dfdy-turned-in-odd-rows" [dFdy] "dFdy goes down the window in every second row."
     { text |source| define(source, Stage::Fragment, "dFdy",
