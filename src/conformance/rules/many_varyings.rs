@@ -121,7 +121,8 @@ pub fn many(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
                 let length = if number == 0 { 4 } else { set.lengths[number - 1] };
                 for (seen, due) in seen.iter().zip([x, y, x + y, 2.0 * x - y]).take(length) {
                     // A few roundings of a sum of up to 15.
-                    wrong += usize::from(!((seen - due - number as f32).abs() < 1e-4));
+                    let is_near = (seen - due - number as f32).abs() < 1e-4;
+                    wrong += usize::from(!is_near);
                     count += 1;
                 }
             }

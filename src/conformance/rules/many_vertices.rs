@@ -72,7 +72,7 @@ pub fn many(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
         let due = |triangle: usize| if triangle < drawn { due(triangle) } else { [-1.0; 4] };
         // All corners of a triangle have its number; what is interpolated may be off by a rounding or two.
         let is_wrong = |triangle: usize, seen: &[f32; 4]| {
-            seen.iter().zip(due(triangle)).any(|(seen, due)| !((seen - due).abs() < 0.1))
+            !seen.iter().zip(due(triangle)).all(|(seen, due)| (seen - due).abs() < 0.1)
         };
         let seen = surface.floats();
         let wrong = seen.iter().enumerate().filter(|(triangle, seen)| is_wrong(*triangle, seen)).count();
