@@ -60,7 +60,7 @@ pub fn clipped(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     let surface = subject.bench.surface([SIDE; 2], Some(GlFormat::Rgba32F), Some(GlFormat::Depth32F))?;
     for kind in KINDS {
         let mut random = Random::new(401);
-        let mut tallies = [GradeTally::default(); 2];
+        let mut tallies = [GradeTally::default(); 3];
         for number in 0..60 {
             let behind = [false, number % 2 == 1, true];
             let vertices: Vec<_> = behind.into_iter().map(|behind| corner(&mut random, kind, behind)).collect();
@@ -72,9 +72,10 @@ pub fn clipped(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
             let sub_pixel = 2.0 / f64::from(SIDE) * f64::from(-bits).exp2();
             judge(&surface, if kind.reach > 100.0 { 16.0 } else { 1.0 } * sub_pixel, slope(&vertices), &mut tallies);
         }
-        let [places, depths] = tallies;
+        let [places, depths, shares] = tallies;
         findings.tally(format!("varyings of triangles {}", kind.name), places, "sub-pixels");
         findings.tally(format!("depths of triangles {}", kind.name), depths, "sub-pixels");
+        findings.tally(format!("gl_FragCoord.w of triangles {}", kind.name), shares, "2^-16");
     }
     Ok(())
 }
@@ -91,19 +92,23 @@ fn slope(corners: &[Vertex]) -> f64 {
 
 /// Each fragment lies where the interpolated position says, at the depth that it says. Vertices are moved to whole
 /// sub-pixels, and values may be of the vertices as they were.
-fn judge(surface: &Surface, sub_pixel: f64, slope: f64, [places, depths]: &mut [GradeTally; 2]) {
+fn judge(surface: &Surface, sub_pixel: f64, slope: f64, [places, depths, shares]: &mut [GradeTally; 3]) {
     for (index, (seen, depth)) in (0..).zip(surface.floats().into_iter().zip(surface.depths())) {
         if seen[3] == 7.0 {
             continue;
         }
         let center = |at: u32| (f64::from(at) + 0.5) * 2.0 / f64::from(SIDE) - 1.0;
         let due = [center(index % SIDE), center(index / SIDE), 2.0 * depth - 1.0, 1.0];
-        let off = [0, 1, 3].map(|part| (f64::from(seen[part]) - due[part]).abs());
+        let off = [0, 1].map(|part| (f64::from(seen[part]) - due[part]).abs());
         let off = off.into_iter().fold(0.0_f64, |most, off| if off.is_nan() { f64::INFINITY } else { most.max(off) });
         places.add(verify::within(off, sub_pixel, 4.0 * sub_pixel), off / sub_pixel);
         let off = (f64::from(seen[2]) - due[2]).abs();
         let off = if off.is_nan() { f64::INFINITY } else { off };
         let strict = sub_pixel * (0.25 + slope);
         depths.add(verify::within(off, strict, 2.0 * strict), off / strict);
+        // 1 / w and w of one point, wherever it lies: a few parts in 10^5.
+        let off = (f64::from(seen[3]) - due[3]).abs();
+        let off = if off.is_nan() { f64::INFINITY } else { off };
+        shares.add(verify::within(off, 4.0 / 65536.0, 8.0 / 65536.0), off * 65536.0);
     }
 }

@@ -91,8 +91,8 @@ pub const RULES: &[Rule] = &[
         id: "GL-K11",
         title: "triangles that are cut",
         section: "13.7, 14.6.1",
-        says: "Depth and varyings of what the view volume leaves of a triangle are those of the whole.",
-        tolerance: "a sub-pixel (depth: what the plane rises in one, and a quarter more), else a warning to 4 (2); 16 for corners far away",
+        says: "Depth, varyings and 1 / w of what the view volume leaves of a triangle are those of the whole.",
+        tolerance: "a sub-pixel (depth: what the plane rises in one, and a quarter more), else a warning to 4 (2); 16 for corners far away; 2^-14 of 1 / w, else a warning to 2^-13",
         check: clipped::clipped,
     },
     Rule {
