@@ -11,7 +11,7 @@ use crate::context::compatibility::raw;
 /// Texture units that are looked at.
 const UNITS: u32 = 8;
 
-/// What a unit has: a 1D or 2D texture, and a sampler object.
+/// A unit's 1D or 2D texture, and its sampler object.
 struct Unit {
     /// 0 without one.
     texture: u32,
@@ -20,7 +20,7 @@ struct Unit {
     format: u32,
 }
 
-/// What is bound for `target`, unit by unit.
+/// Textures that are bound for `target`, and samplers, unit by unit.
 fn units(call: &Call, target: u32) -> Vec<Unit> {
     let active = call.get(glow::ACTIVE_TEXTURE);
     let name = if target == glow::TEXTURE_1D { glow::TEXTURE_BINDING_1D } else { glow::TEXTURE_BINDING_2D };

@@ -16,7 +16,7 @@ const SHADER: Shader = Shader {
     fragment: "result = vec4(passed.xyz / passed.w, passed.w * gl_FragCoord.w);",
 };
 
-/// What the near or the far plane, or an edge far away, does with a triangle.
+/// A kind of triangles that the near or the far plane cuts, or an edge far away.
 #[derive(Clone, Copy)]
 struct Kind {
     name: &'static str,
@@ -80,7 +80,7 @@ pub fn clipped(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     Ok(())
 }
 
-/// What z / w changes in one unit of x / w and of y / w, together: the plane through three clip positions.
+/// Change of z / w in one unit of x / w and of y / w, together: the plane through three clip positions.
 fn slope(corners: &[Vertex]) -> f64 {
     let column = |part: usize| {
         let [a, b, c] = [0, 1, 2].map(|corner| f64::from(corners[corner].position[part]));

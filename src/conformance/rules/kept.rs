@@ -83,10 +83,10 @@ fn stored(surface: &Surface) -> Stored {
     Stored { colors: surface.colors(), depths: surface.depths(), stencils }
 }
 
-/// What is called between a state and its draw.
+/// Calls between a state and its draw.
 type Between<'a> = &'a dyn Fn() -> Result<(), Error>;
 
-/// What a draw leaves: the state is set, `between` is called, and then the state is left alone or set anew by way of another.
+/// Draws and reads: the state is set, `between` is called, and then the state is left alone or set anew by way of another.
 fn drawn(
     subject: &DriverUnderTest,
     surface: &Surface,

@@ -24,7 +24,7 @@ fn digits(triangle: usize) -> [f32; 3] {
     [triangle % 64, triangle / 64 % 64, triangle / 4096].map(|digit| digit as f32)
 }
 
-/// What a triangle's pixel must show: its number, and what the attributes at 4 and 15 are more.
+/// Colour of a triangle's pixel: its number, and how much more the attributes at 4 and 15 are.
 fn due(triangle: usize) -> [f32; 4] {
     let [low, middle, high] = digits(triangle);
     [low, middle, high, 1.0 + 4.0 * 2.0 + 16.0 * 3.0 + 64.0 * (low + 5.0)]
