@@ -73,7 +73,7 @@ const SCENES: &[(&str, &str, &[&str])] = &[
     ("guard by a 1D texture", "cases/scenes/guards", &["light.shadow.guard=texture-1d"]),
     ("bumps in one pass", "scenes/doughnut", &["shading.bump=one-pass"]),
     ("bumps in three passes", "scenes/doughnut", &["shading.bump=three-pass"]),
-    ("combiners", "scenes/doughnut", &["shading.bump=one-pass", "shading.combiners=data/combiners/gdc2001.rc", "shading.self_shadow=false"]),
+    ("combiners", "scenes/doughnut", &["shading.bump=one-pass", "shading.combiners=data/combiners/gdc2001.rc"]),
     ("holes of alpha", "cases/shadow-map/alpha-test/scene", &[]),
     ("wave", "cases/shadow-map/wave/scene", &[]),
     ("slides", "cases/slide-projector/room/scene", &[]),

@@ -36,7 +36,10 @@ fn without_a_mistake_no_rule_fails() {
         (Profile::Compatibility, vec![]),
         (
             Profile::Core33,
-            vec!["GL-C6", "GL-C12", "GL-T1", "GL-T6", "GL-F12", "GL-E1", "GL-E2", "GL-E3", "GL-E4", "GL-V2"],
+            vec![
+                "GL-C6", "GL-C12", "GL-T1", "GL-T6", "GL-F12", "GL-E1", "GL-E2", "GL-E3", "GL-E4", "GL-V2", "GL-K8",
+                "GL-K13",
+            ],
         ),
     ] {
         let outcomes = outcomes(profile, None, &[]);

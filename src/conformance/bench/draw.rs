@@ -154,7 +154,7 @@ void main() {{
     /// # Safety
     ///
     /// The context is current, and the program is in it.
-    unsafe fn submit(&self, program: glow::Program, vertices: &[Vertex]) {
+    pub(super) unsafe fn submit(&self, program: glow::Program, vertices: &[Vertex]) {
         let gl = &self.gl;
         let floats: Vec<_> = vertices.iter().flat_map(|vertex| [vertex.position, vertex.value]).collect();
         // SAFETY: as the caller promises; positions and values lie in turn, as the vertex array has it.

@@ -19,6 +19,7 @@ mod mutation;
 mod program;
 mod queries;
 mod sampling;
+mod sequence;
 mod state;
 mod surface;
 mod targets;

@@ -182,6 +182,7 @@ functions! {
     glVertexAttribPointer(index: u32, size: i32, kind: u32, normalized: u8, stride: i32, offset: Any);
     glDrawArrays(mode: u32, first: i32, count: i32);
     glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
+    glPrimitiveRestartIndex(index: u32);
     glDrawElements(mode: u32, count: i32, kind: u32, offset: Any);
     glDrawElementsInstanced(mode: u32, count: i32, kind: u32, offset: Any, instances: i32);
     glVertexAttribDivisor(index: u32, divisor: u32);

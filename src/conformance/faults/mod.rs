@@ -26,6 +26,10 @@ macro_rules! faults {
     };
 }
 
+mod apart;
+mod apart_again;
+mod apart_inputs;
+mod apart_shaders;
 mod beyond;
 mod blending;
 mod call;
@@ -110,6 +114,10 @@ const KINDS: &[&[Fault]] = &[
     lights::FAULTS,
     beyond::FAULTS,
     partial::FAULTS,
+    apart::FAULTS,
+    apart_again::FAULTS,
+    apart_inputs::FAULTS,
+    apart_shaders::FAULTS,
 ];
 
 /// Every fault.

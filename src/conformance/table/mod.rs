@@ -13,6 +13,7 @@ mod levels;
 mod offset;
 mod queries;
 mod raster;
+mod sequences;
 mod stencil;
 mod uploads;
 mod vertices;
@@ -37,6 +38,7 @@ const KINDS: &[&[Rule]] = &[
     glsl::RULES,
     vertices::RULES,
     queries::RULES,
+    sequences::RULES,
 ];
 
 /// Every rule, in the order of a report.
