@@ -77,6 +77,7 @@
 
 // Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
 #[doc(hidden)]
+mod c_text;
 pub mod cli;
 #[doc(hidden)]
 pub mod combiners;
