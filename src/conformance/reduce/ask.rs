@@ -4,6 +4,7 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
+use std::time::Instant;
 
 use super::log::{Mode, Playback, Read};
 use super::meaning::Scalar;
@@ -40,7 +41,14 @@ pub struct Asked<'a> {
     pub finding: Finding,
     pub before: usize,
     pub tick: &'a mut dyn FnMut(),
+    /// Questions that may still be asked, and until when.
+    pub left: usize,
+    pub until: Instant,
 }
+
+/// Questions at most, and seconds: a rule that is asked runs without its draws.
+pub const MOST_QUESTIONS: usize = 3000;
+pub const MOST_SECONDS: u64 = 20;
 
 /// Answer of a rule: how many values are wrong, and the first of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +75,11 @@ pub fn findings_of(rule: &Rule, subject: &DriverUnderTest) -> Vec<Finding> {
 
 impl Asked<'_> {
     fn ask(&mut self, changed: Changes) -> Answer {
+        if self.left == 0 || Instant::now() > self.until {
+            self.left = 0;
+            return Answer { wrong: f64::MAX, first: None };
+        }
+        self.left -= 1;
         (self.tick)();
         *self.mode.borrow_mut() = Mode::Play(Playback { reads: self.reads.clone(), changed, next: 0 });
         let findings = findings_of(self.rule, self.subject);
@@ -315,7 +328,28 @@ impl Asked<'_> {
             ranges.push(if low <= least && high >= most { None } else { Some([low, high]) });
         }
         let judgement = Judgement { read, layout, element, got: got.clone(), right: ranges };
-        (!judgement.holds(&got)).then_some(judgement)
+        let is_known = self.left > 0 && !judgement.holds(&got) && self.is_alone(context, read, element, &right);
+        is_known.then_some(judgement)
+    }
+
+    /// Tests whether what is right does not depend on another of the driver's answers: then either of the two may be the wrong
+    /// one.
+    fn is_alone(&mut self, context: &Changes, read: usize, element: usize, right: &[f64]) -> bool {
+        let is_picture = |other: &usize| {
+            let Read { function, layout, .. } = &self.reads[*other];
+            *other != read && !matches!(*function, "glGetError" | "glCheckFramebufferStatus") && layout.count() > 0
+        };
+        let others: Vec<usize> = (0..self.reads.len()).filter(is_picture).collect();
+        // Elements of the same answer, but for this one.
+        let mut own = context.get(&read).cloned().unwrap_or_else(|| self.reads[read].bytes.clone());
+        let (layout, garbage) = (self.reads[read].layout, self.garbage(read));
+        let kept = layout.get(&own, element);
+        (0..layout.count()).filter(|at| *at != element).for_each(|at| layout.put(&mut own, at, &garbage));
+        layout.put(&mut own, element, &kept);
+        let mut changed: Changes = others.into_iter().map(|other| (other, self.garbled(other, 0))).collect();
+        changed.insert(read, own);
+        let wrong = self.ask(changed.clone()).wrong;
+        self.ask_at(&changed, read, &[element], right).wrong < wrong
     }
 }
 

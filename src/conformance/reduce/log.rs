@@ -155,9 +155,13 @@ pub fn hook(layer: &mut Layer, mode: &Rc<RefCell<Mode>>) {
 }
 
 impl Playback {
-    /// Answers in the driver's place; past the last answer the driver is asked.
+    /// Answers in the driver's place; past the last answer, and where the rule now asks for another, the driver is asked.
     fn answer(&mut self, call: &mut Call) {
         let Some(read) = self.reads.get(self.next) else { return };
+        let alignment = if call.name == "glReadPixels" { call.get(glow::PACK_ALIGNMENT) } else { 1 };
+        if read.function != call.name || read.layout != layout_of(call, alignment.max(0) as usize) {
+            return;
+        }
         let bytes = self.changed.get(&self.next).unwrap_or(&read.bytes);
         self.next += 1;
         match out_index(call.name) {
@@ -239,15 +243,7 @@ impl Log {
     }
 
     fn layout(&self, call: &Call) -> Layout {
-        match call.name {
-            "glReadPixels" => {
-                let size = [call.i(2), call.i(3)].map(|side| side.max(0) as usize);
-                pixels_of(call.u(4), call.u(5), size, self.stored(glow::PACK_ALIGNMENT), 0)
-            }
-            "glGetQueryObjectui64v" => Layout::values(Scalar::U64, 1),
-            "glGetTexGendv" => Layout::values(Scalar::F64, 4),
-            _ => Layout::values(Scalar::U32, 1),
-        }
+        layout_of(call, self.stored(glow::PACK_ALIGNMENT))
     }
 
     fn argument(&mut self, call: &Call, index: usize, name: &str, kind: &str) -> Argument {
@@ -284,6 +280,19 @@ impl Log {
                 }
             }
         }
+    }
+}
+
+/// Layout of a call's answer under PACK_ALIGNMENT.
+fn layout_of(call: &Call, alignment: usize) -> Layout {
+    match call.name {
+        "glReadPixels" => {
+            let size = [call.i(2), call.i(3)].map(|side| side.max(0) as usize);
+            pixels_of(call.u(4), call.u(5), size, alignment, 0)
+        }
+        "glGetQueryObjectui64v" => Layout::values(Scalar::U64, 1),
+        "glGetTexGendv" => Layout::values(Scalar::F64, 4),
+        _ => Layout::values(Scalar::U32, 1),
     }
 }
 

@@ -21,6 +21,7 @@ mod state;
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::time::{Duration, Instant};
 
 use self::ask::{Asked, Judgement, findings_of};
 use self::log::{Mode, Recorded};
@@ -40,8 +41,8 @@ pub enum ReduceError {
     #[error("{rule} ends the process ({how}): --reduce cannot reduce a crash, a hang or a lost context")]
     Ends { rule: &'static str, how: String },
     #[error(
-        "{rule}: \"{finding}\" fails, but not by one number that the driver reads back wrongly against the rule: --reduce \
-         cannot say its judgement as data"
+        "{rule}: \"{finding}\" fails, but not by one number of one answer, with a bound that no other answer of the driver \
+         moves: --reduce cannot say that in a program"
     )]
     NoNumber { rule: &'static str, finding: String },
     #[error("{rule}: \"{finding}\" fails, but not when the same calls are made again in a new context")]
@@ -179,8 +180,17 @@ fn note(
         let before = of_name.take_while(|other| !std::ptr::eq(*other, *finding)).count();
         let mut tick = || tick(Step::Asks);
         let finding = (*finding).clone();
-        let mut asked =
-            Asked { rule, subject: &subject, mode: &mode, reads: reads.clone(), finding: finding.clone(), before, tick: &mut tick };
+        let mut asked = Asked {
+            rule,
+            subject: &subject,
+            mode: &mode,
+            reads: reads.clone(),
+            finding: finding.clone(),
+            before,
+            tick: &mut tick,
+            left: ask::MOST_QUESTIONS,
+            until: Instant::now() + Duration::from_secs(ask::MOST_SECONDS),
+        };
         if let Some(judgement) = asked.judge() {
             let read = skipped + judgement.read;
             let end = log.calls.iter().position(|call| call.read == Some(read)).map_or(0, |index| index + 1);

@@ -51,6 +51,9 @@ impl Names {
 
     /// The value of a name.
     pub fn value(name: &str) -> Option<u32> {
+        if let Some(truth) = ["GL_FALSE", "GL_TRUE"].iter().position(|known| *known == name) {
+            return Some(truth as u32);
+        }
         NAMES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
     }
 }

@@ -73,6 +73,7 @@ pub fn data(trials: &mut Trials, calls: Vec<Recorded>, judgement: &Judgement) ->
     if calls.iter().any(is_copy) || is_layered(&calls) {
         return calls;
     }
+    let calls = scissors(trials, calls, pixel);
     let calls = tables(trials, calls, pixel);
     triangles(trials, calls, pixel)
 }
@@ -88,6 +89,40 @@ pub fn pixel_of(calls: &[Recorded], judgement: &Judgement) -> Option<[i32; 2]> {
     let read = calls.last().filter(|call| call.name == "glReadPixels")?;
     let [column, row] = [judgement.element % judgement.layout.width, judgement.element / judgement.layout.width];
     Some([read.i(0) + column as i32, read.i(1) + row as i32])
+}
+
+/// Leaves out clears and draws whose scissor keeps the pixel from them.
+fn scissors(trials: &mut Trials, calls: Vec<Recorded>, [x, y]: [i32; 2]) -> Vec<Recorded> {
+    let mut tracker = Tracker::default();
+    let mut far = Vec::new();
+    for (index, call) in calls.iter().enumerate() {
+        tracker.follow(call);
+        let draws = matches!(call.name, "glClear" | "glClearBufferfv" | "glClearBufferiv" | "glClearBufferfi")
+            || call.name.starts_with("glDrawArrays")
+            || call.name.starts_with("glDrawElements");
+        let [left, bottom, width, height] = *tracker.state.numbers("glScissor") else { continue };
+        let [x, y] = [f64::from(x), f64::from(y)];
+        let is_far = x < left || y < bottom || x >= left + width || y >= bottom + height;
+        if draws && is_far && tracker.state.is_on(glow::SCISSOR_TEST) {
+            far.push(index);
+        }
+    }
+    let with = |far: &[usize], all: &[usize]| -> Vec<Recorded> {
+        let kept = (0..calls.len()).filter(|index| far.contains(index) || !all.contains(index));
+        let kept: Vec<&Recorded> = kept.map(|index| &calls[index]).collect();
+        needed(&kept).into_iter().map(|index| kept[index].clone()).collect()
+    };
+    let all = far.clone();
+    if all.is_empty() {
+        return calls;
+    }
+    let mut errs = |far: &[usize]| trials.errs(&with(far, &all).iter().collect::<Vec<_>>(), false);
+    if errs(&[]) {
+        far.clear();
+    } else {
+        fewer(&mut far, &mut errs);
+    }
+    with(&far, &all)
 }
 
 /// What a draw of triangles has: its call, that of its vertices, its viewport.
