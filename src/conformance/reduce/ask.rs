@@ -48,7 +48,7 @@ pub struct Asked<'a> {
 
 /// Questions at most, and seconds: a rule that is asked runs without its draws.
 pub const MOST_QUESTIONS: usize = 3000;
-pub const MOST_SECONDS: u64 = 20;
+pub const MOST_SECONDS: u64 = 60;
 
 /// Answer of a rule: how many values are wrong, and the first of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -332,24 +332,44 @@ impl Asked<'_> {
         is_known.then_some(judgement)
     }
 
-    /// Tests whether what is right does not depend on another of the driver's answers: then either of the two may be the wrong
-    /// one.
+    /// Tests whether what is right does not depend on another of the driver's answers: else either of the two may be the wrong
+    /// one. It does where the wrong number is right as soon as all others change as it should have changed itself.
     fn is_alone(&mut self, context: &Changes, read: usize, element: usize, right: &[f64]) -> bool {
         let is_picture = |other: &usize| {
             let Read { function, layout, .. } = &self.reads[*other];
             *other != read && !matches!(*function, "glGetError" | "glCheckFramebufferStatus") && layout.count() > 0
         };
         let others: Vec<usize> = (0..self.reads.len()).filter(is_picture).collect();
-        // Elements of the same answer, but for this one.
-        let mut own = context.get(&read).cloned().unwrap_or_else(|| self.reads[read].bytes.clone());
-        let (layout, garbage) = (self.reads[read].layout, self.garbage(read));
-        let kept = layout.get(&own, element);
-        (0..layout.count()).filter(|at| *at != element).for_each(|at| layout.put(&mut own, at, &garbage));
-        layout.put(&mut own, element, &kept);
-        let mut changed: Changes = others.into_iter().map(|other| (other, self.garbled(other, 0))).collect();
-        changed.insert(read, own);
-        let wrong = self.ask(changed.clone()).wrong;
-        self.ask_at(&changed, read, &[element], right).wrong < wrong
+        let got = self.reads[read].layout.get(&self.reads[read].bytes, element);
+        // What others would have to be for the wrong number to be right: garbage, moved as far, as many times as much, the same.
+        let moves: [fn(f64, f64, f64) -> f64; 4] = [
+            |_, _, _| -12345.678,
+            |other, got, right| other + got - right,
+            |other, got, right| if right == 0.0 { other } else { other * got / right },
+            |other, got, right| if other == right { got } else { other },
+        ];
+        for (number, how) in moves.into_iter().enumerate() {
+            let mut changed = context.clone();
+            for other in others.iter().copied().chain([read]) {
+                let layout = self.reads[other].layout;
+                let mut bytes = changed.remove(&other).unwrap_or_else(|| self.reads[other].bytes.clone());
+                let garbage = self.garbage(other);
+                for at in (0..layout.count()).filter(|at| (other, *at) != (read, element)) {
+                    let values = layout.get(&bytes, at);
+                    let new = values.iter().zip(got.iter().zip(right).cycle()).map(|(value, (got, right))| how(*value, *got, *right));
+                    let new: Vec<f64> = if number == 0 { garbage.clone() } else { new.collect() };
+                    layout.put(&mut bytes, at, &new);
+                }
+                changed.insert(other, bytes);
+            }
+            let wrong = self.ask(changed.clone()).wrong;
+            let right = self.ask_at(&changed, read, &[element], right).wrong;
+            if right != wrong {
+                return right < wrong;
+            }
+        }
+        // Others must be right, too, and say nothing of this one.
+        true
     }
 }
 
@@ -366,7 +386,7 @@ fn farthest(scalar: Scalar, right: f64, sign: f64, off: f64, holds: &mut impl Fn
                 return end;
             }
         }
-        for _ in 0..14 {
+        for _ in 0..9 {
             let middle = 0.5 * (good + step);
             if holds(right + sign * middle) { good = middle } else { step = middle }
         }

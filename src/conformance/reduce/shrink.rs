@@ -5,7 +5,7 @@ use super::ask::Judgement;
 use super::effects::Tracker;
 use super::log::{Argument, Recorded};
 use super::meaning::Scalar;
-use super::slice::needed;
+use super::slice::{depended_on, needed};
 use crate::conformance::layer::value::Value;
 
 /// Trials at most: each draws the scene in a new context.
@@ -37,11 +37,15 @@ pub fn calls(trials: &mut Trials, calls: &[Recorded]) -> Option<Vec<Recorded>> {
     if trials.errs(&refs(&core), true) || trials.errs(&refs(&core), false) {
         return Some(picked(&core));
     }
-    // The driver is led astray by calls that should not matter: as few of them as do it.
-    if !trials.errs(&all, false) {
-        return None;
+    // The driver is led astray by calls that should not matter: as few of them as do it. First those that set what is in force.
+    let mut wider = depended_on(&all);
+    if !trials.errs(&refs(&wider), false) {
+        if !trials.errs(&all, false) {
+            return None;
+        }
+        wider = (0..calls.len()).collect();
     }
-    let mut extra: Vec<usize> = (0..calls.len()).filter(|index| core.binary_search(index).is_err()).collect();
+    let mut extra: Vec<usize> = wider.into_iter().filter(|index| core.binary_search(index).is_err()).collect();
     let with = |extra: &[usize]| {
         let mut kept = [&core[..], extra].concat();
         kept.sort_unstable();
@@ -109,8 +113,7 @@ fn scissors(trials: &mut Trials, calls: Vec<Recorded>, [x, y]: [i32; 2]) -> Vec<
     }
     let with = |far: &[usize], all: &[usize]| -> Vec<Recorded> {
         let kept = (0..calls.len()).filter(|index| far.contains(index) || !all.contains(index));
-        let kept: Vec<&Recorded> = kept.map(|index| &calls[index]).collect();
-        needed(&kept).into_iter().map(|index| kept[index].clone()).collect()
+        kept.map(|index| calls[index].clone()).collect()
     };
     let all = far.clone();
     if all.is_empty() {
@@ -122,7 +125,16 @@ fn scissors(trials: &mut Trials, calls: Vec<Recorded>, [x, y]: [i32; 2]) -> Vec<
     } else {
         fewer(&mut far, &mut errs);
     }
-    with(&far, &all)
+    tidied(trials, with(&far, &all))
+}
+
+/// Without calls that are of no use any more, if the driver errs without them.
+fn tidied(trials: &mut Trials, calls: Vec<Recorded>) -> Vec<Recorded> {
+    let refs: Vec<&Recorded> = calls.iter().collect();
+    let kept = needed(&refs);
+    let fewer: Vec<Recorded> = kept.iter().map(|index| calls[*index].clone()).collect();
+    let is_enough = fewer.len() < calls.len() && trials.errs(&fewer.iter().collect::<Vec<_>>(), false);
+    if is_enough { fewer } else { calls }
 }
 
 /// What a draw of triangles has: its call, that of its vertices, its viewport.
@@ -176,9 +188,6 @@ fn triangles(trials: &mut Trials, mut calls: Vec<Recorded>, pixel: [i32; 2]) -> 
             changed[draw].arguments[2] = Argument::Number(Value::Signed((floats.len() / VERTEX) as i32));
             if kept.is_empty() {
                 changed.remove(draw);
-                let refs: Vec<&Recorded> = changed.iter().collect();
-                let kept = needed(&refs);
-                changed = kept.into_iter().map(|index| changed[index].clone()).collect();
             }
             changed
         };
@@ -198,6 +207,7 @@ fn triangles(trials: &mut Trials, mut calls: Vec<Recorded>, pixel: [i32; 2]) -> 
         let changed = with(&left);
         if changed.len() < calls.len() {
             // A draw has gone: the others have other numbers now.
+            let changed = tidied(trials, changed);
             return triangles(trials, changed, pixel);
         }
         calls = changed;

@@ -18,6 +18,11 @@ pub fn needed(calls: &[&Recorded]) -> Vec<usize> {
     }
 }
 
+/// Indices of the calls that the last one depends on, with those that set what is in force already.
+pub fn depended_on(calls: &[&Recorded]) -> Vec<usize> {
+    live(calls, &(0..calls.len()).collect::<Vec<_>>())
+}
+
 /// Those of `among` that the last depends on.
 fn live(calls: &[&Recorded], among: &[usize]) -> Vec<usize> {
     let mut tracker = Tracker::default();
