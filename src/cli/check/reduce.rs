@@ -20,7 +20,10 @@ use crate::output::atomic_write;
 pub fn run(arguments: &CheckArgs, pattern: &str) -> Result<(), Error> {
     let rules = conformance::choose(&[pattern.to_owned()])?;
     let [rule] = rules[..] else {
-        return Err(Error::ReduceOne { pattern: pattern.to_owned(), rules: rules.iter().map(|rule| rule.id).collect() });
+        return Err(Error::ReduceOne {
+            pattern: pattern.to_owned(),
+            rules: rules.iter().map(|rule| rule.id).collect(),
+        });
     };
     let default = format!("{}.c", rule.id.to_lowercase());
     let path = arguments.output.as_deref().unwrap_or(Path::new(&default));
@@ -82,7 +85,8 @@ fn must_fail(arguments: &CheckArgs, rule: &'static Rule) -> Result<(), Error> {
         RuleVerdict::Pass | RuleVerdict::Warning | RuleVerdict::Waived => Err(ReduceError::Passes { rule }.into()),
         verdict => {
             let how = outcome.findings.iter().find(|finding| finding.verdict == verdict);
-            Err(ReduceError::Ends { rule, how: how.map_or_else(|| verdict.to_string(), |how| how.measured.clone()) }.into())
+            Err(ReduceError::Ends { rule, how: how.map_or_else(|| verdict.to_string(), |how| how.measured.clone()) }
+                .into())
         }
     }
 }

@@ -27,7 +27,10 @@ pub struct Judgement {
 impl Judgement {
     /// Tests whether these components are right.
     pub fn holds(&self, values: &[f64]) -> bool {
-        self.right.iter().zip(values).all(|(range, value)| range.is_none_or(|[low, high]| *value >= low && *value <= high))
+        self.right
+            .iter()
+            .zip(values)
+            .all(|(range, value)| range.is_none_or(|[low, high]| *value >= low && *value <= high))
     }
 }
 
@@ -61,6 +64,9 @@ struct Answer {
 const PALETTE: usize = 24;
 /// Values that are tried in the place of a wrong one.
 const CANDIDATES: usize = 24;
+
+/// A float that no rule wants.
+const GARBAGE: f64 = -12345.678;
 
 type Changes = HashMap<usize, Vec<u8>>;
 
@@ -154,7 +160,7 @@ impl Asked<'_> {
     fn garbage(&self, read: usize) -> Vec<f64> {
         let Read { layout, bytes, .. } = &self.reads[read];
         let value = if layout.scalar.is_float() {
-            -12345.678
+            GARBAGE
         } else {
             let there: Vec<f64> = (0..layout.count()).flat_map(|element| layout.get(bytes, element)).collect();
             [165.0, 91.0, 203.0, 77.0, 13.0].into_iter().find(|value| !there.contains(value)).unwrap_or(37.0)
@@ -176,7 +182,9 @@ impl Asked<'_> {
                 found.push(value);
             }
         };
-        let near = element.into_iter().flat_map(|at| [at.wrapping_sub(1), at + 1, at.wrapping_sub(layout.width), at + layout.width]);
+        let near = element
+            .into_iter()
+            .flat_map(|at| [at.wrapping_sub(1), at + 1, at.wrapping_sub(layout.width), at + layout.width]);
         for at in near.filter(|at| *at < layout.count()) {
             add(layout.get(&self.reads[read].bytes, at));
         }
@@ -219,7 +227,8 @@ impl Asked<'_> {
                     let mut root = best.clone();
                     root[component] += to;
                     if !is_float {
-                        root[component] = root[component].round().clamp(layout.scalar.range()[0], layout.scalar.range()[1]);
+                        root[component] =
+                            root[component].round().clamp(layout.scalar.range()[0], layout.scalar.range()[1]);
                     }
                     match self.ask_at(&none, read, &[element], &root) {
                         answer if answer.wrong < base.wrong => return Some(root),
@@ -311,7 +320,14 @@ impl Asked<'_> {
     }
 
     /// How far each component may be from a right value.
-    fn ranges(&mut self, context: &Changes, base: Answer, read: usize, element: usize, right: Vec<f64>) -> Option<Judgement> {
+    fn ranges(
+        &mut self,
+        context: &Changes,
+        base: Answer,
+        read: usize,
+        element: usize,
+        right: Vec<f64>,
+    ) -> Option<Judgement> {
         let Read { layout, bytes, .. } = self.reads[read].clone();
         let got = layout.get(&bytes, element);
         let mut ranges = Vec::new();
@@ -321,9 +337,7 @@ impl Asked<'_> {
                 tried[component] = value;
                 self.ask_at(context, read, &[element], &tried).wrong < base.wrong
             };
-            let [low, high] = [-1.0, 1.0].map(|sign| {
-                farthest(layout.scalar, right[component], sign, (got[component] - right[component]).abs(), &mut holds)
-            });
+            let [low, high] = [-1.0, 1.0].map(|sign| farthest(layout.scalar, right[component], sign, &mut holds));
             let [least, most] = layout.scalar.range();
             ranges.push(if low <= least && high >= most { None } else { Some([low, high]) });
         }
@@ -341,23 +355,35 @@ impl Asked<'_> {
         };
         let others: Vec<usize> = (0..self.reads.len()).filter(is_picture).collect();
         let got = self.reads[read].layout.get(&self.reads[read].bytes, element);
+        let is_alike = |asked: &Self, other: usize| {
+            let [own, other] = [read, other].map(|read| asked.reads[read].layout);
+            (own.scalar, own.components, own.count()) == (other.scalar, other.components, other.count())
+        };
         // What others would have to be for the wrong number to be right: garbage, moved as far, as many times as much, the same.
-        let moves: [fn(f64, f64, f64) -> f64; 4] = [
-            |_, _, _| -12345.678,
-            |other, got, right| other + got - right,
-            |other, got, right| if right == 0.0 { other } else { other * got / right },
-            |other, got, right| if other == right { got } else { other },
+        // Last garbage in those alone that are of the same kind, which a rule may compare with: the rest, such as depths
+        // beside colours, may have to be right, too.
+        let moves: [(bool, fn(f64, f64, f64) -> f64); 5] = [
+            (true, |_, _, _| GARBAGE),
+            (true, |other, got, right| other + got - right),
+            (true, |other, got, right| if right == 0.0 { other } else { other * got / right }),
+            (true, |other, got, right| if other == right { got } else { other }),
+            (false, |_, _, _| GARBAGE),
         ];
-        for (number, how) in moves.into_iter().enumerate() {
+        for (all, how) in moves {
             let mut changed = context.clone();
-            for other in others.iter().copied().chain([read]) {
+            let moved: Vec<usize> = others.iter().copied().filter(|other| all || is_alike(self, *other)).collect();
+            for other in moved.into_iter().chain([read]) {
                 let layout = self.reads[other].layout;
                 let mut bytes = changed.remove(&other).unwrap_or_else(|| self.reads[other].bytes.clone());
                 let garbage = self.garbage(other);
                 for at in (0..layout.count()).filter(|at| (other, *at) != (read, element)) {
                     let values = layout.get(&bytes, at);
-                    let new = values.iter().zip(got.iter().zip(right).cycle()).map(|(value, (got, right))| how(*value, *got, *right));
-                    let new: Vec<f64> = if number == 0 { garbage.clone() } else { new.collect() };
+                    let change = got.iter().zip(right).cycle();
+                    let new = values.iter().zip(change).map(|(value, (got, right))| how(*value, *got, *right));
+                    let mut new: Vec<f64> = new.collect();
+                    if new.first() == Some(&GARBAGE) {
+                        new.clone_from(&garbage);
+                    }
                     layout.put(&mut bytes, at, &new);
                 }
                 changed.insert(other, bytes);
@@ -368,25 +394,26 @@ impl Asked<'_> {
                 return right < wrong;
             }
         }
-        // Others must be right, too, and say nothing of this one.
-        true
+        false
     }
 }
 
 /// The farthest value on one side that still holds, where `right` does.
-fn farthest(scalar: Scalar, right: f64, sign: f64, off: f64, holds: &mut impl FnMut(f64) -> bool) -> f64 {
+fn farthest(scalar: Scalar, right: f64, sign: f64, holds: &mut impl FnMut(f64) -> bool) -> f64 {
     let end = scalar.range()[usize::from(sign > 0.0)];
     if scalar.is_float() {
-        let mut step = if off > 0.0 { off } else { right.abs().max(1.0) * 1e-6 };
-        let mut good = 0.0;
-        while holds(right + sign * step) {
-            good = step;
-            step *= 16.0;
-            if step > 1e12 {
-                return end;
-            }
+        let far = right.abs().max(1.0) * 1e9;
+        if holds(right + sign * far) {
+            return end;
         }
-        for _ in 0..9 {
+        // From a rounding of f32 on.
+        let mut step = right.abs().max(1e-3) * f64::from(f32::EPSILON);
+        let mut good = 0.0;
+        while step < far && holds(right + sign * step) {
+            good = step;
+            step *= 4.0;
+        }
+        for _ in 0..5 {
             let middle = 0.5 * (good + step);
             if holds(right + sign * middle) { good = middle } else { step = middle }
         }

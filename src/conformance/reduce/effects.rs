@@ -88,7 +88,8 @@ impl Tracker {
         let program = self.state.number("Program") as usize;
         let source = self.texts.get(&program).map_or("", String::as_str);
         let array = self.vertex_array();
-        let is_filled = ["PolygonMode:front", "PolygonMode:back"].iter().all(|key| self.state.number(key) == f64::from(glow::FILL));
+        let is_filled =
+            ["PolygonMode:front", "PolygonMode:back"].iter().all(|key| self.state.number(key) == f64::from(glow::FILL));
         let layout = self.state.numbers(&format!("attr:{array}:0"));
         // Index, size, type, normalised, stride, offset.
         let is_given = layout.get(1) == Some(&4.0) && layout.get(4) == Some(&32.0) && layout.get(5) == Some(&0.0);
@@ -120,11 +121,18 @@ impl Tracker {
                 let value = if call.name == "glEnable" { "1" } else { "0" };
                 let is_unit_s = matches!(
                     call.u(0),
-                    glow::TEXTURE_1D | glow::TEXTURE_2D | glow::TEXTURE_CUBE_MAP | raw::TEXTURE_GEN_S..=raw::TEXTURE_GEN_Q
+                    glow::TEXTURE_1D | glow::TEXTURE_2D | glow::TEXTURE_CUBE_MAP | raw::TEXTURE_GEN_S
+                        ..=raw::TEXTURE_GEN_Q
                 );
                 let (place, reads) =
                     if is_unit_s { (format!(":{unit}"), vec!["ActiveTexture".to_owned()]) } else { Default::default() };
-                Effects::set(vec![(format!("{}:{:04X}{place}", if is_unit_s { "unitcap" } else { "cap" }, call.u(0)), value.to_owned())], reads)
+                Effects::set(
+                    vec![(
+                        format!("{}:{:04X}{place}", if is_unit_s { "unitcap" } else { "cap" }, call.u(0)),
+                        value.to_owned(),
+                    )],
+                    reads,
+                )
             }
             "glDepthRange" | "glDepthRangef" => one("DepthRange".into(), all),
             "glClearDepth" | "glClearDepthf" => one("ClearDepth".into(), all),
@@ -144,9 +152,9 @@ impl Tracker {
             "glBlendFuncSeparate" => one("BlendFunc".into(), all),
             "glBlendEquation" => one("BlendEquation".into(), format!("{all},{all}")),
             "glBlendEquationSeparate" => one("BlendEquation".into(), all),
-            "glDepthFunc" | "glDepthMask" | "glCullFace" | "glFrontFace" | "glLineWidth" | "glPointSize" | "glClearColor"
-            | "glClearStencil" | "glScissor" | "glViewport" | "glBlendColor" | "glColorMask" | "glAlphaFunc"
-            | "glShadeModel" | "glProvokingVertex" | "glClearAccum" => one(call.name.into(), all),
+            "glDepthFunc" | "glDepthMask" | "glCullFace" | "glFrontFace" | "glLineWidth" | "glPointSize"
+            | "glClearColor" | "glClearStencil" | "glScissor" | "glViewport" | "glBlendColor" | "glColorMask"
+            | "glAlphaFunc" | "glShadeModel" | "glProvokingVertex" | "glClearAccum" => one(call.name.into(), all),
             "glPixelStorei" | "glPixelTransferf" | "glHint" | "glClampColor" => {
                 one(format!("{}:{:04X}", call.name, call.u(0)), rest(1))
             }
@@ -159,9 +167,7 @@ impl Tracker {
                 vec![(format!("sampler:{}", glow::TEXTURE0 + call.u(0)), rest(1))],
                 vec![made(Kind::Sampler, object(call, 1))],
             ),
-            "glUseProgram" => {
-                Effects::set(vec![("Program".into(), all)], vec![format!("linked:{}", object(call, 0))])
-            }
+            "glUseProgram" => Effects::set(vec![("Program".into(), all)], vec![format!("linked:{}", object(call, 0))]),
             "glBindVertexArray" => {
                 Effects::set(vec![("VertexArray".into(), all)], vec![made(Kind::VertexArray, object(call, 0))])
             }
@@ -189,11 +195,19 @@ impl Tracker {
                 let value = if call.name == "glDrawBuffers" { rest(1) } else { all };
                 Effects::set(vec![(format!("fb:{}:{end}", self.framebuffer(which)), value)], vec![which.into()])
             }
-            "glFramebufferTexture" | "glFramebufferTexture2D" | "glFramebufferTextureLayer" | "glFramebufferRenderbuffer" => {
-                self.attach(call)
-            }
-            "glTexImage1D" | "glTexImage2D" | "glTexImage3D" | "glTexStorage2D" | "glTexSubImage2D" | "glCopyTexImage2D"
-            | "glCopyTexSubImage2D" | "glGenerateMipmap" | "glTexImage2DMultisample" => self.texture(call),
+            "glFramebufferTexture"
+            | "glFramebufferTexture2D"
+            | "glFramebufferTextureLayer"
+            | "glFramebufferRenderbuffer" => self.attach(call),
+            "glTexImage1D"
+            | "glTexImage2D"
+            | "glTexImage3D"
+            | "glTexStorage2D"
+            | "glTexSubImage2D"
+            | "glCopyTexImage2D"
+            | "glCopyTexSubImage2D"
+            | "glGenerateMipmap"
+            | "glTexImage2DMultisample" => self.texture(call),
             "glTexParameteri" | "glTexParameterf" | "glTexParameterfv" | "glTexParameteriv" => {
                 let key = format!("tex:{unit}:{:04X}", call.u(0));
                 let name = format!("texpar:{}:{:04X}", self.bound(unit, call.u(0)), call.u(1));
@@ -262,7 +276,10 @@ impl Tracker {
                 let (array, buffer) = (self.vertex_array(), self.state.number("ArrayBuffer"));
                 self.buffers.insert((array, call.u(0)), buffer as usize);
                 let value = format!("{all},{buffer}");
-                Effects::set(vec![(format!("attr:{array}:{}", call.u(0)), value)], vec!["VertexArray".into(), "ArrayBuffer".into()])
+                Effects::set(
+                    vec![(format!("attr:{array}:{}", call.u(0)), value)],
+                    vec!["VertexArray".into(), "ArrayBuffer".into()],
+                )
             }
             "glEnableVertexAttribArray" | "glDisableVertexAttribArray" => {
                 let value = if call.name.starts_with("glEnable") { "1" } else { "0" };
@@ -282,7 +299,9 @@ impl Tracker {
             }
             "glClear" | "glClearBufferfv" | "glClearBufferiv" | "glClearBufferfi" => self.clear(call),
             "glBlitFramebuffer" => self.blit(call),
-            "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex" => self.draw(false),
+            "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex" => {
+                self.draw(false)
+            }
             "glBegin" => Effects::make(vec!["stream".into()], Vec::new()),
             "glVertex4fv" => Effects::change(vec!["stream".into()], self.state.keys("current:").cloned().collect()),
             "glEnd" => self.draw(true),
@@ -302,13 +321,15 @@ impl Tracker {
     fn fixed(&mut self, call: &Recorded, unit: u32, numbers: &[f64]) -> Effects {
         let rest = |from: usize| text(&numbers[from.min(numbers.len())..]);
         let one = |key: String, value: String| Effects::set(vec![(key, value)], Vec::new());
-        let matrix = |mode: u32| if mode == glow::TEXTURE { format!("matrix:{mode}:{unit}") } else { format!("matrix:{mode}") };
+        let matrix =
+            |mode: u32| if mode == glow::TEXTURE { format!("matrix:{mode}:{unit}") } else { format!("matrix:{mode}") };
         let modelview = matrix(raw::MODELVIEW);
         // What is transformed as it is set: its value is that of the matrix, too.
         let under = |value: String, state: &State| format!("{value}|{}", state.get(&modelview).unwrap_or_default());
         match call.name {
             "glMatrixMode" => one("MatrixMode".into(), rest(0)),
-            "glLoadIdentity" | "glLoadMatrixf" | "glLoadMatrixd" | "glMultMatrixf" | "glMultMatrixd" | "glScalef" | "glTranslatef" => {
+            "glLoadIdentity" | "glLoadMatrixf" | "glLoadMatrixd" | "glMultMatrixf" | "glMultMatrixd" | "glScalef"
+            | "glTranslatef" => {
                 let key = matrix(self.state.number("MatrixMode") as u32);
                 let reads = vec!["MatrixMode".to_owned(), "ActiveTexture".to_owned()];
                 match call.name {
@@ -386,7 +407,9 @@ impl Tracker {
             point => &[point],
         };
         let mut reads = vec![which.to_owned(), made(kind, number)];
-        reads.extend(self.contents.get(&attachment.image).into_iter().flatten().filter(|key| key.contains("/def")).cloned());
+        reads.extend(
+            self.contents.get(&attachment.image).into_iter().flatten().filter(|key| key.contains("/def")).cloned(),
+        );
         let mut sets = Vec::new();
         for point in points {
             sets.push((format!("fb:{framebuffer}:{point:04X}"), format!("{attachment:?}")));
@@ -406,7 +429,10 @@ impl Tracker {
         let mut reads = vec!["ActiveTexture".to_owned(), format!("tex:{unit}:{target:04X}")];
         let part = format!("{image}/def:{:04X}:{}", call.u(0), call.u(1));
         let transfer = |state: &State| -> Vec<Key> {
-            ["glPixelStorei:", "glPixelTransferf:"].iter().flat_map(|head| state.keys(head).cloned().collect::<Vec<_>>()).collect()
+            ["glPixelStorei:", "glPixelTransferf:"]
+                .iter()
+                .flat_map(|head| state.keys(head).cloned().collect::<Vec<_>>())
+                .collect()
         };
         match call.name {
             "glGenerateMipmap" => {
@@ -510,7 +536,11 @@ impl Tracker {
 
     /// The image's size, if the attachment is a whole level of a 2D image or a renderbuffer.
     fn size_of(&self, attachment: &Attachment) -> Option<[i32; 2]> {
-        let key = if attachment.part == "all" { attachment.image.clone() } else { format!("{}:{}", attachment.image, attachment.part) };
+        let key = if attachment.part == "all" {
+            attachment.image.clone()
+        } else {
+            format!("{}:{}", attachment.image, attachment.part)
+        };
         attachment.is_flat.then(|| self.sizes.get(&key).copied()).flatten()
     }
 
@@ -521,7 +551,8 @@ impl Tracker {
         }
         let framebuffer = self.framebuffer("DrawFramebuffer");
         let scissor = self.state.numbers("glScissor");
-        let mut sizes = self.attachments.range((framebuffer, 0)..=(framebuffer, u32::MAX)).map(|(_, at)| self.size_of(at));
+        let mut sizes =
+            self.attachments.range((framebuffer, 0)..=(framebuffer, u32::MAX)).map(|(_, at)| self.size_of(at));
         let [x, y, width, height] = *scissor else { return false };
         sizes.all(|size| {
             size.is_some_and(|[w, h]| x <= 0.0 && y <= 0.0 && x + width >= f64::from(w) && y + height >= f64::from(h))
@@ -549,7 +580,11 @@ impl Tracker {
         let is_glclear = call.name == "glClear";
         if bits & glow::COLOR_BUFFER_BIT != 0 {
             aspects.push("color");
-            reads.extend(["glColorMask".into(), format!("cap:{:04X}", glow::FRAMEBUFFER_SRGB), format!("cap:{:04X}", glow::DITHER)]);
+            reads.extend([
+                "glColorMask".into(),
+                format!("cap:{:04X}", glow::FRAMEBUFFER_SRGB),
+                format!("cap:{:04X}", glow::DITHER),
+            ]);
             reads.extend(is_glclear.then(|| "glClearColor".into()));
             is_whole &= self.state.get("glColorMask") == Some("1,1,1,1");
         }
@@ -563,14 +598,14 @@ impl Tracker {
             aspects.push("stencil");
             reads.extend(["StencilMask:front".into(), "StencilMask:back".into()]);
             reads.extend(is_glclear.then(|| "glClearStencil".into()));
-            let mask = self.state.get("StencilMask:front").map_or(255, |mask| mask.parse::<f64>().unwrap_or(0.0) as u32);
+            let mask =
+                self.state.get("StencilMask:front").map_or(255, |mask| mask.parse::<f64>().unwrap_or(0.0) as u32);
             is_whole &= mask & 0xFF == 0xFF;
         }
         let framebuffer = self.framebuffer("DrawFramebuffer");
-        is_whole &= self
-            .attachments
-            .range((framebuffer, 0)..=(framebuffer, u32::MAX))
-            .all(|((_, point), at)| at.is_flat && (*point <= glow::COLOR_ATTACHMENT0 || *point >= glow::DEPTH_ATTACHMENT));
+        is_whole &= self.attachments.range((framebuffer, 0)..=(framebuffer, u32::MAX)).all(|((_, point), at)| {
+            at.is_flat && (*point <= glow::COLOR_ATTACHMENT0 || *point >= glow::DEPTH_ATTACHMENT)
+        });
         Effects { writes: self.drawn("DrawFramebuffer", &aspects), kills: is_whole, reads, sets: Vec::new() }
     }
 
@@ -584,7 +619,8 @@ impl Tracker {
             (glow::DEPTH_BUFFER_BIT, "depth"),
             (glow::STENCIL_BUFFER_BIT, "stencil"),
         ];
-        let aspects: Vec<&str> = bits.iter().filter(|(bit, _)| call.u(8) & bit != 0).map(|(_, aspect)| *aspect).collect();
+        let aspects: Vec<&str> =
+            bits.iter().filter(|(bit, _)| call.u(8) & bit != 0).map(|(_, aspect)| *aspect).collect();
         Effects::change(self.drawn("DrawFramebuffer", &aspects), reads)
     }
 
@@ -691,7 +727,9 @@ impl Tracker {
         } else {
             let array = self.vertex_array();
             reads.push("VertexArray".into());
-            for (index, buffer) in self.buffers.range((array, 0)..=(array, u32::MAX)).map(|((_, index), buffer)| (index, buffer)) {
+            for (index, buffer) in
+                self.buffers.range((array, 0)..=(array, u32::MAX)).map(|((_, index), buffer)| (index, buffer))
+            {
                 reads.push(format!("attron:{array}:{index}"));
                 if state.number(&format!("attron:{array}:{index}")) != 0.0 {
                     reads.extend([format!("attr:{array}:{index}"), format!("buf:{buffer}")]);
@@ -713,8 +751,10 @@ fn is_old(source: &str) -> bool {
 
 /// Samplers that a shader declares and uses.
 fn samplers(source: &str) -> Vec<(String, u32)> {
-    let words: Vec<&str> =
-        source.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_').filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = source
+        .split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_')
+        .filter(|word| !word.is_empty())
+        .collect();
     let mut found = Vec::new();
     for pair in words.windows(2) {
         let target = TARGETS.iter().find(|(_, names)| names.contains(&pair[0]));

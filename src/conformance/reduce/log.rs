@@ -123,13 +123,26 @@ pub enum Mode {
 
 /// Functions whose work is left out while answers are given: they make nothing but pixels.
 const WORK: &[&str] = &[
-    "draw", "clear", "copy", "glDrawElementsBaseVertex", "glBegin", "glEnd", "glVertex4fv", "glBlitFramebuffer",
-    "glGenerateMipmap", "glFinish",
+    "draw",
+    "clear",
+    "copy",
+    "glDrawElementsBaseVertex",
+    "glBegin",
+    "glEnd",
+    "glVertex4fv",
+    "glBlitFramebuffer",
+    "glGenerateMipmap",
+    "glFinish",
 ];
 
 /// Answers of the driver that are played back.
 const ANSWERS: &[&str] = &[
-    "glReadPixels", "glGetQueryObjectuiv", "glGetQueryObjectui64v", "glGetTexGendv", "glCheckFramebufferStatus", "glGetError",
+    "glReadPixels",
+    "glGetQueryObjectuiv",
+    "glGetQueryObjectui64v",
+    "glGetTexGendv",
+    "glCheckFramebufferStatus",
+    "glGetError",
 ];
 
 /// Has every call noted, or answered, as `mode` says.
@@ -265,7 +278,9 @@ impl Log {
             Meaning::Out => Argument::Out(64 + 4 * call.u(0) as usize),
             Meaning::Name if call.pointer(index).is_null() => Argument::Null,
             // SAFETY: the caller's string ends by a zero byte, as GL asks.
-            Meaning::Name => Argument::Text(unsafe { CStr::from_ptr(call.pointer(index).cast()) }.to_string_lossy().into_owned()),
+            Meaning::Name => {
+                Argument::Text(unsafe { CStr::from_ptr(call.pointer(index).cast()) }.to_string_lossy().into_owned())
+            }
             Meaning::Sources => Argument::Text(sources(call)),
             Meaning::Lengths => Argument::Null,
             Meaning::Data if call.pointer(index).is_null() => Argument::Null,
@@ -302,9 +317,9 @@ fn sources(call: &Call) -> String {
     let words = size_of::<usize>() / size_of::<u8>();
     let pointers = call.bytes(2, count * words);
     let lengths = call.integers(3, count);
-    let pointers = pointers.chunks_exact(words).map(|word| {
-        usize::from_ne_bytes(word.try_into().unwrap_or_default()) as *const std::ffi::c_char
-    });
+    let pointers = pointers
+        .chunks_exact(words)
+        .map(|word| usize::from_ne_bytes(word.try_into().unwrap_or_default()) as *const std::ffi::c_char);
     let mut text = String::new();
     for (index, pointer) in pointers.enumerate().filter(|(_, pointer)| !pointer.is_null()) {
         let length = lengths.get(index).copied().filter(|length| *length >= 0);

@@ -196,7 +196,8 @@ pub fn meaning(function: &str, parameter: &str, kind: &str, value: Value) -> Mea
         ("glTexImage1D" | "glTexImage2D" | "glTexImage3D", "internal") => Meaning::Enum,
         // Values of parameters are enums or numbers: no enum of theirs is below 0x100 but GL_NONE.
         (_, "value") => {
-            let is_enum = value.number() >= 256.0 && !function.starts_with("glPixel") && !function.starts_with("glUniform");
+            let is_enum =
+                value.number() >= 256.0 && !function.starts_with("glPixel") && !function.starts_with("glUniform");
             if is_enum { Meaning::Enum } else { Meaning::Number }
         }
         _ if kind == "u32" => Meaning::Enum,
@@ -240,7 +241,8 @@ pub fn pixels_of(format: u32, kind: u32, [width, height]: [usize; 2], alignment:
 pub fn data_of(call: &Call, unpack: [usize; 2]) -> Option<(Scalar, usize)> {
     let size = |index: usize| call.i(index).max(0) as usize;
     let texels = |sides: [usize; 3], format: usize| {
-        let layout = pixels_of(call.u(format), call.u(format + 1), [sides[0], sides[1] * sides[2]], unpack[0], unpack[1]);
+        let layout =
+            pixels_of(call.u(format), call.u(format + 1), [sides[0], sides[1] * sides[2]], unpack[0], unpack[1]);
         let scalar = if layout.scalar == Scalar::Depth24Stencil8 { Scalar::U32 } else { layout.scalar };
         (scalar, layout.bytes())
     };
@@ -265,7 +267,9 @@ pub fn data_of(call: &Call, unpack: [usize; 2]) -> Option<(Scalar, usize)> {
         "glUniform4fv" => floats(4 * size(1)),
         "glUniformMatrix3fv" => floats(9 * size(1)),
         "glUniformMatrix4fv" => floats(16 * size(1)),
-        "glTexParameterfv" | "glSamplerParameterfv" => floats(if call.u(1) == glow::TEXTURE_BORDER_COLOR { 4 } else { 1 }),
+        "glTexParameterfv" | "glSamplerParameterfv" => {
+            floats(if call.u(1) == glow::TEXTURE_BORDER_COLOR { 4 } else { 1 })
+        }
         "glTexParameteriv" => {
             let four = matches!(call.u(1), glow::TEXTURE_SWIZZLE_RGBA | glow::TEXTURE_BORDER_COLOR);
             (Scalar::I32, if four { 16 } else { 4 })

@@ -115,7 +115,8 @@ pub fn reduce(
         };
         let replayed = replay::replay(context.as_ref(), calls);
         let got = judgement.layout.get(&replayed.bytes, judgement.element);
-        let is_same = got.len() == judgement.got.len() && got.iter().zip(&judgement.got).all(|(a, b)| a.to_bits() == b.to_bits());
+        let is_same =
+            got.len() == judgement.got.len() && got.iter().zip(&judgement.got).all(|(a, b)| a.to_bits() == b.to_bits());
         replayed.error == 0 && is_same && (!whole || replayed.bytes == bytes)
     };
     let Calls { calls, bytes } = calls;
@@ -169,7 +170,11 @@ fn note(
     let failing: Vec<&Finding> = findings.iter().filter(|finding| finding.verdict.fails()).collect();
     if failing.is_empty() {
         let is_tested = findings.iter().any(|finding| finding.verdict > super::RuleVerdict::Untestable);
-        return Err(if is_tested { ReduceError::Passes { rule: rule.id } } else { ReduceError::Untestable { rule: rule.id } });
+        return Err(if is_tested {
+            ReduceError::Passes { rule: rule.id }
+        } else {
+            ReduceError::Untestable { rule: rule.id }
+        });
     }
     if let Some(function) = log.unknown {
         return Err(ReduceError::Unknown { rule: rule.id, function });
@@ -256,7 +261,14 @@ fn judge(judgement: &Judgement, place: &str) -> String {
     )
 }
 
-fn heading(rule: &Rule, finding: &Finding, info: &ContextInfo, says: &str, calls: [usize; 2], judge: String) -> Heading {
+fn heading(
+    rule: &Rule,
+    finding: &Finding,
+    info: &ContextInfo,
+    says: &str,
+    calls: [usize; 2],
+    judge: String,
+) -> Heading {
     let section = format!("OpenGL 4.6, compatibility profile, {}", rule.section);
     let lines = vec![
         format!("{}: {}", rule.id, rule.title),
@@ -268,10 +280,18 @@ fn heading(rule: &Rule, finding: &Finding, info: &ContextInfo, says: &str, calls
         String::new(),
         format!("Driver: {}", info.renderer),
         format!("        {} ({})", info.version, info.vendor),
-        format!("Written by glumbra {} check --reduce {} on {}, from {} calls of GL to {}.", env!("CARGO_PKG_VERSION"), rule.id, today(), calls[0], calls[1]),
+        format!(
+            "Written by glumbra {} check --reduce {} on {}, from {} calls of GL to {}.",
+            env!("CARGO_PKG_VERSION"),
+            rule.id,
+            today(),
+            calls[0],
+            calls[1]
+        ),
         String::new(),
         "cc FILE.c -o reduced -ldl && ./reduced".to_owned(),
-        "Exit status: 1 the driver has the fault, 0 it does not, 2 nothing can be said (no context, a GL error).".to_owned(),
+        "Exit status: 1 the driver has the fault, 0 it does not, 2 nothing can be said (no context, a GL error)."
+            .to_owned(),
     ];
     let says = vec![format!("{}: {}", rule.id, rule.title), section, comment(rule.says), comment(&finding.what)];
     let is_core = info.profile == "core";

@@ -26,12 +26,19 @@ impl Names {
     /// The name of an enum; its small numbers mean another in each function.
     pub fn of(&self, function: &str, value: u32) -> Option<&'static str> {
         const PRIMITIVES: [&str; 7] = [
-            "GL_POINTS", "GL_LINES", "GL_LINE_LOOP", "GL_LINE_STRIP", "GL_TRIANGLES", "GL_TRIANGLE_STRIP", "GL_TRIANGLE_FAN",
+            "GL_POINTS",
+            "GL_LINES",
+            "GL_LINE_LOOP",
+            "GL_LINE_STRIP",
+            "GL_TRIANGLES",
+            "GL_TRIANGLE_STRIP",
+            "GL_TRIANGLE_FAN",
         ];
         match (function, value) {
-            ("glBegin" | "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex", mode) => {
-                PRIMITIVES.get(mode as usize).copied()
-            }
+            (
+                "glBegin" | "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex",
+                mode,
+            ) => PRIMITIVES.get(mode as usize).copied(),
             (name, 0) if name.contains("Blend") || name.contains("StencilOp") => Some("GL_ZERO"),
             (name, 1) if name.contains("Blend") => Some("GL_ONE"),
             (name, 0) if name.contains("Buffer") => Some("GL_NONE"),

@@ -29,7 +29,16 @@ const WIDTH: usize = 116;
 
 /// Writes a program.
 pub fn write(calls: &[Recorded], heading: &Heading) -> String {
-    let mut writer = Writer { names: Names::new(), variables: BTreeMap::new(), counts: BTreeMap::new(), enums: BTreeSet::new(), data: Text::default(), data_count: 0, main: Text::default(), group: "" };
+    let mut writer = Writer {
+        names: Names::new(),
+        variables: BTreeMap::new(),
+        counts: BTreeMap::new(),
+        enums: BTreeSet::new(),
+        data: Text::default(),
+        data_count: 0,
+        main: Text::default(),
+        group: "",
+    };
     for call in calls {
         writer.call(call);
     }
@@ -57,7 +66,9 @@ pub fn write(calls: &[Recorded], heading: &Heading) -> String {
     for line in &heading.says {
         out.line(&format!("    puts({});", literals(line, "").trim_end_matches("\\n\"").to_owned() + "\""));
     }
-    out.line("    printf(\"driver: %s, %s\\n\", (const char *)glGetString(0x1F01), (const char *)glGetString(0x1F02));");
+    out.line(
+        "    printf(\"driver: %s, %s\\n\", (const char *)glGetString(0x1F01), (const char *)glGetString(0x1F02));",
+    );
     out.0.push_str(&writer.main.0);
     out.0.push_str(&heading.judge);
     out.line("}");
@@ -86,7 +97,8 @@ fn pointer(name: &str) -> String {
         "Out" => "void *",
         _ => "const void *",
     };
-    let all: Vec<String> = parameters.iter().map(|[parameter, kind]| format!("{}{parameter}", c_type(parameter, kind))).collect();
+    let all: Vec<String> =
+        parameters.iter().map(|[parameter, kind]| format!("{}{parameter}", c_type(parameter, kind))).collect();
     let result = match result {
         "" => "void",
         "i32" => "GLint",
@@ -124,7 +136,9 @@ impl Writer {
         let arguments: Vec<String> = (0..call.arguments.len()).map(|index| self.argument(call, index)).collect();
         let arguments = arguments.join(", ");
         match (call.name, made.first()) {
-            ("glGetUniformLocation", Some(name)) => self.main.call(&format!("GLint {name} = {}({arguments})", call.name)),
+            ("glGetUniformLocation", Some(name)) => {
+                self.main.call(&format!("GLint {name} = {}({arguments})", call.name))
+            }
             ("glCreateShader" | "glCreateProgram", Some(name)) => {
                 self.main.call(&format!("GLuint {name} = {}({arguments})", call.name));
             }
@@ -136,7 +150,10 @@ impl Writer {
                 self.main.call(&format!("GLuint answer[1] = {{{}({arguments})}}", call.name));
             }
             _ if call.read.is_some() => {
-                let bytes = call.arguments.iter().find_map(|argument| if let Argument::Out(bytes) = argument { Some(*bytes) } else { None });
+                let bytes = call
+                    .arguments
+                    .iter()
+                    .find_map(|argument| if let Argument::Out(bytes) = argument { Some(*bytes) } else { None });
                 self.main.call(&format!("static GLubyte answer[{}]", bytes.unwrap_or(8)));
                 self.main.call(&format!("{}({arguments})", call.name));
             }
@@ -156,9 +173,13 @@ impl Writer {
     }
 
     fn argument(&mut self, call: &Recorded, index: usize) -> String {
-        let parameter = functions::signature(call.name).and_then(|(parameters, _)| parameters.get(index)).map_or("", |[name, _]| name);
+        let parameter = functions::signature(call.name)
+            .and_then(|(parameters, _)| parameters.get(index))
+            .map_or("", |[name, _]| name);
         match &call.arguments[index] {
-            Argument::Enum(glow::TEXTURE0..=0x84DF) if call.name == "glActiveTexture" || call.name == "glMultiTexCoord4fv" => {
+            Argument::Enum(glow::TEXTURE0..=0x84DF)
+                if call.name == "glActiveTexture" || call.name == "glMultiTexCoord4fv" =>
+            {
                 self.enums.insert("GL_TEXTURE0");
                 format!("GL_TEXTURE0 + {}", call.u(index) - glow::TEXTURE0)
             }
@@ -213,7 +234,13 @@ impl Writer {
             return format!("(const {c_type}[]){{{}}}", all.join(", "));
         }
         self.data_count += 1;
-        let what = if call.name.contains("Buffer") { "vertices" } else if call.name.contains("Tex") { "texels" } else { "values" };
+        let what = if call.name.contains("Buffer") {
+            "vertices"
+        } else if call.name.contains("Tex") {
+            "texels"
+        } else {
+            "values"
+        };
         let name = format!("{what}_{}", self.data_count);
         let zeros = numbers.iter().filter(|number| number.to_bits() == 0).count();
         let words: Vec<String> = if 2 * zeros > numbers.len() {
@@ -248,7 +275,9 @@ fn group(function: &str) -> &'static str {
         "glReadPixels" | "glGetError" | "glGetTexGendv" | "glCheckFramebufferStatus" => "What is read and judged",
         "glBlitFramebuffer" => "Copy",
         _ if has("Draw") && !has("DrawBuffer") => "Draw",
-        "glBegin" | "glEnd" | "glVertex4fv" | "glTexCoord4fv" | "glMultiTexCoord4fv" | "glColor4fv" | "glNormal3fv" => "Draw",
+        "glBegin" | "glEnd" | "glVertex4fv" | "glTexCoord4fv" | "glMultiTexCoord4fv" | "glColor4fv" | "glNormal3fv" => {
+            "Draw"
+        }
         _ if has("Uniform") => "Uniforms",
         _ if has("Shader") || has("Program") || has("AttribLocation") => "Program",
         _ if has("Framebuffer") || has("Renderbuffer") || has("DrawBuffer") || has("ReadBuffer") => "Framebuffer",

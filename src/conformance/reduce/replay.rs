@@ -90,7 +90,10 @@ fn make(context: &dyn Context, call: &Recorded, names: &mut HashMap<(Kind, usize
     for (index, (kind, number)) in call.made.iter().enumerate() {
         let name = match is_made_by_result {
             true => result.number() as i64 as u32,
-            false => bytes.get(4 * index..4 * index + 4).and_then(|four| four.first_chunk()).map_or(0, |four| u32::from_ne_bytes(*four)),
+            false => bytes
+                .get(4 * index..4 * index + 4)
+                .and_then(|four| four.first_chunk())
+                .map_or(0, |four| u32::from_ne_bytes(*four)),
         };
         names.insert((*kind, *number), name);
     }

@@ -73,7 +73,8 @@ fn fewer<T: Clone>(items: &mut Vec<T>, holds: &mut impl FnMut(&[T]) -> bool) {
 pub fn data(trials: &mut Trials, calls: Vec<Recorded>, judgement: &Judgement) -> Vec<Recorded> {
     let Some(pixel) = pixel_of(&calls, judgement) else { return calls };
     // Where a picture is read again in a draw or a copy, other pixels matter.
-    let is_copy = |call: &Recorded| call.name.contains("Copy") || call.name.contains("Blit") || call.name == "glGenerateMipmap";
+    let is_copy =
+        |call: &Recorded| call.name.contains("Copy") || call.name.contains("Blit") || call.name == "glGenerateMipmap";
     if calls.iter().any(is_copy) || is_layered(&calls) {
         return calls;
     }
@@ -220,18 +221,16 @@ fn triangles(trials: &mut Trials, mut calls: Vec<Recorded>, pixel: [i32; 2]) -> 
 fn misses(floats: &[f64], [x, y]: [i32; 2], [left, bottom, width, height]: [f64; 4]) -> bool {
     let corner = |index: usize| [floats[index * VERTEX], floats[index * VERTEX + 1], floats[index * VERTEX + 3]];
     let [a, b, c] = [corner(0), corner(1), corner(2)];
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
+    let cross =
+        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let whole = dot(cross(a, b), c);
     if whole == 0.0 || !whole.is_finite() {
         return false;
     }
     let middle = [f64::from(x) + 0.5 - left, f64::from(y) + 0.5 - bottom];
-    let square = [[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]].map(|[dx, dy]| {
-        [2.0 * (middle[0] + dx) / width - 1.0, 2.0 * (middle[1] + dy) / height - 1.0, 1.0]
-    });
+    let square = [[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]]
+        .map(|[dx, dy]| [2.0 * (middle[0] + dx) / width - 1.0, 2.0 * (middle[1] + dy) / height - 1.0, 1.0]);
     [cross(b, c), cross(c, a), cross(a, b)]
         .iter()
         .any(|edge| square.iter().all(|point| dot(*edge, *point) / whole < 0.0))
@@ -249,12 +248,15 @@ fn tables(trials: &mut Trials, mut calls: Vec<Recorded>, [x, y]: [i32; 2]) -> Ve
         }
         _ => true,
     });
-    let has_table = calls.iter().any(|call| matches!(call.arguments.get(2), Some(Argument::Text(source)) if source.contains(OWN)));
+    let has_table =
+        calls.iter().any(|call| matches!(call.arguments.get(2), Some(Argument::Text(source)) if source.contains(OWN)));
     if !reads_own || !has_table {
         return calls;
     }
     // The table is the last texture that is given: one texel a pixel, of four floats.
-    let table = calls.iter().rposition(|call| call.name == "glTexImage2D" && call.u(6) == glow::RGBA && call.u(7) == glow::FLOAT);
+    let table = calls
+        .iter()
+        .rposition(|call| call.name == "glTexImage2D" && call.u(6) == glow::RGBA && call.u(7) == glow::FLOAT);
     let Some(table) = table else { return calls };
     let width = calls[table].i(3);
     let mut changed = calls.clone();

@@ -87,7 +87,13 @@ fn default(key: &str) -> Option<&'static str> {
     let last = tail.rsplit(':').next().unwrap_or("");
     Some(match head {
         "unitcap" | "uni" => "0",
-        "cap" => if matches!(tail, "0BD0" | "809D") { "1" } else { "0" },
+        "cap" => {
+            if matches!(tail, "0BD0" | "809D") {
+                "1"
+            } else {
+                "0"
+            }
+        }
         "glDepthFunc" => "513",
         "glDepthMask" | "ClearDepth" | "glLineWidth" | "glPointSize" => "1",
         "DepthRange" => "0,1",
@@ -103,8 +109,20 @@ fn default(key: &str) -> Option<&'static str> {
         "glColorMask" | "current" if head == "glColorMask" || tail == "color" => "1,1,1,1",
         "current" if tail != "normal" => "0,0,0,1",
         "ActiveTexture" => "33984",
-        "glPixelStorei" => if matches!(last, "0CF5" | "0D05") { "4" } else { "0" },
-        "glPixelTransferf" => if last == "0D1E" { "1" } else { "0" },
+        "glPixelStorei" => {
+            if matches!(last, "0CF5" | "0D05") {
+                "4"
+            } else {
+                "0"
+            }
+        }
+        "glPixelTransferf" => {
+            if last == "0D1E" {
+                "1"
+            } else {
+                "0"
+            }
+        }
         "tex" | "sampler" | "Program" | "VertexArray" | "ArrayBuffer" | "ElementBuffer" | "DrawFramebuffer"
         | "ReadFramebuffer" | "Renderbuffer" | "attron" => "0",
         "glAlphaFunc" => "519,0",
