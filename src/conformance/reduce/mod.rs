@@ -8,7 +8,11 @@
 //! 4. They are written as C (`program.rs`).
 
 mod ask;
+mod bounds;
+mod draws;
 mod effects;
+mod fixed;
+mod images;
 mod log;
 mod meaning;
 mod names;
