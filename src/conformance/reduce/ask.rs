@@ -263,7 +263,7 @@ impl Asked<'_> {
         None
     }
 
-    /// Of a read with few values: one of them is wrong where another would be right.
+    /// Looks through a read with few values: one of them is wrong where another would be right.
     fn by_values(&mut self, base: Answer, read: usize) -> Option<Judgement> {
         let none = Changes::new();
         let Read { layout, bytes, .. } = self.reads[read].clone();

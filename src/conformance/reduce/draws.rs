@@ -1,4 +1,4 @@
-//! What a draw reads and writes: the state that is in force, the textures that its shaders sample, its vertices.
+//! Effects of a draw: it reads the state that is in force, the textures that its shaders sample, its vertices.
 
 use super::effects::Tracker;
 use super::state::{Effects, Key};

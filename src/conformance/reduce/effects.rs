@@ -1,4 +1,4 @@
-//! What each call of GL writes and reads, by the specification: of the state, of objects, of pixels. Where that is in doubt it
+//! Effects of each call of GL by the specification: what it writes and reads of the state, of objects, of pixels. Where in doubt it
 //! reads too much rather than too little: then a call stays that might have gone.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,4 @@
-//! What calls set of the fixed-function pipeline's state.
+//! Effects of calls on the fixed-function pipeline's state.
 
 use super::effects::Tracker;
 use super::log::Recorded;

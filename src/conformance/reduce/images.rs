@@ -1,4 +1,4 @@
-//! What calls read and write of images and framebuffers: definitions, attachments, clears, copies, read-backs.
+//! Effects of calls on images and framebuffers: definitions, attachments, clears, copies, read-backs.
 
 use super::effects::{Attachment, Tracker, made, object};
 use super::log::{Argument, Recorded};

@@ -112,7 +112,7 @@ pub struct Playback {
     pub next: usize,
 }
 
-/// What is done with calls.
+/// Treatment of calls.
 #[derive(Default)]
 pub enum Mode {
     #[default]

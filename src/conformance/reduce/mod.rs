@@ -67,7 +67,7 @@ pub struct Reduced {
     pub calls: [usize; 2],
     /// How often a scene was drawn again.
     pub replays: usize,
-    /// What is wrong, in a line.
+    /// The wrong number and the right one, in a line.
     pub says: String,
     scene: Vec<Recorded>,
     judgement: Judgement,

@@ -10,7 +10,7 @@ use crate::c_text::{Text, boolean, comment, float, literals};
 use crate::conformance::layer::functions;
 use crate::conformance::layer::value::Value;
 
-/// What the program says of itself and of its result.
+/// Texts of a program about itself and its result.
 pub struct Heading {
     /// Lines of the comment at the top.
     pub lines: Vec<String>,

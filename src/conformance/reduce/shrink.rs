@@ -138,7 +138,7 @@ fn tidied(trials: &mut Trials, calls: Vec<Recorded>) -> Vec<Recorded> {
     if is_enough { fewer } else { calls }
 }
 
-/// What a draw of triangles has: its call, that of its vertices, its viewport.
+/// A draw of triangles: its call, that of its vertices, its viewport.
 struct Triangles {
     draw: usize,
     upload: usize,

@@ -7,11 +7,11 @@ use super::log::Recorded;
 /// A part of GL's state, or of an object: what is written, read and overwritten.
 pub type Key = String;
 
-/// What a call does to the state.
+/// Effects of a call on the state.
 #[derive(Clone, Debug, Default)]
 pub struct Effects {
     pub writes: Vec<Key>,
-    /// What is written no longer depends on what was there.
+    /// The written no longer depends on what was there.
     pub kills: bool,
     pub reads: Vec<Key>,
     /// Values that are set, by key.
