@@ -1,5 +1,5 @@
-//! Effects of each call of GL by the specification: what it writes and reads of the state, of objects, of pixels. Where in doubt it
-//! reads too much rather than too little: then a call stays that might have gone.
+//! Effects of each call of GL by the specification: what it writes and reads of the state, of objects, of pixels. Where that
+//! is in doubt it reads too much rather than too little: then a call stays that might have gone.
 
 use std::collections::{BTreeMap, BTreeSet};
 

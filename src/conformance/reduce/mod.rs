@@ -38,23 +38,31 @@ use crate::context::{self, Context, ContextInfo};
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
 pub enum ReduceError {
+    /// The rule does not fail.
     #[error("{rule} passes on this driver: nothing to reduce")]
     Passes { rule: &'static str },
+    /// The context lacks what the rule is about.
     #[error("{rule} cannot be tested here: nothing to reduce")]
     Untestable { rule: &'static str },
+    /// The rule crashes, hangs or loses the context.
     #[error("{rule} ends the process ({how}): --reduce cannot reduce a crash, a hang or a lost context")]
     Ends { rule: &'static str, how: String },
+    /// No number that, changed alone, makes the rule content; or its bound depends on another answer.
     #[error(
         "{rule}: \"{finding}\" fails, but not by one number of one answer, with a bound that no other answer of the driver \
          moves: --reduce cannot say that in a program"
     )]
     NoNumber { rule: &'static str, finding: String },
+    /// The driver does not err when the calls are made again.
     #[error("{rule}: \"{finding}\" fails, but not when the same calls are made again in a new context")]
     NotAgain { rule: &'static str, finding: String },
+    /// A call with data of unknown size.
     #[error("{rule} calls {function}, whose data --reduce cannot note")]
     Unknown { rule: &'static str, function: &'static str },
+    /// No context for a replay.
     #[error(transparent)]
     Context(#[from] context::Error),
+    /// A driver without the objects that the bench needs.
     #[error(transparent)]
     Bench(#[from] bench::Error),
 }
