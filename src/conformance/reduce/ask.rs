@@ -169,7 +169,7 @@ impl Asked<'_> {
     }
 
     /// Values of the read and of others like it, and the ends of the range.
-    fn candidates(&self, read: usize, element: Option<usize>) -> Vec<Vec<f64>> {
+    pub(super) fn candidates(&self, read: usize, element: Option<usize>) -> Vec<Vec<f64>> {
         let layout = self.reads[read].layout;
         let one = match layout.scalar {
             Scalar::U8 => vec![255.0, 1.0],

@@ -28,6 +28,16 @@ impl Asked<'_> {
             ranges.push(if low <= least && high >= most { None } else { Some([low, high]) });
         }
         let judgement = Judgement { read, layout, element, got: got.clone(), right: ranges };
+        // Another number that is right, too, as 0 where a pixel need not be drawn: then the bound is not the rule's.
+        let mut others = self.candidates(read, Some(element));
+        if layout.scalar == Scalar::U8 {
+            others.extend((0..=255_u8).step_by(3).map(|value| vec![f64::from(value); layout.components]));
+        }
+        for other in others {
+            if !judgement.holds(&other) && self.ask_at(context, read, &[element], &other).wrong < base.wrong {
+                return None;
+            }
+        }
         let is_known = self.left > 0 && !judgement.holds(&got) && self.is_alone(context, read, element, &right);
         is_known.then_some(judgement)
     }
