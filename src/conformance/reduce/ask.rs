@@ -7,8 +7,7 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use super::log::{Mode, Playback, Read};
-use super::meaning::Scalar;
-use super::pixels::Layout;
+use super::pixels::{Layout, Scalar};
 use crate::conformance::{DriverUnderTest, Finding, Findings, Rule};
 
 /// A wrong number of the driver's, and what is right.
@@ -68,7 +67,7 @@ const CANDIDATES: usize = 12;
 /// A float that no rule wants.
 pub(super) const GARBAGE: f64 = -12345.678;
 
-pub(super) type Changes = HashMap<usize, Vec<u8>>;
+pub(super) type OtherAnswers = HashMap<usize, Vec<u8>>;
 
 /// Runs a rule; the findings of it.
 pub fn findings_of(rule: &Rule, subject: &DriverUnderTest) -> Vec<Finding> {
@@ -80,7 +79,7 @@ pub fn findings_of(rule: &Rule, subject: &DriverUnderTest) -> Vec<Finding> {
 }
 
 impl Asked<'_> {
-    pub(super) fn ask(&mut self, changed: Changes) -> Answer {
+    pub(super) fn ask(&mut self, changed: OtherAnswers) -> Answer {
         if self.left == 0 || Instant::now() > self.until {
             self.left = 0;
             return Answer { wrong: f64::MAX, first: None };
@@ -98,7 +97,7 @@ impl Asked<'_> {
     }
 
     /// Asks with some elements of a read at one value.
-    pub(super) fn ask_at(&mut self, base: &Changes, read: usize, elements: &[usize], value: &[f64]) -> Answer {
+    pub(super) fn ask_at(&mut self, base: &OtherAnswers, read: usize, elements: &[usize], value: &[f64]) -> Answer {
         let mut changed = base.clone();
         let bytes = changed.entry(read).or_insert_with(|| self.reads[read].bytes.clone());
         let layout = self.reads[read].layout;
@@ -108,7 +107,7 @@ impl Asked<'_> {
 
     /// Finds the number that is wrong; `None`: no single number of one answer is.
     pub fn judge(&mut self) -> Option<Judgement> {
-        let none = Changes::new();
+        let none = OtherAnswers::new();
         let base = self.ask(none.clone());
         if base.wrong == 0.0 {
             return None;
@@ -141,11 +140,11 @@ impl Asked<'_> {
         let read = pictures[last_true(pictures.len(), |index| changed_from(self, index))?];
         let count = self.reads[read].layout.count();
         let element = last_true(count, |element| {
-            let changes = Changes::from([(read, self.garbled(read, element))]);
+            let changes = OtherAnswers::from([(read, self.garbled(read, element))]);
             self.ask(changes).first != base.first
         })?;
         let right = self.search(base, read, element)?;
-        self.ranges(&Changes::new(), base, read, element, right)
+        self.ranges(&OtherAnswers::new(), base, read, element, right)
     }
 
     /// A read whose elements from `first` on are garbage.
@@ -202,7 +201,7 @@ impl Asked<'_> {
 
     /// The right value of an element by trying: values that are about, then each component by its distance.
     fn search(&mut self, base: Answer, read: usize, element: usize) -> Option<Vec<f64>> {
-        let none = Changes::new();
+        let none = OtherAnswers::new();
         let layout = self.reads[read].layout;
         let got = layout.get(&self.reads[read].bytes, element);
         let mut best = got.clone();
@@ -265,7 +264,7 @@ impl Asked<'_> {
 
     /// Looks through a read with few values: one of them is wrong where another would be right.
     fn by_values(&mut self, base: Answer, read: usize) -> Option<Judgement> {
-        let none = Changes::new();
+        let none = OtherAnswers::new();
         let Read { layout, bytes, .. } = self.reads[read].clone();
         let mut places: BTreeMap<Vec<u64>, Vec<usize>> = BTreeMap::new();
         for element in 0..layout.count() {
@@ -307,7 +306,7 @@ impl Asked<'_> {
                     for element in elements.iter().copied().take(64) {
                         let mut changed = others.clone();
                         layout.put(&mut changed, element, &got);
-                        let context = Changes::from([(read, changed)]);
+                        let context = OtherAnswers::from([(read, changed)]);
                         let answer = self.ask(context.clone());
                         if answer.wrong >= base.wrong {
                             return self.ranges(&context, answer, read, element, right.clone());

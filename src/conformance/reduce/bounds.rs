@@ -1,14 +1,14 @@
 //! How far a right number may be from the one that was found, and whether it stands by itself.
 
-use super::ask::{Answer, Asked, Changes, GARBAGE, Judgement};
+use super::ask::{Answer, Asked, GARBAGE, Judgement, OtherAnswers};
 use super::log::Read;
-use super::meaning::Scalar;
+use super::pixels::Scalar;
 
 impl Asked<'_> {
     /// How far each component may be from a right value.
     pub(super) fn ranges(
         &mut self,
-        context: &Changes,
+        context: &OtherAnswers,
         base: Answer,
         read: usize,
         element: usize,
@@ -44,7 +44,7 @@ impl Asked<'_> {
 
     /// Tests whether what is right does not depend on another of the driver's answers: else either of the two may be the wrong
     /// one. It does where the wrong number is right as soon as all others change as it should have changed itself.
-    pub(super) fn is_alone(&mut self, context: &Changes, read: usize, element: usize, right: &[f64]) -> bool {
+    pub(super) fn is_alone(&mut self, context: &OtherAnswers, read: usize, element: usize, right: &[f64]) -> bool {
         let is_picture = |other: &usize| {
             let Read { function, layout, .. } = &self.reads[*other];
             *other != read && !matches!(*function, "glGetError" | "glCheckFramebufferStatus") && layout.count() > 0

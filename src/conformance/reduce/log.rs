@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use std::ffi::CStr;
 use std::rc::Rc;
 
-use super::meaning::{Kind, Meaning, Scalar, data_of, meaning, pixels_of};
-use super::pixels::Layout;
+use super::meaning::{Kind, Meaning, data_of, meaning, pixels_of};
+use super::pixels::{Layout, Scalar};
 use crate::conformance::layer::call::{Call, Layer};
 use crate::conformance::layer::functions;
 use crate::conformance::layer::value::Value;

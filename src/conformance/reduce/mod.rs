@@ -244,10 +244,10 @@ fn judge(judgement: &Judgement, place: &str) -> String {
     let count = judgement.right.len();
     let c_type = layout.scalar.c_type();
     let component = match layout.scalar {
-        meaning::Scalar::Depth24Stencil8 => "        double got = i == 0 ? numbers[0] >> 8 : numbers[0] & 0xFF;\n",
+        pixels::Scalar::Depth24Stencil8 => "        double got = i == 0 ? numbers[0] >> 8 : numbers[0] & 0xFF;\n",
         _ => "        double got = (double)numbers[i];\n",
     };
-    let words = if layout.scalar == meaning::Scalar::Depth24Stencil8 { 1 } else { count };
+    let words = if layout.scalar == pixels::Scalar::Depth24Stencil8 { 1 } else { count };
     format!(
         "
     GLenum error = glGetError();

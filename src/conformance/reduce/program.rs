@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use super::log::{Argument, Data, Recorded};
-use super::meaning::{Kind, Meaning, Scalar, meaning};
+use super::meaning::{Kind, Meaning, meaning};
 use super::names::Names;
+use super::pixels::Scalar;
 use crate::c_text::{Text, boolean, comment, float, literals};
 use crate::conformance::layer::functions;
 use crate::conformance::layer::value::Value;

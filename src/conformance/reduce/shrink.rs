@@ -4,7 +4,7 @@
 use super::ask::Judgement;
 use super::effects::Tracker;
 use super::log::{Argument, Recorded};
-use super::meaning::Scalar;
+use super::pixels::Scalar;
 use super::slice::{depended_on, needed};
 use crate::conformance::layer::value::Value;
 

@@ -29,7 +29,7 @@ impl Effects {
         Self { writes, kills: true, reads, sets: Vec::new() }
     }
 
-    /// Changes what is there.
+    /// OtherAnswers what is there.
     pub fn change(writes: Vec<Key>, reads: Vec<Key>) -> Self {
         Self { writes, kills: false, reads, sets: Vec::new() }
     }
