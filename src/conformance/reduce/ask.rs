@@ -122,10 +122,9 @@ impl Asked<'_> {
         for read in pictures.into_iter().chain(states) {
             let all: Vec<usize> = (0..self.reads[read].layout.count()).collect();
             let garbage = self.garbage(read);
-            if self.ask_at(&none, read, &all, &garbage) != base || base.wrong == 1.0 {
-                if let Some(found) = self.by_values(base, read) {
-                    return Some(found);
-                }
+            let matters = base.wrong == 1.0 || self.ask_at(&none, read, &all, &garbage) != base;
+            if let Some(found) = matters.then(|| self.by_values(base, read)).flatten() {
+                return Some(found);
             }
         }
         None

@@ -4,6 +4,9 @@ use super::ask::{Answer, Asked, GARBAGE, Judgement, OtherAnswers};
 use super::log::Read;
 use super::pixels::Scalar;
 
+/// Another number for one that is read, from the wrong number and the right one.
+type Move = fn(f64, f64, f64) -> f64;
+
 impl Asked<'_> {
     /// How far each component may be from a right value.
     pub(super) fn ranges(
@@ -58,7 +61,7 @@ impl Asked<'_> {
         // What others would have to be for the wrong number to be right: garbage, moved as far, as many times as much, the same.
         // Last garbage in those alone that are of the same kind, which a rule may compare with: the rest, such as depths
         // beside colours, may have to be right, too.
-        let moves: [(bool, fn(f64, f64, f64) -> f64); 5] = [
+        let moves: [(bool, Move); 5] = [
             (true, |_, _, _| GARBAGE),
             (true, |other, got, right| other + got - right),
             (true, |other, got, right| if right == 0.0 { other } else { other * got / right }),

@@ -45,7 +45,7 @@ pub fn write(calls: &[Recorded], heading: &Heading) -> String {
     }
     let mut out = Text::default();
     out.line("/*");
-    heading.lines.iter().for_each(|line| out.line(&format!("   {}", comment(line)).trim_end().to_owned()));
+    heading.lines.iter().for_each(|line| out.line(format!("   {}", comment(line)).trim_end()));
     out.line("*/\n");
     out.line(TYPES);
     for name in &writer.enums {
