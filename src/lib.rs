@@ -76,6 +76,7 @@
 #![deny(unsafe_code)]
 
 // Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
+mod c_text;
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]

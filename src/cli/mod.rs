@@ -119,6 +119,10 @@ pub enum Error {
     WriteWaivers(#[from] toml::ser::Error),
     #[error(transparent)]
     Child(#[from] check::ChildError),
+    #[error(transparent)]
+    Reduce(#[from] crate::conformance::reduce::ReduceError),
+    #[error("--reduce {pattern}: one rule is wanted, and that is {}", rules.join(", "))]
+    ReduceOne { pattern: String, rules: Vec<&'static str> },
     #[error("JUnit: {0}")]
     JUnit(#[from] quick_junit::SerializeError),
     #[error("{path}: cannot be written: {error}", path = .path.display())]

@@ -63,12 +63,15 @@ pub struct Finding {
     /// The reason why it is waived.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waiver: Option<String>,
+    /// The first of its values that is wrong: how many came before it, and the bits of its distance.
+    #[serde(skip)]
+    pub first_wrong: Option<(usize, u64)>,
 }
 
 impl Finding {
     /// A finding that nothing waives.
     pub fn new(what: impl Into<String>, verdict: RuleVerdict, measured: impl Into<String>) -> Self {
-        Self { what: what.into(), verdict, measured: measured.into(), waiver: None }
+        Self { what: what.into(), verdict, measured: measured.into(), waiver: None, first_wrong: None }
     }
 
     /// The check and its measurement, as one line.
@@ -112,7 +115,7 @@ impl Findings {
 
     /// By the tally's worst grade; `unit` names what its worst distance is counted in.
     pub fn tally(&mut self, what: impl Into<String>, tally: GradeTally, unit: &str) {
-        let GradeTally { good, allowed, wrong, worst } = tally;
+        let GradeTally { good, allowed, wrong, worst, first_wrong } = tally;
         let count = tally.count();
         let off =
             if worst > 0.0 && !unit.is_empty() { format!(", at most {worst:.3} {unit} off") } else { String::new() };
@@ -123,6 +126,9 @@ impl Findings {
             () => (RuleVerdict::Pass, format!("all {good} good{off}")),
         };
         self.add(what, verdict, measured);
+        if let Some(finding) = self.list.last_mut() {
+            finding.first_wrong = first_wrong.map(|(before, distance)| (before, distance.to_bits()));
+        }
     }
 
     /// By one grade.

@@ -39,7 +39,13 @@ fn context(renderer: &str) -> ContextInfo {
 
 /// GL-O1 with one finding.
 fn outcome(what: &str, verdict: RuleVerdict, measured: &str) -> RuleOutcome {
-    let findings = vec![Finding { what: what.to_owned(), verdict, measured: measured.to_owned(), waiver: None }];
+    let findings = vec![Finding {
+        what: what.to_owned(),
+        verdict,
+        measured: measured.to_owned(),
+        waiver: None,
+        first_wrong: None,
+    }];
     RuleOutcome {
         id: "GL-O1",
         title: "",

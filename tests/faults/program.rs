@@ -2,10 +2,12 @@
 //!
 //! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [NAME...]`: all rules for each fault whose name or
 //! whose broken functions contain one of the names, or for all; `--holes`: only those that no rule sees by the table of
-//! `ci/drivers.md`; `--write`: puts the results into that table; `--pictures`: draws the scenes too. 1: a fault changes a picture
-//! and no rule.
+//! `ci/drivers.md`; `--write`: puts the results into that table; `--pictures`: draws the scenes too; `--reduce`: no rules, but
+//! programs as by `glumbra check --reduce` for each fault and each rule that sees it by the table, held against the broken
+//! driver and the sound one. 1: a fault changes a picture and no rule, or a program is wrong.
 
 mod judge;
+mod reduced;
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -44,6 +46,9 @@ fn main() -> ExitCode {
         names.is_empty() || names.iter().any(meant)
     };
     let chosen: Vec<_> = faults::all().filter(|fault| named(fault) && (!has("--holes") || is_hole(fault))).collect();
+    if has("--reduce") {
+        return if reduced::all(&chosen, &known) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
     let rules: Vec<_> = TABLE.iter().collect();
     println!("a sound driver: {:?} fail", red(None, &rules, false));
     let scenes = if has("--pictures") { sound() } else { Vec::new() };

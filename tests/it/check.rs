@@ -3,6 +3,8 @@
 
 #[cfg(unix)]
 mod broken_drivers;
+#[cfg(unix)]
+mod reduce;
 mod runs;
 
 use std::path::Path;

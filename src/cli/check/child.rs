@@ -48,7 +48,7 @@ pub fn steps(
     rules: &[&'static Rule],
     mut tell: impl FnMut(Event) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let opened = open(arguments);
+    let opened = open(arguments).map_err(Error::from);
     let subject = opened.and_then(|context| Ok((DriverUnderTest::new(context.as_ref(), None)?, context)));
     let (subject, context) = match subject {
         Ok(opened) => opened,
@@ -71,11 +71,15 @@ pub fn steps(
 }
 
 /// A compatibility context, or a core one where there is none.
-fn open(arguments: &CheckArgs) -> Result<Rc<dyn Context>, Error> {
+///
+/// # Errors
+///
+/// No context.
+pub fn open(arguments: &CheckArgs) -> Result<Rc<dyn Context>, context::Error> {
     if !arguments.core
         && let Ok(context) = context::open(&arguments.context.request(Profile::Compatibility))
     {
         return Ok(context);
     }
-    Ok(context::open(&arguments.context.request(Profile::Core33))?)
+    context::open(&arguments.context.request(Profile::Core33))
 }

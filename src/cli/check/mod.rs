@@ -3,6 +3,7 @@
 mod child;
 mod children;
 mod files;
+mod reduce;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -64,6 +65,15 @@ pub struct CheckArgs {
         value_parser = clap::value_parser!(u32).range(1..=86_400))]
     timeout: u32,
 
+    /// Writes the smallest program in C that shows the failure of this rule, in place of a run
+    #[arg(long, value_name = "RULE", help_heading = "Bug report",
+        conflicts_with_all = ["filter", "list", "json", "junit", "baseline", "waivers", "write_waivers", "repeat", "isolate", "here"])]
+    reduce: Option<String>,
+
+    /// File of --reduce, in place of RULE.c in this folder; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Bug report", requires = "reduce")]
+    output: Option<PathBuf>,
+
     /// Runs all N times, keeps the worst of each check, and names checks that do not answer alike
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Processes",
         value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -83,6 +93,15 @@ pub struct CheckArgs {
 
     #[command(flatten)]
     context: ContextArgs,
+}
+
+impl CheckArgs {
+    /// Words of the command line that a child process is given.
+    fn for_child(&self) -> Vec<String> {
+        let mut words = self.context.to_words();
+        words.extend(self.core.then(|| "--core".to_owned()));
+        words
+    }
 }
 
 const HELP: &str = "\
@@ -118,6 +137,13 @@ A waiver names a deviation that is known, by driver, versions, rule and check:
   reason = \"f32 has 24 bits\"
 One that no longer applies is a failure. --write-waivers writes such a file.
 
+--reduce writes a program for a driver's developers: the calls of GL that the failure needs, no more,
+and what the specification asks of the number that they read. It needs libEGL alone. Calls that by the
+specification cannot matter are left out if the driver errs without them, too; each trial draws the
+scene in a new context, 250 times at most. A failure that is no single number (two pictures that must be
+alike, a crash) is refused. cc FILE.c -o reduced -ldl; exit status of ./reduced: 1 the driver has the
+fault, 0 it has not, 2 nothing can be said.
+
 Exit status: 0 nothing fails, 1 a rule fails (with --baseline: one that did not fail before), 2 nothing
 could be run.
 
@@ -127,6 +153,7 @@ Examples:
   glumbra check --junit out/check.xml --json out/check.json
   glumbra check --json out/now.json --baseline out/before.json    what have I broken, what mended?
   glumbra check --filter GL-F3 --repeat 20                        does it always answer alike?
+  glumbra check --reduce GL-R1 -o r1.c && cc r1.c -o r1 -ldl && ./r1
   gdb --args glumbra check --here --filter GL-R1
   GALLIUM_DRIVER=softpipe glumbra check --context egl";
 
@@ -135,10 +162,11 @@ const WIDTH: usize = 80;
 
 /// Checks, prints, writes.
 pub fn run(arguments: &CheckArgs) -> ExitCode {
-    let result = match () {
-        () if !arguments.child.is_empty() => child::run(arguments, &arguments.child).map(|()| None),
-        () if arguments.list => list(arguments).map(|()| None),
-        () => check(arguments).map(Some),
+    let result = match &arguments.reduce {
+        Some(rule) => reduce::run(arguments, rule).map(|()| None),
+        None if !arguments.child.is_empty() => child::run(arguments, &arguments.child).map(|()| None),
+        None if arguments.list => list(arguments).map(|()| None),
+        None => check(arguments).map(Some),
     };
     match result {
         Ok(None) => ExitCode::SUCCESS,
@@ -213,8 +241,7 @@ impl Run<'_> {
                 Ok(())
             });
         }
-        let mut for_child = arguments.context.to_words();
-        for_child.extend(arguments.core.then(|| "--core".to_owned()));
+        let for_child = arguments.for_child();
         let limit = Duration::from_secs(arguments.timeout.into());
         Ok(children::run(&for_child, &rules, limit, arguments.isolate, &mut |heard| self.hear(heard))?)
     }

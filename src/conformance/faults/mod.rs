@@ -1,4 +1,4 @@
-//! Drivers that are broken on purpose, for tests: a layer over the GL function table in which one thing is wrong. Bench,
+//! Drivers that are broken on purpose, for tests: a [layer] over the GL function table in which one thing is wrong. Bench,
 //! device and fixed function draw through it as through a sound driver.
 //!
 //! A fault is data in the file of its kind, and [`all`] has them. To add one: a line in that file. A file of a new kind
@@ -32,13 +32,10 @@ mod apart_inputs;
 mod apart_shaders;
 mod beyond;
 mod blending;
-mod call;
 mod depth;
 mod fixed;
 mod framebuffers;
-mod functions;
 mod functions_of_glsl;
-mod groups;
 mod levels;
 mod lights;
 mod lookups;
@@ -50,19 +47,17 @@ mod shaders;
 mod stencil;
 mod text;
 mod textures;
-mod value;
 
-use std::ffi::{CStr, c_void};
 use std::rc::Rc;
 
-pub use call::{Act, Call, Hook};
+pub use super::layer::call::{Act, Call, Hook};
+pub use super::layer::value::Value;
 pub use text::{Source, Stage, words};
-pub use value::Value;
 
 use text::{after_main, anywhere, define, loops_once};
 
-use crate::context::{self, Context, LoadedContext};
-use call::Layer;
+use super::layer::{self, functions, groups};
+use crate::context::Context;
 
 /// One thing that a broken driver does wrong.
 #[derive(Clone, Copy)]
@@ -137,63 +132,16 @@ fn release(call: &mut Call) {
 
 /// A context whose driver has the fault. `inner` is current, and stays so.
 pub fn broken(inner: Rc<dyn Context>, fault: &Fault) -> Rc<dyn Context> {
-    let own = inner.clone();
-    let mut layer = Layer::new(inner.gl().clone(), move |name| own.address_of(name), functions::invoke_of);
-    match fault.wrong {
+    layer::over(inner, |layer| match fault.wrong {
         Wrong::Calls(hooks) => hooks.iter().for_each(|(functions, act)| layer.hook(functions, act)),
         Wrong::Text(change) => {
             layer.hook(&["glCreateShader"], text::note);
             layer.hook(&["glShaderSource"], move |call| text::rewrite(call, change));
         }
-    }
-    let layer = Rc::new(layer);
-    call::make_current(&layer);
-    let load = |name: &CStr| address(&layer, inner.as_ref(), name);
-    // SAFETY: the context is current; wrappers have the signatures of the functions that they stand for.
-    let gl = Rc::new(unsafe { glow::Context::from_loader_function_cstr(load) });
-    Rc::new(Broken { inner, layer, gl })
-}
-
-/// The wrapper of a function that the fault changes and the driver has, else the driver's.
-fn address(layer: &Layer, inner: &dyn Context, name: &CStr) -> *const c_void {
-    let driver = inner.address_of(name);
-    match name.to_str() {
-        Ok(name) if !driver.is_null() && layer.changes(name) => functions::wrapper(name).unwrap_or(driver),
-        _ => driver,
-    }
+    })
 }
 
 /// Functions that have a wrapper.
 pub fn functions() -> &'static [&'static str] {
     functions::NAMES
-}
-
-struct Broken {
-    inner: Rc<dyn Context>,
-    layer: Rc<Layer>,
-    gl: Rc<glow::Context>,
-}
-
-impl Context for Broken {
-    fn loaded(&self) -> &LoadedContext {
-        self.inner.loaded()
-    }
-
-    fn make_current(&self) -> Result<(), context::Error> {
-        self.inner.make_current()?;
-        call::make_current(&self.layer);
-        Ok(())
-    }
-
-    fn is_current(&self) -> bool {
-        self.inner.is_current() && call::is_current(&self.layer)
-    }
-
-    fn gl(&self) -> &Rc<glow::Context> {
-        &self.gl
-    }
-
-    fn address_of(&self, name: &CStr) -> *const c_void {
-        address(&self.layer, self.inner.as_ref(), name)
-    }
 }

@@ -4,8 +4,7 @@ use std::ffi::{CStr, c_char};
 
 use glow::HasContext;
 
-use super::call::Call;
-use super::value::Value;
+use super::{Call, Value};
 
 /// Stage of a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! GL-K13: exponents of highlights, up to the largest [GL 4.6 compatibility, 12.2.1.1].
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 
 use super::fixed;
 use crate::conformance::bench::lit::{GlLight, GlLighting, LitDraw};
@@ -39,7 +39,7 @@ pub fn exponents(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
                 lighting: &lighting,
                 scale: DVec3::ONE,
                 offset: DVec3::ZERO,
-                projection: DVec3::ONE,
+                projection: DMat4::IDENTITY,
                 positions: &positions,
                 normals: &[[0.0, 0.0, 1.0]; 3],
             };

@@ -35,10 +35,15 @@ pub struct GradeTally {
     pub allowed: usize,
     pub wrong: usize,
     pub worst: f64,
+    /// The first that is wrong: how many came before it, and its distance.
+    pub first_wrong: Option<(usize, f64)>,
 }
 
 impl GradeTally {
     pub fn add(&mut self, grade: Grade, distance: f64) {
+        if grade == Grade::Wrong && self.first_wrong.is_none() {
+            self.first_wrong = Some((self.count(), distance));
+        }
         match grade {
             Grade::Good => self.good += 1,
             Grade::Allowed => self.allowed += 1,

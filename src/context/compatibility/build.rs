@@ -1,7 +1,9 @@
-//! Cargo's build script: writes the binding of the fixed-function pipeline's entry points from Khronos's registry.
+//! Cargo's build script: writes, from Khronos's registry, the binding of the fixed-function pipeline's entry points, and the
+//! names of GL's constants.
 //!
-//! They are what OpenGL 2.1 has and the 3.3 core profile has not; for the rest there is glow.
+//! The entry points are what OpenGL 2.1 has and the 3.3 core profile has not; for the rest there is glow.
 
+use std::io::Write;
 use std::path::Path;
 use std::{env, fs, io};
 
@@ -15,5 +17,12 @@ fn main() -> io::Result<()> {
     registry.enums.retain(|value| !core.enums.iter().any(|kept| kept.ident == value.ident));
     let folder = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets no OUT_DIR"))?;
     let mut file = io::BufWriter::new(fs::File::create(Path::new(&folder).join("fixed_function.rs"))?);
-    registry.write_bindings(StructGenerator, &mut file)
+    registry.write_bindings(StructGenerator, &mut file)?;
+    let mut names = io::BufWriter::new(fs::File::create(Path::new(&folder).join("enum_names.rs"))?);
+    let all = Registry::new(Api::Gl, (4, 6), Profile::Compatibility, Fallbacks::None, []);
+    writeln!(names, "&[")?;
+    for value in all.enums.iter().filter(|value| value.ty.ends_with("GLenum")) {
+        writeln!(names, "    (\"GL_{}\", {}),", value.ident, value.value)?;
+    }
+    writeln!(names, "]")
 }

@@ -1,4 +1,4 @@
-//! GL functions that a fault may change, each with its signature, and a wrapper of each.
+//! GL functions that a layer may change, each with its signature, and a wrapper of each.
 
 use std::ffi::c_void;
 
@@ -15,6 +15,17 @@ macro_rules! functions {
     ($($name:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)*) => {
         /// Names of all functions that have a wrapper.
         pub const NAMES: &[&str] = &[$(stringify!($name)),*];
+
+        /// Parameters of a function, each its name and type, and the type of its result.
+        pub fn signature(name: &str) -> Option<(&'static [[&'static str; 2]], &'static str)> {
+            match name {
+                $(stringify!($name) => Some((
+                    &[$([stringify!($argument), stringify!($type)]),*],
+                    stringify!($($result)?),
+                )),)*
+                _ => None,
+            }
+        }
 
         /// The wrapper of a function.
         pub fn wrapper(name: &str) -> Option<*const c_void> {
@@ -186,6 +197,7 @@ functions! {
     glDrawElements(mode: u32, count: i32, kind: u32, offset: Any);
     glDrawElementsInstanced(mode: u32, count: i32, kind: u32, offset: Any, instances: i32);
     glVertexAttribDivisor(index: u32, divisor: u32);
+    glDrawElementsBaseVertex(mode: u32, count: i32, kind: u32, offset: Any, base: i32);
     // Queries.
     glBeginQuery(target: u32, query: u32);
     glEndQuery(target: u32);
@@ -198,6 +210,15 @@ functions! {
     glGetIntegerv(name: u32, values: Out);
     glGetFloatv(name: u32, values: Out);
     glGetTexLevelParameteriv(target: u32, level: i32, name: u32, value: Out);
+    // Names of objects.
+    glGenTextures(count: i32, names: Out);
+    glGenSamplers(count: i32, names: Out);
+    glGenFramebuffers(count: i32, names: Out);
+    glGenRenderbuffers(count: i32, names: Out);
+    glGenBuffers(count: i32, names: Out);
+    glGenVertexArrays(count: i32, names: Out);
+    glGenQueries(count: i32, names: Out);
+    glCreateProgram() -> u32;
     // The fixed-function pipeline.
     glAlphaFunc(function: u32, reference: f32);
     glBegin(mode: u32);

@@ -34,6 +34,8 @@ pub struct Layer {
     numbers: RefCell<HashMap<(u32, u32), f64>>,
     lists: RefCell<HashMap<(u32, u32), Vec<f32>>>,
     held: RefCell<Vec<Held>>,
+    /// The layer that was current as this one was made: calls go on through it.
+    beneath: Weak<Layer>,
 }
 
 /// A call that has not reached the driver yet.
@@ -60,6 +62,7 @@ impl Layer {
             numbers: RefCell::default(),
             lists: RefCell::default(),
             held: RefCell::default(),
+            beneath: CURRENT.with(|current| current.borrow().clone()),
         }
     }
 
@@ -123,10 +126,13 @@ pub fn dispatch(name: &'static str, arguments: &[Value], invoke: Invoke) -> Valu
         done: false,
         kept: Vec::new(),
     };
+    let set = |to: Weak<Layer>| CURRENT.with(|current| *current.borrow_mut() = to);
+    set(layer.beneath.clone());
     for (_, act) in layer.hooks.iter().filter(|(functions, _)| functions.contains(&name)) {
         act(&mut call);
     }
     call.now();
+    set(Rc::downgrade(&layer));
     call.result
 }
 
@@ -138,6 +144,11 @@ impl Call<'_> {
             Some(value) => value.number() as u32,
             None => 0,
         }
+    }
+
+    /// All arguments.
+    pub fn arguments(&self) -> &[Value] {
+        &self.arguments
     }
 
     /// An argument as a signed integer.
