@@ -172,6 +172,7 @@ functions! {
     glUseProgram(program: u32);
     glGetUniformLocation(program: u32, name: Any) -> i32;
     glBindAttribLocation(program: u32, index: u32, name: Any);
+    glBindFragDataLocation(program: u32, color: u32, name: Any);
     glUniform1i(location: i32, x: i32);
     glUniform1f(location: i32, x: f32);
     glUniform2f(location: i32, x: f32, y: f32);

@@ -55,7 +55,12 @@ impl Tracker {
         reads.extend(self.scissor_keys());
         reads.push("glViewport".into());
         reads.extend(state.keys("PolygonMode:").cloned());
-        reads.extend(["glColorMask".into(), "DepthRange".into(), "glProvokingVertex".into()]);
+        reads.extend([
+            "glColorMask".into(),
+            "DepthRange".into(),
+            "glProvokingVertex".into(),
+            "glPrimitiveRestartIndex".into(),
+        ]);
         reads.extend(state.keys("glHint:").chain(state.keys("glClampColor:")).cloned());
         let writes_color = state.numbers("glColorMask").iter().any(|on| *on != 0.0)
             && self.drawn("DrawFramebuffer", &["color"]).iter().any(|_| true);
@@ -135,7 +140,8 @@ impl Tracker {
             {
                 reads.push(format!("attron:{array}:{index}"));
                 if state.number(&format!("attron:{array}:{index}")) != 0.0 {
-                    reads.extend([format!("attr:{array}:{index}"), format!("buf:{buffer}")]);
+                    let [layout, divisor] = ["attr", "attrdiv"].map(|head| format!("{head}:{array}:{index}"));
+                    reads.extend([layout, divisor, format!("buf:{buffer}")]);
                 }
             }
             let elements = format!("ElementBuffer:{array}");

@@ -36,6 +36,8 @@ pub struct Tracker {
     pub(super) buffers: BTreeMap<(usize, u32), usize>,
     pub(super) query: Option<usize>,
     pub(super) serial: usize,
+    /// A function whose effects are not followed.
+    pub unknown: Option<&'static str>,
 }
 
 pub(super) fn object(call: &Recorded, index: usize) -> usize {
@@ -121,9 +123,23 @@ impl Tracker {
             "glBlendFuncSeparate" => one("BlendFunc".into(), all),
             "glBlendEquation" => one("BlendEquation".into(), format!("{all},{all}")),
             "glBlendEquationSeparate" => one("BlendEquation".into(), all),
-            "glDepthFunc" | "glDepthMask" | "glCullFace" | "glFrontFace" | "glLineWidth" | "glPointSize"
-            | "glClearColor" | "glClearStencil" | "glScissor" | "glViewport" | "glBlendColor" | "glColorMask"
-            | "glAlphaFunc" | "glShadeModel" | "glProvokingVertex" | "glClearAccum" => one(call.name.into(), all),
+            "glDepthFunc"
+            | "glDepthMask"
+            | "glCullFace"
+            | "glFrontFace"
+            | "glLineWidth"
+            | "glPointSize"
+            | "glClearColor"
+            | "glClearStencil"
+            | "glScissor"
+            | "glViewport"
+            | "glBlendColor"
+            | "glColorMask"
+            | "glAlphaFunc"
+            | "glShadeModel"
+            | "glProvokingVertex"
+            | "glPrimitiveRestartIndex"
+            | "glClearAccum" => one(call.name.into(), all),
             "glPixelStorei" | "glPixelTransferf" | "glHint" | "glClampColor" => {
                 one(format!("{}:{:04X}", call.name, call.u(0)), rest(1))
             }
@@ -210,7 +226,7 @@ impl Tracker {
                 let reads = vec![format!("compiled:{shader}"), made(Kind::Program, program)];
                 Effects::change(vec![format!("attached:{program}")], reads)
             }
-            "glBindAttribLocation" => {
+            "glBindAttribLocation" | "glBindFragDataLocation" => {
                 let program = object(call, 0);
                 Effects::change(vec![format!("attached:{program}")], vec![made(Kind::Program, program)])
             }
@@ -250,6 +266,10 @@ impl Tracker {
                     vec!["VertexArray".into(), "ArrayBuffer".into()],
                 )
             }
+            "glVertexAttribDivisor" => {
+                let key = format!("attrdiv:{}:{}", self.vertex_array(), call.u(0));
+                Effects::set(vec![(key, rest(1))], vec!["VertexArray".into()])
+            }
             "glEnableVertexAttribArray" | "glDisableVertexAttribArray" => {
                 let value = if call.name.starts_with("glEnable") { "1" } else { "0" };
                 let key = format!("attron:{}:{}", self.vertex_array(), call.u(0));
@@ -268,9 +288,11 @@ impl Tracker {
             }
             "glClear" | "glClearBufferfv" | "glClearBufferiv" | "glClearBufferfi" => self.clear(call),
             "glBlitFramebuffer" => self.blit(call),
-            "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex" => {
-                self.draw(false)
-            }
+            "glDrawArrays"
+            | "glDrawArraysInstanced"
+            | "glDrawElements"
+            | "glDrawElementsInstanced"
+            | "glDrawElementsBaseVertex" => self.draw(false),
             "glBegin" => Effects::make(vec!["stream".into()], Vec::new()),
             "glVertex4fv" => Effects::change(vec!["stream".into()], self.state.keys("current:").cloned().collect()),
             "glEnd" => self.draw(true),

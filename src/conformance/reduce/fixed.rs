@@ -5,6 +5,18 @@ use super::log::Recorded;
 use super::state::{Effects, State, faces, text};
 use crate::context::compatibility::raw;
 
+/// Functions that ask, or wait.
+const WITHOUT_EFFECT: &[&str] = &[
+    "glFinish",
+    "glFlush",
+    "glGetIntegerv",
+    "glGetFloatv",
+    "glGetQueryObjectiv",
+    "glGetTexGenfv",
+    "glGetTexImage",
+    "glGetTexLevelParameteriv",
+];
+
 impl Tracker {
     /// State of the fixed-function pipeline.
     pub(super) fn fixed(&mut self, call: &Recorded, unit: u32, numbers: &[f64]) -> Effects {
@@ -64,7 +76,12 @@ impl Tracker {
             "glNormal3f" | "glNormal3fv" => one("current:normal".into(), rest(0)),
             "glTexCoord4fv" => one(format!("current:{}", glow::TEXTURE0), rest(0)),
             "glMultiTexCoord4fv" => one(format!("current:{}", call.u(0)), rest(1)),
-            _ => Effects::default(),
+            name => {
+                if !WITHOUT_EFFECT.contains(&name) {
+                    self.unknown.get_or_insert(name);
+                }
+                Effects::default()
+            }
         }
     }
 }

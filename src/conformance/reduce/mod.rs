@@ -59,6 +59,9 @@ pub enum ReduceError {
     /// A call with data of unknown size.
     #[error("{rule} calls {function}, whose data --reduce cannot note")]
     Unknown { rule: &'static str, function: &'static str },
+    /// A call whose effects are not followed.
+    #[error("{rule} calls {function}, whose effects --reduce does not know")]
+    NotFollowed { rule: &'static str, function: &'static str },
     /// No context for a replay.
     #[error(transparent)]
     Context(#[from] context::Error),
@@ -211,6 +214,9 @@ fn note(
         if let Some(judgement) = asked.judge() {
             let read = skipped + judgement.read;
             let end = log.calls.iter().position(|call| call.read == Some(read)).map_or(0, |index| index + 1);
+            if let Some(function) = slice::unknown(&log.calls[..end]) {
+                return Err(ReduceError::NotFollowed { rule: rule.id, function });
+            }
             let calls = Calls { calls: log.calls[..end].to_vec(), bytes: log.reads[read].bytes.clone() };
             let info = subject.info.clone();
             return Ok(Noted { judgement, finding, calls, info });

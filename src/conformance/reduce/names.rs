@@ -36,7 +36,12 @@ impl Names {
         ];
         match (function, value) {
             (
-                "glBegin" | "glDrawArrays" | "glDrawArraysInstanced" | "glDrawElements" | "glDrawElementsBaseVertex",
+                "glBegin"
+                | "glDrawArrays"
+                | "glDrawArraysInstanced"
+                | "glDrawElements"
+                | "glDrawElementsInstanced"
+                | "glDrawElementsBaseVertex",
                 mode,
             ) => PRIMITIVES.get(mode as usize).copied(),
             (name, 0) if name.contains("Blend") || name.contains("StencilOp") => Some("GL_ZERO"),

@@ -18,6 +18,15 @@ pub fn needed(calls: &[&Recorded]) -> Vec<usize> {
     }
 }
 
+/// The first function among the calls whose effects are not followed.
+pub fn unknown(calls: &[Recorded]) -> Option<&'static str> {
+    let mut tracker = Tracker::default();
+    calls.iter().find_map(|call| {
+        tracker.follow(call);
+        tracker.unknown
+    })
+}
+
 /// Indices of the calls that the last one depends on, with those that set what is in force already.
 pub fn depended_on(calls: &[&Recorded]) -> Vec<usize> {
     live(calls, &(0..calls.len()).collect::<Vec<_>>())
