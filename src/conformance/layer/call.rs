@@ -5,8 +5,6 @@ use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_void};
 use std::rc::{Rc, Weak};
 
-use glow::HasContext;
-
 use super::groups::whole;
 use super::value::{Value, Word};
 
@@ -286,32 +284,6 @@ impl Call<'_> {
         &self.layer.gl
     }
 
-    /// An integer of the driver's state.
-    pub fn get(&self, name: u32) -> i32 {
-        // SAFETY: the context is current; `name` is of one integer.
-        unsafe { self.layer.gl.get_parameter_i32(name) }
-    }
-
-    /// Tests whether something is enabled.
-    pub fn enabled(&self, name: u32) -> bool {
-        // SAFETY: the context is current.
-        unsafe { self.layer.gl.is_enabled(name) }
-    }
-
-    /// A float of the driver's state.
-    pub fn float(&self, name: u32) -> f64 {
-        // SAFETY: the context is current; `name` is of one number.
-        f64::from(unsafe { self.layer.gl.get_parameter_f32(name) })
-    }
-
-    /// Four integers of the driver's state.
-    pub fn get4(&self, name: u32) -> [i32; 4] {
-        let mut values = [0; 4];
-        // SAFETY: the context is current; `name` is of at most four integers.
-        unsafe { self.layer.gl.get_parameter_i32_slice(name, &mut values) };
-        values
-    }
-
     /// Calls another function of the driver's own with numbers.
     pub fn other(&self, name: &str, numbers: &[f64]) {
         let Some((name, invoke)) = (self.layer.invoke_of)(name) else { return };
@@ -337,39 +309,6 @@ impl Call<'_> {
     pub fn add(&mut self, index: usize, value: f64) {
         let number = self.arguments.get(index).map_or(0.0, |argument| argument.number());
         self.set(index, number + value);
-    }
-
-    /// An integer of an attachment of the framebuffer that is drawn into; 0 if it has none.
-    pub fn attached(&self, point: u32, name: u32) -> i32 {
-        let gl = self.gl();
-        // SAFETY: the context is current; of a point without image only its type may be asked.
-        unsafe {
-            let kind = glow::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE;
-            let none = gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING).is_none()
-                || gl.get_framebuffer_attachment_parameter_i32(glow::DRAW_FRAMEBUFFER, point, kind) == 0;
-            if none { 0 } else { gl.get_framebuffer_attachment_parameter_i32(glow::DRAW_FRAMEBUFFER, point, name) }
-        }
-    }
-
-    /// Bits of the depth image that is drawn into, and its component type; zeros without one.
-    pub fn depth_format(&self) -> (i32, u32) {
-        let read = |name| self.attached(glow::DEPTH_ATTACHMENT, name);
-        let kind = read(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) as u32;
-        (read(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE), kind)
-    }
-
-    /// A parameter of a level of the 2D texture that is bound.
-    pub fn level(&self, level: i32, name: u32) -> i32 {
-        // SAFETY: the context is current.
-        unsafe { self.gl().get_tex_level_parameter_i32(glow::TEXTURE_2D, level, name) }
-    }
-
-    /// Gives a level of the 2D texture that is bound RGBA texels of 8 bits.
-    pub fn upload(&self, level: i32, [width, height]: [i32; 2], texels: &[u8]) {
-        let pixels = glow::PixelUnpackData::Slice(Some(texels));
-        let (format, kind) = (glow::RGBA, glow::UNSIGNED_BYTE);
-        // SAFETY: the context is current; the texels fill the rectangle.
-        unsafe { self.gl().tex_sub_image_2d(glow::TEXTURE_2D, level, 0, 0, width, height, format, kind, pixels) };
     }
 
     /// A number that was kept; 0 if none was.

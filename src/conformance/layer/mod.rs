@@ -1,6 +1,7 @@
 //! A layer over a context's GL function table: every call may be looked at, changed, kept back or noted before it reaches
 //! the driver. Drivers that are broken on purpose and the recorder of calls are made of it.
 
+mod asked;
 pub mod call;
 pub mod functions;
 pub mod groups;
