@@ -1,4 +1,4 @@
-//! Drivers that are broken on purpose, for tests: a [layer] over the GL function table in which one thing is wrong. Bench,
+//! Drivers that are broken on purpose, for tests: a layer over the GL function table in which one thing is wrong. Bench,
 //! device and fixed function draw through it as through a sound driver.
 //!
 //! A fault is data in the file of its kind, and [`all`] has them. To add one: a line in that file. A file of a new kind
