@@ -142,14 +142,9 @@ faults! {
         draw => |call| if call.get4(glow::POLYGON_MODE)[0] as u32 != glow::FILL { call.with(glow::CULL_FACE, false) }
     }
     "far-plane-clamps" [gl_Position GL_DEPTH_CLAMP]
-    "What lies beyond the far plane is not clipped, but has its depth." {
-        draw => |call| if !call.enabled(glow::DEPTH_CLAMP) {
-            // GL_DEPTH_CLAMP_FAR_AMD.
-            call.other("glEnable", &[f64::from(0x901F_u32)]);
-            call.now();
-            call.other("glDisable", &[f64::from(0x901F_u32)]);
-        }
-    }
+    "A vertex beyond the far plane is moved onto it, and what it belongs to is not clipped there."
+    { text |source| after_main(source, Stage::Vertex,
+        "if (gl_Position.w > 0.0) gl_Position.z = min(gl_Position.z, gl_Position.w);") }
     "alpha-gequal-is-greater" [glAlphaFunc GL_GEQUAL]
     "The alpha function GEQUAL is GREATER." { glAlphaFunc => |call| { call.replace(0, glow::GEQUAL, glow::GREATER); } }
     "scale-of-four-is-two" [GL_RGB_SCALE glTexEnvf]
