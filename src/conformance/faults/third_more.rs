@@ -72,7 +72,7 @@ fn short_loops(source: &Source) -> Option<String> {
     (found > 0 && source.version >= 130).then(|| text + rest)
 }
 
-/// What stands before the parenthesis that closes one, and what behind it.
+/// Text before the parenthesis that closes one, and text behind it.
 fn closed(text: &str) -> Option<(&str, &str)> {
     let mut depth = 1;
     for (index, letter) in text.char_indices() {

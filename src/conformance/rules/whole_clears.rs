@@ -28,7 +28,7 @@ fn wrong(subject: &DriverUnderTest, image: &Rc<GlImage>, due: impl Fn(usize) -> 
     Ok(surface.colors().iter().enumerate().filter(|(pixel, color)| color[0] != due(*pixel)).count())
 }
 
-/// What is stored, in codes of 8 bits.
+/// Stored values in codes of 8 bits.
 fn codes(surface: &Surface, format: GlFormat) -> Vec<u8> {
     if format.is_depth() {
         surface.depths().into_iter().map(|depth| (255.0 * depth).round() as u8).collect()
