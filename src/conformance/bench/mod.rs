@@ -16,6 +16,7 @@ mod image;
 mod instances;
 pub mod lit;
 mod mutation;
+mod objects;
 mod program;
 mod queries;
 mod sampling;

@@ -32,7 +32,7 @@ float apart(sampler2DArrayShadow map, vec4 at) { return texture(map, at); }
 #define texture apart";
 
 /// Look-ups by `textureProj`, each a function.
-const PROJECTED: &str = "
+pub(super) const PROJECTED: &str = "
 vec4 apart_proj(sampler1D map, vec2 at) { return textureProj(map, at); }
 vec4 apart_proj(sampler1D map, vec4 at) { return textureProj(map, at); }
 vec4 apart_proj(sampler2D map, vec3 at) { return textureProj(map, at); }

@@ -47,6 +47,8 @@ mod shaders;
 mod stencil;
 mod text;
 mod textures;
+mod third;
+mod third_more;
 
 use std::rc::Rc;
 
@@ -113,6 +115,8 @@ const KINDS: &[&[Fault]] = &[
     apart_again::FAULTS,
     apart_inputs::FAULTS,
     apart_shaders::FAULTS,
+    third::FAULTS,
+    third_more::FAULTS,
 ];
 
 /// Every fault.

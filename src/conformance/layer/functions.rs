@@ -214,6 +214,7 @@ functions! {
     // Names of objects.
     glGenTextures(count: i32, names: Out);
     glGenSamplers(count: i32, names: Out);
+    glDeleteSamplers(count: i32, names: Any);
     glGenFramebuffers(count: i32, names: Out);
     glGenRenderbuffers(count: i32, names: Out);
     glGenBuffers(count: i32, names: Out);

@@ -117,6 +117,7 @@ pub fn kept(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
     let (color, depth) = (Some(GlFormat::Rgba8), Some(GlFormat::Depth24Stencil8));
     let surface = bench.surface([SIDE; 2], color, depth)?;
     let other = bench.surface([SIDE; 2], color, depth)?;
+    let third = bench.surface([SIDE; 2], color, depth)?;
     let image = bench
         .filled(GlImageDesc { levels: 5, ..GlImageDesc::flat(GlFormat::Rgba8, [SIDE; 2]) }, |level, _| {
             vec![77; 4 << (8 - 2 * level)]
@@ -149,7 +150,7 @@ pub fn kept(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
         bench.bind_surface(&other);
         bench.draw_as_it_is(OTHER, &scene())
     };
-    let calls: [(&str, Between); 13] = [
+    let calls: [(&str, Between); 14] = [
         ("nothing", &|| Ok(())),
         ("a clear of colour", &colors),
         ("a clear of depth", &depths),
@@ -162,6 +163,9 @@ pub fn kept(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Er
         ("a copy", &|| {
             let to = GlCopyTo { image: &image, level: 0, layer: 0, at: [2, 3] };
             bench.copy(&surface, [1, 1, 8, 8], to).map_or(Ok(()), |codes| Err(Error::Gl { what: "a copy", codes }))
+        }),
+        ("a blit between other framebuffers", &|| {
+            bench.blit_as_it_is(&other, &third, glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT)
         }),
         ("an upload", &|| bench.upload(&image, &upload)),
         ("levels of a texture that are made", &|| bench.generate_mipmap(&image)),

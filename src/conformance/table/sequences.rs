@@ -2,8 +2,8 @@
 
 use crate::conformance::Rule;
 use crate::conformance::rules::{
-    alpha_arrays, clipped, highlights, kept, large, large_maps, magnitudes, many_varyings, many_vertices,
-    masked_blends, renderbuffers, shared_images, single_values,
+    alpha_arrays, clipped, far_numbers, highlights, kept, large, large_maps, magnitudes, many_varyings, many_vertices,
+    masked_blends, objects, renderbuffers, shared_images, single_values, whole_clears,
 };
 
 pub const RULES: &[Rule] = &[
@@ -110,5 +110,29 @@ pub const RULES: &[Rule] = &[
         says: "SHININESS is any number from 0 to 128, the exponent of the half vector's share along the normal.",
         tolerance: "a code of 8 bits, else a warning to 2",
         check: highlights::exponents,
+    },
+    Rule {
+        id: "GL-K14",
+        title: "clears and copies side by side",
+        section: "8.6, 9.8, 10.9, 17.4.3",
+        says: "A clear reaches all layers, under the front mask and the scissor, encoded for sRGB; a copy sees it, whatever the scissor and a condition.",
+        tolerance: "none but a code of 8 bits for sRGB: 0.6, else a warning",
+        check: whole_clears::whole,
+    },
+    Rule {
+        id: "GL-K15",
+        title: "objects used again",
+        section: "4.2.1, 8.2, 8.14.4, 10.1.11, 10.3.9, 14.6.1",
+        says: "New and reused objects start afresh; a strip's triangles face alike; outlines are culled; offsets are of any size.",
+        tolerance: "none",
+        check: objects::objects,
+    },
+    Rule {
+        id: "GL-K16",
+        title: "numbers beyond small scenes",
+        section: "8.23.1, 14.6.1, GLSL 6.3, 8.14.1",
+        says: "References are clamped for fixed-point maps alone; any w, any count of turns, and derivatives of any float are right.",
+        tolerance: "1e-4 of varyings, else a warning to 1e-3; 16 roundings of derivatives, else a warning to 256",
+        check: far_numbers::far,
     },
 ];
