@@ -15,7 +15,7 @@ const SHIPPED: &str = include_str!("../../data/waivers.toml");
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Waiver {
-    /// A part of GL_RENDERER.
+    /// The beginning of GL_RENDERER.
     pub renderer: String,
     /// A part of GL_VERSION. `from` and `until` are compared with the number that follows it.
     pub version: String,
@@ -72,7 +72,7 @@ impl Waiver {
         let number = Number::leading(after);
         let since = self.from.as_ref().is_none_or(|from| number.as_ref().is_some_and(|number| number >= from));
         let still = self.until.as_ref().is_none_or(|until| number.as_ref().is_some_and(|number| number < until));
-        context.renderer.contains(&self.renderer) && since && still
+        context.renderer.starts_with(&self.renderer) && since && still
     }
 }
 
@@ -181,7 +181,7 @@ pub fn write(checked: &Checked, waivers: &[Waiver]) -> Result<String, toml::ser:
     }
     let head = format!(
         "# What fails on {}, {}: `glumbra check --waivers FILE` calls it no failure.\n\
-         # `renderer` and `version` are parts of GL_RENDERER and GL_VERSION; versions from `from` up to, but not at, `until`.\n\
+         # `renderer` begins GL_RENDERER, `version` is a part of GL_VERSION; versions from `from` up to, but not at, `until`.\n\
          # Say in `reason` where the bug is reported.\n\n",
         context.renderer, context.version
     );

@@ -107,8 +107,10 @@ fn a_waiver_that_nothing_needs_is_stale() {
 fn waivers_of_other_drivers_rules_and_what_cannot_be_asked_are_left_alone() {
     let waivers = waiver("r");
     let mut outcomes = [outcome("r", RuleVerdict::Fail, "is 4")];
-    assert!(apply(&waivers, &context("softpipe"), &mut outcomes).is_empty());
-    assert_eq!(outcomes[0].verdict, RuleVerdict::Fail);
+    for other in ["softpipe", "zink Vulkan 1.4(llvmpipe (LLVM 19.1.7, 256 bits) (MESA_LLVMPIPE))"] {
+        assert!(apply(&waivers, &context(other), &mut outcomes).is_empty(), "{other}");
+        assert_eq!(outcomes[0].verdict, RuleVerdict::Fail, "{other}");
+    }
     assert!(apply(&waivers, &context("llvmpipe"), &mut []).is_empty());
     let mut outcomes = [outcome("r", RuleVerdict::Untestable, "a core context")];
     assert!(apply(&waivers, &context("llvmpipe"), &mut outcomes).is_empty());

@@ -32,6 +32,19 @@ fn with(outcomes: &[RuleOutcome], verdict: RuleVerdict) -> Vec<&'static str> {
     outcomes.iter().filter(|outcome| outcome.verdict == verdict).map(|outcome| outcome.id).collect()
 }
 
+/// README and CHANGELOG say how many rules and faults there are.
+#[test]
+fn pages_count_what_there_is() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+    let rules = format!("{} rules", conformance::TABLE.len());
+    let (readme, changelog) = (page("README.md"), page(".github/CHANGELOG.md"));
+    assert_eq!(readme.matches(&rules).count(), 2, "README.md: {rules}, in the sentence and in what is printed");
+    assert!(changelog.contains(&format!("`check`: {rules}")), "CHANGELOG.md: {rules}");
+    let faults = format!("- {} drivers that are broken on purpose", conformance::faults::all().count());
+    assert!(changelog.contains(&faults), "CHANGELOG.md: {faults}");
+}
+
 #[test]
 fn without_a_mistake_no_rule_fails() {
     for (profile, untestable) in [

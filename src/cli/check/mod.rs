@@ -128,7 +128,7 @@ them off. With `--json -` or `--junit -` the screen's text goes to standard erro
 
 A waiver names a deviation that is known, by driver, versions, rule and check:
   [[waiver]]
-  renderer = \"llvmpipe\"         # a part of GL_RENDERER
+  renderer = \"llvmpipe\"         # the beginning of GL_RENDERER
   version = \"Mesa \"            # a part of GL_VERSION
   from = \"22.3\"               # the first such version, by the number behind it; may be absent
   until = \"27\"                # the first that is sound again; may be absent

@@ -197,15 +197,6 @@ faults! {
             }
         }
     }
-    "depth-clamp-of-near-only" [GL_DEPTH_CLAMP]
-    "Depth clamp leaves the far plane to clip." {
-        draw => |call| if call.enabled(glow::DEPTH_CLAMP) {
-            // GL_DEPTH_CLAMP_FAR_AMD.
-            call.other("glDisable", &[f64::from(0x901F_u32)]);
-            call.now();
-            call.other("glEnable", &[f64::from(0x901F_u32)]);
-        }
-    }
     "depth-func-lost-in-clear" [glClearBufferfv glDepthFunc]
     "After a clear of depth the depth function is ALWAYS until it is set again." {
         glClearBufferfv => |call| if call.u(0) == glow::DEPTH {
