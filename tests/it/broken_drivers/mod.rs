@@ -36,7 +36,6 @@ const CANNOT_BE_CAUGHT: &[(&str, &[&str])] = &[
     ("reads the product of two matrices back, for a test of the arithmetic alone", &["glgetfloatv"]),
     ("dithers: no driver at hand does, with eight bits a channel", &["GL_DITHER"]),
     ("says when to compute as written: a driver may not take it wrongly where its optimiser does nothing", &["precise"]),
-    ("counts a few times from a place in a table; what it computes is told by the functions in it", &["while"]),
 ];
 
 #[test]
