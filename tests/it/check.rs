@@ -32,6 +32,22 @@ fn with(outcomes: &[RuleOutcome], verdict: RuleVerdict) -> Vec<&'static str> {
     outcomes.iter().filter(|outcome| outcome.verdict == verdict).map(|outcome| outcome.id).collect()
 }
 
+/// The end of a C library that is loaded before libEGL: its `driver` becomes EGL's own eglGetProcAddress, and its `lookup` is found in
+/// that one's place.
+const FOUND_BY_DLSYM: &str = r#"
+void *dlsym(void *handle, const char *name) {
+    static void *(*real)(void *, const char *);
+    if (!real) {
+        const char *versions[] = {"GLIBC_2.34", "GLIBC_2.17", "GLIBC_2.2.5"};
+        for (int i = 0; i < 3 && !real; i++) *(void **)&real = dlvsym(RTLD_NEXT, "dlsym", versions[i]);
+    }
+    void *found = real(handle, name);
+    if (strcmp(name, "eglGetProcAddress") || !found) return found;
+    driver = (Lookup)found;
+    return (void *)lookup;
+}
+"#;
+
 /// README and CHANGELOG say how many rules and faults there are.
 #[test]
 fn pages_count_what_there_is() {

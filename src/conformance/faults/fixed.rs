@@ -1,6 +1,6 @@
 //! Faults of the fixed-function pipeline: matrices, generated coordinates, environments, alpha test, lighting.
 
-use super::Call;
+use super::{Call, ignore, never_on};
 use crate::context::compatibility::raw;
 
 /// Sources of the environments' arguments.
@@ -18,20 +18,6 @@ fn combine(call: &mut Call, from: u32, to: u32) {
 fn source(call: &mut Call, from: u32, to: u32) {
     if SOURCES.contains(&call.u(1)) {
         call.replace(2, from, to);
-    }
-}
-
-/// Leaves a parameter as it is.
-fn ignore(call: &mut Call, name: u32) {
-    if call.u(1) == name {
-        call.skip();
-    }
-}
-
-/// Leaves something off.
-fn never_on(call: &mut Call, what: u32) {
-    if call.u(0) == what {
-        call.skip();
     }
 }
 

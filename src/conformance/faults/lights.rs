@@ -1,21 +1,7 @@
 //! Faults of the fixed-function pipeline's lighting.
 
-use super::Call;
+use super::{ignore, never_on};
 use crate::context::compatibility::raw;
-
-/// Leaves a parameter as it is.
-fn ignore(call: &mut Call, name: u32) {
-    if call.u(1) == name {
-        call.skip();
-    }
-}
-
-/// Leaves something off.
-fn never_on(call: &mut Call, what: u32) {
-    if call.u(0) == what {
-        call.skip();
-    }
-}
 
 faults! {
     "lighting-ignored" [GL_LIGHTING] "There is no lighting." { glEnable => |call| never_on(call, raw::LIGHTING) }

@@ -124,6 +124,20 @@ pub fn all() -> impl Iterator<Item = &'static Fault> {
     KINDS.iter().flat_map(|kind| kind.iter())
 }
 
+/// Leaves a parameter as it is.
+fn ignore(call: &mut Call, name: u32) {
+    if call.u(1) == name {
+        call.skip();
+    }
+}
+
+/// Leaves something off.
+fn never_on(call: &mut Call, what: u32) {
+    if call.u(0) == what {
+        call.skip();
+    }
+}
+
 /// Holds a call back until the next draw is over.
 fn hold(call: &mut Call) {
     call.hold();

@@ -1,6 +1,6 @@
 //! Faults of a part alone: of one shape, level, unit, number, format or side, where the rest is right.
 
-use super::{Call, Stage, anywhere, define};
+use super::{Call, Stage, anywhere, define, ignore, never_on};
 use crate::context::compatibility::raw;
 
 /// Leaves a parameter of textures of one shape as it is.
@@ -14,20 +14,6 @@ fn ignore_of(call: &mut Call, target: u32, names: &[u32]) {
 fn nearest_of(call: &mut Call, target: u32) {
     if call.u(0) == target && [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER].contains(&call.u(1)) {
         call.replace(2, glow::LINEAR, glow::NEAREST);
-    }
-}
-
-/// Leaves a parameter as it is.
-fn ignore(call: &mut Call, name: u32) {
-    if call.u(1) == name {
-        call.skip();
-    }
-}
-
-/// Leaves something off.
-fn never_on(call: &mut Call, what: u32) {
-    if call.u(0) == what {
-        call.skip();
     }
 }
 
