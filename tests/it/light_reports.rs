@@ -218,8 +218,13 @@ fn claims_about_times_have_ranges_and_verdicts() {
     for claim in timed {
         let [least, greatest] = claim.ratio_range.unwrap();
         assert!(0.0 < least && least <= greatest && claim.first.value.unwrap() > 0.0, "{claim}");
-        let holds = if claim.relation == "more than" { least > 1.0 } else { least <= 1.0 };
-        let verdict = if holds { ClaimVerdict::Holds } else { ClaimVerdict::FailsHere };
+        let more = claim.relation == "more than";
+        // On a busy machine a range may lie on both sides.
+        let verdict = match (least > 1.0, greatest <= 1.1) {
+            (false, false) => ClaimVerdict::Unknown,
+            (is_more, _) if is_more == more => ClaimVerdict::Holds,
+            _ => ClaimVerdict::FailsHere,
+        };
         assert_eq!(claim.verdict, verdict, "{claim}");
         assert!(out.contains("95 % range"), "{out}");
     }

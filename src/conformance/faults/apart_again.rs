@@ -1,6 +1,7 @@
 //! Faults of a second measure, written as those of `apart` were: before any rule had met them.
 
-use super::apart_shaders::{HALVES, LOOKUPS, lookups, varyings};
+use super::apart_shaders::{HALVES, lookups, varyings};
+use super::lookups::LOOKUPS;
 use super::{Call, Stage, after_main, define};
 use crate::context::compatibility::raw;
 

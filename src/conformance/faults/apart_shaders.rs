@@ -1,5 +1,6 @@
 //! Faults that were written before any rule had met them: shaders and their look-ups.
 
+use super::lookups::{LOOKUPS, PROJECTED};
 use super::{Source, Stage, after_main};
 
 /// Half floats: eleven bits of what a number has.
@@ -12,34 +13,6 @@ vec2 apart_half(vec2 v) { return vec2(apart_half(v.x), apart_half(v.y)); }
 vec3 apart_half(vec3 v) { return vec3(apart_half(v.xy), apart_half(v.z)); }
 vec4 apart_half(vec4 v) { return vec4(apart_half(v.xyz), apart_half(v.w)); }
 ";
-
-/// Look-ups by `texture`, each a function.
-pub(super) const LOOKUPS: &str = "
-vec4 apart(sampler1D map, float at) { return texture(map, at); }
-vec4 apart(sampler1D map, float at, float bias) { return texture(map, at, bias); }
-vec4 apart(sampler2D map, vec2 at) { return texture(map, at); }
-vec4 apart(sampler2D map, vec2 at, float bias) { return texture(map, at, bias); }
-vec4 apart(sampler3D map, vec3 at) { return texture(map, at); }
-vec4 apart(samplerCube map, vec3 at) { return texture(map, at); }
-vec4 apart(samplerCube map, vec3 at, float bias) { return texture(map, at, bias); }
-vec4 apart(sampler2DArray map, vec3 at) { return texture(map, at); }
-uvec4 apart(usampler2D map, vec2 at) { return texture(map, at); }
-ivec4 apart(isampler2D map, vec2 at) { return texture(map, at); }
-float apart(sampler2DShadow map, vec3 at) { return texture(map, at); }
-float apart(sampler2DShadow map, vec3 at, float bias) { return texture(map, at, bias); }
-float apart(samplerCubeShadow map, vec4 at) { return texture(map, at); }
-float apart(sampler2DArrayShadow map, vec4 at) { return texture(map, at); }
-#define texture apart";
-
-/// Look-ups by `textureProj`, each a function.
-pub(super) const PROJECTED: &str = "
-vec4 apart_proj(sampler1D map, vec2 at) { return textureProj(map, at); }
-vec4 apart_proj(sampler1D map, vec4 at) { return textureProj(map, at); }
-vec4 apart_proj(sampler2D map, vec3 at) { return textureProj(map, at); }
-vec4 apart_proj(sampler2D map, vec4 at) { return textureProj(map, at); }
-vec4 apart_proj(sampler3D map, vec4 at) { return textureProj(map, at); }
-float apart_proj(sampler2DShadow map, vec4 at) { return textureProj(map, at); }
-#define textureProj apart_proj";
 
 /// A fragment shader with other look-ups: in `functions` the second text stands where the first did.
 pub(super) fn lookups(source: &Source, word: &str, functions: &str, [from, to]: [&str; 2]) -> Option<String> {

@@ -2,25 +2,44 @@
 
 use super::{Source, Stage};
 
-/// Look-ups of every sampler that fragment shaders here have, each through a function of its own: `texture` and
-/// `textureProj`. In each of `changes` the first text stands where the second did not.
+/// Look-ups by `texture`, each a function.
+pub(super) const LOOKUPS: &str = "
+vec4 apart(sampler1D map, float at) { return texture(map, at); }
+vec4 apart(sampler1D map, float at, float bias) { return texture(map, at, bias); }
+vec4 apart(sampler2D map, vec2 at) { return texture(map, at); }
+vec4 apart(sampler2D map, vec2 at, float bias) { return texture(map, at, bias); }
+vec4 apart(sampler3D map, vec3 at) { return texture(map, at); }
+vec4 apart(samplerCube map, vec3 at) { return texture(map, at); }
+vec4 apart(samplerCube map, vec3 at, float bias) { return texture(map, at, bias); }
+vec4 apart(sampler2DArray map, vec3 at) { return texture(map, at); }
+uvec4 apart(usampler2D map, vec2 at) { return texture(map, at); }
+ivec4 apart(isampler2D map, vec2 at) { return texture(map, at); }
+float apart(sampler2DShadow map, vec3 at) { return texture(map, at); }
+float apart(sampler2DShadow map, vec3 at, float bias) { return texture(map, at, bias); }
+float apart(samplerCubeShadow map, vec4 at) { return texture(map, at); }
+float apart(sampler2DArrayShadow map, vec4 at) { return texture(map, at); }
+#define texture apart";
+
+/// Look-ups by `textureProj`, each a function.
+pub(super) const PROJECTED: &str = "
+vec4 apart_proj(sampler1D map, vec2 at) { return textureProj(map, at); }
+vec4 apart_proj(sampler1D map, vec4 at) { return textureProj(map, at); }
+vec4 apart_proj(sampler2D map, vec3 at) { return textureProj(map, at); }
+vec4 apart_proj(sampler2D map, vec4 at) { return textureProj(map, at); }
+vec4 apart_proj(sampler3D map, vec4 at) { return textureProj(map, at); }
+float apart_proj(sampler2DShadow map, vec4 at) { return textureProj(map, at); }
+#define textureProj apart_proj";
+
+/// Look-ups by `texture` and `textureProj`, each through a function of its own; in each of `changes` the second text stands where
+/// the first did.
 fn lookups(source: &Source, changes: &[(&str, &str)]) -> Option<String> {
-    if source.stage != Stage::Fragment || source.version < 130 || !source.text.contains("texture") {
+    let is_meant = source.stage == Stage::Fragment && source.version >= 130 && source.text.contains("texture");
+    // Arrays of cube maps need a later version than most shaders have.
+    if !is_meant || source.has("samplerCubeArray") || source.has("samplerCubeArrayShadow") {
         return None;
     }
-    let mut lines = String::from(
-        "
-vec4 broken(sampler1D map, float at) { return texture(map, at); }
-vec4 broken(sampler2D map, vec2 at) { return texture(map, at); }
-vec4 broken(samplerCube map, vec3 at) { return texture(map, at); }
-float broken(sampler2DShadow map, vec3 at) { return texture(map, at); }
-float broken(samplerCubeShadow map, vec4 at) { return texture(map, at); }
-vec4 broken_proj(sampler2D map, vec3 at) { return textureProj(map, at); }
-vec4 broken_proj(sampler2D map, vec4 at) { return textureProj(map, at); }
-float broken_proj(sampler2DShadow map, vec4 at) { return textureProj(map, at); }
-#define texture(map, at) broken(map, at)
-#define textureProj(map, at) broken_proj(map, at)",
-    );
+    // The projected ones first: in them `texture` is the driver's own.
+    let mut lines = format!("{PROJECTED}{LOOKUPS}");
     for (from, to) in changes {
         if !lines.contains(from) {
             return None;
@@ -90,6 +109,9 @@ faults! {
     "cube-reference-of-16-bits" [texture samplerCubeShadow] "The reference of a comparison in a cube map has 16 bits."
     { text |source| lookups(source, &[("samplerCubeShadow map, vec4 at) { return texture(map, at)",
         "samplerCubeShadow map, vec4 at) { return texture(map, vec4(at.xyz, floor(at.w * 65535.0) / 65535.0))")]) }
+    "array-reference-of-16-bits" [texture] "The reference of a comparison in an array has 16 bits."
+    { text |source| lookups(source, &[("sampler2DArrayShadow map, vec4 at) { return texture(map, at)",
+        "sampler2DArrayShadow map, vec4 at) { return texture(map, vec4(at.xyz, floor(at.w * 65535.0) / 65535.0))")]) }
     "implicit-level-zero" [texture] "A 2D look-up reads level 0."
     { text |source| lookups(source, &[("sampler2D map, vec2 at) { return texture(map, at)", "sampler2D map, vec2 at) { return textureLod(map, at, 0.0)")]) }
     "implicit-level-one-more" [texture] "The level of detail of a 2D look-up is one more."

@@ -1,6 +1,7 @@
 //! Faults of a third measure: shaders, primitives, the fixed-function pipeline.
 
-use super::apart_shaders::{HALVES, LOOKUPS, PROJECTED};
+use super::apart_shaders::HALVES;
+use super::lookups::{LOOKUPS, PROJECTED};
 use super::{Call, Source, Stage, after_main, anywhere, define};
 use crate::context::compatibility::raw;
 

@@ -36,6 +36,10 @@ pub fn cubes(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), E
             let by = GlSampledBy::ALL[usize::from(side == 2)];
             findings.part(|findings| cube_of(subject, findings, &mut random, format, side, by));
         }
+        let vectors = places(&mut random, Region::Inside, 2, 64);
+        let places: Vec<_> = vectors.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
+        let images = (GlImageDesc::cube(format, 2), COMPARE, "cube_shadow");
+        findings.part(|findings| close(subject, findings, "cube map", images, &places));
     }
     Ok(())
 }
@@ -118,6 +122,33 @@ fn nearest(
     Ok(tally)
 }
 
+/// References just before and behind the depth that all texels have: farther away than its storage rounds, nearer than 16 bits tell.
+fn close(
+    subject: &DriverUnderTest,
+    findings: &mut Findings,
+    what: &str,
+    (desc, shader, map): (GlImageDesc, Shader, &str),
+    places: &[[f32; 3]],
+) -> Result<(), Error> {
+    const DEPTH: f32 = 0.625;
+    let format = desc.format;
+    let image = subject.bench.filled(desc, |_, _| bytemuck::cast_slice(&[DEPTH; 4]).to_vec())?;
+    let power = if format == GlFormat::Depth16 { -15 } else { -21 };
+    let sides = [-1.0, 1.0].map(|side: f32| side * (power as f32).exp2());
+    let beside = |&[x, y, z]: &[f32; 3]| sides.map(|side| [x, y, z, DEPTH + side]);
+    let inputs: Vec<[f32; 4]> = places.iter().flat_map(beside).collect();
+    let mut tally = GradeTally::default();
+    for compare in [GlCompare::LessEqual, GlCompare::Greater] {
+        let values = subject.bench.map_by(shader, &inputs, &[(map, &image, Sampling::compare(compare))])?;
+        for (input, value) in inputs.iter().zip(values) {
+            let due = u8::from(compare.holds(input[3].total_cmp(&DEPTH)));
+            tally.add(verify::within(f64::from(value[0]) - f64::from(due), 0.0, 0.0), 0.0);
+        }
+    }
+    findings.tally(format!("{}: references 2^{power} beside the depth of a {what}", format.name()), tally, "");
+    Ok(())
+}
+
 const ARRAY: Shader = Shader {
     declarations: "uniform sampler2DArrayShadow layers_shadow;",
     ..Shader::of("result = vec4(texture(layers_shadow, texelFetch(inputs, ivec2(gl_FragCoord.xy), 0)));")
@@ -136,6 +167,9 @@ const CUBE_ARRAY: Shader = Shader {
 pub fn arrays(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     for format in GlFormat::PURE_DEPTHS {
         findings.part(|findings| layers(subject, findings, format));
+        let desc = GlImageDesc { shape: GlShape::Array, layers: 2, ..GlImageDesc::flat(format, [2, 2]) };
+        let places = [[0.25, 0.25, 0.0], [0.75, 0.25, 1.0], [0.25, 0.75, 1.0], [0.75, 0.75, 0.0]];
+        findings.part(|findings| close(subject, findings, "array", (desc, ARRAY, "layers_shadow"), &places));
     }
     if subject.bench.has((4, 0), "GL_ARB_texture_cube_map_array") {
         for format in GlFormat::PURE_DEPTHS {
