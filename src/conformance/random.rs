@@ -20,4 +20,14 @@ impl Random {
     pub fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit()
     }
+
+    /// A whole number below `count`, which is not 0.
+    pub fn below(&mut self, count: usize) -> usize {
+        ((self.unit() * count as f32) as usize).min(count - 1)
+    }
+
+    /// One of several.
+    pub fn of<'a, T>(&mut self, several: &'a [T]) -> &'a T {
+        &several[self.below(several.len())]
+    }
 }

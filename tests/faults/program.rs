@@ -1,7 +1,7 @@
 //! Tells which rules of `glumbra check` see each fault of `conformance::faults`, and which pictures it changes.
 //!
-//! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [NAME...]`: all rules for each fault whose name or
-//! whose broken functions contain one of the names, or for all; `--holes`: only those that no rule sees by the table of
+//! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [RULE...] [NAME...]`: all rules, or those of these
+//! ids, for each fault whose name or whose broken functions contain one of the names, or for all; `--holes`: only those that no rule sees by the table of
 //! `ci/drivers.md`; `--write`: puts the results into that table; `--pictures`: draws the scenes too; `--reduce`: no rules, but
 //! programs as by `glumbra check --reduce` for each fault and each rule that sees it by the table, held against the broken
 //! driver and the sound one. 1: a fault changes a picture and no rule, or a program is wrong.
@@ -35,6 +35,7 @@ fn table(known: &[Row]) -> String {
 
 fn main() -> ExitCode {
     let (options, names): (Vec<_>, Vec<_>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let (ids, names): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.starts_with("GL-"));
     let has = |option: &str| options.iter().any(|given| given == option);
     let page = std::fs::read_to_string(PAGE).unwrap_or_default();
     let mut known = rows(&page);
@@ -49,7 +50,9 @@ fn main() -> ExitCode {
     if has("--reduce") {
         return if reduced::all(&chosen, &known) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
-    let rules: Vec<_> = TABLE.iter().collect();
+    // Rules by their ids: those among the names that begin with GL-.
+    let is_meant = |rule: &&glumbra::conformance::Rule| ids.is_empty() || ids.iter().any(|id| id == rule.id);
+    let rules: Vec<_> = TABLE.iter().filter(is_meant).collect();
     println!("a sound driver: {:?} fail", red(None, &rules, false));
     let scenes = if has("--pictures") { sound() } else { Vec::new() };
     println!("{} faults, {} rules, {} scenes", chosen.len(), rules.len(), scenes.len());

@@ -7,6 +7,7 @@ pub mod arrays;
 mod attach;
 mod blend;
 mod clear;
+pub mod commands;
 mod draw;
 mod elements;
 pub mod environment;

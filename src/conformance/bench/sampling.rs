@@ -21,7 +21,7 @@ pub enum GlWrap {
 }
 
 impl GlWrap {
-    fn code(self) -> u32 {
+    pub(super) fn code(self) -> u32 {
         match self {
             Self::Repeat => glow::REPEAT,
             Self::MirroredRepeat => glow::MIRRORED_REPEAT,
@@ -79,7 +79,7 @@ impl GlSwizzle {
     /// Each channel as it is.
     pub const SAME: [Self; 4] = [Self::Red, Self::Green, Self::Blue, Self::Alpha];
 
-    fn code(self) -> u32 {
+    pub(super) fn code(self) -> u32 {
         match self {
             Self::Red => glow::RED,
             Self::Green => glow::GREEN,

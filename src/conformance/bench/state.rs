@@ -85,7 +85,7 @@ impl GlStencilOp {
         Self::Invert,
     ];
 
-    fn code(self) -> u32 {
+    pub(super) fn code(self) -> u32 {
         match self {
             Self::Keep => glow::KEEP,
             Self::Zero => glow::ZERO,
