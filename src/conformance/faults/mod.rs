@@ -34,6 +34,8 @@ mod beyond;
 mod blending;
 mod depth;
 mod fixed;
+mod fourth;
+mod fourth_shaders;
 mod framebuffers;
 mod functions_of_glsl;
 mod levels;
@@ -117,6 +119,8 @@ const KINDS: &[&[Fault]] = &[
     apart_shaders::FAULTS,
     third::FAULTS,
     third_more::FAULTS,
+    fourth::FAULTS,
+    fourth_shaders::FAULTS,
 ];
 
 /// Every fault.
