@@ -33,6 +33,8 @@ mod apart_shaders;
 mod beyond;
 mod blending;
 mod depth;
+mod fifth;
+mod fifth_shaders;
 mod fixed;
 mod fourth;
 mod fourth_shaders;
@@ -121,6 +123,8 @@ const KINDS: &[&[Fault]] = &[
     third_more::FAULTS,
     fourth::FAULTS,
     fourth_shaders::FAULTS,
+    fifth::FAULTS,
+    fifth_shaders::FAULTS,
 ];
 
 /// Every fault.
