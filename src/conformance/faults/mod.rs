@@ -33,7 +33,11 @@ mod apart_shaders;
 mod beyond;
 mod blending;
 mod depth;
+mod fifth;
+mod fifth_shaders;
 mod fixed;
+mod fourth;
+mod fourth_shaders;
 mod framebuffers;
 mod functions_of_glsl;
 mod levels;
@@ -117,6 +121,10 @@ const KINDS: &[&[Fault]] = &[
     apart_shaders::FAULTS,
     third::FAULTS,
     third_more::FAULTS,
+    fourth::FAULTS,
+    fourth_shaders::FAULTS,
+    fifth::FAULTS,
+    fifth_shaders::FAULTS,
 ];
 
 /// Every fault.

@@ -103,7 +103,7 @@ pub fn rewrite(call: &mut Call, change: fn(&Source) -> Option<String>) {
 }
 
 /// The text of glShaderSource's parts.
-fn joined(call: &Call) -> String {
+pub(super) fn joined(call: &Call) -> String {
     let (texts, lengths) = (call.pointer(2).cast::<*const c_char>(), call.pointer(3).cast::<i32>());
     let part = |index: usize| {
         // SAFETY: GL reads the same: `count` pointers, and as many lengths unless that is null or one is negative.
