@@ -254,7 +254,12 @@ impl Command {
     pub fn writes(&self) -> bool {
         matches!(
             self,
-            Self::Upload { .. } | Self::Levels(_) | Self::Clear(_) | Self::Draw { .. } | Self::Blit { .. } | Self::Copy { .. }
+            Self::Upload { .. }
+                | Self::Levels(_)
+                | Self::Clear(_)
+                | Self::Draw { .. }
+                | Self::Blit { .. }
+                | Self::Copy { .. }
         )
     }
 

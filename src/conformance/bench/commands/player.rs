@@ -352,6 +352,7 @@ impl Drop for Player<'_> {
             }
             gl.active_texture(glow::TEXTURE0);
             self.restore_packing();
+            gl.disable(glow::CLIP_DISTANCE0);
             let off = [glow::SCISSOR_TEST, glow::BLEND, glow::CULL_FACE, glow::STENCIL_TEST, glow::POLYGON_OFFSET_FILL];
             off.into_iter().for_each(|what| gl.disable(what));
             gl.color_mask(true, true, true, true);

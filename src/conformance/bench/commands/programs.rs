@@ -33,10 +33,14 @@ pub enum Program {
     Compare,
     /// By which side is seen: the uniform or the vertices' colour.
     Sides,
+    /// The uniform's colour with an alpha of 1.
+    Opaque,
+    /// The uniform's colour, where `cut.x * x + cut.y * w` of the position is not negative: a clip distance.
+    Clip,
 }
 
 impl Program {
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Plain,
         Self::Varying,
         Self::Squares,
@@ -49,6 +53,8 @@ impl Program {
         Self::LookCube,
         Self::Compare,
         Self::Sides,
+        Self::Opaque,
+        Self::Clip,
     ];
 
     /// Declarations before main, and its body.
@@ -88,6 +94,8 @@ impl Program {
     result = vec4(lit, 0.25, lit, 1.0);",
             ],
             Self::Sides => ["", "result = gl_FrontFacing ? color : passed;"],
+            Self::Opaque => ["", "result = vec4(color.rgb, 1.0);"],
+            Self::Clip => ["", "result = color;"],
         }
     }
 
@@ -99,13 +107,12 @@ impl Program {
     /// Tests whether it has `reference`, `period` and `layer`.
     pub fn has(self, setting: &Setting) -> bool {
         match setting {
-            Setting::Color(..) => {
-                matches!(self, Self::Plain | Self::Squares | Self::Two | Self::Depth | Self::Fetch | Self::Sides)
-            }
+            Setting::Color(..) => !matches!(self, Self::Varying) && (!self.reads() || self == Self::Fetch),
             Setting::Period(..) => self == Self::Squares,
             Setting::Reference(..) => matches!(self, Self::Depth | Self::Compare),
             Setting::Layer(..) => self == Self::FetchLayer,
             Setting::Axes(..) => self == Self::LookCube,
+            Setting::Cut(..) => self == Self::Clip,
             Setting::Origin(..) | Setting::Level(..) | Setting::Unit(..) => self.reads(),
             _ => false,
         }
@@ -117,6 +124,18 @@ in vec4 position;
 in vec4 value;
 out vec4 passed;
 void main() { gl_Position = position; passed = value; }
+";
+
+const CLIPPED: &str = "#version 150
+in vec4 position;
+in vec4 value;
+out vec4 passed;
+uniform vec2 cut;
+void main() {
+    gl_Position = position;
+    passed = value;
+    gl_ClipDistance[0] = cut.x * position.x + cut.y * position.w;
+}
 ";
 
 const HEAD: &str = "#version 150
@@ -134,7 +153,8 @@ pub(super) fn build(gl: &std::rc::Rc<glow::Context>) -> Result<Vec<GlProgram>, E
     let one = |program: &Program| {
         let [declared, body] = program.fragment();
         let fragment = format!("{HEAD}{declared}\nvoid main() {{\n    {body}\n}}\n");
-        build_stages(gl, &[(glow::VERTEX_SHADER, VERTEX), (glow::FRAGMENT_SHADER, &fragment)])
+        let vertex = if *program == Program::Clip { CLIPPED } else { VERTEX };
+        build_stages(gl, &[(glow::VERTEX_SHADER, vertex), (glow::FRAGMENT_SHADER, &fragment)])
     };
     Program::ALL.iter().map(one).collect()
 }
@@ -153,6 +173,7 @@ impl Player<'_> {
             Setting::Reference(program, _) => (program, "reference"),
             Setting::Unit(program, _) => (program, "map"),
             Setting::Axes(program, _) => (program, "axes"),
+            Setting::Cut(program, _) => (program, "cut"),
             Setting::Program(program) => (program, ""),
             _ => return,
         };
@@ -170,6 +191,7 @@ impl Player<'_> {
                     gl.uniform_1_i32(at, value);
                 }
                 Setting::Reference(_, value) => gl.uniform_1_f32(at, value),
+                Setting::Cut(_, [x, y]) => gl.uniform_2_f32(at, x, y),
                 Setting::Axes(_, axes) => gl.uniform_3_f32_slice(at, axes.as_flattened()),
                 _ => {}
             }

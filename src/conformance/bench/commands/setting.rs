@@ -61,6 +61,8 @@ pub enum Setting {
     Scissor([i32; 4]),
     Viewport([i32; 4]),
     OffsetFill(bool),
+    /// GL_CLIP_DISTANCE0.
+    ClipDistance(bool),
     Offset(GlOffset),
     ClearColor([f32; 4]),
     ClearDepth(f64),
@@ -76,6 +78,7 @@ pub enum Setting {
     Unit(Program, i32),
     /// Directions of s, t and the axis of a cube's face.
     Axes(Program, [[f32; 3]; 3]),
+    Cut(Program, [f32; 2]),
     /// A unit's texture; the slot's own target.
     Texture(u32, usize),
     Sampler(u32, Option<usize>),
@@ -145,6 +148,7 @@ impl Player<'_> {
                 Setting::ScissorTest(on) => enable(glow::SCISSOR_TEST, on),
                 Setting::Scissor([x, y, width, height]) => gl.scissor(x, y, width, height),
                 Setting::Viewport([x, y, width, height]) => gl.viewport(x, y, width, height),
+                Setting::ClipDistance(on) => enable(glow::CLIP_DISTANCE0, on),
                 Setting::OffsetFill(on) => enable(glow::POLYGON_OFFSET_FILL, on),
                 Setting::Offset(GlOffset { factor, units, .. }) => gl.polygon_offset(factor, units),
                 Setting::ClearColor([r, g, b, a]) => gl.clear_color(r, g, b, a),
@@ -158,7 +162,8 @@ impl Player<'_> {
                 | Setting::Layer(..)
                 | Setting::Reference(..)
                 | Setting::Unit(..)
-                | Setting::Axes(..) => self.set_uniform(setting),
+                | Setting::Axes(..)
+                | Setting::Cut(..) => self.set_uniform(setting),
                 _ => self.set_sampling(setting),
             }
         }

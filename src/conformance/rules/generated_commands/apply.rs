@@ -166,6 +166,10 @@ impl State {
             return false;
         }
         // An output that the program does not write leaves what it draws into undefined.
+        // So does a clip distance that is on and not written [GL 4.6, 13.7].
+        if self.clip_distance && self.program != Program::Clip {
+            return false;
+        }
         let two = self.program == Program::Two;
         if !two && framebuffer.outputs[1].is_some() {
             return false;

@@ -56,7 +56,7 @@ impl State {
         let [x, y, width, height] = self.viewport.map(f64::from);
         // The view volume cuts at the viewport's edges [GL 4.6, 13.7].
         let edge = |from: f64, side: f64, at: f32| from + side * (f64::from(at.clamp(-1.0, 1.0)) + 1.0) / 2.0;
-        let [x0, y0, x1, y1] = rectangle.corners;
+        let [x0, y0, x1, y1] = self.cut(rectangle.corners);
         let area = [edge(x, width, x0), edge(y, height, y0), edge(x, width, x1), edge(y, height, y1)];
         // With several samples a pixel is whole or unsure.
         let margin = if samples > 0 { 0.5 + OFF } else { OFF };
@@ -76,6 +76,18 @@ impl State {
                 let fragment = Fragment { colors, depth, sure: !sides.contains(&None) };
                 self.write(at, &fragment, usize::from(!front), samples);
             }
+        }
+    }
+
+    /// Corners of what a clip distance leaves.
+    fn cut(&self, [x0, y0, x1, y1]: [f32; 4]) -> [f32; 4] {
+        let [slope, height] = self.uniforms[self.program as usize].cut;
+        let at = -height / slope;
+        match self.clip_distance {
+            true if slope > 0.0 => [x0.max(at), y0, x1, y1],
+            true if slope < 0.0 => [x0, y0, x1.min(at), y1],
+            true if height < 0.0 => [2.0; 4],
+            _ => [x0, y0, x1, y1],
         }
     }
 
@@ -119,7 +131,8 @@ impl State {
         let passed = of(rectangle.color).map(|value| value.widened(1e-5 * value.high.abs()));
         let color = of(uniforms.color);
         Some(match self.program {
-            Program::Plain | Program::Depth => [color, unknown],
+            Program::Plain | Program::Depth | Program::Clip => [color, unknown],
+            Program::Opaque => [[color[0], color[1], color[2], Range::ONE], unknown],
             Program::Varying => [passed, unknown],
             Program::Squares => {
                 let square = |axis: usize| at[axis] as i32 / uniforms.period[axis];

@@ -37,7 +37,7 @@ impl Generator {
         sizes[1] = *random.of(&[[8, 8], [13, 7], [33, 20], [5, 16], [1, 6], [16, 16]]);
         // Drivers draw by tiles of up to 64 pixels.
         if random.below(4) == 0 {
-            sizes[0] = *random.of(&[[70, 9], [9, 70], [130, 66], [64, 64]]);
+            sizes[0] = *random.of(&[[70, 9], [9, 70], [130, 66], [64, 64], [300, 6], [6, 300]]);
         }
         let mut generator = Self { random, palette, sizes, queue: VecDeque::new() };
         generator.begin();
@@ -112,9 +112,9 @@ impl Generator {
     /// Puts one proposal into the queue, or several that belong together.
     fn propose(&mut self, state: &State) {
         let command = match self.random.below(100) {
-            0..30 => Command::Set(self.palette.setting(&mut self.random, state, &self.sizes)),
-            30..33 => return self.look(state),
-            33..52 => self.draw(),
+            0..24 => Command::Set(self.palette.setting(&mut self.random, state, &self.sizes)),
+            24..28 => return self.look(state),
+            28..52 => self.draw(),
             52..57 => self.fill(),
             57..64 => self.clear(),
             64..67 => self.blit(),

@@ -24,8 +24,8 @@ use crate::conformance::bench::commands::{Command, Player, Sampled};
 use crate::conformance::{DriverUnderTest, Findings};
 
 use answers::{Fault, Judged};
-use pixel::Range;
 use generate::Generator;
+use pixel::Range;
 use state::State;
 
 /// Streams, and commands of each before all is read.

@@ -18,7 +18,7 @@ pub struct Palette {
     ops: [[GlStencilOp; 3]; 3],
     read_masks: [u32; 2],
     write_masks: [u32; 2],
-    masks: [[bool; 4]; 2],
+    masks: [[bool; 4]; 3],
     filters: [(bool, bool, GlMipmap); 2],
     wraps: [[GlWrap; 2]; 2],
 }
@@ -30,7 +30,7 @@ impl Palette {
         let masks = [0xFF, 0x0F, 0xF0, 0x01, !0, 0x100FF, 0];
         let plain = [true; 4];
         Self {
-            programs: (0..4).map(|_| *random.of(&Program::ALL)).collect(),
+            programs: (0..5).map(|_| *random.of(&Program::ALL)).collect(),
             compares: [(); 3].map(|()| *random.of(&GlCompare::ALL)),
             factors: [(); 2].map(|()| {
                 let two = [(); 2].map(|()| *random.of(&GlFactor::ALL));
@@ -45,7 +45,7 @@ impl Palette {
             ops: [(); 3].map(|()| [(); 3].map(|()| *random.of(&GlStencilOp::ALL))),
             read_masks: [*random.of(&masks), 0xFF],
             write_masks: [*random.of(&masks), *random.of(&[0xFF, !0])],
-            masks: [plain, [(); 4].map(|()| random.below(2) == 0)],
+            masks: [plain, [(); 4].map(|()| random.below(2) == 0), [false; 4]],
             filters: [(); 2].map(|()| (random.below(2) == 0, random.below(2) == 0, *random.of(&mipmaps))),
             wraps: [(); 2].map(|()| [(); 2].map(|()| *random.of(&wraps))),
         }
@@ -72,12 +72,13 @@ impl Palette {
 
     fn switch(random: &mut Random) -> Setting {
         let on = random.below(3) > 0;
-        match random.below(9) {
+        match random.below(11) {
+            9 => Setting::ClipDistance(random.below(2) == 0),
             0 => Setting::DepthTest(on),
             1 => Setting::DepthMask(on),
             2 => Setting::DepthClamp(on),
             3 => Setting::CullFace(!on),
-            4 => Setting::StencilTest(on),
+            4 | 10 => Setting::StencilTest(on),
             5 => Setting::Blend(on),
             6 => Setting::BlendOf(random.below(OUTPUTS) as u32, on),
             7 => Setting::ScissorTest(!on),
@@ -138,7 +139,11 @@ impl Palette {
 
     fn uniform(&self, random: &mut Random) -> Setting {
         let program = *random.of(&self.programs);
-        match random.below(6) {
+        match random.below(7) {
+            6 => {
+                let [slope, height] = [*random.of(&[0.25, -0.25, 1.0, -4.0]), random.between(-0.9, 0.9)];
+                Setting::Cut(program, [slope, slope * height])
+            }
             0..3 => Setting::Color(program, self.color(random)),
             3 => Setting::Period(program, [(); 2].map(|()| 1 + random.below(5) as i32)),
             4 => Setting::Origin(program, [(); 2].map(|()| random.below(40) as i32)),

@@ -36,7 +36,8 @@ fn parts(state: &State) -> Vec<(Place, &Image)> {
         }
     }
     for (slot, image) in state.renderbuffers.iter().enumerate() {
-        places.extend(image.as_ref().filter(|image| image.samples == 0).map(|image| (Place::Renderbuffer(slot), image)));
+        places
+            .extend(image.as_ref().filter(|image| image.samples == 0).map(|image| (Place::Renderbuffer(slot), image)));
     }
     places
 }

@@ -42,6 +42,7 @@ impl State {
             Setting::ScissorTest(on) => self.scissor_test = on,
             Setting::Scissor(area) => self.scissor = area,
             Setting::Viewport(area) => self.viewport = area,
+            Setting::ClipDistance(on) => self.clip_distance = on,
             Setting::OffsetFill(on) => self.offset_fill = on,
             Setting::Offset(offset) => self.offset = offset,
             Setting::ClearColor(color) => self.clear_color = color,
@@ -55,7 +56,8 @@ impl State {
             | Setting::Layer(program, _)
             | Setting::Reference(program, _)
             | Setting::Unit(program, _)
-            | Setting::Axes(program, _) => {
+            | Setting::Axes(program, _)
+            | Setting::Cut(program, _) => {
                 self.program = program;
                 // A name that the program does not have is ignored [GL 4.6, 7.6.1].
                 if program.has(&setting) {
@@ -117,6 +119,7 @@ impl State {
             Setting::Reference(program, value) => self.uniforms[program as usize].reference = value,
             Setting::Unit(program, value) => self.uniforms[program as usize].unit = value,
             Setting::Axes(program, value) => self.uniforms[program as usize].axes = value,
+            Setting::Cut(program, value) => self.uniforms[program as usize].cut = value,
             _ => {}
         }
     }

@@ -50,6 +50,7 @@ pub struct Uniforms {
     pub reference: f32,
     pub unit: i32,
     pub axes: [[f32; 3]; 3],
+    pub cut: [f32; 2],
 }
 
 /// Textures of a unit by target (2D, cube map, array), and its sampler object.
@@ -97,6 +98,7 @@ pub struct State {
     pub scissor: [i32; 4],
     pub viewport: [i32; 4],
     pub offset_fill: bool,
+    pub clip_distance: bool,
     pub offset: GlOffset,
     pub clear_color: [f32; 4],
     pub clear_depth: f64,
@@ -138,6 +140,7 @@ impl State {
             scissor: [0, 0, 1, 1],
             viewport: [0, 0, 1, 1],
             offset_fill: false,
+            clip_distance: false,
             offset: GlOffset { factor: 0.0, units: 0.0, clamp: 0.0 },
             clear_color: [0.0; 4],
             clear_depth: 1.0,
@@ -173,6 +176,7 @@ impl State {
             Setting::Scissor(start.scissor),
             Setting::Viewport(start.viewport),
             Setting::OffsetFill(false),
+            Setting::ClipDistance(false),
             Setting::Offset(start.offset),
             Setting::ClearColor(start.clear_color),
             Setting::ClearDepth(1.0),
