@@ -17,6 +17,7 @@ mod instances;
 pub mod lit;
 mod mutation;
 mod objects;
+mod points;
 mod program;
 mod queries;
 mod sampling;
@@ -45,6 +46,7 @@ pub use instances::GlInstances;
 #[doc(hidden)]
 pub use mutation::Mutation;
 pub use program::Shader;
+pub use points::GlPoints;
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};

@@ -1,0 +1,274 @@
+//! Whole programs: statements that are accepted one by one, results for the targets, and the text of both stages.
+
+use super::code::{Expr, Form, Place, Statement};
+use super::functions::{FUNCTIONS, Gives};
+use super::inputs::{DECLARATIONS, Given, INTEGERS, PIXELS, VECTORS, given};
+use super::make::{self, Maker, function, variable, whole};
+use super::number::Num;
+use super::run::{Ended, Variables, evaluate, run};
+use super::statements::Inside;
+use super::value::{Base, Type};
+use crate::conformance::random::Random;
+
+/// Scalars that a program gives: four of each of eight targets.
+pub const RESULTS: usize = 32;
+
+/// Where a program runs, and where its inputs come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    Vertex,
+    Fragment,
+    /// A fragment shader that reads its inputs by texelFetch.
+    Fetching,
+}
+
+impl Stage {
+    pub const ALL: [Self; 3] = [Self::Vertex, Self::Fragment, Self::Fetching];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vertex => "vertex shaders",
+            Self::Fragment => "fragment shaders",
+            Self::Fetching => "fragment shaders, inputs by texelFetch",
+        }
+    }
+}
+
+pub struct Assembled {
+    maker: Maker,
+    results: Vec<Expr>,
+    version: u32,
+    stage: Stage,
+}
+
+/// Outcome of a pixel.
+pub struct Due {
+    pub results: Vec<Num>,
+    pub is_discarded: bool,
+}
+
+/// Share of pixels that one statement may lose.
+const MOST_LOST: usize = PIXELS / 40;
+
+/// Makes a program for pixels with these values.
+pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>) -> Assembled {
+    let Given { program, ranges, globals, members } = given();
+    let functions = make::functions(version);
+    let maker = Maker {
+        random,
+        program,
+        scope: globals.clone(),
+        writable: Vec::new(),
+        pixels,
+        ranges,
+        globals,
+        block_start: None,
+        pure: Vec::new(),
+        uses: vec![0; functions.len()],
+        functions,
+    };
+    let mut made = Assembled { maker, results: Vec::new(), version, stage };
+    made.fill(&members);
+    made
+}
+
+impl Assembled {
+    fn fill(&mut self, members: &[usize]) {
+        for member in members {
+            let kind = self.maker.program.variables[*member].kind;
+            let value = self.maker.leaf(kind);
+            let place = Place { variable: *member, index: None, swizzle: Vec::new(), kind };
+            self.take(Statement::Assign(place, None, value), true);
+            self.maker.scope.push(*member);
+            self.maker.writable.push(*member);
+        }
+        let mut written: Vec<usize> = Vec::new();
+        let discards_at = if self.stage == Stage::Vertex { usize::MAX } else { self.maker.below(16) };
+        for turn in 0..80 {
+            if turn == discards_at {
+                let condition = self.maker.expr(Type::BOOL, 2);
+                self.take(Statement::If(condition, vec![Statement::Discard], Vec::new()), false);
+            }
+            let kept = (self.maker.scope.clone(), self.maker.writable.clone());
+            let statement = self.maker.statement(Inside::default());
+            match self.take(statement, false) {
+                Some(changed) => {
+                    written.retain(|variable| !changed.contains(variable));
+                    written.extend(changed);
+                }
+                None => (self.maker.scope, self.maker.writable) = kept,
+            }
+            let scalars = written.iter().map(|variable| encoded(self.maker.program.variables[*variable].kind));
+            if scalars.sum::<usize>() >= RESULTS {
+                break;
+            }
+        }
+        let mut results: Vec<Expr> =
+            written.iter().flat_map(|index| scalars(*index, self.maker.program.variables[*index].kind)).collect();
+        results.resize(RESULTS, whole(0, Type::FLOAT));
+        self.results = results;
+    }
+
+    /// Accepts a statement, unless it leaves too much open: the variables that it changes.
+    fn take(&mut self, statement: Statement, always: bool) -> Option<Vec<usize>> {
+        let maker = &mut self.maker;
+        let mut after = maker.pixels.clone();
+        let (mut lost, mut discarded) = (0, 0);
+        for variables in after.iter_mut().filter(|variables| !variables.is_empty()) {
+            match run(&maker.program, std::slice::from_ref(&statement), variables) {
+                Ended::Whole => {}
+                Ended::Lost => lost += 1,
+                Ended::Discarded => discarded += 1,
+            }
+        }
+        let writable = maker.writable.clone();
+        let at = |pixels: &[Variables], pixel: usize, index: usize| pixels[pixel].get(index).cloned().unwrap_or_default();
+        let is_changed =
+            |index: &usize| (0..PIXELS).any(|pixel| at(&after, pixel, *index) != at(&maker.pixels, pixel, *index));
+        let changed: Vec<usize> = writable.into_iter().filter(is_changed).collect();
+        let is_good = |index: &usize| make::is_good((0..PIXELS).map(|pixel| &after[pixel][*index]), false);
+        let is_discard = matches!(&statement, Statement::If(_, then, _) if matches!(then[..], [Statement::Discard]));
+        let suits = match is_discard {
+            true => (4..PIXELS / 2).contains(&discarded),
+            false => !changed.is_empty() && changed.iter().all(is_good),
+        };
+        if !always && (lost > MOST_LOST || !suits) {
+            return None;
+        }
+        maker.pixels = after;
+        maker.program.body.push(statement);
+        Some(changed)
+    }
+
+    /// Results of pixels with these values.
+    pub fn due(&self, pixels: Vec<Variables>) -> Vec<Due> {
+        let program = &self.maker.program;
+        let of_pixel = |mut variables: Variables| {
+            let ended = run(program, &program.body, &mut variables);
+            let results = match ended {
+                Ended::Whole => {
+                    self.results.iter().map(|result| evaluate(program, result, &mut variables)[0]).collect()
+                }
+                _ => vec![Num::UNKNOWN; RESULTS],
+            };
+            Due { results, is_discarded: ended == Ended::Discarded }
+        };
+        pixels.into_iter().map(of_pixel).collect()
+    }
+
+    /// The text of the statement that wrote a result last, shortened.
+    pub fn source_of(&self, result: usize) -> String {
+        format!("result {result}, {}", self.maker.program.expression(&self.results[result]))
+    }
+
+    /// Both stages' text.
+    pub fn sources(&self) -> [String; 2] {
+        let version = format!("#version {}\n", self.version);
+        let program = &self.maker.program;
+        let own: String = FUNCTIONS.iter().filter(|function| !function.text.is_empty()).map(|f| format!("{}\n", f.text)).collect();
+        let head = format!("{DECLARATIONS}{own}{}", program.functions());
+        let inputs = ["a", "m", "s", "p", "w", "n", "t", "h"];
+        let copies = |prefix: &str| -> String {
+            inputs.iter().enumerate().map(|(index, name)| format!("{name} = {prefix}{index}; ")).collect()
+        };
+        let body = program.statements(&program.body, 1);
+        let results: String = (0..8)
+            .map(|target| {
+                let part = |index: usize| program.expression(&self.results[4 * target + index]);
+                format!("    r{target} = vec4({}, {}, {}, {});\n", part(0), part(1), part(2), part(3))
+            })
+            .collect();
+        let main = format!("    {INTEGERS}\n{body}{results}");
+        let attributes = listed(VECTORS, |index| format!("in vec4 x{index};"));
+        let fetches = listed(VECTORS, |index| {
+            format!("vec4 x{index} = texelFetch(inputs, ivec2(int(gl_FragCoord.x), {index}), 0);")
+        });
+        let place = "gl_Position = position;";
+        match self.stage {
+            Stage::Vertex => [
+                format!(
+                    "{version}in vec4 position; {attributes}\n{}\n{head}void main() {{\n    {place} {}\n{main}}}\n",
+                    listed(8, |index| format!("flat out vec4 r{index};")),
+                    copies("x"),
+                ),
+                format!(
+                    "{version}{}\n{}\nvoid main() {{ {} }}\n",
+                    listed(8, |index| format!("flat in vec4 r{index};")),
+                    listed(8, |index| format!("out vec4 {};", OUTPUTS[index])),
+                    listed(8, |index| format!("{} = r{index};", OUTPUTS[index])),
+                ),
+            ],
+            Stage::Fragment => [
+                format!(
+                    "{version}in vec4 position; {attributes}\n{}\nvoid main() {{ {place} {} }}\n",
+                    listed(VECTORS, |index| format!("flat out vec4 y{index};")),
+                    listed(VECTORS, |index| format!("y{index} = x{index};")),
+                ),
+                format!(
+                    "{version}{}\n{}\n{head}void main() {{\n    {}\n    {}\n{main}}}\n",
+                    listed(VECTORS, |index| format!("flat in vec4 y{index};")),
+                    outputs(),
+                    listed(VECTORS, |index| format!("vec4 x{index} = y{index};")),
+                    copies("x"),
+                ),
+            ],
+            Stage::Fetching => [
+                format!("{version}in vec4 position;\nvoid main() {{ {place} }}\n"),
+                format!(
+                    "{version}uniform sampler2D inputs;\n{}\n{head}void main() {{\n    {fetches}\n    {}\n{main}}}\n",
+                    outputs(),
+                    copies("x"),
+                ),
+            ],
+        }
+    }
+}
+
+/// Names of fragment outputs, as the bench binds them.
+const OUTPUTS: [&str; 8] = ["result", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
+
+fn outputs() -> String {
+    listed(8, |index| format!("out vec4 {0};\n#define r{index} {0}\n", OUTPUTS[index]))
+}
+
+fn listed(count: usize, text: impl Fn(usize) -> String) -> String {
+    (0..count).map(|index| text(index) + " ").collect()
+}
+
+/// Scalars that stand for a variable: two for an integer.
+fn encoded(kind: Type) -> usize {
+    match kind.base {
+        _ if kind.count > 0 => 0,
+        Base::Int | Base::Uint => 2 * kind.scalars(),
+        _ => kind.scalars(),
+    }
+}
+
+/// Floats that a variable's value can be told from exactly.
+fn scalars(index: usize, kind: Type) -> Vec<Expr> {
+    let one = Type::vector(kind.base, 1);
+    let at = |inner: Expr, place: usize| {
+        let index = whole(place as i64, Type::INT);
+        Expr { kind: inner.kind.element(), form: Form::Index(Box::new([inner, index])) }
+    };
+    let scalar = |place: usize| -> Expr {
+        let all = variable(index, kind);
+        match () {
+            () if kind.is_scalar() => all,
+            () if kind.is_matrix() => at(at(all, place / kind.rows), place % kind.rows),
+            () => at(all, place),
+        }
+    };
+    let float = |inner: Expr| Expr { kind: Type::FLOAT, form: Form::Construct(vec![inner]) };
+    let bits = |name, inner: Expr, by: i64| Expr {
+        kind: one,
+        form: Form::Call(function(name, Gives::Integers), vec![inner, whole(by, one)]),
+    };
+    let places = 0..if kind.count > 0 { 0 } else { kind.scalars() };
+    let of_place = |place: usize| match kind.base {
+        Base::Float => vec![scalar(place)],
+        Base::Bool => vec![float(scalar(place))],
+        _ => vec![float(bits(">>", scalar(place), 16)), float(bits("&", scalar(place), 0xFFFF))],
+    };
+    places.flat_map(of_place).collect()
+}
