@@ -2,7 +2,7 @@
 
 use super::code::{Expr, Form, Place, Statement};
 use super::functions::{FUNCTIONS, Gives};
-use super::inputs::{DECLARATIONS, Given, INTEGERS, PIXELS, VECTORS, given};
+use super::inputs::{DECLARATIONS, Given, INTEGERS, VECTORS, given};
 use super::make::{self, Maker, function, variable, whole};
 use super::number::Num;
 use super::run::{Ended, Variables, evaluate, run};
@@ -46,9 +46,6 @@ pub struct Due {
     pub results: Vec<Num>,
     pub is_discarded: bool,
 }
-
-/// Share of pixels that one statement may lose.
-const MOST_LOST: usize = PIXELS / 40;
 
 /// Makes a program for pixels with these values.
 pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>) -> Assembled {
@@ -122,17 +119,18 @@ impl Assembled {
             }
         }
         let writable = maker.writable.clone();
-        let at = |pixels: &[Variables], pixel: usize, index: usize| pixels[pixel].get(index).cloned().unwrap_or_default();
+        let at = |pixels: &[Variables], pixel: usize, index: usize| pixels[pixel].get(index).cloned();
+        let count = after.len();
         let is_changed =
-            |index: &usize| (0..PIXELS).any(|pixel| at(&after, pixel, *index) != at(&maker.pixels, pixel, *index));
+            |index: &usize| (0..count).any(|pixel| at(&after, pixel, *index) != at(&maker.pixels, pixel, *index));
         let changed: Vec<usize> = writable.into_iter().filter(is_changed).collect();
-        let is_good = |index: &usize| make::is_good((0..PIXELS).map(|pixel| &after[pixel][*index]), false);
+        let is_good = |index: &usize| make::is_good((0..count).map(|pixel| &after[pixel][*index]), false);
         let is_discard = matches!(&statement, Statement::If(_, then, _) if matches!(then[..], [Statement::Discard]));
         let suits = match is_discard {
-            true => (4..PIXELS / 2).contains(&discarded),
+            true => (2..count / 2).contains(&discarded),
             false => !changed.is_empty() && changed.iter().all(is_good),
         };
-        if !always && (lost > MOST_LOST || !suits) {
+        if !always && (lost > count / 40 || !suits) {
             return None;
         }
         maker.pixels = after;

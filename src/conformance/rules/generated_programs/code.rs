@@ -1,6 +1,7 @@
 //! Programs as trees, and their text in GLSL.
 
 use super::functions::{Function, Style};
+use super::number::Num;
 use super::value::{Base, Type, Value, literal};
 
 /// An expression with its type.
@@ -41,8 +42,6 @@ pub struct Place {
 #[derive(Clone)]
 pub enum Statement {
     Declare(usize, Expr),
-    /// Without a value: an array or a result.
-    DeclareOnly(usize),
     /// The operator before `=`, or none.
     Assign(Place, Option<&'static Function>, Expr),
     If(Expr, Vec<Statement>, Vec<Statement>),
@@ -172,7 +171,6 @@ impl Program {
             Statement::Declare(variable, expr) => {
                 format!("{} = {};", self.declaration(*variable), self.expression(expr))
             }
-            Statement::DeclareOnly(variable) => format!("{};", self.declaration(*variable)),
             Statement::Assign(place, operator, expr) => {
                 let operator = operator.map_or("", |operator| operator.name);
                 format!("{} {operator}= {};", self.place(place), self.expression(expr))
@@ -264,12 +262,12 @@ fn swizzle(components: &[usize]) -> String {
     components.iter().map(|component| &letters[*component..=*component]).collect()
 }
 
-fn literal_of(value: &Value, kind: Type) -> String {
+fn literal_of(value: &[Num], kind: Type) -> String {
     let texts: Vec<String> = value.iter().map(|x| literal(x.value, kind.base)).collect();
     match kind {
         Type { count: 1.., .. } => {
             let element = kind.element();
-            let parts = value.chunks(element.scalars()).map(|part| literal_of(&part.to_vec(), element));
+            let parts = value.chunks(element.scalars()).map(|part| literal_of(part, element));
             format!("{}[{}]({})", element.name(), kind.count, parts.collect::<Vec<_>>().join(", "))
         }
         _ if kind.is_scalar() => match value[0].value < 0.0 && kind.base != Base::Uint {

@@ -103,7 +103,7 @@ impl Uniforms {
             self.numbers[first..first + count].iter().map(|x| Num::exact(f64::from(*x))).collect()
         };
         let parts = [(0, 1), (1, 4), (5, 3), (8, 9), (17, 16), (33, 32)].map(|(first, count)| part(first, count));
-        let turns = vec![Num::exact(f64::from(self.turns))];
+        let turns = Value::from(Num::exact(f64::from(self.turns)));
         parts.into_iter().chain([turns]).collect()
     }
 }
@@ -169,10 +169,10 @@ pub fn values(vectors: &[Vec<[f32; 4]>], uniforms: &Uniforms) -> Vec<Variables> 
         [&[0.625], &[0.5, -1.25, 3.0], &[3.0, -1.0, 40.0, 0.0, 1000.0], &[1.0, 0.25, -2.0, 7.0, 0.0, 12.5]];
     let of_pixel = |pixel: usize| {
         let mut list: Variables =
-            (0..FLOATS.len()).map(|vector| vectors[vector][pixel].map(float).to_vec()).collect();
+            (0..FLOATS.len()).map(|vector| vectors[vector][pixel].map(float).into_iter().collect()).collect();
         let [small, high, low] = [8, 9, 10].map(|vector: usize| vectors[vector][pixel].map(|x| x as i64));
         let wide: [i64; 4] = std::array::from_fn(|part| high[part] * 65536 + low[part]);
-        let integers = |numbers: [i64; 4]| numbers.map(|x| Num::exact(x as f64)).to_vec();
+        let integers = |numbers: [i64; 4]| numbers.map(|x| Num::exact(x as f64)).into_iter().collect::<Value>();
         list.push(integers(small));
         list.push(integers(wide));
         list.push(integers(std::array::from_fn(|part| wrapped(wide[part] ^ small[part], Base::Uint))));

@@ -57,7 +57,7 @@ pub fn constant(value: Value, kind: Type) -> Expr {
 }
 
 pub fn whole(value: i64, kind: Type) -> Expr {
-    constant(vec![Num::exact(value as f64); kind.scalars()], kind)
+    constant(Value::filled(Num::exact(value as f64), kind.scalars()), kind)
 }
 
 /// A function by its name and style.
@@ -103,7 +103,7 @@ impl Maker {
     fn is_good(&mut self, expr: &Expr) -> bool {
         let (program, pixels) = (&self.program, &mut self.pixels);
         let values: Vec<Value> =
-            pixels.iter_mut().step_by(2).map(|variables| evaluate(program, expr, variables)).collect();
+            pixels.iter_mut().map(|variables| evaluate(program, expr, variables)).collect();
         let may_be_constant = self.random.unit() < 0.1;
         is_good(values.iter(), may_be_constant)
     }
@@ -304,7 +304,7 @@ impl Maker {
         match range {
             Range::Positive if is_float => {
                 let magnitude = call("abs", Gives::Floats, vec![inner], kind);
-                let more = constant(vec![Num::exact(0.125); kind.scalars()], kind);
+                let more = constant(Value::filled(Num::exact(0.125), kind.scalars()), kind);
                 if direct { magnitude } else { call("+", Gives::Floats, vec![magnitude, more], kind) }
             }
             Range::Positive => {
@@ -317,7 +317,7 @@ impl Maker {
             }
             Range::Small | Range::Share => {
                 let end = if range == Range::Small { 20.0 } else { 1.25 };
-                let bound = |value: f64| constant(vec![Num::exact(value)], Type::FLOAT);
+                let bound = |value: f64| constant(Num::exact(value).into(), Type::FLOAT);
                 call("clamp", Gives::Floats, vec![inner, bound(-end), bound(end)], kind)
             }
             Range::NotZero if !is_float => integers("|", 1),

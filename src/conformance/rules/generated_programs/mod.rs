@@ -96,7 +96,11 @@ fn one(
     let seed = 7000 + 100 * stage as u64 + number as u64;
     let mut random = Random::new(seed);
     let draws = [(); 2].map(|()| (inputs::vectors(&mut random), Uniforms::new(&mut random)));
-    let made = assemble(random, version, stage, inputs::values(&draws[0].0, &draws[0].1));
+    // A third of the pixels tells which statements say enough.
+    let some = inputs::values(&draws[0].0, &draws[0].1).into_iter().step_by(3).collect();
+    let timer = std::time::Instant::now();
+    let made = assemble(random, version, stage, some);
+    let t0 = timer.elapsed();
     let [vertex, fragment] = made.sources();
     if std::env::var("EXPR_SHOW").is_ok_and(|show| show == seed.to_string()) {
         eprintln!("{vertex}\n{fragment}");
@@ -105,8 +109,12 @@ fn one(
     let mut attributes = vec!["position"];
     attributes.extend(names.iter().map(String::as_str));
     let program = subject.bench.points_program(&vertex, &fragment, &attributes)?;
+    let (mut t1, mut t2) = (timer.elapsed() - t0, std::time::Duration::ZERO);
     for (which, (vectors, uniforms)) in draws.iter().enumerate() {
+        let timer = std::time::Instant::now();
         let due = made.due(inputs::values(vectors, uniforms));
+        t2 += timer.elapsed();
+        let timer = std::time::Instant::now();
         let place = |index: usize| [(2.0 * index as f32 + 1.0) / PIXELS as f32 - 1.0, 0.0, 0.0, 1.0];
         let places: Vec<[f32; 4]> = (0..PIXELS).map(place).collect();
         let mut arrays = vec![places.as_slice()];
@@ -122,6 +130,10 @@ fn one(
         let points = GlPoints { surface, attributes: &arrays, uniforms: &uniforms.list(), images: &images };
         subject.bench.draw_points(&program, &points)?;
         judge(surface, &made, &due, tally, &|| format!("program {seed}, draw {which}"));
+        t1 += timer.elapsed();
+    }
+    if std::env::var("EXPR_TIME").is_ok() {
+        eprintln!("{seed} make {t0:?} gl {t1:?} due {t2:?}");
     }
     Ok(())
 }

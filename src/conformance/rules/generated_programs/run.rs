@@ -40,7 +40,7 @@ struct Run<'a> {
 
 /// Runs statements on a pixel's variables.
 pub fn run(program: &Program, list: &[Statement], variables: &mut Variables) -> Ended {
-    variables.resize_with(program.variables.len(), Vec::new);
+    variables.resize(program.variables.len(), Value::NONE);
     let mut run = Run { program, variables, steps: 0 };
     match run.list(list) {
         Flow::Discard => Ended::Discarded,
@@ -51,7 +51,7 @@ pub fn run(program: &Program, list: &[Statement], variables: &mut Variables) -> 
 
 /// Finds an expression's value. Functions of the program write their own variables alone.
 pub fn evaluate(program: &Program, expr: &Expr, variables: &mut Variables) -> Value {
-    variables.resize_with(program.variables.len(), Vec::new);
+    variables.resize(program.variables.len(), Value::NONE);
     Run { program, variables, steps: 0 }.value(expr)
 }
 
@@ -71,7 +71,7 @@ impl Run<'_> {
                 let (value, index) = (self.value(&parts[0]), self.value(&parts[1])[0].whole());
                 let size = expr.kind.scalars();
                 let at = index.and_then(|index| usize::try_from(index).ok()).map(|index| index * size);
-                at.and_then(|at| value.get(at..at + size)).map_or_else(|| unknown(expr.kind), <[Num]>::to_vec)
+                at.and_then(|at| value.get(at..at + size)).map_or_else(|| unknown(expr.kind), Value::from)
             }
             Form::Own(function, arguments) => {
                 let arguments: Vec<Value> = arguments.iter().map(|argument| self.value(argument)).collect();
@@ -117,9 +117,6 @@ impl Run<'_> {
         }
         match statement {
             Statement::Declare(variable, expr) => self.variables[*variable] = self.value(expr),
-            Statement::DeclareOnly(variable) => {
-                self.variables[*variable] = unknown(self.program.variables[*variable].kind);
-            }
             Statement::Assign(place, operator, expr) => self.assign(place, *operator, expr),
             Statement::If(condition, then, otherwise) => {
                 return match self.value(condition)[0].truth() {
@@ -162,25 +159,24 @@ impl Run<'_> {
         usize::try_from(index).ok().filter(|index| *index < kind.elements()).map(|index| index * kind.element().scalars())
     }
 
-    fn scalars(place: &Place, start: usize) -> Vec<usize> {
-        match place.swizzle.is_empty() {
-            true => (start..start + place.kind.scalars()).collect(),
-            false => place.swizzle.iter().map(|component| start + component).collect(),
-        }
+    /// Where the scalars of a place lie.
+    fn scalars(place: &Place, start: usize) -> impl Iterator<Item = usize> {
+        let whole = place.swizzle.is_empty();
+        (0..place.kind.scalars()).map(move |index| start + if whole { index } else { place.swizzle[index] })
     }
 
     fn part(&mut self, place: &Place) -> Value {
         let Some(start) = self.start(place) else { return unknown(place.kind) };
         let value = self.read(place.variable);
-        Self::scalars(place, start).into_iter().map(|at| value[at]).collect()
+        Self::scalars(place, start).map(|at| value[at]).collect()
     }
 
-    fn write(&mut self, place: &Place, value: &Value) {
+    fn write(&mut self, place: &Place, value: &[Num]) {
         let start = self.start(place);
         let mut whole = self.read(place.variable);
         match start {
             Some(start) => {
-                for (at, x) in Self::scalars(place, start).into_iter().zip(value) {
+                for (at, x) in Self::scalars(place, start).zip(value.iter()) {
                     whole[at] = *x;
                 }
             }
@@ -191,7 +187,7 @@ impl Run<'_> {
 
     /// `before`: the counter goes on before the body; `later`: the end is asked after a turn.
     fn turns(&mut self, turns: &Loop, before: bool, later: bool) -> Flow {
-        let set = |run: &mut Self, counter: i64| run.variables[turns.counter] = vec![Num::exact(counter as f64)];
+        let set = |run: &mut Self, counter: i64| run.variables[turns.counter] = Num::exact(counter as f64).into();
         let (mut counter, mut asks) = (i64::from(turns.first), !later);
         set(self, counter);
         loop {

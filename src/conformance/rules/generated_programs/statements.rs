@@ -5,7 +5,7 @@ use super::functions::{FUNCTIONS, Function, Gives};
 use super::make::{Maker, variable, whole};
 use super::number::Num;
 use super::run::run;
-use super::value::{Base, Type};
+use super::value::{Base, Type, Value};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, Default)]
@@ -188,8 +188,8 @@ impl Maker {
             _ => variable(self.ranges.turns, Type::INT),
         };
         for (index, variables) in self.pixels.iter_mut().enumerate() {
-            variables.resize(self.program.variables.len(), Vec::new());
-            variables[counter] = vec![Num::exact((index % 5) as f64)];
+            variables.resize(self.program.variables.len(), Value::NONE);
+            variables[counter] = Num::exact((index % 5) as f64).into();
         }
         self.scope.push(counter);
         let count = 1 + self.below(if is_long { 1 } else { 3 });

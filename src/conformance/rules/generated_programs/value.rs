@@ -25,7 +25,6 @@ pub struct Type {
 impl Type {
     pub const FLOAT: Self = Self::vector(Base::Float, 1);
     pub const INT: Self = Self::vector(Base::Int, 1);
-    pub const UINT: Self = Self::vector(Base::Uint, 1);
     pub const BOOL: Self = Self::vector(Base::Bool, 1);
 
     pub const fn vector(base: Base, rows: usize) -> Self {
@@ -93,11 +92,71 @@ impl Type {
     }
 }
 
-/// Scalars in GLSL's order: matrices by columns.
-pub type Value = Vec<Num>;
+/// Scalars in GLSL's order: matrices by columns. Up to four lie in the value itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    few: [Num; 4],
+    count: usize,
+    /// All of them, if there are more.
+    many: Vec<Num>,
+}
+
+impl Value {
+    pub const NONE: Self = Self { few: [Num::UNKNOWN; 4], count: 0, many: Vec::new() };
+
+    pub fn filled(x: Num, count: usize) -> Self {
+        std::iter::repeat_n(x, count).collect()
+    }
+
+    fn push(&mut self, x: Num) {
+        match self.count {
+            0..4 => self.few[self.count] = x,
+            4 => {
+                self.many.extend(self.few);
+                self.many.push(x);
+            }
+            _ => self.many.push(x),
+        }
+        self.count += 1;
+    }
+}
+
+impl FromIterator<Num> for Value {
+    fn from_iter<T: IntoIterator<Item = Num>>(list: T) -> Self {
+        let mut value = Self::NONE;
+        list.into_iter().for_each(|x| value.push(x));
+        value
+    }
+}
+
+impl From<Num> for Value {
+    fn from(x: Num) -> Self {
+        Self { few: [x, Num::UNKNOWN, Num::UNKNOWN, Num::UNKNOWN], count: 1, many: Vec::new() }
+    }
+}
+
+impl From<&[Num]> for Value {
+    fn from(list: &[Num]) -> Self {
+        list.iter().copied().collect()
+    }
+}
+
+impl std::ops::Deref for Value {
+    type Target = [Num];
+
+    fn deref(&self) -> &[Num] {
+        if self.count > 4 { &self.many } else { &self.few[..self.count] }
+    }
+}
+
+impl std::ops::DerefMut for Value {
+    fn deref_mut(&mut self) -> &mut [Num] {
+        if self.count > 4 { &mut self.many } else { &mut self.few[..self.count] }
+    }
+}
 
 pub fn unknown(kind: Type) -> Value {
-    vec![Num::UNKNOWN; kind.scalars()]
+    Value::filled(Num::UNKNOWN, kind.scalars())
 }
 
 /// A scalar as the text of a literal: floats are dyadic and of few digits.

@@ -8,7 +8,7 @@ use super::value::{Type, Value, unknown};
 pub type Arguments<'a> = &'a [(Value, Type)];
 
 pub fn dot_of(a: Arguments, _: Type) -> Value {
-    vec![dot(&a[0].0, &a[1].0)]
+    dot(&a[0].0, &a[1].0).into()
 }
 
 /// Squares of components must be floats of full precision.
@@ -20,7 +20,7 @@ fn length(v: &[Num]) -> Num {
 }
 
 pub fn length_of(a: Arguments, _: Type) -> Value {
-    vec![length(&a[0].0)]
+    length(&a[0].0).into()
 }
 
 fn difference(a: &[Num], b: &[Num]) -> Value {
@@ -28,7 +28,7 @@ fn difference(a: &[Num], b: &[Num]) -> Value {
 }
 
 pub fn distance(a: Arguments, _: Type) -> Value {
-    vec![length(&difference(&a[0].0, &a[1].0))]
+    length(&difference(&a[0].0, &a[1].0)).into()
 }
 
 pub fn normalize(a: Arguments, _: Type) -> Value {
@@ -40,13 +40,13 @@ pub fn normalize(a: Arguments, _: Type) -> Value {
 pub fn cross(a: Arguments, _: Type) -> Value {
     let (a, b) = (&a[0].0, &a[1].0);
     let part = |i: usize, j: usize| sum(&[a[i].times(b[j]), a[j].times(b[i]).negative()]);
-    vec![part(1, 2), part(2, 0), part(0, 1)]
+    [part(1, 2), part(2, 0), part(0, 1)].into_iter().collect()
 }
 
 pub fn reflect(a: Arguments, _: Type) -> Value {
     let (incident, normal) = (&a[0].0, &a[1].0);
     let twice = dot(normal, incident).times(Num::exact(2.0));
-    incident.iter().zip(normal).map(|(i, n)| sum(&[*i, twice.times(*n).negative()])).collect()
+    incident.iter().zip(normal.iter()).map(|(i, n)| sum(&[*i, twice.times(*n).negative()])).collect()
 }
 
 pub fn refract(a: Arguments, kind: Type) -> Value {
@@ -55,10 +55,10 @@ pub fn refract(a: Arguments, kind: Type) -> Value {
     let one = Num::exact(1.0);
     let k = sum(&[one, eta.times(eta).times(sum(&[one, along.times(along).negative()])).negative()]);
     match k.below(Num::exact(0.0)) {
-        Some(true) => vec![Num::exact(0.0); kind.rows],
+        Some(true) => Value::filled(Num::exact(0.0), kind.rows),
         Some(false) => {
             let by = sum(&[eta.times(along), sqrt(k)]);
-            incident.iter().zip(normal).map(|(i, n)| sum(&[eta.times(*i), by.times(*n).negative()])).collect()
+            incident.iter().zip(normal.iter()).map(|(i, n)| sum(&[eta.times(*i), by.times(*n).negative()])).collect()
         }
         None => unknown(kind),
     }
@@ -94,7 +94,8 @@ pub fn product(a: Arguments, _: Type) -> Value {
 }
 
 pub fn transpose(a: Arguments, _: Type) -> Value {
-    (0..a[0].1.rows).flat_map(|index| row(&a[0].0, a[0].1.rows, index)).collect()
+    let (rows, columns) = (a[0].1.rows, a[0].1.columns);
+    (0..rows * columns).map(|index| a[0].0[index % columns * rows + index / columns]).collect()
 }
 
 pub fn outer_product(a: Arguments, _: Type) -> Value {
@@ -131,7 +132,7 @@ fn products(m: &[Num], side: usize) -> f64 {
 }
 
 pub fn determinant_of(a: Arguments, _: Type) -> Value {
-    vec![determinant(&a[0].0, a[0].1.rows)]
+    determinant(&a[0].0, a[0].1.rows).into()
 }
 
 /// Cofactors over the determinant.
@@ -159,35 +160,36 @@ pub fn construct(a: Arguments, kind: Type) -> Value {
         };
         return (0..kind.scalars()).map(|index| entry(index / kind.rows, index % kind.rows)).collect();
     }
-    let mut all: Value = a.iter().flat_map(whole).collect();
-    if all.len() == 1 {
-        all.resize(kind.scalars(), all[0]);
+    if let [one] = a
+        && one.0.len() == 1
+    {
+        return Value::filled(whole(one)[0], kind.scalars());
     }
-    all.truncate(kind.scalars());
-    all
+    let parts: Vec<Value> = a.iter().map(whole).collect();
+    parts.iter().flat_map(|part| part.iter()).copied().take(kind.scalars()).collect()
 }
 
 /// Tests for equality of all components, or of matrices.
 pub fn equal(a: Arguments, _: Type) -> Value {
-    let each = || a[0].0.iter().zip(&a[1].0).map(|(a, b)| a.equals(*b));
+    let each = || a[0].0.iter().zip(a[1].0.iter()).map(|(a, b)| a.equals(*b));
     let result = match () {
         () if each().any(|equal| equal == Some(false)) => Some(false),
         () if each().all(|equal| equal == Some(true)) => Some(true),
         () => None,
     };
-    vec![Num::boolean(result)]
+    Num::boolean(result).into()
 }
 
 pub fn unequal(a: Arguments, kind: Type) -> Value {
-    equal(a, kind).into_iter().map(|equal| Num::boolean(equal.truth().map(|equal| !equal))).collect()
+    equal(a, kind).iter().map(|equal| Num::boolean(equal.truth().map(|equal| !equal))).collect()
 }
 
 pub fn any(a: Arguments, _: Type) -> Value {
-    vec![a[0].0.iter().fold(Num::exact(0.0), |all, x| either(all, *x))]
+    a[0].0.iter().fold(Num::exact(0.0), |all, x| either(all, *x)).into()
 }
 
 pub fn all(a: Arguments, _: Type) -> Value {
-    vec![a[0].0.iter().fold(Num::exact(1.0), |all, x| both(all, *x))]
+    a[0].0.iter().fold(Num::exact(1.0), |all, x| both(all, *x)).into()
 }
 
 pub fn either(a: Num, b: Num) -> Num {
