@@ -4,7 +4,7 @@ use glow::HasContext;
 
 use super::draw::set_uniform;
 use super::program::{GlProgram, build_named};
-use super::{Bench, Error, GlImage, GlState, GlUniform, Sampling, Surface, no};
+use super::{Bench, Error, GlBlend, GlImage, GlState, GlUniform, Sampling, Surface, no};
 
 /// A draw by glDrawArrays: a point for each vector of the attributes, which are all as many.
 #[derive(Clone, Copy)]
@@ -34,7 +34,8 @@ impl Bench {
     /// GL's.
     pub(crate) fn draw_points(&self, program: &GlProgram, points: &GlPoints) -> Result<(), Error> {
         let gl = &self.gl;
-        self.prepare(points.surface, GlState { depth: None, ..GlState::WRITE });
+        // By way of the blender: some drivers compile a shader twice where a pixel is written whole.
+        self.prepare(points.surface, GlState { depth: None, blend: Some(GlBlend::Replace), ..GlState::WRITE });
         let count = points.attributes.first().map_or(0, |attribute| attribute.len());
         let all = points.attributes.concat();
         // SAFETY: the context is current; each attribute's vectors lie in the buffer, behind those of the one before.

@@ -23,8 +23,6 @@ pub enum Stage {
 }
 
 impl Stage {
-    pub const ALL: [Self; 3] = [Self::Vertex, Self::Fragment, Self::Fetching];
-
     pub fn name(self) -> &'static str {
         match self {
             Self::Vertex => "vertex shaders",
@@ -47,10 +45,21 @@ pub struct Due {
     pub is_discarded: bool,
 }
 
+/// How often each function has been used in the programs so far.
+#[derive(Default)]
+pub struct Uses(Vec<usize>);
+
 /// Makes a program for pixels with these values.
-pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>) -> Assembled {
+pub fn assemble(
+    random: Random,
+    version: u32,
+    stage: Stage,
+    pixels: Vec<Variables>,
+    uses: &mut Uses,
+) -> Assembled {
     let Given { program, ranges, globals, members } = given();
     let functions = make::functions(version);
+    uses.0.resize(functions.len().max(uses.0.len()), 0);
     let maker = Maker {
         random,
         program,
@@ -61,11 +70,12 @@ pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variable
         globals,
         block_start: None,
         pure: Vec::new(),
-        uses: vec![0; functions.len()],
+        uses: std::mem::take(&mut uses.0),
         functions,
     };
     let mut made = Assembled { maker, results: Vec::new(), version, stage };
     made.fill(&members);
+    uses.0 = std::mem::take(&mut made.maker.uses);
     made
 }
 

@@ -47,10 +47,11 @@ fn special(random: &mut Random) -> f32 {
     }
 }
 
-/// The vectors of all pixels: each of the eleven with one for each pixel.
-pub fn vectors(random: &mut Random) -> Vec<Vec<[f32; 4]>> {
+/// The vectors of all pixels: each of the eleven with one for each pixel. By `turn` the floats' ranges change places.
+pub fn vectors(random: &mut Random, turn: usize) -> Vec<Vec<[f32; 4]>> {
     let mut all: Vec<Vec<[f32; 4]>> = Vec::new();
-    for (_, number) in FLOATS {
+    for index in 0..FLOATS.len() {
+        let (_, number) = FLOATS[(index + turn) % FLOATS.len()];
         all.push((0..PIXELS).map(|_| std::array::from_fn(|_| number(random))).collect());
     }
     // Pairs of numbers that are equal or near each other.
