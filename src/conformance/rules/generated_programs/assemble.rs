@@ -47,7 +47,7 @@ pub struct Due {
 
 /// How often each function has been used in the programs so far.
 #[derive(Default)]
-pub struct Uses(Vec<usize>);
+pub struct Uses(Vec<[usize; 2]>);
 
 /// Makes a program for pixels with these values.
 pub fn assemble(
@@ -59,7 +59,7 @@ pub fn assemble(
 ) -> Assembled {
     let Given { program, ranges, globals, members } = given();
     let functions = make::functions(version);
-    uses.0.resize(functions.len().max(uses.0.len()), 0);
+    uses.0.resize(functions.len().max(uses.0.len()), [0; 2]);
     let maker = Maker {
         random,
         program,

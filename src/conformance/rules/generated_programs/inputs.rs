@@ -20,7 +20,10 @@ const FLOATS: [(&str, fn(&mut Random) -> f32); 8] = [
     ("a", |random| random.between(-4.0, 4.0)),
     ("m", |random| signed(random, -20.0, 20.0)),
     ("s", special),
-    ("p", |random| random.between(-7.0, 7.0).exp2()),
+    ("p", |random| {
+        let reach = if random.unit() < 0.7 { 7.0 } else { 24.0 };
+        random.between(-reach, reach).exp2()
+    }),
     ("w", |random| signed(random, -30.0, 30.0)),
     ("n", |random| random.between(-1.0, 1.0)),
     ("t", |random| if random.unit() < 0.3 { special(random) } else { random.between(-20.0, 20.0) }),

@@ -38,8 +38,8 @@ pub struct Maker {
     /// Functions of the program that write nothing.
     pub pure: Vec<usize>,
     pub functions: Vec<&'static Function>,
-    /// How often each function has been used.
-    pub uses: Vec<usize>,
+    /// How often each function has been used, and how often it was a statement's own.
+    pub uses: Vec<[usize; 2]>,
 }
 
 /// Share of pixels whose value may be unknown, or known badly.
@@ -66,7 +66,7 @@ pub fn function(name: &str, gives: Gives) -> &'static Function {
     FUNCTIONS.iter().find(is_meant).unwrap_or(&FUNCTIONS[0])
 }
 
-fn call(name: &str, gives: Gives, arguments: Vec<Expr>, kind: Type) -> Expr {
+pub fn call(name: &str, gives: Gives, arguments: Vec<Expr>, kind: Type) -> Expr {
     Expr { kind, form: Form::Call(function(name, gives), arguments) }
 }
 
@@ -229,11 +229,44 @@ impl Maker {
             return None;
         }
         // Seldom used ones first.
-        let choice = [(); 4].map(|()| self.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index])?;
-        self.uses[choice] += 1;
+        let choice = [(); 4].map(|()| self.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index][0])?;
+        self.uses[choice][0] += 1;
         let function = self.functions[choice];
         let arguments = self.arguments(function, kind, depth - 1)?;
         Some(Expr { kind, form: Form::Call(function, arguments) })
+    }
+
+    /// A call of the function that has been a statement's own least often.
+    pub fn seldom(&mut self) -> Option<Expr> {
+        for _ in 0..8 {
+            let some = [(); 6].map(|()| self.below(self.functions.len()));
+            let choice = some.into_iter().min_by_key(|index| self.uses[*index][1])?;
+            let function = self.functions[choice];
+            for _ in 0..12 {
+                let kind = self.kind_of(function.gives);
+                let made = self.arguments(function, kind, 1).map(|arguments| Expr { kind, form: Form::Call(function, arguments) });
+                if let Some(made) = made
+                    && self.is_good(&made)
+                {
+                    self.uses[choice][1] += 1;
+                    return Some(made);
+                }
+            }
+            // Hard to make: others are tried before it is again.
+            self.uses[choice][1] += 1;
+        }
+        None
+    }
+
+    fn kind_of(&mut self, wanted: Gives) -> Type {
+        loop {
+            let base = self.pick(&[Base::Float, Base::Float, Base::Int, Base::Uint, Base::Bool]);
+            let vector = Type::vector(base, 1 + self.below(4));
+            let kind = if matches!(wanted, Gives::Matrix | Gives::SquareMatrix) { self.matrix() } else { vector };
+            if gives(wanted, kind) {
+                return kind;
+            }
+        }
     }
 
     fn arguments(&mut self, function: &'static Function, kind: Type, depth: usize) -> Option<Vec<Expr>> {
@@ -415,13 +448,13 @@ pub fn functions(version: u32) -> Vec<&'static Function> {
     FUNCTIONS.iter().chain(bits).collect()
 }
 
-/// Tests whether most values are known to a hundredth, and not all the same.
+/// Tests whether most values are known to a fiftieth, and not all the same.
 pub fn is_good<'a>(values: impl Iterator<Item = &'a Value>, may_be_constant: bool) -> bool {
     let (mut bad, mut count, mut differs) = (0, 0, may_be_constant);
     let mut first: Option<&Value> = None;
     for value in values {
         count += 1;
-        let is_bad = |x: &Num| !x.is_known() || SLACK * x.error > 0.02 * x.value.abs() + 1e-3;
+        let is_bad = |x: &Num| !x.is_known() || SLACK * x.error > 0.02 * (x.value.abs() + 1.0);
         if value.is_empty() || value.iter().any(is_bad) {
             bad += 1;
             continue;

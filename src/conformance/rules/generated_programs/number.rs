@@ -46,10 +46,10 @@ impl Num {
         self.whole().map(|value| value != 0)
     }
 
-    /// A result that is off by `error`, and rounded: exact if nothing was off and an f32 has it.
-    fn rounded(value: f64, error: f64) -> Self {
+    /// A result that is off by `error`, and rounded: exact if nothing was off, an f32 has it, and `alone`.
+    fn rounded(value: f64, error: f64, alone: bool) -> Self {
         let is_normal = value == 0.0 || value.abs() >= f64::from(f32::MIN_POSITIVE);
-        if error == 0.0 && is_normal && f64::from(value as f32) == value {
+        if error == 0.0 && alone && is_normal && f64::from(value as f32) == value {
             return Self::exact(value);
         }
         Self::off(value, error + ROUNDING * value.abs())
@@ -64,7 +64,9 @@ impl Num {
     }
 
     pub fn plus(self, other: Self) -> Self {
-        Self::rounded(self.value + other.value, self.error + other.error)
+        let value = self.value + other.value;
+        let alone = self.value == 0.0 || other.value == 0.0 || [self.value, other.value, value].iter().all(is_short);
+        Self::rounded(value, self.error + other.error, alone)
     }
 
     pub fn minus(self, other: Self) -> Self {
@@ -81,7 +83,9 @@ impl Num {
             return Self::UNKNOWN;
         }
         let error = a.value.abs() * b.error + b.value.abs() * a.error + SLACK * a.error * b.error;
-        Self::rounded(a.value * b.value, error)
+        let value = a.value * b.value;
+        let by_power = value == 0.0 || [a, b].iter().any(|x| x.error == 0.0 && is_power_of_two(x.value));
+        Self::rounded(value, error, by_power || [a.value, b.value, value].iter().all(is_short))
     }
 
     /// Within 2.5 units in the last place; by a power of two exactly.
@@ -94,7 +98,7 @@ impl Num {
         let value = a.value / b.value;
         let error = (a.error + value.abs() * b.error) / least;
         if b.error == 0.0 && is_power_of_two(b.value) {
-            return Self::rounded(value, error);
+            return Self::rounded(value, error, true);
         }
         Self::off(value, error + 5.0 * ROUNDING * value.abs())
     }
@@ -157,6 +161,11 @@ impl Num {
         let (apart, doubt) = (self.value - other.value, SLACK * (self.error + other.error));
         (doubt == 0.0 || apart.abs() > doubt).then_some(apart == 0.0)
     }
+}
+
+/// Tests for so few bits that sums and products of a few such numbers are exact, in whatever order a compiler takes them.
+fn is_short(value: &f64) -> bool {
+    (value * 1024.0).fract() == 0.0 && value.abs() < 2048.0
 }
 
 pub fn is_power_of_two(value: f64) -> bool {

@@ -2,7 +2,7 @@
 
 use super::code::{Argument, Case, Direction, Expr, Form, Loop, Own, Place, Statement, Variable};
 use super::functions::{FUNCTIONS, Function, Gives};
-use super::make::{Maker, variable, whole};
+use super::make::{Maker, call, function, variable, whole};
 use super::number::Num;
 use super::run::run;
 use super::value::{Base, Type, Value};
@@ -61,6 +61,11 @@ impl Maker {
     }
 
     fn declaration(&mut self) -> Statement {
+        if let Some(value) = self.chance(0.5).then(|| self.seldom()).flatten() {
+            let index = self.new_variable("v", value.kind);
+            self.declare(index);
+            return Statement::Declare(index, value);
+        }
         let mut kind = self.kind();
         let depth = 1 + self.below(3);
         let value = match kind.is_vector() && self.chance(0.08) {
@@ -192,9 +197,15 @@ impl Maker {
             variables[counter] = Num::exact((index % 5) as f64).into();
         }
         self.scope.push(counter);
-        let count = 1 + self.below(if is_long { 1 } else { 3 });
+        let count = 1 + self.below(if is_long { 2 } else { 3 });
         let inner = Inside { a_loop: true, ..inside.deeper() };
-        let body = self.body(count, inner);
+        let mut body = Vec::new();
+        if self.chance(0.4) {
+            let jump = if self.chance(0.7) { Statement::Continue } else { Statement::Break };
+            body.push(Statement::If(self.of_counter(counter), vec![jump], Vec::new()));
+        }
+        body.extend(self.counted(counter));
+        body.extend(self.body(count - 1, inner));
         self.scope.retain(|seen| *seen != counter);
         let first = if self.chance(0.8) { 0 } else { self.below(5) as i32 - 2 };
         let step = if self.chance(0.8) { 1 } else { 2 };
@@ -204,6 +215,42 @@ impl Maker {
             6..=7 => Statement::While(turns),
             _ => Statement::DoWhile(turns),
         }
+    }
+
+    /// A condition that holds in some turns.
+    fn of_counter(&mut self, counter: usize) -> Expr {
+        let turn = variable(counter, Type::INT);
+        let (at, step) = (self.below(6) as i64, self.below(3) as i64 + 1);
+        let (name, inner) = match self.chance(0.5) {
+            true => (">", turn),
+            false => ("==", call("&", Gives::Integers, vec![turn, whole(step, Type::INT)], Type::INT)),
+        };
+        let end = if name == ">" { whole(at + 1, Type::INT) } else { whole(at & step, Type::INT) };
+        call(name, Gives::OneBool, vec![inner, end], Type::BOOL)
+    }
+
+    /// A sum to which each turn adds something else.
+    fn counted(&mut self, counter: usize) -> Option<Statement> {
+        for _ in 0..16 {
+            let place = self.place()?;
+            let kind = place.kind;
+            if !kind.is_vector() || kind.base == Base::Bool {
+                continue;
+            }
+            let more = self.expr(Type::INT, 1);
+            let turn = variable(counter, Type::INT);
+            let by = whole(1 + self.below(30) as i64, Type::INT);
+            let (share, gives) = match kind.base {
+                Base::Float => (call("+", Gives::Integers, vec![turn, whole(1, Type::INT)], Type::INT), Gives::Floats),
+                _ => {
+                    let product = call("*", Gives::Integers, vec![turn, by], Type::INT);
+                    (call("^", Gives::Integers, vec![product, more], Type::INT), Gives::Integers)
+                }
+            };
+            let share = Expr { kind, form: Form::Construct(vec![share]) };
+            return Some(Statement::Assign(place, Some(function("+", gives)), share));
+        }
+        None
     }
 
     fn switch(&mut self, inside: Inside) -> Statement {
