@@ -1,7 +1,7 @@
 //! Whole programs: statements that are accepted one by one, results for the targets, and the text of both stages.
 
 use super::code::{Expr, Form, Place, Statement};
-use super::functions::{FUNCTIONS, Gives};
+use super::functions::Gives;
 use super::inputs::{DECLARATIONS, Given, INTEGERS, VECTORS, given};
 use super::make::{self, Maker, function, variable, whole};
 use super::number::Num;
@@ -164,7 +164,7 @@ impl Assembled {
         pixels.into_iter().map(of_pixel).collect()
     }
 
-    /// The text of the statement that wrote a result last, shortened.
+    /// A result's number and text.
     pub fn source_of(&self, result: usize) -> String {
         format!("result {result}, {}", self.maker.program.expression(&self.results[result]))
     }
@@ -173,8 +173,9 @@ impl Assembled {
     pub fn sources(&self) -> [String; 2] {
         let version = format!("#version {}\n", self.version);
         let program = &self.maker.program;
-        let own: String = FUNCTIONS.iter().filter(|function| !function.text.is_empty()).map(|f| format!("{}\n", f.text)).collect();
-        let head = format!("{DECLARATIONS}{own}{}", program.functions());
+        let functions = make::functions(self.version);
+        let own: String = functions.iter().map(|function| function.text).filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n");
+        let head = format!("{DECLARATIONS}{own}\n{}", program.functions());
         let inputs = ["a", "m", "s", "p", "w", "n", "t", "h"];
         let copies = |prefix: &str| -> String {
             inputs.iter().enumerate().map(|(index, name)| format!("{name} = {prefix}{index}; ")).collect()

@@ -174,7 +174,7 @@ fn truth(value: Option<bool>) -> Num {
     Num::boolean(value)
 }
 
-/// A number of bits, of both signs.
+/// Functions that each version has.
 pub const FUNCTIONS: &[Function] = &[
     infix("+", G::Floats, &[SAME, EITHER], Two(Num::plus)),
     infix("-", G::Floats, &[SAME, EITHER], Two(Num::minus)),
@@ -301,6 +301,20 @@ fn select(a: Arguments, kind: Type) -> Value {
 pub const BITS: &[Function] = &[
     named("floatBitsToInt", G::Signed, &[ALIKE], One(|x| bits(x, Base::Int))),
     named("floatBitsToUint", G::Unsigned, &[ALIKE], One(|x| bits(x, Base::Uint))),
+    own(
+        "THERE_AND_BACK",
+        "#define THERE_AND_BACK(x) intBitsToFloat(floatBitsToInt(x))",
+        G::Floats,
+        &[SAME],
+        One(|x| x),
+    ),
+    own(
+        "OTHER_SIGN",
+        "#define OTHER_SIGN(x) uintBitsToFloat(floatBitsToUint(x) ^ 0x80000000u)",
+        G::Floats,
+        &[SAME],
+        One(Num::negative),
+    ),
 ];
 
 /// Of exact floats but 0, which has two signs.
