@@ -50,13 +50,7 @@ pub struct Due {
 pub struct Uses(Vec<[usize; 2]>);
 
 /// Makes a program for pixels with these values.
-pub fn assemble(
-    random: Random,
-    version: u32,
-    stage: Stage,
-    pixels: Vec<Variables>,
-    uses: &mut Uses,
-) -> Assembled {
+pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>, uses: &mut Uses) -> Assembled {
     let Given { program, ranges, globals, members } = given();
     let functions = make::functions(version);
     uses.0.resize(functions.len().max(uses.0.len()), [0; 2]);
@@ -174,7 +168,12 @@ impl Assembled {
         let version = format!("#version {}\n", self.version);
         let program = &self.maker.program;
         let functions = make::functions(self.version);
-        let own: String = functions.iter().map(|function| function.text).filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n");
+        let own: String = functions
+            .iter()
+            .map(|function| function.text)
+            .filter(|text| !text.is_empty())
+            .collect::<Vec<_>>()
+            .join("\n");
         let head = format!("{DECLARATIONS}{own}\n{}", program.functions());
         let inputs = ["a", "m", "s", "p", "w", "n", "t", "h"];
         let copies = |prefix: &str| -> String {

@@ -121,30 +121,15 @@ impl Function {
     }
 }
 
-const fn named(
-    name: &'static str,
-    gives: Gives,
-    takes: &'static [(Takes, Range)],
-    evaluate: Evaluate,
-) -> Function {
+const fn named(name: &'static str, gives: Gives, takes: &'static [(Takes, Range)], evaluate: Evaluate) -> Function {
     Function { name, style: Style::Named, gives, takes, evaluate, text: "" }
 }
 
-const fn infix(
-    name: &'static str,
-    gives: Gives,
-    takes: &'static [(Takes, Range)],
-    evaluate: Evaluate,
-) -> Function {
+const fn infix(name: &'static str, gives: Gives, takes: &'static [(Takes, Range)], evaluate: Evaluate) -> Function {
     Function { style: Style::Infix, ..named(name, gives, takes, evaluate) }
 }
 
-const fn prefix(
-    name: &'static str,
-    gives: Gives,
-    takes: &'static [(Takes, Range)],
-    evaluate: Evaluate,
-) -> Function {
+const fn prefix(name: &'static str, gives: Gives, takes: &'static [(Takes, Range)], evaluate: Evaluate) -> Function {
     Function { style: Style::Prefix, ..named(name, gives, takes, evaluate) }
 }
 
@@ -277,10 +262,20 @@ pub const FUNCTIONS: &[Function] = &[
     named("isnan", G::OneBool, &[ALIKE], One(|a| truth(a.is_known().then_some(false)))),
     named("isinf", G::OneBool, &[ALIKE], One(|a| truth(a.is_known().then_some(false)))),
     own("SQUARE", "#define SQUARE(x) ((x) * (x))", G::Floats, &[SAME], One(|x| x.times(x))),
-    own("BETWEEN", "#define BETWEEN(a, b, t) \\\n    ((a) + ((b) - (a)) * (t))", G::OneFloat, &[SAME, SAME, SAME],
-        Three(|a, b, t| a.plus(b.minus(a).times(t)))),
-    own("larger", "float larger(float a, float b) { if (a > b) return a; return b; }\nint larger(int a, int b) { return a > b ? a : b; }",
-        G::OneFloat, &[SAME, SAME], Two(Num::most)),
+    own(
+        "BETWEEN",
+        "#define BETWEEN(a, b, t) \\\n    ((a) + ((b) - (a)) * (t))",
+        G::OneFloat,
+        &[SAME, SAME, SAME],
+        Three(|a, b, t| a.plus(b.minus(a).times(t))),
+    ),
+    own(
+        "larger",
+        "float larger(float a, float b) { if (a > b) return a; return b; }\nint larger(int a, int b) { return a > b ? a : b; }",
+        G::OneFloat,
+        &[SAME, SAME],
+        Two(Num::most),
+    ),
 ];
 
 fn mix_by_bool(a: Arguments, kind: Type) -> Value {

@@ -1,9 +1,11 @@
 //! GL-M4: random shader programs, held against an interpreter with bounds of error [GLSL 4.60, 4.7.1, 5, 6, 8].
 
 mod assemble;
+mod calls;
 mod code;
 mod functions;
 mod inputs;
+mod leaves;
 mod make;
 mod number;
 mod run;

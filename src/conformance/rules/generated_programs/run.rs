@@ -156,7 +156,10 @@ impl Run<'_> {
         let kind = self.program.variables[place.variable].kind;
         let Some(index) = &place.index else { return Some(0) };
         let index = self.value(index)[0].whole()?;
-        usize::try_from(index).ok().filter(|index| *index < kind.elements()).map(|index| index * kind.element().scalars())
+        usize::try_from(index)
+            .ok()
+            .filter(|index| *index < kind.elements())
+            .map(|index| index * kind.element().scalars())
     }
 
     /// Where the scalars of a place lie.
