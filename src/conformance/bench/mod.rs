@@ -45,8 +45,8 @@ pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 pub use instances::GlInstances;
 #[doc(hidden)]
 pub use mutation::Mutation;
-pub use program::Shader;
 pub use points::GlPoints;
+pub use program::Shader;
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};

@@ -3,7 +3,7 @@
 use super::code::{Expr, Form, Place, Statement};
 use super::functions::Gives;
 use super::inputs::{DECLARATIONS, Given, INTEGERS, VECTORS, given};
-use super::make::{self, Maker, function, variable, whole};
+use super::make::{self, Maker, Use, call, variable, whole};
 use super::number::Num;
 use super::run::{Ended, Variables, evaluate, run};
 use super::statements::Inside;
@@ -47,13 +47,13 @@ pub struct Due {
 
 /// How often each function has been used in the programs so far.
 #[derive(Default)]
-pub struct Uses(Vec<[usize; 2]>);
+pub struct Uses(Vec<Use>);
 
 /// Makes a program for pixels with these values.
 pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>, uses: &mut Uses) -> Assembled {
     let Given { program, ranges, globals, members } = given();
     let functions = make::functions(version);
-    uses.0.resize(functions.len().max(uses.0.len()), [0; 2]);
+    uses.0.resize(functions.len().max(uses.0.len()), Use::default());
     let maker = Maker {
         random,
         program,
@@ -243,40 +243,67 @@ fn listed(count: usize, text: impl Fn(usize) -> String) -> String {
     (0..count).map(|index| text(index) + " ").collect()
 }
 
-/// Scalars that stand for a variable: two for an integer.
+/// Scalars that stand for a variable: one for booleans, two for integers.
 fn encoded(kind: Type) -> usize {
     match kind.base {
         _ if kind.count > 0 => 0,
-        Base::Int | Base::Uint => 2 * kind.scalars(),
-        _ => kind.scalars(),
+        Base::Int | Base::Uint => 2,
+        Base::Bool => 1,
+        Base::Float => kind.rows,
     }
 }
 
-/// Floats that a variable's value can be told from exactly.
+fn at(inner: &Expr, place: usize) -> Expr {
+    let index = whole(place as i64, Type::INT);
+    Expr { kind: inner.kind.element(), form: Form::Index(Box::new([inner.clone(), index])) }
+}
+
+fn float(inner: Expr) -> Expr {
+    Expr { kind: Type::FLOAT, form: Form::Construct(vec![inner]) }
+}
+
+/// Floats that change if any part of a variable does: sums of columns, a number of integers' bits in two halves.
 fn scalars(index: usize, kind: Type) -> Vec<Expr> {
+    let all = variable(index, kind);
     let one = Type::vector(kind.base, 1);
-    let at = |inner: Expr, place: usize| {
-        let index = whole(place as i64, Type::INT);
-        Expr { kind: inner.kind.element(), form: Form::Index(Box::new([inner, index])) }
+    let parts: Vec<Expr> = match kind.is_scalar() {
+        true => vec![all.clone()],
+        false => (0..kind.elements()).map(|place| at(&all, place)).collect(),
     };
-    let scalar = |place: usize| -> Expr {
-        let all = variable(index, kind);
-        match () {
-            () if kind.is_scalar() => all,
-            () if kind.is_matrix() => at(at(all, place / kind.rows), place % kind.rows),
-            () => at(all, place),
+    let integers = |name, a: Expr, b: Expr| call(name, Gives::Integers, vec![a, b], one);
+    match kind.base {
+        _ if kind.count > 0 => Vec::new(),
+        Base::Float if kind.is_matrix() => {
+            let weighed = parts.into_iter().zip([1.0, 2.0, -3.0, 0.5]).map(|(column, weight)| {
+                let weight = make::constant(Num::exact(weight).into(), Type::FLOAT);
+                let kind = column.kind;
+                call("*", Gives::Floats, vec![column, weight], kind)
+            });
+            let sum = weighed.reduce(|a, b| {
+                let kind = a.kind;
+                call("+", Gives::Floats, vec![a, b], kind)
+            });
+            sum.map_or_else(Vec::new, |sum| (0..kind.rows).map(|row| at(&sum, row)).collect())
         }
-    };
-    let float = |inner: Expr| Expr { kind: Type::FLOAT, form: Form::Construct(vec![inner]) };
-    let bits = |name, inner: Expr, by: i64| Expr {
-        kind: one,
-        form: Form::Call(function(name, Gives::Integers), vec![inner, whole(by, one)]),
-    };
-    let places = 0..if kind.count > 0 { 0 } else { kind.scalars() };
-    let of_place = |place: usize| match kind.base {
-        Base::Float => vec![scalar(place)],
-        Base::Bool => vec![float(scalar(place))],
-        _ => vec![float(bits(">>", scalar(place), 16)), float(bits("&", scalar(place), 0xFFFF))],
-    };
-    places.flat_map(of_place).collect()
+        Base::Float => parts,
+        Base::Bool => {
+            let bit = |(place, part): (usize, Expr)| {
+                let weight = make::constant(Num::exact(f64::from(1 << place)).into(), Type::FLOAT);
+                call("*", Gives::Floats, vec![float(part), weight], Type::FLOAT)
+            };
+            let sum =
+                parts.into_iter().enumerate().map(bit).reduce(|a, b| call("+", Gives::Floats, vec![a, b], Type::FLOAT));
+            sum.into_iter().collect()
+        }
+        Base::Int | Base::Uint => {
+            let mixed = parts.into_iter().reduce(|a, b| integers("^", integers("*", a, whole(31, one)), b));
+            let halves = |mixed: Expr| {
+                vec![
+                    float(integers(">>", mixed.clone(), whole(16, one))),
+                    float(integers("&", mixed, whole(0xFFFF, one))),
+                ]
+            };
+            mixed.map_or_else(Vec::new, halves)
+        }
+    }
 }

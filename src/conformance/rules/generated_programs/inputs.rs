@@ -162,7 +162,7 @@ pub fn given() -> Given {
     }
     let members = (globals.len()..list.len()).collect();
     let variables = list.into_iter().map(|(name, kind)| Variable { name, kind }).collect();
-    let ranges = Ranges { positive: 3, unit: 5, small: 6, share: 7, turns: 17 };
+    let ranges = Ranges { positive: 3, special: 2, small_integers: 8, unit: 5, small: 6, share: 7, turns: 17 };
     Given { program: Program { variables, ..Program::default() }, ranges, globals, members }
 }
 

@@ -32,6 +32,21 @@ impl Maker {
         self.swizzled(whole, kind)
     }
 
+    /// Numbers of few values, so that two of them are often equal.
+    pub fn few(&mut self, kind: Type) -> Expr {
+        let Ranges { special, small_integers, .. } = self.ranges;
+        match kind.base {
+            Base::Float => self.input(special, kind),
+            Base::Bool => self.leaf(kind),
+            base => {
+                let whole_input = variable(small_integers, Type::vector(Base::Int, 4));
+                let inner = self.swizzled(whole_input, kind.of(Base::Int));
+                let inner = call("&", Gives::Integers, vec![inner, whole(3, Type::INT)], kind.of(Base::Int));
+                if base == Base::Int { inner } else { Expr { kind, form: Form::Construct(vec![inner]) } }
+            }
+        }
+    }
+
     pub fn ranged(&mut self, kind: Type, range: Range, depth: usize) -> Expr {
         let is_float = kind.base == Base::Float;
         let direct = self.chance(0.5);

@@ -11,6 +11,10 @@ use crate::conformance::random::Random;
 #[derive(Clone, Copy, Debug)]
 pub struct Ranges {
     pub positive: usize,
+    /// Whole numbers and halves.
+    pub special: usize,
+    /// Integers from -20 to 20.
+    pub small_integers: usize,
     /// In [-1, 1].
     pub unit: usize,
     /// In [-20, 20].
@@ -38,8 +42,15 @@ pub struct Maker {
     /// Functions of the program that write nothing.
     pub pure: Vec<usize>,
     pub functions: Vec<&'static Function>,
-    /// How often each function has been used, and how often it was a statement's own.
-    pub uses: Vec<[usize; 2]>,
+    /// How often each function has been used.
+    pub uses: Vec<Use>,
+}
+
+/// Uses of a function: all of them, and those as a statement's own by the result's columns and rows.
+#[derive(Clone, Copy, Default)]
+pub struct Use {
+    all: usize,
+    own: [[usize; 5]; 5],
 }
 
 /// Share of pixels whose value may be unknown, or known badly.
@@ -207,33 +218,35 @@ impl Maker {
             return None;
         }
         // Seldom used ones first.
-        let choice = [(); 4].map(|()| self.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index][0])?;
-        self.uses[choice][0] += 1;
+        let choice = [(); 4].map(|()| self.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index].all)?;
+        self.uses[choice].all += 1;
         let function = self.functions[choice];
         let arguments = self.arguments(function, kind, depth - 1)?;
         Some(Expr { kind, form: Form::Call(function, arguments) })
     }
 
-    /// A call of the function that has been a statement's own least often.
+    /// A call of a function that has been a statement's own with a result of this size least often.
     pub fn seldom(&mut self) -> Option<Expr> {
         for _ in 0..8 {
-            let some = [(); 6].map(|()| self.below(self.functions.len()));
-            let choice = some.into_iter().min_by_key(|index| self.uses[*index][1])?;
+            let mut some: Vec<(usize, Type)> = Vec::new();
+            for _ in 0..40 {
+                let choice = self.below(self.functions.len());
+                some.push((choice, self.kind_of(self.functions[choice].gives)));
+            }
+            let used = |(choice, kind): &(usize, Type)| self.uses[*choice].own[kind.columns][kind.rows];
+            let (choice, kind) = some.into_iter().min_by_key(used)?;
             let function = self.functions[choice];
+            // One that is hard to make waits until the others have had as many attempts.
+            self.uses[choice].own[kind.columns][kind.rows] += 1;
             for _ in 0..12 {
-                let kind = self.kind_of(function.gives);
-                let made = self
-                    .arguments(function, kind, 1)
-                    .map(|arguments| Expr { kind, form: Form::Call(function, arguments) });
+                let arguments = self.arguments(function, kind, 1);
+                let made = arguments.map(|arguments| Expr { kind, form: Form::Call(function, arguments) });
                 if let Some(made) = made
                     && self.is_good(&made)
                 {
-                    self.uses[choice][1] += 1;
                     return Some(made);
                 }
             }
-            // Hard to make: others are tried before it is again.
-            self.uses[choice][1] += 1;
         }
         None
     }
@@ -253,7 +266,7 @@ impl Maker {
         let free = Type::vector(Base::Float, 2 + self.below(3));
         let number = self.pick(&[Base::Float, Base::Float, Base::Float, Base::Int, Base::Uint]);
         let side = 2 + self.below(3);
-        let one = self.chance(0.4);
+        let (one, few) = (self.chance(0.4), self.chance(0.5));
         let (count, matrix, booleans) = (1 + self.below(4), self.matrix(), Type::vector(Base::Bool, 2 + self.below(3)));
         let anything = if self.chance(0.15) { matrix } else { Type::vector(number, count) };
         let factors = self.factors(kind)?;
@@ -277,7 +290,8 @@ impl Maker {
                 Takes::Rows => Type::vector(Base::Float, kind.rows),
                 Takes::Columns => Type::vector(Base::Float, kind.columns),
             };
-            list.push(self.ranged(kind, *range, depth));
+            let is_compared = matches!(takes, Takes::Numbers | Takes::Anything) && kind.is_vector();
+            list.push(if is_compared && few { self.few(kind) } else { self.ranged(kind, *range, depth) });
         }
         Some(list)
     }

@@ -61,7 +61,7 @@ impl Maker {
     }
 
     fn declaration(&mut self) -> Statement {
-        if let Some(value) = self.chance(0.5).then(|| self.seldom()).flatten() {
+        if let Some(value) = self.chance(0.6).then(|| self.seldom()).flatten() {
             let index = self.new_variable("v", value.kind);
             self.declare(index);
             return Statement::Declare(index, value);
