@@ -271,7 +271,8 @@ pub const FUNCTIONS: &[Function] = &[
     ),
     own(
         "larger",
-        "float larger(float a, float b) { if (a > b) return a; return b; }\nint larger(int a, int b) { return a > b ? a : b; }",
+        "float larger(float a, float b) { if (a > b) return a; return b; }\n\
+         int larger(int a, int b) { return a > b ? a : b; }",
         G::OneFloat,
         &[SAME, SAME],
         Two(Num::most),

@@ -1,4 +1,4 @@
-//! What programs compute with: numbers of each pixel, uniforms, constants, and their names.
+//! Numbers that programs compute with: inputs of each pixel, uniforms, constants; and their names.
 
 use super::code::{Program, Variable};
 use super::make::Ranges;
@@ -15,8 +15,11 @@ pub const PIXELS: usize = 128;
 /// Vectors of floats that each pixel is given: the last three make integers.
 pub const VECTORS: usize = 11;
 
+/// Draws a number of some range.
+type Draw = fn(&mut Random) -> f32;
+
 /// Names of the vectors of floats in programs, and their numbers' range.
-const FLOATS: [(&str, fn(&mut Random) -> f32); 8] = [
+const FLOATS: [(&str, Draw); 8] = [
     ("a", |random| random.between(-4.0, 4.0)),
     ("m", |random| signed(random, -20.0, 20.0)),
     ("s", special),
@@ -126,7 +129,7 @@ ivec4 i, j;
 uvec4 u;
 ";
 
-/// Variables that every program has: inputs, uniforms, constants (all of them seen by functions), then members of structs.
+/// Variables that every program has: inputs, uniforms, constants (functions see all of them), then members of structs.
 pub struct Given {
     pub program: Program,
     pub ranges: Ranges,

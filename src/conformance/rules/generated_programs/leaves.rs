@@ -1,4 +1,4 @@
-//! What random expressions end in: inputs of a function's range, parts of variables, literals.
+//! Ends of random expressions: inputs of a function's range, parts of variables, literals.
 
 use super::code::{Expr, Form};
 use super::functions::{Gives, Range};

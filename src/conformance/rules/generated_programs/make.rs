@@ -1,4 +1,4 @@
-//! Random expressions, of which most pixels know the value: what is made is run at once, and made again if it says little.
+//! Random expressions. Each is run at once, and made again if too few pixels know its value.
 
 use super::code::{Expr, Form, Program};
 use super::functions::{BITS, FUNCTIONS, Function, Gives, Range, Takes};

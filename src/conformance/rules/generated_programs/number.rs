@@ -163,7 +163,7 @@ impl Num {
     }
 }
 
-/// Tests for so few bits that sums and products of a few such numbers are exact, in whatever order a compiler takes them.
+/// Tests for so few bits that sums and products of a few such numbers are exact, in any order that a compiler takes.
 fn is_short(value: &f64) -> bool {
     (value * 1024.0).fract() == 0.0 && value.abs() < 2048.0
 }

@@ -107,11 +107,10 @@ impl Maker {
         let variable = self.writable[at];
         let mut kind = self.program.variables[variable].kind;
         let mut index = None;
-        if !kind.is_vector() || (!kind.is_scalar() && self.chance(0.2)) {
-            if kind.count > 0 || self.chance(0.7) {
-                index = Some(self.index(kind.elements(), 1));
-                kind = kind.element();
-            }
+        let may_be_part = !kind.is_vector() || (!kind.is_scalar() && self.chance(0.2));
+        if may_be_part && (kind.count > 0 || self.chance(0.7)) {
+            index = Some(self.index(kind.elements(), 1));
+            kind = kind.element();
         }
         let mut swizzle = Vec::new();
         if kind.is_vector() && kind.rows > 1 && self.chance(0.4) {
