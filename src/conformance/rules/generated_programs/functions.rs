@@ -85,7 +85,7 @@ pub enum Evaluate {
     One(fn(Num) -> Num),
     Two(fn(Num, Num) -> Num),
     Three(fn(Num, Num, Num) -> Num),
-    /// Of integers, by the result's base type.
+    /// A function of integers, by the result's base type.
     Integers(fn(i64, i64) -> Option<i64>),
     Whole(fn(Arguments, Type) -> Value),
 }
@@ -313,7 +313,7 @@ pub const BITS: &[Function] = &[
     ),
 ];
 
-/// Of exact floats but 0, which has two signs.
+/// Bits of exact floats but 0, which has two signs.
 fn bits(x: Num, base: Base) -> Num {
     let is_sure = x.error == 0.0 && x.value != 0.0;
     Num::integer(is_sure.then(|| s::wrapped(i64::from((x.value as f32).to_bits()), base)))
