@@ -245,7 +245,7 @@ void main() {{
 /// # Safety
 ///
 /// The context is current, and the location is of the program in use.
-unsafe fn set_uniform(gl: &glow::Context, at: Option<&glow::UniformLocation>, value: GlUniform) {
+pub(super) unsafe fn set_uniform(gl: &glow::Context, at: Option<&glow::UniformLocation>, value: GlUniform) {
     // SAFETY: as the caller promises.
     unsafe {
         match value {

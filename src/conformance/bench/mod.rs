@@ -18,6 +18,7 @@ mod instances;
 pub mod lit;
 mod mutation;
 mod objects;
+mod points;
 mod program;
 mod queries;
 mod sampling;
@@ -45,6 +46,7 @@ pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 pub use instances::GlInstances;
 #[doc(hidden)]
 pub use mutation::Mutation;
+pub use points::GlPoints;
 pub use program::Shader;
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};

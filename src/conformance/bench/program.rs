@@ -74,7 +74,7 @@ float compare_lod(vec3 at, float lod) { return decide(at.z, textureLod(shadow, a
 ";
 
 /// Outputs of a fragment shader, in the order of draw buffers; others than the first are declared by the snippet.
-const OUTPUTS: [&str; 4] = ["result", "second", "third", "fourth"];
+const OUTPUTS: [&str; 8] = ["result", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"];
 
 /// A linked program, deleted on drop.
 pub(crate) struct GlProgram {
@@ -115,14 +115,24 @@ pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Res
 
 /// The same of any stages.
 pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Result<GlProgram, Error> {
+    build_named(gl, stages, &["position", "value"])
+}
+
+/// The same with attributes of these names, by location.
+pub(super) fn build_named(
+    gl: &Rc<glow::Context>,
+    stages: &[(u32, &str)],
+    attributes: &[&str],
+) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
         for (stage, source) in stages {
             attach(gl, program.name, *stage, source)?;
         }
-        gl.bind_attrib_location(program.name, 0, "position");
-        gl.bind_attrib_location(program.name, 1, "value");
+        for (location, name) in (0..).zip(attributes) {
+            gl.bind_attrib_location(program.name, location, name);
+        }
         for (buffer, output) in (0..).zip(OUTPUTS) {
             gl.bind_frag_data_location(program.name, buffer, output);
         }

@@ -43,6 +43,7 @@ mod functions_of_glsl;
 mod levels;
 mod lights;
 mod lookups;
+mod of_programs;
 mod partial;
 mod programs;
 mod raster;
@@ -115,6 +116,7 @@ const KINDS: &[&[Fault]] = &[
     lights::FAULTS,
     beyond::FAULTS,
     partial::FAULTS,
+    of_programs::FAULTS,
     apart::FAULTS,
     apart_again::FAULTS,
     apart_inputs::FAULTS,

@@ -28,6 +28,7 @@ pub mod floats;
 pub mod fragments;
 pub mod functions;
 pub mod generated_commands;
+pub mod generated_programs;
 pub mod highlights;
 pub mod instances;
 pub mod invariance;
