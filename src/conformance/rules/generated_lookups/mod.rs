@@ -1,0 +1,192 @@
+//! GL-M2: random look-ups in random textures, in sequences in which little is set anew, against a model in f64 [GL 4.6, 8;
+//! GLSL 4.60, 8.9].
+
+mod draws;
+mod formats;
+mod lookups;
+mod model;
+mod uploads;
+mod world;
+
+use std::collections::BTreeMap;
+
+use self::draws::{CELLS, COLUMNS, Chunk, Drawn};
+use self::lookups::{Class, Due, Inputs, Kind, ROWS};
+use self::world::{SAMPLERS, Source, TEXTURES, World};
+use crate::conformance::bench::{Error, GlFormat, GlImage, GlPlace, GlState, GlTextureBench, Surface, build};
+use crate::conformance::random::Random;
+use crate::conformance::verify::{Grade, GradeTally};
+use crate::conformance::{DriverUnderTest, Findings};
+
+const SEED: u64 = 20_318;
+const DRAWS: usize = CELLS;
+/// Unit of the texture of inputs, beyond those that steps use.
+const INPUTS: u32 = 30;
+
+/// Results of one kind of look-up.
+#[derive(Default)]
+struct Results {
+    tally: GradeTally,
+    open: usize,
+    /// The first draw that is wrong, in words.
+    wrong: Option<String>,
+}
+
+/// GL-M2.
+pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let bench = &subject.bench;
+    let start = std::time::Instant::now();
+    let kinds = Kind::all(bench.has((4, 0), "GL_ARB_texture_gather"));
+    let programs = kinds
+        .iter()
+        .map(|kind| {
+            let [vertex, fragment] = kind.sources();
+            build(bench.raw(), &vertex, &fragment).map_err(|error| {
+                eprintln!("{kind:?}\n{vertex}\n{fragment}");
+                error
+            })
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    eprintln!("{} programs {:?}", programs.len(), start.elapsed());
+    let surface = bench.surface([COLUMNS as u32, ROWS as u32], Some(GlFormat::Rgba32F), None)?;
+    let (source, colors) = source(subject)?;
+    let mut world = World::new(SEED, bench.is_compatible(), &colors);
+    let mut uniforms = vec![0; kinds.len()];
+    let surfaces = [source];
+    let mut textures = GlTextureBench::new(bench, [TEXTURES, SAMPLERS], &programs, &surfaces)?;
+    let mut results: BTreeMap<String, Results> = BTreeMap::new();
+    for _ in 0..1 {
+        let chunk = world.chunk(DRAWS, &kinds, &mut uniforms);
+        eprintln!("generated {:?}", start.elapsed());
+        let inputs = bench.float_image([COLUMNS as u32, 2 * ROWS as u32], &chunk.inputs)?;
+        textures.give_all(INPUTS, &inputs, "inputs")?;
+        let steps = std::mem::take(&mut world.steps);
+        textures.take(&steps, &surface, GlState { depth: None, ..GlState::WRITE })?;
+        eprintln!("given {:?}", start.elapsed());
+        let seen = surface.floats();
+        eprintln!("drawn {:?}", start.elapsed());
+        judge(&chunk, &seen, &mut results);
+        eprintln!("judged {:?}", start.elapsed());
+    }
+    for (name, Results { tally, open, wrong }) in results {
+        let count = tally.count() + open;
+        if let Some(wrong) = wrong {
+            findings.must_hold(format!("{name}: a look-up"), false, wrong);
+        }
+        findings.tally(&name, tally, "");
+        findings.must_hold(format!("{name}: not left open"), open * 5 <= count, format!("{open} of {count} open"));
+    }
+    Ok(())
+}
+
+/// A surface of 8-bit colours, and these.
+fn source(subject: &DriverUnderTest) -> Result<(Surface, Source), Error> {
+    const SIZE: [usize; 2] = [48, 40];
+    let mut random = Random::new(SEED + 1);
+    let colors: Vec<_> =
+        (0..SIZE[0] * SIZE[1]).map(|_| [(); 4].map(|()| (random.unit() * 256.0) as u8)).collect();
+    let image: std::rc::Rc<GlImage> = subject.bench.byte_image(SIZE.map(|side| side as u32), &colors)?.into();
+    let surface = subject.bench.surface_at(Some(GlPlace::whole(&image)), None)?;
+    Ok((surface, Source { size: SIZE, colors }))
+}
+
+fn judge(chunk: &Chunk, seen: &[[f32; 4]], results: &mut BTreeMap<String, Results>) {
+    for (number, drawn) in chunk.drawn.iter().enumerate() {
+        let name = format!("{:?}, {:?}", drawn.kind.shape, drawn.kind.class);
+        let results = results.entry(name).or_default();
+        for ([x, y], inputs) in &drawn.lookups {
+            let value = seen[y * COLUMNS + x].map(f64::from);
+            match grade(drawn, inputs, value) {
+                None => results.open += 1,
+                Some((grade, off)) => {
+                    results.tally.add(grade, off);
+                    if grade == Grade::Wrong && results.wrong.is_none() {
+                        results.wrong = Some(words(number, drawn, inputs, value));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Grade of a value, and its distance from what is strictly due; `None` if too much may come out.
+fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)> {
+    let format = drawn.texture.format;
+    let swizzle = drawn.sampling.swizzle;
+    let exact = |off: f64, error: f64| (if off <= error { Grade::Good } else { Grade::Wrong }, off);
+    match drawn.kind.due(&drawn.texture, &drawn.sampling, drawn.seamless, inputs) {
+        Due::Exactly(due) => {
+            let off = (0..4).map(|part| (value[part] - due[part]).abs()).fold(0.0, f64::max);
+            Some(exact(off, 0.0))
+        }
+        Due::Texel(span) => {
+            let [strict, most] = [0, 1].map(|tier| span.distance(value, format, tier, swizzle));
+            let grade = if strict <= 0.0 {
+                Grade::Good
+            } else if most <= 0.0 {
+                Grade::Allowed
+            } else {
+                Grade::Wrong
+            };
+            Some((grade, strict.max(0.0)))
+        }
+        Due::Four(query) => {
+            let four = query.gathered()?;
+            let shadow = drawn.kind.class == Class::Shadow;
+            let mut worst = 0.0_f64;
+            for (part, texel) in four.into_iter().enumerate() {
+                let due = match swizzle[0] {
+                    crate::conformance::bench::GlSwizzle::Zero => 0.0,
+                    crate::conformance::bench::GlSwizzle::One => 1.0,
+                    from => texel[from as usize],
+                };
+                let most = texel.into_iter().map(f64::abs).fold(0.0, f64::max);
+                let slack = drawn.texture.levels.iter().map(|level| level.slack).fold(0.0, f64::max);
+                let error = if shadow { 0.0 } else { format.error(most, false)[1] + slack };
+                worst = worst.max((value[part] - due).abs() - error);
+            }
+            Some(exact(worst.max(0.0), 0.0))
+        }
+        Due::Filtered(query) => {
+            let nearest = |tier: usize| {
+                let spans = query.spans(tier)?;
+                Some(spans.iter().map(|span| span.distance(value, format, tier, swizzle)).fold(f64::INFINITY, f64::min))
+            };
+            let strict = nearest(0)?;
+            if strict <= 0.0 {
+                return Some((Grade::Good, 0.0));
+            }
+            let most = nearest(1)?;
+            Some((if most <= 0.0 { Grade::Allowed } else { Grade::Wrong }, strict))
+        }
+    }
+}
+
+/// A draw in words.
+fn words(number: usize, drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> String {
+    let Drawn { kind, texture, sampling, seamless, by_object, unit, .. } = drawn;
+    let due = match kind.due(texture, sampling, *seamless, inputs) {
+        Due::Exactly(due) => format!("{due:?}"),
+        Due::Texel(span) => format!("{:?}", span.low),
+        Due::Four(query) => format!("{:?}", query.gathered()),
+        Due::Filtered(query) => {
+            let spans = query.spans(0).unwrap_or_default();
+            let some: Vec<_> = spans.iter().take(2).map(|span| [span.low, span.high]).collect();
+            format!("{some:.5?}")
+        }
+    };
+    let size = texture.levels[0].size;
+    format!(
+        "draw {number}, {:?} of a {:?} {:?} of {} levels, {} (texture {}), on unit {unit}{}: {sampling:?}, seamless \
+         {seamless}, at {:?}, {:?}: {value:.5?}; {due} is due",
+        kind.function,
+        kind.source,
+        size,
+        texture.levels.len(),
+        texture.format.name,
+        texture.name,
+        if *by_object { " by a sampler object" } else { "" },
+        inputs.at,
+        inputs.by,
+    )
+}

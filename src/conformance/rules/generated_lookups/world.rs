@@ -1,0 +1,416 @@
+//! State of the context as the model has it, and the steps that change it: textures, sampler objects, units.
+
+use super::formats::{FORMATS, Format, OLD_FORMATS};
+use super::model::{Level, Shape, Texture};
+use super::uploads::{Block, below, chance, pick};
+use crate::conformance::bench::{
+    GlMipmap, GlSwizzle, GlTexelPlace, GlTextureStep, GlWrap, Sampling,
+};
+use crate::conformance::random::Random;
+
+/// Slots of textures and of sampler objects, and units that are used.
+pub const TEXTURES: usize = 28;
+pub const SAMPLERS: usize = 5;
+pub const UNITS: usize = 24;
+
+/// Parameters of a new texture or sampler object [GL 4.6, tables 23.15 and 23.18].
+const NEW: Sampling = Sampling {
+    linear: false,
+    magnified: Some(true),
+    mipmap: GlMipmap::Linear,
+    wrap: [GlWrap::Repeat; 3],
+    levels: Some([0, 1000]),
+    ..Sampling::NEAREST
+};
+
+/// What copies come from: bytes of a surface, rows from below.
+pub struct Source {
+    pub size: [usize; 2],
+    pub colors: Vec<[u8; 4]>,
+}
+
+pub struct World<'a> {
+    pub random: Random,
+    pub textures: Vec<Option<Texture>>,
+    pub samplers: Vec<Option<Sampling>>,
+    pub bindings: [[Option<usize>; Shape::ALL.len()]; UNITS],
+    pub units: [Option<usize>; UNITS],
+    pub seamless: bool,
+    pub steps: Vec<GlTextureStep>,
+    pub source: &'a Source,
+    formats: Vec<&'static Format>,
+    names: usize,
+}
+
+impl<'a> World<'a> {
+    pub fn new(seed: u64, compatible: bool, source: &'a Source) -> Self {
+        let old: &[Format] = if compatible { OLD_FORMATS } else { &[] };
+        let formats = FORMATS.iter().chain(old).collect();
+        Self {
+            random: Random::new(seed),
+            textures: (0..TEXTURES).map(|_| None).collect(),
+            samplers: vec![None; SAMPLERS],
+            bindings: [[None; Shape::ALL.len()]; UNITS],
+            units: [None; UNITS],
+            seamless: false,
+            steps: Vec::new(),
+            source,
+            formats,
+            names: 0,
+        }
+    }
+
+    /// Binds to a unit, where it becomes the active one.
+    pub fn bind(&mut self, unit: usize, slot: usize) -> u32 {
+        let Some(shape) = self.textures[slot].as_ref().map(|texture| texture.shape) else { return 0 };
+        self.bindings[unit][shape as usize] = Some(slot);
+        self.steps.push(GlTextureStep::Bind { unit: unit as u32, target: shape.target(), slot });
+        shape.target()
+    }
+
+    fn bind_somewhere(&mut self, slot: usize) -> u32 {
+        let bound = |world: &Self, unit: usize| world.bindings[unit].contains(&Some(slot));
+        let unit = match (0..UNITS).find(|unit| bound(self, *unit)) {
+            Some(unit) if chance(&mut self.random, 0.5) => unit,
+            _ => below(&mut self.random, UNITS),
+        };
+        self.bind(unit, slot)
+    }
+
+    /// A new texture in a slot, of a shape, with all its levels.
+    pub fn make(&mut self, slot: usize) {
+        for unit in &mut self.bindings {
+            for bound in unit.iter_mut().filter(|bound| **bound == Some(slot)) {
+                *bound = None;
+            }
+        }
+        let chances = [
+            Shape::Flat,
+            Shape::Flat,
+            Shape::Flat,
+            Shape::Cube,
+            Shape::Cube,
+            Shape::Array,
+            Shape::Array,
+            Shape::Volume,
+            Shape::Line,
+            Shape::Rectangle,
+        ];
+        let shape = pick(&mut self.random, &chances);
+        let format = self.format(shape);
+        self.names += 1;
+        let sampling = if shape == Shape::Rectangle {
+            Sampling { linear: true, magnified: Some(true), mipmap: GlMipmap::Off, wrap: [GlWrap::ClampToEdge; 3], ..NEW }
+        } else {
+            NEW
+        };
+        self.textures[slot] = Some(Texture { shape, format, levels: Vec::new(), sampling, name: self.names });
+        self.steps.push(GlTextureStep::New(slot));
+        self.bind_somewhere(slot);
+        self.define(slot);
+    }
+
+    fn format(&mut self, shape: Shape) -> &'static Format {
+        loop {
+            let format = pick(&mut self.random, &self.formats);
+            // Depth is the product's: it is met more often.
+            let again = !format.is_depth() && chance(&mut self.random, 0.2);
+            if !(again || format.is_depth() && shape == Shape::Volume) {
+                return format;
+            }
+        }
+    }
+
+    fn size(&mut self, shape: Shape) -> [usize; 3] {
+        let random = &mut self.random;
+        let mut side = |most: usize| {
+            let most = match below(random, 10) {
+                0..4 => most.min(9),
+                4..8 => most.min(40),
+                _ => most,
+            };
+            let side = 1 + below(random, most);
+            if chance(random, 0.3) { side.next_power_of_two() } else { side }
+        };
+        match shape {
+            Shape::Line if side(10) == 1 => [2000 + side(48), 1, 1],
+            Shape::Line => [side(130), 1, 1],
+            Shape::Flat if side(10) == 1 => [2000 + side(90), side(3), 1],
+            Shape::Flat if side(10) == 1 => [side(3), 2000 + side(90), 1],
+            Shape::Flat | Shape::Rectangle => [side(130), side(130), 1],
+            Shape::Volume => [side(30), side(24), side(16)],
+            Shape::Cube => {
+                let side = side(64);
+                [side, side, 6]
+            }
+            Shape::Array => [side(60), side(60), side(7)],
+        }
+    }
+
+    /// Defines all levels of a texture that is bound, in a size of their own.
+    fn define(&mut self, slot: usize) {
+        let Some((shape, format)) = self.textures[slot].as_ref().map(|texture| (texture.shape, texture.format)) else {
+            return;
+        };
+        let size = self.size(shape);
+        let longest = size[..shape.axes()].iter().copied().max().unwrap_or(1);
+        let full = longest.ilog2() as usize + 1;
+        let wanted = match shape {
+            Shape::Rectangle => 1,
+            _ if chance(&mut self.random, 0.55) => full,
+            _ => 1 + below(&mut self.random, full),
+        };
+        let made = shape != Shape::Rectangle && !format.is_depth() && !format.is_integer()
+            && !matches!(format.numbers, super::formats::Numbers::Srgb)
+            && chance(&mut self.random, 0.25);
+        let scale = below(&mut self.random, 14) as i32 - 5;
+        let mut levels = Vec::new();
+        for level in 0..wanted {
+            let size = level_size(size, level, shape.axes());
+            if made && level > 0 {
+                break;
+            }
+            levels.push(self.define_level(slot, level, size, scale));
+        }
+        if let Some(texture) = &mut self.textures[slot] {
+            texture.levels = levels;
+        }
+        if made {
+            self.restrict(slot, Some([0, wanted as u32 - 1]));
+            self.halve(slot, wanted);
+        }
+        let range = if wanted == full && chance(&mut self.random, 0.4) { 1000 } else { wanted as u32 - 1 };
+        if shape != Shape::Rectangle {
+            self.restrict(slot, Some([0, range]));
+        }
+    }
+
+    /// glGenerateMipmap of a texture that is bound and has its base level at 0.
+    fn halve(&mut self, slot: usize, count: usize) {
+        let Some(texture) = &mut self.textures[slot] else { return };
+        self.steps.push(GlTextureStep::Mipmap { target: texture.shape.target() });
+        let axes = texture.shape.axes();
+        texture.levels.truncate(1);
+        for _ in 1..count {
+            let Some(last) = texture.levels.last() else { return };
+            let next = last.halved(axes, texture.format);
+            texture.levels.push(next);
+        }
+    }
+
+    fn restrict(&mut self, slot: usize, levels: Option<[u32; 2]>) {
+        let Some(texture) = &mut self.textures[slot] else { return };
+        let to = Sampling { levels, ..texture.sampling };
+        let from = Some(std::mem::replace(&mut texture.sampling, to));
+        self.steps.push(GlTextureStep::Parameters { target: texture.shape.target(), from, to });
+    }
+
+    fn define_level(&mut self, slot: usize, level: usize, size: [usize; 3], scale: i32) -> Level {
+        let Some((shape, format)) = self.textures[slot].as_ref().map(|texture| (texture.shape, texture.format)) else {
+            return Level::of(size, Vec::new(), 0.0);
+        };
+        let place = |target| GlTexelPlace { slot, target, level: level as u32, at: [0; 3] };
+        let internal = format.internal;
+        if shape != Shape::Cube {
+            let volume = matches!(shape, Shape::Volume | Shape::Array);
+            let block = Block::random(&mut self.random, format, size, scale, volume);
+            // Empty first, and filled in its middle by a piece: or whole.
+            let target = shape.target();
+            let sizes = size.map(|side| side as u32);
+            if shape != Shape::Line && chance(&mut self.random, 0.15) {
+                self.steps.push(GlTextureStep::Define { place: place(target), internal, size: sizes, texels: None });
+                let texels = block.texels;
+                self.steps.push(GlTextureStep::Replace { place: place(target), size: sizes, texels });
+            } else {
+                let texels = Some(block.texels);
+                self.steps.push(GlTextureStep::Define { place: place(target), internal, size: sizes, texels });
+            }
+            return Level::of(size, block.stored, block.slack);
+        }
+        let (mut stored, mut slack) = (Vec::new(), 0.0_f64);
+        for face in 0..6 {
+            let block = Block::random(&mut self.random, format, [size[0], size[1], 1], scale, false);
+            let target = glow::TEXTURE_CUBE_MAP_POSITIVE_X + face;
+            let texels = Some(block.texels);
+            let size = [size[0] as u32, size[1] as u32, 1];
+            self.steps.push(GlTextureStep::Define { place: place(target), internal, size, texels });
+            stored.extend(block.stored);
+            slack = slack.max(block.slack);
+        }
+        Level::of(size, stored, slack)
+    }
+
+    /// One change of some texture's texels or definition.
+    pub fn edit(&mut self) {
+        let slot = below(&mut self.random, TEXTURES);
+        let kind = below(&mut self.random, 12);
+        if self.textures[slot].is_none() || kind == 0 {
+            return self.make(slot);
+        }
+        self.bind_somewhere(slot);
+        match kind {
+            1 => {
+                let Some(texture) = &mut self.textures[slot] else { return };
+                let shape = texture.shape;
+                let format = self.format(shape);
+                if let Some(texture) = &mut self.textures[slot] {
+                    texture.format = format;
+                }
+                self.define(slot);
+                // An integer has no filter but NEAREST: the next draw sees to that.
+            }
+            2..=6 => self.replace(slot),
+            7..=8 => self.clear(slot),
+            9..=10 => self.copy(slot),
+            _ => {
+                let Some(texture) = &self.textures[slot] else { return };
+                let is_srgb = matches!(texture.format.numbers, super::formats::Numbers::Srgb);
+                let can = texture.shape != Shape::Rectangle
+                    && !texture.format.is_depth()
+                    && !texture.format.is_integer()
+                    && !is_srgb;
+                let count = texture.levels.len();
+                if can {
+                    self.restrict(slot, Some([0, count as u32 - 1]));
+                    self.halve(slot, count);
+                }
+            }
+        }
+    }
+
+    /// A level and a block of it, in a layer or face.
+    fn block(&mut self, slot: usize) -> Option<(usize, [usize; 3], [usize; 3])> {
+        let texture = self.textures[slot].as_ref()?;
+        let level = below(&mut self.random, texture.levels.len().min(4));
+        let size = texture.levels[level].size;
+        let deep = matches!(texture.shape, Shape::Volume | Shape::Array);
+        let (mut at, mut block) = ([0; 3], [1; 3]);
+        for axis in 0..3 {
+            at[axis] = below(&mut self.random, size[axis]);
+            block[axis] = if axis == 2 && !deep { 1 } else { 1 + below(&mut self.random, size[axis] - at[axis]) };
+        }
+        Some((level, at, block))
+    }
+
+    fn place(&self, slot: usize, level: usize, at: [usize; 3]) -> GlTexelPlace {
+        let shape = self.textures[slot].as_ref().map_or(Shape::Flat, |texture| texture.shape);
+        let target = match shape {
+            Shape::Cube => glow::TEXTURE_CUBE_MAP_POSITIVE_X + at[2] as u32,
+            _ => shape.target(),
+        };
+        GlTexelPlace { slot, target, level: level as u32, at: at.map(|at| at as u32) }
+    }
+
+    fn replace(&mut self, slot: usize) {
+        let Some((level, at, size)) = self.block(slot) else { return };
+        let Some(texture) = &self.textures[slot] else { return };
+        if texture.shape == Shape::Line {
+            return;
+        }
+        let deep = matches!(texture.shape, Shape::Volume | Shape::Array);
+        let block = Block::random(&mut self.random, texture.format, size, 2, deep);
+        let place = self.place(slot, level, at);
+        let size_of = size.map(|side| side as u32);
+        self.steps.push(GlTextureStep::Replace { place, size: size_of, texels: block.texels });
+        let texel = |[x, y, z]: [usize; 3]| block.stored[(z * size[1] + y) * size[0] + x];
+        if let Some(texture) = &mut self.textures[slot] {
+            texture.levels[level].replace(at, size, block.slack, texel);
+        }
+    }
+
+    fn clear(&mut self, slot: usize) {
+        let Some((level, at, mut size)) = self.block(slot) else { return };
+        size[2] = 1;
+        let Some(texture) = &self.textures[slot] else { return };
+        let format = texture.format;
+        if !format.drawn || matches!(texture.shape, Shape::Line | Shape::Rectangle) {
+            return;
+        }
+        let value = super::formats::value(&mut self.random, format, 2);
+        let color = value.map(|value| value as f32);
+        let (kept, slack) = format.store(color.map(f64::from));
+        let place = self.place(slot, level, at);
+        let area = [at[0], at[1], size[0], size[1]].map(|number| number as u32);
+        self.steps.push(GlTextureStep::Clear { place, area, color, depth: format.is_depth() });
+        if let Some(texture) = &mut self.textures[slot] {
+            texture.levels[level].replace(at, size, slack, |_| kept);
+        }
+    }
+
+    /// A copy from the surface of 8-bit colours, into formats of the same numbers.
+    fn copy(&mut self, slot: usize) {
+        let Some((level, at, mut size)) = self.block(slot) else { return };
+        size[2] = 1;
+        let Some(texture) = &self.textures[slot] else { return };
+        let format = texture.format;
+        let is_color = matches!(format.internal, glow::R8 | glow::RG8 | glow::RGB8 | glow::RGBA8 | glow::RGBA16F)
+            || matches!(format.internal, glow::RGBA32F | glow::R32F | glow::RGBA16 | glow::RGB10_A2);
+        if !is_color || texture.shape == Shape::Line {
+            return;
+        }
+        let source = self.source;
+        size[0] = size[0].min(source.size[0]);
+        size[1] = size[1].min(source.size[1]);
+        let from = [0, 1].map(|axis| below(&mut self.random, source.size[axis] - size[axis] + 1));
+        let place = self.place(slot, level, at);
+        let (from_of, size_of) = (from.map(|at| at as u32), [size[0], size[1]].map(|side| side as u32));
+        self.steps.push(GlTextureStep::Copy { place, surface: 0, from: from_of, size: size_of });
+        let color = |[x, y, _]: [usize; 3]| {
+            let color = source.colors[(from[1] + y) * source.size[0] + from[0] + x];
+            format.store(color.map(|code| f64::from(code) / 255.0))
+        };
+        let mut slack = 0.0_f64;
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                slack = slack.max(color([x, y, 0]).1);
+            }
+        }
+        if let Some(texture) = &mut self.textures[slot] {
+            texture.levels[level].replace(at, size, slack, |texel| color(texel).0);
+        }
+    }
+
+    /// A swizzle or a range of levels of a texture, now and then.
+    pub fn reshuffle(&mut self, slot: usize) -> Sampling {
+        let random = &mut self.random;
+        let Some(texture) = &self.textures[slot] else { return NEW };
+        let mut to = texture.sampling;
+        if chance(random, 0.12) {
+            let all = [
+                GlSwizzle::Red,
+                GlSwizzle::Green,
+                GlSwizzle::Blue,
+                GlSwizzle::Alpha,
+                GlSwizzle::Zero,
+                GlSwizzle::One,
+            ];
+            to.swizzle = [(); 4].map(|()| pick(random, &all));
+        } else if chance(random, 0.2) {
+            to.swizzle = GlSwizzle::SAME;
+        }
+        if texture.shape != Shape::Rectangle && chance(random, 0.25) {
+            let count = texture.levels.len();
+            let base = below(random, count);
+            to.levels = Some([base as u32, (base + below(random, count - base)) as u32]);
+        }
+        to
+    }
+
+    /// A sampler object in a slot, new or there already.
+    pub fn object(&mut self) -> usize {
+        let object = below(&mut self.random, SAMPLERS);
+        if self.samplers[object].is_none() || chance(&mut self.random, 0.1) {
+            for unit in self.units.iter_mut().filter(|unit| **unit == Some(object)) {
+                *unit = None;
+            }
+            self.steps.push(GlTextureStep::NewSampler(object));
+            self.samplers[object] = Some(Sampling { levels: None, ..NEW });
+        }
+        object
+    }
+}
+
+/// Size of a level: each axis that is halved.
+fn level_size(size: [usize; 3], level: usize, axes: usize) -> [usize; 3] {
+    [0, 1, 2].map(|axis| if axis < axes { (size[axis] >> level).max(1) } else { size[axis] })
+}
