@@ -1,6 +1,5 @@
 //! Textures and sampler objects call by call, under slots: each step sets what it says and leaves all else as it was.
 
-use std::rc::Rc;
 
 use glow::HasContext;
 
@@ -58,8 +57,8 @@ pub enum GlTextureStep {
     Seamless(bool),
     /// An integer uniform of a program.
     Uniform { program: usize, name: &'static str, value: i32 },
-    /// Triangles by a program, with the four numbers of the uniform `more`.
-    Draw { program: usize, more: [f32; 4], vertices: Vec<Vertex> },
+    /// Triangles by a program, with the numbers of the uniform array `more`.
+    Draw { program: usize, more: Vec<[f32; 4]>, vertices: Vec<Vertex> },
 }
 
 /// What steps work on.
@@ -229,8 +228,8 @@ impl<'a> GlTextureBench<'a> {
                 GlTextureStep::Draw { program, more, vertices } => {
                     let program = self.programs[*program].name;
                     gl.use_program(Some(program));
-                    let [x, y, z, w] = *more;
-                    gl.uniform_4_f32(gl.get_uniform_location(program, "more").as_ref(), x, y, z, w);
+                    let location = gl.get_uniform_location(program, "more");
+                    gl.uniform_4_f32_slice(location.as_ref(), more.as_flattened());
                     bench.submit(program, vertices);
                 }
             }
@@ -349,6 +348,8 @@ fn empty_layout(internal: u32) -> [u32; 2] {
         }
         glow::DEPTH24_STENCIL8 => [glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8],
         glow::DEPTH32F_STENCIL8 => [glow::DEPTH_STENCIL, glow::FLOAT_32_UNSIGNED_INT_24_8_REV],
+        // The integer formats lie side by side, but for those of one channel and of two.
+        glow::RGBA32UI..=glow::RGB8I | glow::R8I..=glow::RG32UI => [glow::RGBA_INTEGER, glow::INT],
         _ => [glow::RGBA, glow::UNSIGNED_BYTE],
     }
 }

@@ -1,10 +1,10 @@
-//! Rules of kind M: random programs, states and data, held against a model of GL.
+//! Rules of kind N: random programs, states and data, held against a model of GL.
 
 use crate::conformance::Rule;
 use crate::conformance::rules::generated_lookups;
 
 pub const RULES: &[Rule] = &[Rule {
-    id: "GL-M2",
+    id: "GL-N2",
     title: "random look-ups",
     section: "8.4, 8.5, 8.6, 8.14, 8.23, GLSL 8.9",
     says: "Look-ups of any function, in textures of any target, format and size, find by any parameters what was put there last.",

@@ -55,8 +55,6 @@ pub struct Kind {
 /// Offset of functions that have one.
 pub const OFFSET: [i64; 3] = [-3, 5, 2];
 
-/// Rows of the texture of inputs: coordinates, then what else a look-up takes.
-pub const ROWS: usize = 128;
 
 impl Kind {
     /// Every look-up that the GLSL at hand has.
@@ -113,7 +111,7 @@ impl Kind {
     }
 
     /// GLSL's type of the sampler.
-    fn sampler(self) -> String {
+    pub fn sampler(self) -> String {
         let prefix = match self.class {
             Class::Int => "i",
             Class::Uint => "u",
@@ -144,7 +142,7 @@ impl Kind {
     }
 
     /// The look-up of `at` and `by`, as a vec4.
-    fn expression(self) -> String {
+    pub fn expression(self) -> String {
         use Function::{
             Bias, Fetch, FetchOffset, Gather, Grad, Lod, LodOffset, Offset, Proj, ProjLod, ProjOfFour, ProjOffset,
             Size, Texture,
@@ -183,6 +181,8 @@ impl Kind {
             _ => "by.xy, by.zw",
         };
         let level = if self.shape == Shape::Rectangle { "" } else { ", int(at.w)" };
+        // The same for all pixels: Mesa's llvmpipe takes the size of one level for several pixels side by side.
+        let level_of_size = if level.is_empty() { "" } else { ", int(by.x)" };
         let call = match self.function {
             Texture => format!("texture(map, {at})"),
             Bias => format!("texture(map, {at}, by.x)"),
@@ -201,7 +201,7 @@ impl Kind {
             }
             Gather => format!("textureGather(map, {at})"),
             Size => {
-                let call = if level.is_empty() { "textureSize(map)" } else { "textureSize(map, int(at.w))" };
+                let call = format!("textureSize(map{level_of_size})");
                 return match (self.shape, axes) {
                     (Shape::Line, _) => format!("vec4({call}, 0, 0, 1)"),
                     (Shape::Array | Shape::Volume, _) => format!("vec4({call}, 1)"),
@@ -212,41 +212,6 @@ impl Kind {
         if shadow && self.function != Gather { format!("vec4({call}, 0.0, 0.0, 1.0)") } else { format!("vec4({call})") }
     }
 
-    /// Whole sources of the vertex and the fragment shader.
-    pub fn sources(self) -> [String; 2] {
-        let version = if self.function == Function::Gather { "#version 400" } else { "#version 330" };
-        let (sampler, expression) = (self.sampler(), self.expression());
-        if self.source == Source::Vertex {
-            return [
-                format!(
-                    "{version}\nin vec4 position;\nin vec4 value;\nflat out vec4 passed;\nuniform {sampler} map;
-uniform vec4 more;\nvoid main() {{\n    gl_Position = position;\n    vec4 at = value, by = more;
-    passed = {expression};\n}}\n"
-                ),
-                format!(
-                    "{version}\nflat in vec4 passed;\nout vec4 result;\nuniform sampler2D inputs;
-void main() {{ result = passed; }}\n"
-                ),
-            ];
-        }
-        let inputs = match self.source {
-            Source::Interpolated => "vec4 at = passed, by = more;".to_owned(),
-            _ => format!(
-                "ivec2 pixel = ivec2(gl_FragCoord.xy);\n    vec4 at = texelFetch(inputs, pixel, 0);
-    vec4 by = texelFetch(inputs, pixel + ivec2(0, {ROWS}), 0);"
-            ),
-        };
-        [
-            format!(
-                "{version}\nin vec4 position;\nin vec4 value;\nout vec4 passed;
-void main() {{ gl_Position = position; passed = value; }}\n"
-            ),
-            format!(
-                "{version}\nin vec4 passed;\nout vec4 result;\nuniform {sampler} map;\nuniform sampler2D inputs;
-uniform vec4 more;\nvoid main() {{\n    {inputs}\n    result = {expression};\n}}\n"
-            ),
-        ]
-    }
 }
 
 impl Function {
@@ -282,6 +247,7 @@ pub struct Inputs {
 /// What a look-up is due to give.
 pub enum Due<'a> {
     Filtered(Query<'a>),
+    Open,
     Texel(Span),
     Exactly([f64; 4]),
     Four(Query<'a>),
@@ -295,7 +261,8 @@ impl Kind {
         let base = (sampling.levels.map_or(0, |[base, _]| base) as usize).min(last);
         let [x, y, z, w] = inputs.at;
         if matches!(self.function, Fetch | FetchOffset | Size) {
-            let level = if self.shape == Shape::Rectangle { 0 } else { base + w as usize };
+            let above = if self.function == Size { inputs.by[0] } else { w };
+            let level = if self.shape == Shape::Rectangle { 0 } else { base + above as usize };
             let texels = &texture.levels[level.min(last)];
             let [width, height, depth] = texels.size.map(|side| side as f64);
             if self.function == Size {
@@ -309,6 +276,9 @@ impl Kind {
             let place = [x, y, z].map(|at| at as i64);
             let moved = |axis: usize| if self.function == FetchOffset && axis < self.shape.axes() { OFFSET[axis] } else { 0 };
             let texel = [0, 1, 2].map(|axis| if axis < used { place[axis] + moved(axis) } else { 0 });
+            if !texels.known {
+                return Due::Open;
+            }
             return Due::Texel(Span::of(texels.at(texel), texels.slack));
         }
         let projective = self.is_projective();
@@ -337,10 +307,11 @@ impl Kind {
             },
         };
         let bias = f64::from(sampling.bias) + if self.function == Bias { inputs.by[0] } else { 0.0 };
-        let reference = if projective { z / w } else { w };
+        // 0 has no sign for a comparison.
+        let reference = if projective { z / w } else { w } + 0.0;
         let compare = sampling.compare.filter(|_| self.class == Class::Shadow).map(|function| {
             let range = texture.format.range();
-            let reference = range.map_or(reference, |[low, high]| reference.clamp(low, high));
+            let reference = range.map_or(reference, |[low, high]| (reference.clamp(low, high)) + 0.0);
             let bits = if texture.format.bits[0] == 16 { 16 } else { 20 };
             let rounded = if projective { f64::from(-21).exp2() } else { f64::from(-24).exp2() };
             let tie = f64::from(-bits).exp2() + reference.abs() * rounded + inputs.error / divisor.abs();

@@ -1,25 +1,26 @@
-//! GL-M2: random look-ups in random textures, in sequences in which little is set anew, against a model in f64 [GL 4.6, 8;
+//! GL-N2: random look-ups in random textures, in sequences in which little is set anew, against a model in f64 [GL 4.6, 8;
 //! GLSL 4.60, 8.9].
 
 mod draws;
 mod formats;
 mod lookups;
 mod model;
+mod programs;
 mod uploads;
 mod world;
 
 use std::collections::BTreeMap;
 
-use self::draws::{CELLS, COLUMNS, Chunk, Drawn};
-use self::lookups::{Class, Due, Inputs, Kind, ROWS};
+use self::draws::{COLUMNS, Chunk, Drawn};
+use self::lookups::{Class, Due, Inputs};
+use self::programs::{Program, ROWS};
 use self::world::{SAMPLERS, Source, TEXTURES, World};
-use crate::conformance::bench::{Error, GlFormat, GlImage, GlPlace, GlState, GlTextureBench, Surface, build};
+use crate::conformance::bench::{Error, GlFormat, GlImage, GlPlace, GlState, GlSwizzle, GlTextureBench, Surface, build};
 use crate::conformance::random::Random;
 use crate::conformance::verify::{Grade, GradeTally};
 use crate::conformance::{DriverUnderTest, Findings};
 
 const SEED: u64 = 20_318;
-const DRAWS: usize = CELLS;
 /// Unit of the texture of inputs, beyond those that steps use.
 const INPUTS: u32 = 30;
 
@@ -32,35 +33,35 @@ struct Results {
     wrong: Option<String>,
 }
 
-/// GL-M2.
+/// GL-N2.
 pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let bench = &subject.bench;
     let start = std::time::Instant::now();
-    let kinds = Kind::all(bench.has((4, 0), "GL_ARB_texture_gather"));
-    let programs = kinds
+    let mut random = Random::new(SEED + 2);
+    let texts = Program::all(bench.has((4, 0), "GL_ARB_texture_gather"), &mut random);
+    let programs = texts
         .iter()
-        .map(|kind| {
-            let [vertex, fragment] = kind.sources();
-            build(bench.raw(), &vertex, &fragment).map_err(|error| {
-                eprintln!("{kind:?}\n{vertex}\n{fragment}");
-                error
-            })
+        .map(|program| {
+            let [vertex, fragment] = program.sources();
+            build(bench.raw(), &vertex, &fragment).inspect_err(|_| eprintln!("{vertex}\n{fragment}"))
         })
         .collect::<Result<Vec<_>, _>>()?;
     eprintln!("{} programs {:?}", programs.len(), start.elapsed());
     let surface = bench.surface([COLUMNS as u32, ROWS as u32], Some(GlFormat::Rgba32F), None)?;
     let (source, colors) = source(subject)?;
     let mut world = World::new(SEED, bench.is_compatible(), &colors);
-    let mut uniforms = vec![0; kinds.len()];
+    let mut uniforms = vec![[0; 4]; texts.len()];
     let surfaces = [source];
     let mut textures = GlTextureBench::new(bench, [TEXTURES, SAMPLERS], &programs, &surfaces)?;
     let mut results: BTreeMap<String, Results> = BTreeMap::new();
     for _ in 0..1 {
-        let chunk = world.chunk(DRAWS, &kinds, &mut uniforms);
+        let chosen: Vec<_> = (0..texts.len()).collect();
+        let chunk = world.chunk(&texts, &chosen, &mut uniforms);
         eprintln!("generated {:?}", start.elapsed());
         let inputs = bench.float_image([COLUMNS as u32, 2 * ROWS as u32], &chunk.inputs)?;
         textures.give_all(INPUTS, &inputs, "inputs")?;
         let steps = std::mem::take(&mut world.steps);
+        if std::env::var("LOOKSTEPS").is_ok() { for s in &steps { let t = format!("{s:?}"); eprintln!("STEP {}", &t[..t.len().min(700)]); } }
         textures.take(&steps, &surface, GlState { depth: None, ..GlState::WRITE })?;
         eprintln!("given {:?}", start.elapsed());
         let seen = surface.floats();
@@ -94,6 +95,13 @@ fn judge(chunk: &Chunk, seen: &[[f32; 4]], results: &mut BTreeMap<String, Result
     for (number, drawn) in chunk.drawn.iter().enumerate() {
         let name = format!("{:?}, {:?}", drawn.kind.shape, drawn.kind.class);
         let results = results.entry(name).or_default();
+        let mut bad = 0; let mut firstbad = String::new();
+        for ([x, y], inputs) in &drawn.lookups {
+            if let Some((Grade::Wrong, _)) = grade(drawn, inputs, seen[y * COLUMNS + x].map(f64::from)) { bad += 1; if bad == 1 { firstbad = words(number, drawn, inputs, seen[y * COLUMNS + x].map(f64::from));
+   let v = seen[y * COLUMNS + x].map(f64::from);
+   for (l, level) in drawn.texture.levels.iter().enumerate() { for (i, t) in level.texels.iter().enumerate() { if (0..4).all(|c| { let d = match drawn.sampling.swizzle[c] { GlSwizzle::Zero => 0.0, GlSwizzle::One => 1.0, f => t[f as usize]}; (d - v[c]).abs() < 1e-5 }) { firstbad += &format!(" FOUND level {l} {:?} of {:?}", [i % level.size[0], i / level.size[0] % level.size[1], i / level.size[0] / level.size[1]], level.size); } } } } }
+        }
+        if bad > 0 && std::env::var("LOOKBAD").is_ok() { eprintln!("BAD {bad} of {} {:?} {:?} {firstbad}", drawn.lookups.len(), drawn.kind.shape, drawn.kind.class); }
         for ([x, y], inputs) in &drawn.lookups {
             let value = seen[y * COLUMNS + x].map(f64::from);
             match grade(drawn, inputs, value) {
@@ -112,9 +120,17 @@ fn judge(chunk: &Chunk, seen: &[[f32; 4]], results: &mut BTreeMap<String, Result
 /// Grade of a value, and its distance from what is strictly due; `None` if too much may come out.
 fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)> {
     let format = drawn.texture.format;
-    let swizzle = drawn.sampling.swizzle;
+    let mut swizzle = drawn.sampling.swizzle;
+    if drawn.compatible && format.is_depth() && drawn.kind.class == Class::Float {
+        // DEPTH_TEXTURE_MODE is LUMINANCE as long as nothing else is said [GL 4.6 compat., 8.24].
+        swizzle = swizzle.map(|from| match from {
+            GlSwizzle::Green | GlSwizzle::Blue => GlSwizzle::Red,
+            from => from,
+        });
+    }
     let exact = |off: f64, error: f64| (if off <= error { Grade::Good } else { Grade::Wrong }, off);
     match drawn.kind.due(&drawn.texture, &drawn.sampling, drawn.seamless, inputs) {
+        Due::Open => None,
         Due::Exactly(due) => {
             let off = (0..4).map(|part| (value[part] - due[part]).abs()).fold(0.0, f64::max);
             Some(exact(off, 0.0))
@@ -136,8 +152,8 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
             let mut worst = 0.0_f64;
             for (part, texel) in four.into_iter().enumerate() {
                 let due = match swizzle[0] {
-                    crate::conformance::bench::GlSwizzle::Zero => 0.0,
-                    crate::conformance::bench::GlSwizzle::One => 1.0,
+                    GlSwizzle::Zero => 0.0,
+                    GlSwizzle::One => 1.0,
                     from => texel[from as usize],
                 };
                 let most = texel.into_iter().map(f64::abs).fold(0.0, f64::max);
@@ -166,6 +182,7 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
 fn words(number: usize, drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> String {
     let Drawn { kind, texture, sampling, seamless, by_object, unit, .. } = drawn;
     let due = match kind.due(texture, sampling, *seamless, inputs) {
+        Due::Open => "anything".to_owned(),
         Due::Exactly(due) => format!("{due:?}"),
         Due::Texel(span) => format!("{:?}", span.low),
         Due::Four(query) => format!("{:?}", query.gathered()),

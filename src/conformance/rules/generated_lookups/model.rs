@@ -100,11 +100,6 @@ impl Span {
         worst
     }
 
-    /// Distances between the ends of the widest channel.
-    pub fn width(&self) -> f64 {
-        (0..4).map(|channel| self.high[channel] - self.low[channel]).fold(0.0, f64::max)
-    }
-
     fn blend(&self, other: &Self, shares: [f64; 2]) -> Self {
         let mut span = Self {
             low: [f64::INFINITY; 4],

@@ -1,6 +1,7 @@
 //! State of the context as the model has it, and the steps that change it: textures, sampler objects, units.
 
 use super::formats::{FORMATS, Format, OLD_FORMATS};
+use super::lookups::Kind;
 use super::model::{Level, Shape, Texture};
 use super::uploads::{Block, below, chance, pick};
 use crate::conformance::bench::{
@@ -38,8 +39,10 @@ pub struct World<'a> {
     pub seamless: bool,
     pub steps: Vec<GlTextureStep>,
     pub source: &'a Source,
+    pub compatible: bool,
     formats: Vec<&'static Format>,
     names: usize,
+    turn: usize,
 }
 
 impl<'a> World<'a> {
@@ -55,8 +58,10 @@ impl<'a> World<'a> {
             seamless: false,
             steps: Vec::new(),
             source,
+            compatible,
             formats,
             names: 0,
+            turn: 0,
         }
     }
 
@@ -79,25 +84,32 @@ impl<'a> World<'a> {
 
     /// A new texture in a slot, of a shape, with all its levels.
     pub fn make(&mut self, slot: usize) {
-        for unit in &mut self.bindings {
-            for bound in unit.iter_mut().filter(|bound| **bound == Some(slot)) {
-                *bound = None;
-            }
-        }
         let chances = [
             Shape::Flat,
             Shape::Flat,
-            Shape::Flat,
             Shape::Cube,
-            Shape::Cube,
-            Shape::Array,
             Shape::Array,
             Shape::Volume,
             Shape::Line,
             Shape::Rectangle,
         ];
         let shape = pick(&mut self.random, &chances);
-        let format = self.format(shape);
+        let format = self.format(shape, |_| true);
+        self.make_as(slot, shape, format);
+    }
+
+    /// A new texture that a look-up can read.
+    pub fn make_for(&mut self, slot: usize, kind: Kind) {
+        let format = self.format(kind.shape, |format| kind.takes(format));
+        self.make_as(slot, kind.shape, format);
+    }
+
+    fn make_as(&mut self, slot: usize, shape: Shape, format: &'static Format) {
+        for unit in &mut self.bindings {
+            for bound in unit.iter_mut().filter(|bound| **bound == Some(slot)) {
+                *bound = None;
+            }
+        }
         self.names += 1;
         let sampling = if shape == Shape::Rectangle {
             Sampling { linear: true, magnified: Some(true), mipmap: GlMipmap::Off, wrap: [GlWrap::ClampToEdge; 3], ..NEW }
@@ -110,12 +122,12 @@ impl<'a> World<'a> {
         self.define(slot);
     }
 
-    fn format(&mut self, shape: Shape) -> &'static Format {
+    /// Takes formats by turns, so that none is left out.
+    fn format(&mut self, shape: Shape, takes: impl Fn(&Format) -> bool) -> &'static Format {
         loop {
-            let format = pick(&mut self.random, &self.formats);
-            // Depth is the product's: it is met more often.
-            let again = !format.is_depth() && chance(&mut self.random, 0.2);
-            if !(again || format.is_depth() && shape == Shape::Volume) {
+            self.turn += 1;
+            let format = self.formats[self.turn * 7 % self.formats.len()];
+            if takes(format) && !(format.is_depth() && shape == Shape::Volume) {
                 return format;
             }
         }
@@ -252,7 +264,7 @@ impl<'a> World<'a> {
             1 => {
                 let Some(texture) = &mut self.textures[slot] else { return };
                 let shape = texture.shape;
-                let format = self.format(shape);
+                let format = self.format(shape, |_| true);
                 if let Some(texture) = &mut self.textures[slot] {
                     texture.format = format;
                 }
@@ -275,6 +287,16 @@ impl<'a> World<'a> {
                     self.halve(slot, count);
                 }
             }
+        }
+    }
+
+    /// A change of a texture's texels that leaves its format alone.
+    pub fn change(&mut self, slot: usize) {
+        self.bind_somewhere(slot);
+        match below(&mut self.random, 4) {
+            0 => self.clear(slot),
+            1 => self.copy(slot),
+            _ => self.replace(slot),
         }
     }
 
@@ -371,11 +393,11 @@ impl<'a> World<'a> {
     }
 
     /// A swizzle or a range of levels of a texture, now and then.
-    pub fn reshuffle(&mut self, slot: usize) -> Sampling {
+    pub fn reshuffle(&mut self, slot: usize, again: bool) -> Sampling {
         let random = &mut self.random;
         let Some(texture) = &self.textures[slot] else { return NEW };
         let mut to = texture.sampling;
-        if chance(random, 0.12) {
+        if !again && chance(random, 0.25) {
             let all = [
                 GlSwizzle::Red,
                 GlSwizzle::Green,
@@ -385,7 +407,7 @@ impl<'a> World<'a> {
                 GlSwizzle::One,
             ];
             to.swizzle = [(); 4].map(|()| pick(random, &all));
-        } else if chance(random, 0.2) {
+        } else if !again && chance(random, 0.2) {
             to.swizzle = GlSwizzle::SAME;
         }
         if texture.shape != Shape::Rectangle && chance(random, 0.25) {
@@ -397,8 +419,9 @@ impl<'a> World<'a> {
     }
 
     /// A sampler object in a slot, new or there already.
-    pub fn object(&mut self) -> usize {
-        let object = below(&mut self.random, SAMPLERS);
+    pub fn object(&mut self, taken: &[usize]) -> usize {
+        let free: Vec<_> = (0..SAMPLERS).filter(|object| !taken.contains(object)).collect();
+        let object = pick(&mut self.random, &free);
         if self.samplers[object].is_none() || chance(&mut self.random, 0.1) {
             for unit in self.units.iter_mut().filter(|unit| **unit == Some(object)) {
                 *unit = None;
