@@ -1,6 +1,5 @@
 //! Textures and sampler objects call by call, under slots: each step sets what it says and leaves all else as it was.
 
-
 use glow::HasContext;
 
 use super::program::GlProgram;
@@ -104,9 +103,8 @@ impl<'a> GlTextureBench<'a> {
     ) -> Result<Self, Error> {
         let gl = &bench.gl;
         // SAFETY: the context is current; the objects are deleted on drop.
-        let (framebuffer, buffer) = unsafe {
-            (gl.create_framebuffer().map_err(no("framebuffer"))?, gl.create_buffer().map_err(no("buffer"))?)
-        };
+        let (framebuffer, buffer) =
+            unsafe { (gl.create_framebuffer().map_err(no("framebuffer"))?, gl.create_buffer().map_err(no("buffer"))?) };
         let (textures, samplers) = (vec![None; slots[0]], vec![None; slots[1]]);
         Ok(Self { bench, textures, samplers, programs, surfaces, framebuffer, buffer })
     }
@@ -295,13 +293,7 @@ impl<'a> GlTextureBench<'a> {
     /// # Safety
     ///
     /// The context is current, and the texture's level exists.
-    unsafe fn clear(
-        &self,
-        place: GlTexelPlace,
-        area: [u32; 4],
-        color: [f32; 4],
-        is_depth: bool,
-    ) -> Result<(), Error> {
+    unsafe fn clear(&self, place: GlTexelPlace, area: [u32; 4], color: [f32; 4], is_depth: bool) -> Result<(), Error> {
         let (gl, level, name) = (&self.bench.gl, place.level as i32, self.textures[place.slot]);
         let point = if is_depth { glow::DEPTH_ATTACHMENT } else { glow::COLOR_ATTACHMENT0 };
         // SAFETY: as the caller promises; the rectangle is within the level.

@@ -189,7 +189,7 @@ impl Format {
             let value = value[channel];
             let mut code = |most: f64, low: f64| {
                 let exact = value.clamp(low, 1.0) * most;
-                if (exact - exact.round()).abs() > 0.02 && self.uses(channel) {
+                if (exact - exact.round()).abs() > 2e-5 && self.uses(channel) {
                     slack = slack.max(1.0 / most);
                 }
                 exact.round() / most
@@ -372,14 +372,17 @@ pub fn encode(bytes: &mut Vec<u8>, [format, kind]: Layout, value: [f64; 4]) -> [
             word |= (code as u32) << shift;
             shift += bits;
         }
-        if shift == 16 { bytes.extend((word as u16).to_ne_bytes()) } else { bytes.extend(word.to_ne_bytes()) }
+        if shift == 16 {
+            bytes.extend((word as u16).to_ne_bytes())
+        } else {
+            bytes.extend(word.to_ne_bytes())
+        }
         return seen;
     }
     match kind {
         glow::UNSIGNED_INT_10F_11F_11F_REV => {
             let small = |value: f64, bits: i32| (half(value) >> (10 - bits)) as u32;
-            bytes
-                .extend((small(value[0], 6) | small(value[1], 6) << 11 | small(value[2], 5) << 22).to_ne_bytes());
+            bytes.extend((small(value[0], 6) | small(value[1], 6) << 11 | small(value[2], 5) << 22).to_ne_bytes());
             return [value[0], value[1], round_to(value[2], 6), 1.0];
         }
         glow::UNSIGNED_INT_24_8 => {

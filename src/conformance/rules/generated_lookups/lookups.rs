@@ -55,7 +55,6 @@ pub struct Kind {
 /// Offset of functions that have one.
 pub const OFFSET: [i64; 3] = [-3, 5, 2];
 
-
 impl Kind {
     /// Every look-up that the GLSL at hand has.
     pub fn all(gathers: bool) -> Vec<Self> {
@@ -104,9 +103,28 @@ impl Kind {
             Source::Fetched => !matches!(function, Function::Bias),
             Source::Vertex => matches!(function, Function::Lod | Function::Fetch | Function::ProjLod | Function::Size),
         };
-        // Integers are read by a few functions only: no filter is theirs.
-        let is_usual = matches!(class, Class::Float | Class::Shadow)
-            || matches!(function, Function::Texture | Function::Lod | Function::Fetch | Function::Proj);
+        // Each function has a texture of two dimensions; fewer are read with the others, and of integers.
+        let is_flat = shape == Shape::Flat;
+        let is_usual = match function {
+            Function::FetchOffset | Function::LodOffset | Function::ProjOffset => is_flat,
+            Function::Proj => is_flat || source == Source::Fetched && shape == Shape::Rectangle,
+            Function::ProjLod | Function::Grad | Function::Gather => shape != Shape::Rectangle,
+            Function::ProjOfFour => is_flat || source == Source::Fetched,
+            Function::Offset => source == Source::Fetched || is_flat,
+            Function::Size => source == Source::Fetched || is_flat,
+            _ => true,
+        };
+        let is_usual = is_usual
+            && match class {
+                Class::Float => true,
+                Class::Shadow => !matches!(shape, Shape::Line) && function != Function::Size,
+                Class::Int | Class::Uint => {
+                    is_flat && matches!(function, Function::Texture | Function::Fetch | Function::ProjOfFour)
+                        || matches!((shape, function), (Shape::Cube | Shape::Array, Function::Lod))
+                }
+            };
+        let is_usual = is_usual
+            && (source != Source::Vertex || class != Class::Int && matches!(function, Function::Lod | Function::Fetch));
         there && shape_is_there && source_is_there && is_usual
     }
 
@@ -211,7 +229,6 @@ impl Kind {
         };
         if shadow && self.function != Gather { format!("vec4({call}, 0.0, 0.0, 1.0)") } else { format!("vec4({call})") }
     }
-
 }
 
 impl Function {
@@ -274,7 +291,8 @@ impl Kind {
             }
             let used = if self.shape == Shape::Array { 3 } else { self.shape.axes() };
             let place = [x, y, z].map(|at| at as i64);
-            let moved = |axis: usize| if self.function == FetchOffset && axis < self.shape.axes() { OFFSET[axis] } else { 0 };
+            let moved =
+                |axis: usize| if self.function == FetchOffset && axis < self.shape.axes() { OFFSET[axis] } else { 0 };
             let texel = [0, 1, 2].map(|axis| if axis < used { place[axis] + moved(axis) } else { 0 });
             if !texels.known {
                 return Due::Open;
@@ -286,7 +304,7 @@ impl Kind {
         let at = [x, y, z].map(|at| at / divisor);
         let size = &texture.levels[base].size;
         let lod = match self.function {
-            Lod | LodOffset | ProjLod => [inputs.by[0]; 3],
+            Lod | LodOffset | ProjLod => [inputs.by[0]; 2],
             Grad => {
                 let [dx, dy] = match self.shape {
                     Shape::Line => [[inputs.by[0], 0.0, 0.0], [inputs.by[2], 0.0, 0.0]],
@@ -303,7 +321,7 @@ impl Kind {
                     let slopes = slopes.map(|[x, y, z, _]| [x, y, z].map(|slope| slope / divisor));
                     level_of(self.shape, size, at, slopes)
                 }
-                None => [0.0; 3],
+                None => [0.0; 2],
             },
         };
         let bias = f64::from(sampling.bias) + if self.function == Bias { inputs.by[0] } else { 0.0 };
@@ -311,13 +329,16 @@ impl Kind {
         let reference = if projective { z / w } else { w } + 0.0;
         let compare = sampling.compare.filter(|_| self.class == Class::Shadow).map(|function| {
             let range = texture.format.range();
-            let reference = range.map_or(reference, |[low, high]| (reference.clamp(low, high)) + 0.0);
+            let clamped = range.map_or(reference, |[low, high]| reference.clamp(low, high));
             let bits = if texture.format.bits[0] == 16 { 16 } else { 20 };
             let rounded = if projective { f64::from(-21).exp2() } else { f64::from(-24).exp2() };
             let tie = f64::from(-bits).exp2() + reference.abs() * rounded + inputs.error / divisor.abs();
-            // What is taken from memory as it is can be equal.
-            let tie = if range.is_none() && !projective && inputs.error == 0.0 { 0.0 } else { tie };
-            Comparison { function, reference, tie }
+            let is_given = !projective && inputs.error == 0.0;
+            // What is taken from memory as it is can be equal, and what is clamped.
+            let exact = is_given || (clamped - reference).abs() > tie;
+            let tie = if is_given && range.is_none() { 0.0 } else { tie };
+            let reference = clamped + 0.0;
+            Comparison { function, reference, tie, exact }
         });
         let rounded = match self.shape {
             Shape::Cube => -18,
@@ -339,9 +360,8 @@ impl Kind {
     }
 }
 
-/// lambda of derivatives: between the logarithms of the greatest and of the sums, ideally that of the longer vector [GL 4.6,
-/// 8.14.1].
-fn level_of(shape: Shape, size: &[usize; 3], at: [f64; 3], slopes: [[f64; 3]; 2]) -> [f64; 3] {
+/// lambda of derivatives: between the logarithms of the greatest and of the sums [GL 4.6, 8.14.1].
+fn level_of(shape: Shape, size: &[usize; 3], at: [f64; 3], slopes: [[f64; 3]; 2]) -> [f64; 2] {
     let slopes = match shape {
         // On a face, by the quotient's rule.
         Shape::Cube => slopes.map(|slope| on_face(at, slope)),
@@ -356,21 +376,15 @@ fn level_of(shape: Shape, size: &[usize; 3], at: [f64; 3], slopes: [[f64; 3]; 2]
         })
     });
     let greatest = [0, 1, 2].map(|axis| texels[0][axis].abs().max(texels[1][axis].abs()));
-    let length = |slope: [f64; 3]| slope.into_iter().map(|part| part * part).sum::<f64>().sqrt();
-    [
-        greatest.into_iter().fold(0.0, f64::max),
-        length(texels[0]).max(length(texels[1])),
-        greatest.into_iter().sum::<f64>(),
-    ]
-    .map(|rho: f64| rho.max(1e-30).log2())
+    [greatest.into_iter().fold(0.0, f64::max), greatest.into_iter().sum::<f64>()].map(|rho: f64| rho.max(1e-30).log2())
 }
 
 /// Derivatives of s and t of a direction.
 fn on_face(at: [f64; 3], slope: [f64; 3]) -> [f64; 3] {
     use crate::conformance::verify::cube;
     let Some(face) = cube::faces(at).next() else { return [0.0; 3] };
-    let step = 1e-4 * at.into_iter().map(f64::abs).fold(0.0, f64::max)
-        / slope.into_iter().map(f64::abs).fold(1e-30, f64::max);
+    let step =
+        1e-4 * at.into_iter().map(f64::abs).fold(0.0, f64::max) / slope.into_iter().map(f64::abs).fold(1e-30, f64::max);
     let there = |by: f64| cube::on_face(face, [0, 1, 2].map(|axis| at[axis] + by * step * slope[axis]));
     let [low, high] = [there(-1.0), there(1.0)];
     [(high[0] - low[0]) / (2.0 * step), (high[1] - low[1]) / (2.0 * step), 0.0]

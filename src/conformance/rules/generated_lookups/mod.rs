@@ -15,7 +15,9 @@ use self::draws::{COLUMNS, Chunk, Drawn};
 use self::lookups::{Class, Due, Inputs};
 use self::programs::{Program, ROWS};
 use self::world::{SAMPLERS, Source, TEXTURES, World};
-use crate::conformance::bench::{Error, GlFormat, GlImage, GlPlace, GlState, GlSwizzle, GlTextureBench, Surface, build};
+use crate::conformance::bench::{
+    Error, GlFormat, GlImage, GlPlace, GlState, GlSwizzle, GlTextureBench, Surface, build,
+};
 use crate::conformance::random::Random;
 use crate::conformance::verify::{Grade, GradeTally};
 use crate::conformance::{DriverUnderTest, Findings};
@@ -36,17 +38,15 @@ struct Results {
 /// GL-N2.
 pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let bench = &subject.bench;
-    let start = std::time::Instant::now();
     let mut random = Random::new(SEED + 2);
     let texts = Program::all(bench.has((4, 0), "GL_ARB_texture_gather"), &mut random);
     let programs = texts
         .iter()
         .map(|program| {
             let [vertex, fragment] = program.sources();
-            build(bench.raw(), &vertex, &fragment).inspect_err(|_| eprintln!("{vertex}\n{fragment}"))
+            build(bench.raw(), &vertex, &fragment)
         })
         .collect::<Result<Vec<_>, _>>()?;
-    eprintln!("{} programs {:?}", programs.len(), start.elapsed());
     let surface = bench.surface([COLUMNS as u32, ROWS as u32], Some(GlFormat::Rgba32F), None)?;
     let (source, colors) = source(subject)?;
     let mut world = World::new(SEED, bench.is_compatible(), &colors);
@@ -54,21 +54,12 @@ pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     let surfaces = [source];
     let mut textures = GlTextureBench::new(bench, [TEXTURES, SAMPLERS], &programs, &surfaces)?;
     let mut results: BTreeMap<String, Results> = BTreeMap::new();
-    for _ in 0..1 {
-        let chosen: Vec<_> = (0..texts.len()).collect();
-        let chunk = world.chunk(&texts, &chosen, &mut uniforms);
-        eprintln!("generated {:?}", start.elapsed());
-        let inputs = bench.float_image([COLUMNS as u32, 2 * ROWS as u32], &chunk.inputs)?;
-        textures.give_all(INPUTS, &inputs, "inputs")?;
-        let steps = std::mem::take(&mut world.steps);
-        if std::env::var("LOOKSTEPS").is_ok() { for s in &steps { let t = format!("{s:?}"); eprintln!("STEP {}", &t[..t.len().min(700)]); } }
-        textures.take(&steps, &surface, GlState { depth: None, ..GlState::WRITE })?;
-        eprintln!("given {:?}", start.elapsed());
-        let seen = surface.floats();
-        eprintln!("drawn {:?}", start.elapsed());
-        judge(&chunk, &seen, &mut results);
-        eprintln!("judged {:?}", start.elapsed());
-    }
+    let chosen: Vec<_> = (0..texts.len()).collect();
+    let chunk = world.chunk(&texts, &chosen, &mut uniforms);
+    let inputs = bench.float_image([COLUMNS as u32, 2 * ROWS as u32], &chunk.inputs)?;
+    textures.give_all(INPUTS, &inputs, "inputs")?;
+    textures.take(&world.steps, &surface, GlState { depth: None, ..GlState::WRITE })?;
+    judge(&chunk, &surface.floats(), &mut results);
     for (name, Results { tally, open, wrong }) in results {
         let count = tally.count() + open;
         if let Some(wrong) = wrong {
@@ -84,8 +75,7 @@ pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
 fn source(subject: &DriverUnderTest) -> Result<(Surface, Source), Error> {
     const SIZE: [usize; 2] = [48, 40];
     let mut random = Random::new(SEED + 1);
-    let colors: Vec<_> =
-        (0..SIZE[0] * SIZE[1]).map(|_| [(); 4].map(|()| (random.unit() * 256.0) as u8)).collect();
+    let colors: Vec<_> = (0..SIZE[0] * SIZE[1]).map(|_| [(); 4].map(|()| (random.unit() * 256.0) as u8)).collect();
     let image: std::rc::Rc<GlImage> = subject.bench.byte_image(SIZE.map(|side| side as u32), &colors)?.into();
     let surface = subject.bench.surface_at(Some(GlPlace::whole(&image)), None)?;
     Ok((surface, Source { size: SIZE, colors }))
@@ -95,13 +85,6 @@ fn judge(chunk: &Chunk, seen: &[[f32; 4]], results: &mut BTreeMap<String, Result
     for (number, drawn) in chunk.drawn.iter().enumerate() {
         let name = format!("{:?}, {:?}", drawn.kind.shape, drawn.kind.class);
         let results = results.entry(name).or_default();
-        let mut bad = 0; let mut firstbad = String::new();
-        for ([x, y], inputs) in &drawn.lookups {
-            if let Some((Grade::Wrong, _)) = grade(drawn, inputs, seen[y * COLUMNS + x].map(f64::from)) { bad += 1; if bad == 1 { firstbad = words(number, drawn, inputs, seen[y * COLUMNS + x].map(f64::from));
-   let v = seen[y * COLUMNS + x].map(f64::from);
-   for (l, level) in drawn.texture.levels.iter().enumerate() { for (i, t) in level.texels.iter().enumerate() { if (0..4).all(|c| { let d = match drawn.sampling.swizzle[c] { GlSwizzle::Zero => 0.0, GlSwizzle::One => 1.0, f => t[f as usize]}; (d - v[c]).abs() < 1e-5 }) { firstbad += &format!(" FOUND level {l} {:?} of {:?}", [i % level.size[0], i / level.size[0] % level.size[1], i / level.size[0] / level.size[1]], level.size); } } } } }
-        }
-        if bad > 0 && std::env::var("LOOKBAD").is_ok() { eprintln!("BAD {bad} of {} {:?} {:?} {firstbad}", drawn.lookups.len(), drawn.kind.shape, drawn.kind.class); }
         for ([x, y], inputs) in &drawn.lookups {
             let value = seen[y * COLUMNS + x].map(f64::from);
             match grade(drawn, inputs, value) {

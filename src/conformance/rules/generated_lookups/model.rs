@@ -125,6 +125,8 @@ pub struct Comparison {
     pub function: GlCompare,
     pub reference: f64,
     pub tie: f64,
+    /// True if no arithmetic came before: the reference can be equal.
+    pub exact: bool,
 }
 
 /// Where and how a texture is read.
@@ -141,14 +143,14 @@ pub struct Query<'a> {
     pub error: f64,
     /// Of textureOffset.
     pub offset: [i64; 3],
-    /// lambda before the bounds: least, ideal, most.
-    pub lod: [f64; 3],
+    /// lambda before the bounds: least, most.
+    pub lod: [f64; 2],
 }
 
 /// Slack of positions in texels for a filter, for the nearest texel, and of a level's number.
 const POSITION: [f64; 2] = [1.0 / 128.0, 1.0 / 16.0];
 const NEAREST: [f64; 2] = [1.0 / 128.0, 1.0 / 64.0];
-const LOD: [f64; 2] = [1.0 / 64.0, 1.0 / 16.0];
+const LOD: [f64; 2] = [1.0 / 16.0, 1.0 / 16.0];
 
 /// A place on a layer or face, in parts of its size.
 #[derive(Clone, Copy)]
@@ -186,13 +188,9 @@ impl Query<'_> {
         if self.sampling.mipmap == GlMipmap::Off && magnified == minified {
             return self.level(base as usize, place, minified, tier, spans);
         }
-        let [least, ideal, greatest] = self.lod;
+        let [least, greatest] = self.lod;
         let clamp = |lod: f64| lod.clamp(f64::from(self.sampling.lod[0]), f64::from(self.sampling.lod[1]));
-        let [low, high] = match tier {
-            0 => [ideal - LOD[0], ideal + LOD[0]],
-            _ => [least - LOD[1], greatest + LOD[1]],
-        }
-        .map(clamp);
+        let [low, high] = [least - LOD[tier], greatest + LOD[tier]].map(clamp);
         // Between 0 and 1/2 either filter is right where the magnifying one is LINEAR and the other NEAREST by levels.
         let half = if magnified && !minified && self.sampling.mipmap != GlMipmap::Off { 0.5 } else { 0.0 };
         if low <= half {
@@ -269,9 +267,7 @@ impl Query<'_> {
         layer: i64,
         spans: &mut Vec<Span>,
     ) -> Option<()> {
-        let ends = [0, 1, 2].map(|axis| {
-            [-slack[axis], slack[axis]].map(|slack| (place[axis] + slack).floor() as i64)
-        });
+        let ends = [0, 1, 2].map(|axis| [-slack[axis], slack[axis]].map(|slack| (place[axis] + slack).floor() as i64));
         for z in ends[2][0]..=ends[2][1] {
             for y in ends[1][0]..=ends[1][1] {
                 for x in ends[0][0]..=ends[0][1] {
@@ -431,8 +427,8 @@ impl Query<'_> {
                 let over = middle.map(|at| (at - 0.5).abs() - 0.5).into_iter().fold(0.0, f64::max);
                 folded[face / 2] *= 1.0 - 2.0 * over;
                 let other = cube::faces(folded).find(|other| other / 2 != face / 2)?;
-                let [x, y] = cube::on_face(other, folded)
-                    .map(|at| ((at * side as f64).floor() as i64).clamp(0, side - 1));
+                let [x, y] =
+                    cube::on_face(other, folded).map(|at| ((at * side as f64).floor() as i64).clamp(0, side - 1));
                 Some(texels.at([x, y, other as i64]))
             }
         }
@@ -460,11 +456,7 @@ impl Query<'_> {
         };
         let mut four = [[0.0; 4]; 4];
         for (texel, [x, y]) in four.iter_mut().zip([[0, 1], [1, 1], [1, 0], [0, 0]]) {
-            *texel = self.texel(
-                texels,
-                [from[0] + x + self.offset[0], from[1] + y + self.offset[1], 0],
-                layer,
-            )?;
+            *texel = self.texel(texels, [from[0] + x + self.offset[0], from[1] + y + self.offset[1], 0], layer)?;
             if let Some(comparison) = self.compare {
                 let [Some(passes), None] = comparison.passes(texel[0], texels.slack) else { return None };
                 *texel = [passes; 4];
@@ -486,8 +478,8 @@ impl Comparison {
     fn passes(&self, stored: f64, slack: f64) -> [Option<f64>; 2] {
         let of = |order: Ordering| f64::from(u8::from(self.function.holds(order)));
         let near = self.tie + slack;
-        if self.reference != stored && (self.reference - stored).abs() <= near || self.reference == stored && slack > 0.0
-        {
+        let is_equal = self.exact && slack == 0.0 && self.reference == stored;
+        if !is_equal && (self.reference - stored).abs() <= near && near > 0.0 {
             let all = [Ordering::Less, Ordering::Equal, Ordering::Greater].map(of);
             return if all.iter().all(|one| *one == all[0]) { [Some(all[0]), None] } else { [Some(0.0), Some(1.0)] };
         }

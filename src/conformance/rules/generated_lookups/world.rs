@@ -1,12 +1,10 @@
 //! State of the context as the model has it, and the steps that change it: textures, sampler objects, units.
 
-use super::formats::{FORMATS, Format, OLD_FORMATS};
+use super::formats::{FORMATS, Format, Numbers, OLD_FORMATS};
 use super::lookups::Kind;
 use super::model::{Level, Shape, Texture};
 use super::uploads::{Block, below, chance, pick};
-use crate::conformance::bench::{
-    GlMipmap, GlSwizzle, GlTexelPlace, GlTextureStep, GlWrap, Sampling,
-};
+use crate::conformance::bench::{GlMipmap, GlSwizzle, GlTexelPlace, GlTextureStep, GlWrap, Sampling};
 use crate::conformance::random::Random;
 
 /// Slots of textures and of sampler objects, and units that are used.
@@ -84,15 +82,8 @@ impl<'a> World<'a> {
 
     /// A new texture in a slot, of a shape, with all its levels.
     pub fn make(&mut self, slot: usize) {
-        let chances = [
-            Shape::Flat,
-            Shape::Flat,
-            Shape::Cube,
-            Shape::Array,
-            Shape::Volume,
-            Shape::Line,
-            Shape::Rectangle,
-        ];
+        let chances =
+            [Shape::Flat, Shape::Flat, Shape::Cube, Shape::Array, Shape::Volume, Shape::Line, Shape::Rectangle];
         let shape = pick(&mut self.random, &chances);
         let format = self.format(shape, |_| true);
         self.make_as(slot, shape, format);
@@ -112,7 +103,13 @@ impl<'a> World<'a> {
         }
         self.names += 1;
         let sampling = if shape == Shape::Rectangle {
-            Sampling { linear: true, magnified: Some(true), mipmap: GlMipmap::Off, wrap: [GlWrap::ClampToEdge; 3], ..NEW }
+            Sampling {
+                linear: true,
+                magnified: Some(true),
+                mipmap: GlMipmap::Off,
+                wrap: [GlWrap::ClampToEdge; 3],
+                ..NEW
+            }
         } else {
             NEW
         };
@@ -164,7 +161,18 @@ impl<'a> World<'a> {
         let Some((shape, format)) = self.textures[slot].as_ref().map(|texture| (texture.shape, texture.format)) else {
             return;
         };
-        let size = self.size(shape);
+        let made = shape != Shape::Rectangle
+            && !format.is_depth()
+            && !format.is_integer()
+            && format.numbers != Numbers::Srgb
+            && chance(&mut self.random, 0.25);
+        let mut size = self.size(shape);
+        if made {
+            // The filter of glGenerateMipmap is known where sides are halved.
+            for side in &mut size[..shape.axes()] {
+                *side = side.next_power_of_two();
+            }
+        }
         let longest = size[..shape.axes()].iter().copied().max().unwrap_or(1);
         let full = longest.ilog2() as usize + 1;
         let wanted = match shape {
@@ -172,9 +180,6 @@ impl<'a> World<'a> {
             _ if chance(&mut self.random, 0.55) => full,
             _ => 1 + below(&mut self.random, full),
         };
-        let made = shape != Shape::Rectangle && !format.is_depth() && !format.is_integer()
-            && !matches!(format.numbers, super::formats::Numbers::Srgb)
-            && chance(&mut self.random, 0.25);
         let scale = below(&mut self.random, 14) as i32 - 5;
         let mut levels = Vec::new();
         for level in 0..wanted {
@@ -276,13 +281,15 @@ impl<'a> World<'a> {
             9..=10 => self.copy(slot),
             _ => {
                 let Some(texture) = &self.textures[slot] else { return };
-                let is_srgb = matches!(texture.format.numbers, super::formats::Numbers::Srgb);
+                let is_srgb = texture.format.numbers == Numbers::Srgb;
                 let can = texture.shape != Shape::Rectangle
                     && !texture.format.is_depth()
                     && !texture.format.is_integer()
                     && !is_srgb;
                 let count = texture.levels.len();
-                if can {
+                let sides = texture.levels[0].size;
+                let is_known = (0..texture.shape.axes()).all(|axis| sides[axis].is_power_of_two());
+                if can && is_known {
                     self.restrict(slot, Some([0, count as u32 - 1]));
                     self.halve(slot, count);
                 }
@@ -398,14 +405,8 @@ impl<'a> World<'a> {
         let Some(texture) = &self.textures[slot] else { return NEW };
         let mut to = texture.sampling;
         if !again && chance(random, 0.25) {
-            let all = [
-                GlSwizzle::Red,
-                GlSwizzle::Green,
-                GlSwizzle::Blue,
-                GlSwizzle::Alpha,
-                GlSwizzle::Zero,
-                GlSwizzle::One,
-            ];
+            let all =
+                [GlSwizzle::Red, GlSwizzle::Green, GlSwizzle::Blue, GlSwizzle::Alpha, GlSwizzle::Zero, GlSwizzle::One];
             to.swizzle = [(); 4].map(|()| pick(random, &all));
         } else if !again && chance(random, 0.2) {
             to.swizzle = GlSwizzle::SAME;
