@@ -1,6 +1,7 @@
 //! Look-up functions of GLSL: the programs that call them, and what each is due to give [GLSL 4.60, 8.9].
 
-use super::model::{Comparison, Query, Shape, Span, Texture};
+use super::model::{Comparison, Shape, Span, Texture};
+use super::query::Query;
 use crate::conformance::bench::Sampling;
 
 /// Kind of a sampler.

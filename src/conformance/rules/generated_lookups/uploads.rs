@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::formats::{self, Format};
+use super::formats::Format;
+use super::layouts;
 use super::model::Level;
 use crate::conformance::bench::GlTexels;
 use crate::conformance::random::Random;
@@ -32,12 +33,12 @@ pub struct Block {
 impl Block {
     /// A block of columns, rows and slices; `volume`: glTexImage3D reads it.
     pub fn random(random: &mut Random, format: &Format, size: [usize; 3], scale: i32, volume: bool) -> Self {
-        let layout = formats::layout(random, format);
+        let layout = layouts::layout(random, format);
         let count = size[0] * size[1] * size[2];
         let (mut bytes, mut stored, mut slack) = (Vec::new(), Vec::with_capacity(count), 0.0_f64);
         for _ in 0..count {
-            let value = formats::value(random, format, scale);
-            let given = formats::encode(&mut bytes, layout, value);
+            let value = layouts::value(random, format, scale);
+            let given = layouts::encode(&mut bytes, layout, value);
             let (kept, off) = format.store(given);
             stored.push(kept);
             slack = slack.max(off);
