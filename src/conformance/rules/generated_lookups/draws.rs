@@ -176,12 +176,12 @@ impl World<'_> {
         if again {
             nudge(&mut self.random, &mut holder);
         } else {
-            for _ in 0..pick(&mut self.random, &[1, 2, 4, 6]) {
+            for _ in 0..pick(&mut self.random, &[3, 8, 16]) {
                 mutate(&mut self.random, &mut holder);
             }
         }
         let mut own = own;
-        fit(&mut self.random, (&mut holder, &mut own), &texture, kind, self.seamless);
+        fit(&mut self.random, (&mut holder, &mut own), &texture, kind, (self.seamless, again));
         let mut to = own;
         if object.is_none() {
             to = Sampling { levels: own.levels, swizzle: own.swizzle, ..holder };

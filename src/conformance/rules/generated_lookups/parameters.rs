@@ -58,7 +58,7 @@ pub fn fit(
     (sampling, own): (&mut Sampling, &mut Sampling),
     texture: &Texture,
     kind: Kind,
-    seamless: bool,
+    (seamless, again): (bool, bool),
 ) {
     let integer = texture.format.is_integer();
     if kind.shape == Shape::Rectangle {
@@ -89,7 +89,8 @@ pub fn fit(
         sampling.wrap = [GlWrap::ClampToEdge; 3];
     }
     sampling.compare = match kind.class {
-        Class::Shadow => sampling.compare.or(Some(pick(random, &GlCompare::ALL))),
+        Class::Shadow if again => sampling.compare.or(Some(GlCompare::LessEqual)),
+        Class::Shadow => Some(pick(random, &GlCompare::ALL)),
         _ if texture.format.is_depth() => None,
         _ => sampling.compare,
     };
