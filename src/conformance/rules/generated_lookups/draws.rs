@@ -46,11 +46,11 @@ struct Use {
 
 impl World<'_> {
     /// Draws by each of the programs; textures are made as they are needed, and so often anew as `fresh` says; `uniforms` has
-    /// the units of their samplers.
+    /// the units of their samplers; `step` leaves programs out.
     /// A program draws a few times, with little set anew in between.
-    pub fn chunk(&mut self, programs: &[Program], uniforms: &mut [[usize; 4]], fresh: f32) -> Chunk {
+    pub fn chunk(&mut self, programs: &[Program], uniforms: &mut [[usize; 4]], fresh: f32, step: usize) -> Chunk {
         let mut chunk = Chunk { drawn: Vec::new(), inputs: vec![[0.0; 4]; 2 * ROWS * COLUMNS], cells: 0 };
-        for number in 0..programs.len() {
+        for number in (0..programs.len()).step_by(step) {
             if chance(&mut self.random, 0.3) {
                 self.edit();
             }

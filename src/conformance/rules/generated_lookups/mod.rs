@@ -59,9 +59,9 @@ pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
     let surfaces = [source];
     let mut textures = GlTextureBench::new(bench, [TEXTURES, SAMPLERS], &programs, &surfaces)?;
     let mut results: BTreeMap<String, Results> = BTreeMap::new();
-    // In the second round most textures are made anew.
-    for fresh in [0.35, 0.8] {
-        let chunk = world.chunk(&texts, &mut uniforms, fresh);
+    // In the second round most textures are made anew, and every second program draws again.
+    for (fresh, step) in [(0.35, 1), (0.8, 2)] {
+        let chunk = world.chunk(&texts, &mut uniforms, fresh, step);
         let inputs = bench.float_image([COLUMNS as u32, 2 * ROWS as u32], &chunk.inputs)?;
         textures.give_all(INPUTS, &inputs, "inputs")?;
         let steps = std::mem::take(&mut world.steps);
