@@ -27,6 +27,7 @@ mod state;
 mod surface;
 mod targets;
 mod texgen;
+mod textures;
 mod transfer;
 
 use std::cell::RefCell;
@@ -53,6 +54,7 @@ pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
 pub use surface::Surface;
 pub use texgen::GlTexgen;
+pub use textures::{GlTexelPlace, GlTexels, GlTextureBench, GlTextureStep};
 pub use transfer::{GlBlit, GlCopyTo, GlReading};
 
 use crate::context::{Context, Profile, error_name};
@@ -181,6 +183,11 @@ impl Bench {
     #[doc(hidden)]
     pub fn mutation(&self) -> Option<Mutation> {
         self.mutation
+    }
+
+    /// GL's functions.
+    pub(crate) fn raw(&self) -> &Rc<glow::Context> {
+        &self.gl
     }
 
     /// Tests whether glPolygonOffsetClamp exists.

@@ -245,6 +245,66 @@ impl Bench {
         self.bind_sampler(unit, by_sampler.then_some(sampling))
     }
 
+    /// Sets the parameters of the texture that is bound to the active unit's `target`, where they differ from those before.
+    pub(super) fn set_parameters(&self, target: u32, before: Option<&Sampling>, to: &Sampling) {
+        let gl = &self.gl;
+        let (integers, floats) = to.parameters();
+        let known = before.map(|before| before.parameters());
+        // SAFETY: the context is current, and a texture is bound.
+        unsafe {
+            for (index, (name, value)) in integers.into_iter().enumerate() {
+                if known.is_none_or(|(integers, _)| integers[index].1 != value) {
+                    gl.tex_parameter_i32(target, name, value as i32);
+                }
+            }
+            for (index, (name, value)) in floats.into_iter().enumerate() {
+                if known.is_none_or(|(_, floats)| floats[index].1 != value) {
+                    gl.tex_parameter_f32(target, name, value);
+                }
+            }
+            if before.is_none_or(|before| before.border != to.border) {
+                gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &to.border);
+            }
+            if let Some([base, most]) = to.levels {
+                let before = before.and_then(|before| before.levels);
+                if before.is_none_or(|[known, _]| known != base) {
+                    gl.tex_parameter_i32(target, glow::TEXTURE_BASE_LEVEL, base as i32);
+                }
+                if before.is_none_or(|[_, known]| known != most) {
+                    gl.tex_parameter_i32(target, glow::TEXTURE_MAX_LEVEL, most as i32);
+                }
+            }
+            for (index, name) in (glow::TEXTURE_SWIZZLE_R..).take(4).enumerate() {
+                if before.is_none_or(|before| before.swizzle[index] != to.swizzle[index]) {
+                    gl.tex_parameter_i32(target, name, to.swizzle[index].code() as i32);
+                }
+            }
+        }
+    }
+
+    /// The same of a sampler object.
+    pub(super) fn set_sampler_parameters(&self, name: glow::Sampler, before: Option<&Sampling>, to: &Sampling) {
+        let gl = &self.gl;
+        let (integers, floats) = to.parameters();
+        let known = before.map(|before| before.parameters());
+        // SAFETY: the context is current, and the object exists.
+        unsafe {
+            for (index, (parameter, value)) in integers.into_iter().enumerate() {
+                if known.is_none_or(|(integers, _)| integers[index].1 != value) {
+                    gl.sampler_parameter_i32(name, parameter, value as i32);
+                }
+            }
+            for (index, (parameter, value)) in floats.into_iter().enumerate() {
+                if known.is_none_or(|(_, floats)| floats[index].1 != value) {
+                    gl.sampler_parameter_f32(name, parameter, value);
+                }
+            }
+            if before.is_none_or(|before| before.border != to.border) {
+                gl.sampler_parameter_f32_slice(name, glow::TEXTURE_BORDER_COLOR, &to.border);
+            }
+        }
+    }
+
     /// Binds a new sampler object, or none. The one before lives on until the next is made: nothing but the call unbinds it.
     fn bind_sampler(&self, unit: u32, sampling: Option<Sampling>) -> Result<(), Error> {
         let gl = &self.gl;

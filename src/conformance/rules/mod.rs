@@ -29,6 +29,7 @@ pub mod fragments;
 pub mod functions;
 pub mod generated_commands;
 pub mod generated_programs;
+pub mod generated_lookups;
 pub mod highlights;
 pub mod instances;
 pub mod invariance;

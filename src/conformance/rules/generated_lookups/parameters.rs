@@ -1,0 +1,106 @@
+//! Parameters of textures and sampler objects: changes of one at a time, and what makes a result defined.
+
+use super::lookups::{Class, Kind, Source};
+use super::model::{Shape, Texture};
+use super::uploads::{below, chance, pick};
+use crate::conformance::bench::{GlCompare, GlMipmap, GlWrap, Sampling};
+use crate::conformance::random::Random;
+
+/// Changes numbers that a driver need not compile for.
+pub fn nudge(random: &mut Random, sampling: &mut Sampling) {
+    if chance(random, 0.5) {
+        sampling.border[below(random, 4)] = random.between(-0.5, 1.5);
+    }
+    if sampling.lod[0] > -900.0 && chance(random, 0.5) {
+        sampling.lod[0] = (random.between(0.125, 3.0) * 8.0).round() / 8.0;
+    }
+    if sampling.lod[1] < 900.0 && chance(random, 0.5) {
+        sampling.lod[1] = (random.between(0.125, 6.0) * 8.0).round() / 8.0;
+    }
+    sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);
+    if sampling.bias != 0.0 && chance(random, 0.5) {
+        sampling.bias = (random.between(0.1, 2.5) * 8.0).round() / 8.0;
+    }
+}
+
+/// Changes one parameter.
+pub fn mutate(random: &mut Random, sampling: &mut Sampling) {
+    const WRAPS: [GlWrap; 4] = [GlWrap::Repeat, GlWrap::MirroredRepeat, GlWrap::ClampToEdge, GlWrap::ClampToBorder];
+    match below(random, 10) {
+        0 => sampling.linear = !sampling.linear,
+        1 => sampling.magnified = Some(chance(random, 0.5)),
+        2 => sampling.mipmap = pick(random, &[GlMipmap::Off, GlMipmap::Nearest, GlMipmap::Linear]),
+        3 | 4 => sampling.wrap[below(random, 3)] = pick(random, &WRAPS),
+        5 => {
+            let part = below(random, 4);
+            if chance(random, 0.5) {
+                sampling.border[part] = random.between(-0.5, 1.5);
+            } else {
+                sampling.border = [(); 4].map(|()| random.unit());
+            }
+        }
+        6 => sampling.compare = Some(pick(random, &GlCompare::ALL)),
+        7 => {
+            sampling.lod[0] =
+                if chance(random, 0.5) { -1000.0 } else { (random.between(-2.0, 3.0) * 8.0).round() / 8.0 }
+        }
+        8 => {
+            sampling.lod[1] = if chance(random, 0.5) { 1000.0 } else { (random.between(0.0, 6.0) * 8.0).round() / 8.0 }
+        }
+        _ => sampling.bias = if chance(random, 0.4) { 0.0 } else { (random.between(-2.5, 2.5) * 8.0).round() / 8.0 },
+    }
+    sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);
+}
+
+/// Makes parameters such that the result is defined.
+pub fn fit(
+    random: &mut Random,
+    (sampling, own): (&mut Sampling, &mut Sampling),
+    texture: &Texture,
+    kind: Kind,
+    (seamless, again): (bool, bool),
+) {
+    let integer = texture.format.is_integer();
+    if kind.shape == Shape::Rectangle {
+        for wrap in &mut sampling.wrap {
+            if matches!(wrap, GlWrap::Repeat | GlWrap::MirroredRepeat) {
+                *wrap = pick(random, &[GlWrap::ClampToEdge, GlWrap::ClampToBorder]);
+            }
+        }
+        sampling.mipmap = GlMipmap::Off;
+        // Mesa's llvmpipe takes a derivative for one of normalised coordinates, and minifies too early: left out.
+        sampling.magnified = Some(sampling.linear);
+    }
+    if integer {
+        sampling.linear = false;
+        sampling.magnified = Some(false);
+        // Mesa's llvmpipe takes the levels of integers by NEAREST as it does by NEAREST_MIPMAP_NEAREST: this is left out.
+        if sampling.mipmap != GlMipmap::Nearest && kind.shape != Shape::Rectangle {
+            sampling.mipmap = GlMipmap::Nearest;
+        }
+        for wrap in &mut sampling.wrap {
+            if *wrap == GlWrap::ClampToBorder {
+                *wrap = GlWrap::ClampToEdge;
+            }
+        }
+    }
+    // Mesa's llvmpipe takes all wrap modes of a cube map for CLAMP_TO_EDGE, also without seamless filters: left out.
+    if kind.shape == Shape::Cube && !seamless {
+        sampling.wrap = [GlWrap::ClampToEdge; 3];
+    }
+    sampling.compare = match kind.class {
+        Class::Shadow if again => sampling.compare.or(Some(GlCompare::LessEqual)),
+        Class::Shadow => Some(pick(random, &GlCompare::ALL)),
+        _ if texture.format.is_depth() => None,
+        _ => sampling.compare,
+    };
+    // Without derivatives there is one filter of one level.
+    if kind.source == Source::Fetched && kind.is_implicit() {
+        sampling.magnified = Some(sampling.linear);
+        if integer {
+            own.levels = own.levels.map(|[base, _]| [base, base]);
+        } else {
+            sampling.mipmap = GlMipmap::Off;
+        }
+    }
+}
