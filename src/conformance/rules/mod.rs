@@ -27,6 +27,7 @@ pub mod fixed;
 pub mod floats;
 pub mod fragments;
 pub mod functions;
+pub mod generated_triangles;
 pub mod highlights;
 pub mod instances;
 pub mod invariance;

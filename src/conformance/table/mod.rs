@@ -7,6 +7,7 @@ mod cube_maps;
 mod depth;
 mod environment;
 mod framebuffers;
+mod generated;
 mod glsl;
 mod invariance;
 mod levels;
@@ -39,6 +40,7 @@ const KINDS: &[&[Rule]] = &[
     vertices::RULES,
     queries::RULES,
     sequences::RULES,
+    generated::RULES,
 ];
 
 /// Every rule, in the order of a report.
