@@ -11,6 +11,7 @@ mod clear;
 mod draw;
 mod elements;
 pub mod environment;
+mod feed;
 pub mod fixed_function;
 mod format;
 mod image;
@@ -28,6 +29,7 @@ mod surface;
 mod targets;
 mod texgen;
 mod transfer;
+mod values;
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -42,6 +44,7 @@ pub use changes::GlChange;
 pub use clear::GlClear;
 pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
 pub use elements::{GlAttribute, GlElements, GlIndices, GlPrimitive};
+pub use feed::{GlArray, GlBuffer, GlCapture, GlCaptured, GlCurrent, GlPointer, GlRange, GlWrite};
 pub use format::{Encoding, GlFormat};
 pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 pub use instances::GlInstances;
@@ -55,6 +58,7 @@ pub use stream::{GlStream, GlWhole};
 pub use surface::Surface;
 pub use texgen::GlTexgen;
 pub use transfer::{GlBlit, GlCopyTo, GlReading};
+pub use values::GlValues;
 
 use crate::context::{Context, Profile, error_name};
 

@@ -115,6 +115,15 @@ pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Res
 
 /// The same of any stages.
 pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Result<GlProgram, Error> {
+    build_with(gl, stages, |_, _| ())
+}
+
+/// The same with calls before the program is linked.
+pub(super) fn build_with(
+    gl: &Rc<glow::Context>,
+    stages: &[(u32, &str)],
+    before: impl Fn(&glow::Context, glow::Program),
+) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
@@ -126,6 +135,7 @@ pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Re
         for (buffer, output) in (0..).zip(OUTPUTS) {
             gl.bind_frag_data_location(program.name, buffer, output);
         }
+        before(gl, program.name);
         gl.link_program(program.name);
         if gl.get_program_link_status(program.name) {
             Ok(program)

@@ -23,7 +23,6 @@ const MOST_UNSURE: f64 = 0.2;
 pub struct Judge {
     tallies: [GradeTally; KINDS.len()],
     first: [Option<String>; KINDS.len()],
-    seen: Vec<String>, // DEBUG
     unsure: usize,
     pixels: usize,
 }
@@ -102,10 +101,6 @@ impl Judge {
         let bounds = if slack > 0.0 { [1.0, 4.0] } else { [0.0; 2] };
         let grade = verify::within(distance, bounds[0], bounds[1]);
         self.tallies[kind].add(grade, distance);
-        if grade == verify::Grade::Wrong { // DEBUG
-            let text = case(); let key = text.split(':').next().unwrap_or("").to_string() + KINDS[kind]; // DEBUG
-            if !self.seen.contains(&key) && self.seen.len() < 60 { eprintln!("{}: {}: {seen}, not {} to {slack:.3e}", KINDS[kind], text, due.value); self.seen.push(key); } // DEBUG
-        } // DEBUG
         if grade == verify::Grade::Wrong && self.first[kind].is_none() {
             self.first[kind] = Some(format!("{}: {seen}, not {} to {slack:.3e}", case(), due.value));
         }

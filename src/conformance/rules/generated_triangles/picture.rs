@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::dice::Dice;
+use crate::conformance::rules::dice::Dice;
 use super::model::{Corner, Covered, Interpolation, Known, Triangle};
 use super::pipeline::Pipeline;
 use super::programs::{Component, SHOWN, Text};

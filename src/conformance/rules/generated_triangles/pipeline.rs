@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::dice::Dice;
+use crate::conformance::rules::dice::Dice;
 use crate::conformance::bench::{GlChange, GlCompare, GlOffset, GlPolygonMode};
 
 /// State that a draw depends on.
@@ -99,7 +99,12 @@ impl Pipeline {
 
     /// Changes one piece; the calls that do so.
     pub fn change(&mut self, dice: &mut Dice, size: [u32; 2], distances: u32) -> Vec<GlChange> {
-        match dice.below(19) {
+        // What a driver may compile programs anew for changes less often than the rest.
+        let kind = match dice.chance(0.7) {
+            true => dice.pick(&[0, 0, 0, 2, 2, 3, 5, 6, 6, 7, 8, 9]),
+            false => dice.pick(&[4, 4, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18]),
+        };
+        match kind {
             0 | 1 => {
                 self.viewport = viewport(dice, size);
                 vec![GlChange::Viewport(self.viewport)]
@@ -226,10 +231,11 @@ fn depth_range(dice: &mut Dice) -> [f64; 2] {
 
 fn scissor(dice: &mut Dice, size: [u32; 2]) -> [i32; 4] {
     let [width, height] = size.map(|side| side as i32);
-    match dice.below(5) {
+    match dice.below(6) {
         0 => [dice.whole(-10, width / 2), dice.whole(-10, height / 2), dice.whole(width / 2, 99), 200],
-        1 => [dice.whole(0, width / 3), 0, 10_000, dice.whole(1, height)],
-        2 => [0, 0, dice.whole(0, 3), dice.whole(0, 3)],
+        1 => [dice.whole(-20, -1), dice.whole(-20, -1), dice.whole(20, width), dice.whole(20, height + 9)],
+        2 => [dice.whole(0, width / 3), 0, 10_000, dice.whole(1, height)],
+        3 => [dice.whole(0, 9), dice.whole(0, 9), dice.whole(0, 3), dice.whole(0, 3)],
         _ => [dice.whole(0, 9), dice.whole(0, 9), dice.whole(width / 3, width), dice.whole(height / 3, height)],
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::dice::Dice;
+use crate::conformance::rules::dice::Dice;
 use super::model::Interpolation;
 
 /// A number of a varying: a part of the vertex's value, times a factor, and something added. All are exact as f32.

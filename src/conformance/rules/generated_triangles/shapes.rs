@@ -1,6 +1,6 @@
 //! Random primitives: their corners in clip space, and how a draw puts them together.
 
-use super::dice::Dice;
+use crate::conformance::rules::dice::Dice;
 use super::model::Corner;
 use super::pipeline::Pipeline;
 use crate::conformance::bench::GlPrimitive;
