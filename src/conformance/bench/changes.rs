@@ -25,6 +25,8 @@ pub enum GlChange {
     /// Of both faces.
     Mode(GlPolygonMode),
     Offset(GlOffset),
+    /// glBlendFunc.
+    Blend([u32; 2]),
     /// glProvokingVertex, the first or the last.
     Provoke(bool),
 }
@@ -52,6 +54,7 @@ impl Bench {
                     Some(function) if clamp != 0.0 => function(factor, units, clamp),
                     _ => gl.polygon_offset(factor, units),
                 },
+                GlChange::Blend([source, destination]) => gl.blend_func(source, destination),
                 GlChange::Provoke(first) => {
                     self.provoke(first);
                 }

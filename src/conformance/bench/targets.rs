@@ -24,12 +24,7 @@ impl Bench {
     /// # Errors
     ///
     /// As [`surface`](Self::surface).
-    pub fn several_with(
-        &self,
-        size: [u32; 2],
-        colors: &[GlFormat],
-        depth: Option<GlFormat>,
-    ) -> Result<Surface, Error> {
+    pub fn several_with(&self, size: [u32; 2], colors: &[GlFormat], depth: Option<GlFormat>) -> Result<Surface, Error> {
         let images =
             colors.iter().map(|format| self.image(*format, size).map(Rc::new)).collect::<Result<Vec<_>, _>>()?;
         let depth = depth.map(|format| self.image(format, size).map(Rc::new)).transpose()?;

@@ -49,13 +49,7 @@ impl Bench {
     /// # Errors
     ///
     /// GL's.
-    pub fn set_values(
-        &self,
-        capture: &GlCapture,
-        name: &str,
-        values: &GlValues,
-        single: bool,
-    ) -> Result<(), Error> {
+    pub fn set_values(&self, capture: &GlCapture, name: &str, values: &GlValues, single: bool) -> Result<(), Error> {
         let gl = &self.gl;
         // SAFETY: the context is current, and the program is in it; slices have whole elements.
         unsafe {

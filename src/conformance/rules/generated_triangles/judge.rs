@@ -70,13 +70,7 @@ impl Judge {
         self.tallies.iter().map(|tally| tally.wrong).sum()
     }
 
-    fn numbers(
-        &mut self,
-        due: &[[Known; 4]; 4],
-        seen: [[f32; 4]; 4],
-        derived: bool,
-        case: impl Fn() -> String,
-    ) {
+    fn numbers(&mut self, due: &[[Known; 4]; 4], seen: [[f32; 4]; 4], derived: bool, case: impl Fn() -> String) {
         for (output, (due, seen)) in due.iter().zip(seen).enumerate() {
             for (part, (due, seen)) in due.iter().zip(seen).enumerate() {
                 let kind = match (output, part) {

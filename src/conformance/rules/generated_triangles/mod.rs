@@ -5,18 +5,20 @@
 //! that the specification leaves open is not judged until it is drawn anew.
 
 mod judge;
+mod meshes;
 mod model;
 mod picture;
 mod pipeline;
+mod points;
 mod programs;
 mod shapes;
 
-use crate::conformance::rules::dice::Dice;
 use self::judge::Judge;
 use self::picture::{CLEARED, Picture, Shown, clear_depth};
 use self::pipeline::Pipeline;
 use self::programs::{Text, Traits};
 use crate::conformance::bench::{Error, GlFormat, GlIndices, GlStream, GlWhole, Surface};
+use crate::conformance::rules::dice::Dice;
 use crate::conformance::{DriverUnderTest, Findings};
 
 /// Draws in a sequence.
@@ -63,7 +65,10 @@ const SEQUENCES: [Sequence; 6] = [
     Sequence {
         size: [33, 33],
         depth: GlFormat::Depth32FStencil8,
-        traits: [Traits { upper_left: true, whole_centers: true, ..PLAIN }, Traits { distances: true, depth: true, ..PLAIN }],
+        traits: [
+            Traits { upper_left: true, whole_centers: true, ..PLAIN },
+            Traits { distances: true, depth: true, ..PLAIN },
+        ],
         numbers: [16, 16],
     },
     Sequence {
@@ -87,6 +92,16 @@ pub fn triangles(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
         findings.part(|_| run(subject, number, sequence, &mut judge));
     }
     judge.report(findings);
+    findings.part(|findings| {
+        findings.tally("meshes, one fragment a pixel", meshes::meshes(subject)?, "fragments");
+        Ok(())
+    });
+    findings.part(|findings| {
+        let [places, numbers] = points::points(subject)?;
+        findings.tally("pixels of points", places, "");
+        findings.tally("gl_PointCoord, varyings and depth of points", numbers, "");
+        Ok(())
+    });
     Ok(())
 }
 

@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 
-use crate::conformance::rules::dice::Dice;
 use super::model::{Corner, Covered, Interpolation, Known, Triangle};
 use super::pipeline::Pipeline;
 use super::programs::{Component, SHOWN, Text};
 use super::shapes::Shapes;
 use crate::conformance::bench::{Encoding, GlCompare, GlPolygonMode};
+use crate::conformance::rules::dice::Dice;
 
 /// Colour that no draw puts out.
 pub const CLEARED: f32 = 7777.0;
@@ -149,8 +149,7 @@ impl Picture {
         outputs[3][2] = Known::exact(f64::from(u8::from(triangle.front)));
         outputs[3][3] = Known::exact(number as f64);
         let writes = pipeline.depth_test && pipeline.depth_write;
-        self.pixels[index] =
-            Pixel { outputs, cleared: Some(false), depth: if writes { ends } else { pixel.depth } };
+        self.pixels[index] = Pixel { outputs, cleared: Some(false), depth: if writes { ends } else { pixel.depth } };
     }
 }
 
@@ -236,7 +235,8 @@ fn show(outputs: &mut [[Known; 4]; 4], triangle: &Triangle, shown: &Shown, at: [
 }
 
 fn value(triangle: &Triangle, component: &Component, at: [f64; 2]) -> Known {
-    let known = triangle.interpolate(triangle.corners.map(|corner: Corner| component.of(corner.value)), component.how, at);
+    let known =
+        triangle.interpolate(triangle.corners.map(|corner: Corner| component.of(corner.value)), component.how, at);
     // What it is computed from has other roundings than the sum.
     let slack = if component.how == Interpolation::Flat { 0.0 } else { f64::from(-20).exp2() * component.added.abs() };
     Known { slack: known.slack + slack, ..known }

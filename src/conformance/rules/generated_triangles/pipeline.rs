@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::conformance::rules::dice::Dice;
 use crate::conformance::bench::{GlChange, GlCompare, GlOffset, GlPolygonMode};
+use crate::conformance::rules::dice::Dice;
 
 /// State that a draw depends on.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::conformance::rules::dice::Dice;
 use super::model::Interpolation;
+use crate::conformance::rules::dice::Dice;
 
 /// A number of a varying: a part of the vertex's value, times a factor, and something added. All are exact as f32.
 #[derive(Clone, Copy, Debug)]
@@ -181,7 +181,8 @@ fn fragment(declared: &str, read: &[String], derived: [usize; 4], traits: Traits
         let _ = writeln!(text, "layout({}) in vec4 gl_FragCoord;", qualifiers.join(", "));
     }
     text += &declared.replace("WAY", "in");
-    text += "uniform int which;\nout vec4 result;\nout vec4 second;\nout vec4 third;\nout vec4 fourth;\nvoid main() {\n";
+    text +=
+        "uniform int which;\nout vec4 result;\nout vec4 second;\nout vec4 third;\nout vec4 fourth;\nvoid main() {\n";
     text += "result = gl_FragCoord;\nsecond = vec4(0.0); third = vec4(0.0); vec2 last = vec2(0.0);\n";
     for (index, group) in read.chunks(SHOWN).enumerate() {
         let _ = writeln!(text, "if (which == {index}) {{");

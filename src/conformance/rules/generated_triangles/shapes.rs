@@ -1,9 +1,9 @@
 //! Random primitives: their corners in clip space, and how a draw puts them together.
 
-use crate::conformance::rules::dice::Dice;
 use super::model::Corner;
 use super::pipeline::Pipeline;
 use crate::conformance::bench::GlPrimitive;
+use crate::conformance::rules::dice::Dice;
 
 /// A draw's vertices.
 pub struct Shapes {

@@ -90,7 +90,7 @@ impl Array {
             0 => 0,
             1 => format.bytes() + dice.below(9),
             2 => dice.pick(&[32, 48, 64, 100, 128]),
-            3 => dice.whole(65, 300) as usize,
+            3 => dice.whole(65, 220) as usize,
             _ => format.bytes(),
         }
         .max(if dice.chance(0.2) { 0 } else { format.bytes() });
@@ -102,8 +102,7 @@ impl Array {
             _ => dice.below(room),
         };
         let attribute = &mut self.attributes[location];
-        *attribute =
-            Attribute { buffer: Some(buffer.clone()), format, stride: step, offset, ..attribute.clone() };
+        *attribute = Attribute { buffer: Some(buffer.clone()), format, stride: step, offset, ..attribute.clone() };
         // Numbers of ordinary sizes, all written at once.
         let mut bytes = buffer.bytes.borrow()[offset..offset + step * (VERTICES - 1) + format.bytes()].to_vec();
         for vertex in 0..VERTICES {

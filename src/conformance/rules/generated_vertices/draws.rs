@@ -11,7 +11,7 @@ use crate::conformance::bench::{Error, GlCaptured, GlPrimitive, GlRange};
 use crate::conformance::rules::dice::Dice;
 
 /// Bytes of the buffers: every array fits.
-const BYTES: usize = 24_000;
+const BYTES: usize = 14_500;
 const INDEX_BYTES: usize = 4000;
 const KINDS: [Kind; 6] = [Kind::Float, Kind::Float, Kind::Float, Kind::Float, Kind::Signed, Kind::Unsigned];
 
@@ -31,11 +31,13 @@ impl World {
         };
         let (buffers, indices) = (held(4, BYTES)?, held(2, INDEX_BYTES)?);
         let arrays = (0..3).map(|_| Array::new(bench)).collect::<Result<Vec<_>, _>>()?;
-        let programs = [0.0, 0.5, 0.6].map(|left_out| Program::new(bench, dice, &kinds, left_out)).into_iter().collect::<Result<Vec<_>, _>>()?;
+        let programs = [0.0, 0.5, 0.6]
+            .map(|left_out| Program::new(bench, dice, &kinds, left_out))
+            .into_iter()
+            .collect::<Result<Vec<_>, _>>()?;
         let symmetric = bench.has((4, 2), "");
         let current = [[Due::Any; 4]; LOCATIONS];
-        let mut world =
-            Self { kinds, current, buffers, indices, arrays, bound: 0, programs, used: 0, symmetric };
+        let mut world = Self { kinds, current, buffers, indices, arrays, bound: 0, programs, used: 0, symmetric };
         for location in 0..LOCATIONS {
             world.set_current(subject, dice, location);
         }
@@ -75,14 +77,21 @@ impl World {
     pub fn change(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
         let location = dice.below(LOCATIONS);
         match dice.below(16) {
-            0 | 1 => self.point(subject, dice, location)?,
+            0 | 1 => {
+                for _ in 0..dice.whole(1, 5) {
+                    let location = dice.below(LOCATIONS);
+                    self.point(subject, dice, location)?;
+                }
+            }
             2 if location > 0 => {
                 let on = !self.arrays[self.bound].attributes[location].enabled;
                 self.enable(subject, location, on);
             }
             3 | 4 => self.set_current(subject, dice, location),
             5 | 6 if location > 0 => {
-                let divisor = dice.pick(&[0, 0, 1, 1, 2, 3, 7, 100]);
+                // One vertex array has none that is small, and so many instances.
+                let divisors = if self.bound == 2 { [0, 0, 0, 7, 30, 100] } else { [0, 0, 1, 1, 2, 3] };
+                let divisor = dice.pick(&divisors);
                 self.arrays[self.bound].attributes[location].divisor = divisor;
                 subject.bench.divide_feed(location as u32, divisor);
             }
@@ -107,7 +116,7 @@ impl World {
         let from = dice.below(self.buffers.len());
         let to = (from + 1 + dice.below(self.buffers.len() - 1)) % self.buffers.len();
         let (from, to) = (self.buffers[from].clone(), self.buffers[to].clone());
-        let bytes = dice.whole(1, 3000) as usize;
+        let bytes = dice.whole(1, 5000) as usize;
         let [read, write] = [(); 2].map(|()| dice.below(BYTES - bytes));
         let (Some(source), Some(target)) = (&*from.name.borrow(), &*to.name.borrow()) else { return Ok(()) };
         let part = from.bytes.borrow()[read..read + bytes].to_vec();
@@ -151,7 +160,7 @@ impl World {
             GlPrimitive::LineLoop,
             GlPrimitive::Triangles,
         ]);
-        let count = dice.pick(&[1, 3, 6, 7, 12, 30]);
+        let count = dice.pick(&[1, 3, 7, 12, 30, 40]);
         let divisors = self.arrays[self.bound].attributes.iter().filter(|attribute| attribute.enabled);
         let least = divisors.map(|attribute| attribute.divisor).filter(|divisor| *divisor > 0).min();
         let first_instance = match subject.bench.has((4, 2), "GL_ARB_base_instance") && dice.chance(0.3) {

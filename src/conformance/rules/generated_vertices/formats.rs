@@ -101,9 +101,13 @@ impl Format {
             match self.kind {
                 glow::FLOAT => bytes.extend((sign * dice.power(-90.0, 90.0)).to_ne_bytes()),
                 glow::DOUBLE => bytes.extend((f64::from(sign * dice.power(-90.0, 90.0)) * 1.000_000_03).to_ne_bytes()),
-                glow::HALF_FLOAT => bytes.extend((dice.below(0x7C00) as u16 | if sign < 0.0 { 0x8000 } else { 0 }).to_ne_bytes()),
+                glow::HALF_FLOAT => {
+                    bytes.extend((dice.below(0x7C00) as u16 | if sign < 0.0 { 0x8000 } else { 0 }).to_ne_bytes())
+                }
                 // The ends of their ranges often.
-                _ if dice.chance(0.2) => bytes.extend(dice.pick(&[[0_u8; 8], [0xFF; 8], [0x80; 8], [0x7F; 8], [0x80, 0, 0, 0, 0, 0, 0, 0]])),
+                _ if dice.chance(0.2) => {
+                    bytes.extend(dice.pick(&[[0_u8; 8], [0xFF; 8], [0x80; 8], [0x7F; 8], [0x80, 0, 0, 0, 0, 0, 0, 0]]))
+                }
                 _ => bytes.push(dice.below(256) as u8),
             }
         }

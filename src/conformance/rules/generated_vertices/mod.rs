@@ -100,10 +100,15 @@ fn sequence(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Resu
             let draw = world.draw(subject, &mut dice)?;
             let program = &world.programs[world.used];
             let bytes = bench.captured(&program.capture, &draw.call, draw.vertices.len())?;
-            let words: Vec<u32> = bytes.chunks_exact(4).map(|four| u32::from_ne_bytes([four[0], four[1], four[2], four[3]])).collect();
+            let words: Vec<u32> =
+                bytes.chunks_exact(4).map(|four| u32::from_ne_bytes([four[0], four[1], four[2], four[3]])).collect();
             let array = &world.arrays[world.bound];
-            for (at, (vertex, seen)) in draw.vertices.iter().zip(words.chunks_exact(program.capture.bytes / 4)).enumerate() {
-                let case = |name: &str| format!("draw {turn} of sequence {number}, vertex {at} ({vertex:?}), {name}, {:?}", draw.call);
+            for (at, (vertex, seen)) in
+                draw.vertices.iter().zip(words.chunks_exact(program.capture.bytes / 4)).enumerate()
+            {
+                let case = |name: &str| {
+                    format!("draw {turn} of sequence {number}, vertex {at} ({vertex:?}), {name}, {:?}", draw.call)
+                };
                 judged.add(Due::Bits(vertex[0] as u32), seen[0], || case("gl_VertexID"));
                 judged.add(Due::Bits(vertex[1] as u32), seen[1], || case("gl_InstanceID"));
                 let mut place = 2;
@@ -121,7 +126,10 @@ fn sequence(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Resu
                                     true => format!("{format:?}, stride {stride}, offset {offset}, divisor {divisor}"),
                                     false => "no array".to_owned(),
                                 };
-                                case(&format!("attribute {location}, {} columns of {}, {from}", input.columns, input.components))
+                                case(&format!(
+                                    "attribute {location}, {} columns of {}, {from}",
+                                    input.columns, input.components
+                                ))
                             });
                             place += 1;
                         }

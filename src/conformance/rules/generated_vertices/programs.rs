@@ -57,7 +57,8 @@ impl Program {
                 (Kind::Unsigned, _, count) => format!("uvec{count}"),
             };
             let flat = if kinds[*location] == Kind::Float { "" } else { "flat " };
-            let _ = writeln!(text, "layout(location = {location}) in {kind} a{location};\n{flat}out {kind} o{location};");
+            let _ =
+                writeln!(text, "layout(location = {location}) in {kind} a{location};\n{flat}out {kind} o{location};");
             let _ = writeln!(body, "o{location} = a{location};");
             names.push(format!("o{location}"));
         }

@@ -10,8 +10,8 @@ use crate::conformance::rules::dice::Dice;
 
 /// Numbers that a program puts out, at most.
 const MOST: usize = 60;
-const PROGRAMS: usize = 4;
-const TURNS: usize = 260;
+const PROGRAMS: usize = 5;
+const TURNS: usize = 400;
 
 /// A uniform, or a member of one.
 struct Uniform {
@@ -73,7 +73,7 @@ impl Program {
         let (mut declared, mut words, mut uniforms) = (String::new(), Vec::new(), Vec::new());
         for number in 0..40 {
             let of = Type::any(dice);
-            let length = dice.chance(0.35).then(|| dice.whole(1, 4) as usize);
+            let length = dice.chance(0.4).then(|| dice.whole(1, 5) as usize);
             let in_struct = dice.chance(0.2);
             let copies = if in_struct && dice.chance(0.5) { 2 } else { 1 };
             if words.len() + copies * length.unwrap_or(1) * of.numbers() > MOST {
@@ -179,8 +179,7 @@ impl Program {
 /// Programs whose uniforms are set and drawn in any order, linked again, deleted and made anew.
 pub fn uniforms(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Error> {
     let mut dice = Dice::new(7300);
-    let mut programs =
-        (0..PROGRAMS).map(|_| Program::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
+    let mut programs = (0..PROGRAMS).map(|_| Program::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
     let array = subject.bench.feed_array()?;
     subject.bench.bind_feed(&array);
     let mut last = String::new();
