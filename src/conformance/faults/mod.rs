@@ -36,6 +36,7 @@ mod depth;
 mod fixed;
 mod framebuffers;
 mod functions_of_glsl;
+mod generated_inputs;
 mod levels;
 mod lights;
 mod lookups;
@@ -117,6 +118,7 @@ const KINDS: &[&[Fault]] = &[
     apart_shaders::FAULTS,
     third::FAULTS,
     third_more::FAULTS,
+    generated_inputs::FAULTS,
 ];
 
 /// Every fault.

@@ -5,6 +5,7 @@
 //! that the specification leaves open is not judged until it is drawn anew.
 
 mod judge;
+mod lines;
 mod meshes;
 mod model;
 mod picture;
@@ -94,6 +95,12 @@ pub fn triangles(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
     judge.report(findings);
     findings.part(|findings| {
         findings.tally("meshes, one fragment a pixel", meshes::meshes(subject)?, "fragments");
+        Ok(())
+    });
+    findings.part(|findings| {
+        let [places, numbers] = lines::lines(subject)?;
+        findings.tally("pixels of lines", places, "pixels");
+        findings.tally("varyings and depth of lines", numbers, "");
         Ok(())
     });
     findings.part(|findings| {

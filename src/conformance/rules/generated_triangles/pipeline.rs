@@ -99,13 +99,21 @@ impl Pipeline {
 
     /// Changes one piece; the calls that do so.
     pub fn change(&mut self, dice: &mut Dice, size: [u32; 2], distances: u32) -> Vec<GlChange> {
+        if self.mode != GlPolygonMode::Fill && dice.chance(0.6) {
+            self.mode = GlPolygonMode::Fill;
+            return vec![GlChange::Mode(self.mode)];
+        }
         // What a driver may compile programs anew for changes less often than the rest.
         let kind = match dice.chance(0.7) {
             true => dice.pick(&[0, 0, 0, 2, 2, 3, 5, 6, 6, 7, 8, 9]),
-            false => dice.pick(&[4, 4, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18]),
+            false => dice.pick(&[1, 4, 4, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18]),
         };
         match kind {
-            0 | 1 => {
+            1 => {
+                self.mode = dice.pick(&[GlPolygonMode::Line, GlPolygonMode::Point]);
+                vec![GlChange::Mode(self.mode)]
+            }
+            0 => {
                 self.viewport = viewport(dice, size);
                 vec![GlChange::Viewport(self.viewport)]
             }

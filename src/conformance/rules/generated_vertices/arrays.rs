@@ -81,16 +81,15 @@ impl Array {
         &mut self,
         bench: &Bench,
         dice: &mut Dice,
-        location: usize,
-        kind: Kind,
+        (location, kind, format): (usize, Kind, Format),
         buffer: &Rc<Held>,
     ) -> Result<(), Error> {
-        let format = Format::any(dice, kind);
-        let stride = match dice.below(5) {
+        let stride = match dice.below(6) {
             0 => 0,
             1 => format.bytes() + dice.below(9),
             2 => dice.pick(&[32, 48, 64, 100, 128]),
             3 => dice.whole(65, 220) as usize,
+            4 => dice.whole(220, 340) as usize,
             _ => format.bytes(),
         }
         .max(if dice.chance(0.2) { 0 } else { format.bytes() });

@@ -4,14 +4,14 @@ use std::rc::Rc;
 
 use super::World;
 use super::arrays::{Array, Held, LOCATIONS, VERTICES, current};
-use super::formats::{Due, Kind};
+use super::formats::{Due, Format, Kind};
 use super::programs::Program;
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCaptured, GlPrimitive, GlRange};
 use crate::conformance::rules::dice::Dice;
 
 /// Bytes of the buffers: every array fits.
-const BYTES: usize = 14_500;
+const BYTES: usize = 24_000;
 const INDEX_BYTES: usize = 4000;
 const KINDS: [Kind; 6] = [Kind::Float, Kind::Float, Kind::Float, Kind::Float, Kind::Signed, Kind::Unsigned];
 
@@ -22,7 +22,7 @@ pub struct Draw {
 }
 
 impl World {
-    pub fn new(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Self, Error> {
+    pub fn new(subject: &DriverUnderTest, dice: &mut Dice, pointed: usize) -> Result<Self, Error> {
         let bench = &subject.bench;
         let mut kinds = [Kind::Float; LOCATIONS];
         kinds.iter_mut().skip(1).for_each(|kind| *kind = dice.pick(&KINDS));
@@ -37,7 +37,8 @@ impl World {
             .collect::<Result<Vec<_>, _>>()?;
         let symmetric = bench.has((4, 2), "");
         let current = [[Due::Any; 4]; LOCATIONS];
-        let mut world = Self { kinds, current, buffers, indices, arrays, bound: 0, programs, used: 0, symmetric };
+        let mut world =
+            Self { kinds, current, buffers, indices, arrays, bound: 0, programs, used: 0, symmetric, pointed };
         for location in 0..LOCATIONS {
             world.set_current(subject, dice, location);
         }
@@ -47,6 +48,9 @@ impl World {
                 world.point(subject, dice, location)?;
                 let on = location == 0 || dice.chance(0.8);
                 world.enable(subject, location, on);
+                if location > 0 && dice.chance(0.35) {
+                    world.divide(subject, dice, location);
+                }
             }
         }
         Ok(world)
@@ -65,7 +69,10 @@ impl World {
 
     fn point(&mut self, subject: &DriverUnderTest, dice: &mut Dice, location: usize) -> Result<(), Error> {
         let buffer = self.buffers[dice.below(self.buffers.len())].clone();
-        self.arrays[self.bound].point(&subject.bench, dice, location, self.kinds[location], &buffer)
+        self.pointed += 1;
+        let kind = self.kinds[location];
+        let format = Format::dealt(self.pointed, kind);
+        self.arrays[self.bound].point(&subject.bench, dice, (location, kind, format), &buffer)
     }
 
     fn enable(&mut self, subject: &DriverUnderTest, location: usize, on: bool) {
@@ -73,11 +80,19 @@ impl World {
         subject.bench.enable_feed(location as u32, on);
     }
 
+    /// Gives an attribute another divisor. One vertex array has none that is small, and so many instances.
+    fn divide(&mut self, subject: &DriverUnderTest, dice: &mut Dice, location: usize) {
+        let divisors = if self.bound == 2 { [0, 0, 7, 30, 65, 100] } else { [0, 0, 1, 1, 2, 3] };
+        let divisor = dice.pick(&divisors);
+        self.arrays[self.bound].attributes[location].divisor = divisor;
+        subject.bench.divide_feed(location as u32, divisor);
+    }
+
     /// Changes one thing.
     pub fn change(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
         let location = dice.below(LOCATIONS);
-        match dice.below(16) {
-            0 | 1 => {
+        match dice.below(18) {
+            0..=1 | 14..=15 => {
                 for _ in 0..dice.whole(1, 5) {
                     let location = dice.below(LOCATIONS);
                     self.point(subject, dice, location)?;
@@ -89,11 +104,7 @@ impl World {
             }
             3 | 4 => self.set_current(subject, dice, location),
             5 | 6 if location > 0 => {
-                // One vertex array has none that is small, and so many instances.
-                let divisors = if self.bound == 2 { [0, 0, 0, 7, 30, 100] } else { [0, 0, 1, 1, 2, 3] };
-                let divisor = dice.pick(&divisors);
-                self.arrays[self.bound].attributes[location].divisor = divisor;
-                subject.bench.divide_feed(location as u32, divisor);
+                self.divide(subject, dice, location);
             }
             7 | 8 => {
                 let buffer = self.buffers[dice.below(self.buffers.len())].clone();
@@ -160,7 +171,8 @@ impl World {
             GlPrimitive::LineLoop,
             GlPrimitive::Triangles,
         ]);
-        let count = dice.pick(&[1, 3, 7, 12, 30, 40]);
+        let is_many = self.bound == 2 && dice.chance(0.4);
+        let count = if is_many { dice.pick(&[1, 3]) } else { dice.pick(&[1, 3, 7, 12, 30, 40]) };
         let divisors = self.arrays[self.bound].attributes.iter().filter(|attribute| attribute.enabled);
         let least = divisors.map(|attribute| attribute.divisor).filter(|divisor| *divisor > 0).min();
         let first_instance = match subject.bench.has((4, 2), "GL_ARB_base_instance") && dice.chance(0.3) {
@@ -168,11 +180,12 @@ impl World {
             false => 0,
         };
         // No array ends before the last instance.
-        let most = least.map_or(usize::MAX, |divisor| (VERTICES - first_instance) * divisor as usize);
+        let most: usize = least.map_or(usize::MAX, |divisor| (VERTICES - first_instance) * divisor as usize);
         let instances = match dice.below(4) {
+            _ if is_many => Some(dice.whole(250, 900 / count as i32) as usize),
             0 | 1 => None,
             2 => Some(dice.whole(1, 5) as usize),
-            _ => Some(dice.pick(&[20, 90, 400]).min(1200 / count)),
+            _ => Some(dice.pick(&[20, 90, 400, 900]).min(1200 / count)),
         };
         let instances = instances.map(|number: usize| number.min(most));
         let first_instance = if instances.is_some() { first_instance } else { 0 };

@@ -47,28 +47,30 @@ impl Due {
 const PACKED: [u32; 2] = [glow::INT_2_10_10_10_REV, glow::UNSIGNED_INT_2_10_10_10_REV];
 
 impl Format {
-    /// Any that an attribute of this kind can have.
-    pub fn any(dice: &mut Dice, kind: Kind) -> Self {
-        let size = dice.whole(1, 4) as u32;
-        let normalized = dice.chance(0.5);
-        match kind {
-            Kind::Signed => Self { kind: dice.pick(&[glow::BYTE, glow::SHORT, glow::INT]), size, normalized: false },
-            Kind::Unsigned => {
-                let kind = dice.pick(&[glow::UNSIGNED_BYTE, glow::UNSIGNED_SHORT, glow::UNSIGNED_INT]);
-                Self { kind, size, normalized: false }
+    /// One of all that an attribute of this kind can have: each number has another until all have been.
+    pub fn dealt(number: usize, kind: Kind) -> Self {
+        let of = |kinds: &[u32], normalized: &[bool]| {
+            let sizes = kinds.iter().flat_map(|kind| (1..=4).map(move |size| (*kind, size)));
+            let formats = sizes.flat_map(|(kind, size)| normalized.iter().map(move |on| (kind, size, *on)));
+            formats.map(|(kind, size, normalized)| Self { kind, size, normalized }).collect::<Vec<_>>()
+        };
+        let signed = [glow::BYTE, glow::SHORT, glow::INT];
+        let unsigned = [glow::UNSIGNED_BYTE, glow::UNSIGNED_SHORT, glow::UNSIGNED_INT];
+        let formats = match kind {
+            Kind::Signed => of(&signed, &[false]),
+            Kind::Unsigned => of(&unsigned, &[false]),
+            Kind::Float => {
+                let mut formats = of(&[glow::FLOAT, glow::FLOAT, glow::HALF_FLOAT, glow::DOUBLE], &[false]);
+                formats.extend(of(&[signed, unsigned].concat(), &[false, true]));
+                let packed =
+                    PACKED.into_iter().flat_map(|kind| [(kind, 4, false), (kind, 4, true), (kind, glow::BGRA, true)]);
+                let bytes = [(glow::UNSIGNED_BYTE, glow::BGRA, true)];
+                formats.extend(packed.chain(bytes).map(|(kind, size, normalized)| Self { kind, size, normalized }));
+                formats
             }
-            Kind::Float => match dice.below(16) {
-                0 | 1 | 15 => Self { kind: glow::FLOAT, size, normalized: false },
-                2 => Self { kind: glow::HALF_FLOAT, size, normalized: false },
-                3 => Self { kind: glow::DOUBLE, size, normalized: false },
-                4..=6 => Self { kind: dice.pick(&PACKED), size: 4, normalized },
-                7 => Self { kind: glow::UNSIGNED_BYTE, size: glow::BGRA, normalized: true },
-                8 => Self { kind: dice.pick(&[glow::BYTE, glow::UNSIGNED_BYTE]), size, normalized },
-                9 | 10 => Self { kind: dice.pick(&[glow::SHORT, glow::UNSIGNED_SHORT]), size, normalized },
-                11..=13 => Self { kind: dice.pick(&[glow::INT, glow::UNSIGNED_INT]), size, normalized },
-                _ => Self { kind: glow::UNSIGNED_BYTE, size, normalized },
-            },
-        }
+        };
+        // No number of formats is a multiple of 31.
+        formats[number * 31 % formats.len()]
     }
 
     fn is_packed(self) -> bool {
@@ -126,7 +128,8 @@ impl Format {
                 let part = word >> shift & ((1 << bits) - 1);
                 let signed = i64::from((part << (32 - bits)) as i32 >> (32 - bits));
                 let value = if self.kind == glow::INT_2_10_10_10_REV { signed } else { i64::from(part) };
-                due[index] = self.number(value, bits, symmetric);
+                let place = if self.size == glow::BGRA { [2, 1, 0, 3][index] } else { index };
+                due[place] = self.number(value, bits, symmetric);
             }
             return due;
         }

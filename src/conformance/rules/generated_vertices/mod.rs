@@ -22,7 +22,7 @@ use crate::conformance::rules::dice::Dice;
 use crate::conformance::{DriverUnderTest, Findings};
 
 const SEQUENCES: u64 = 4;
-const DRAWS: usize = 24;
+const DRAWS: usize = 26;
 
 /// Numbers that were compared, and the first that is wrong.
 #[derive(Default)]
@@ -66,6 +66,8 @@ struct World {
     used: usize,
     /// Signed numbers are normalised as OpenGL 4.2 has it.
     symmetric: bool,
+    /// Pointers that were set.
+    pointed: usize,
 }
 
 /// GL-X5.
@@ -89,14 +91,14 @@ pub fn vertices(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
 fn sequence(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Result<(), Error> {
     let bench = &subject.bench;
     let mut dice = Dice::new(7100 + number);
-    let mut world = World::new(subject, &mut dice)?;
+    let mut world = World::new(subject, &mut dice, number as usize * 48)?;
     for turn in 0..DRAWS {
         for _ in 0..dice.whole(1, 3) {
             world.change(subject, &mut dice)?;
         }
         // Location 0 is always an array's, as some drivers need it.
         world.settle(subject, &mut dice)?;
-        for _ in 0..4 {
+        for _ in 0..5 {
             let draw = world.draw(subject, &mut dice)?;
             let program = &world.programs[world.used];
             let bytes = bench.captured(&program.capture, &draw.call, draw.vertices.len())?;

@@ -73,6 +73,6 @@ fn input(dice: &mut Dice, kinds: &[Kind; LOCATIONS], location: usize) -> Input {
     let columns = dice.whole(2, 4) as usize;
     let floats = kinds.iter().skip(location).take(columns).filter(|kind| **kind == Kind::Float).count();
     let is_matrix = floats == columns && dice.chance(0.2);
-    let components = dice.whole(if is_matrix { 2 } else { 1 }, 4) as usize;
+    let components = if is_matrix { dice.whole(2, 4) as usize } else { dice.pick(&[1, 2, 3, 3, 4, 4, 4]) };
     Input { location, columns: if is_matrix { columns } else { 1 }, components }
 }

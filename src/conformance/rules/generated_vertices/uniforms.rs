@@ -10,8 +10,8 @@ use crate::conformance::rules::dice::Dice;
 
 /// Numbers that a program puts out, at most.
 const MOST: usize = 60;
-const PROGRAMS: usize = 5;
-const TURNS: usize = 400;
+const PROGRAMS: usize = 7;
+const TURNS: usize = 500;
 
 /// A uniform, or a member of one.
 struct Uniform {
