@@ -104,9 +104,9 @@ impl Pipeline {
             return vec![GlChange::Mode(self.mode)];
         }
         // What a driver may compile programs anew for changes less often than the rest.
-        let kind = match dice.chance(0.7) {
+        let kind = match dice.chance(0.8) {
             true => dice.pick(&[0, 0, 0, 2, 2, 3, 5, 6, 6, 7, 8, 9]),
-            false => dice.pick(&[1, 4, 4, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18]),
+            false => dice.pick(&[1, 4, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18]),
         };
         match kind {
             1 => {

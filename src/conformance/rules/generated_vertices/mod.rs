@@ -21,7 +21,7 @@ use crate::conformance::bench::{Error, GlFormat};
 use crate::conformance::rules::dice::Dice;
 use crate::conformance::{DriverUnderTest, Findings};
 
-const SEQUENCES: u64 = 4;
+const SEQUENCES: u64 = 3;
 const DRAWS: usize = 26;
 
 /// Numbers that were compared, and the first that is wrong.
@@ -91,7 +91,7 @@ pub fn vertices(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
 fn sequence(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Result<(), Error> {
     let bench = &subject.bench;
     let mut dice = Dice::new(7100 + number);
-    let mut world = World::new(subject, &mut dice, number as usize * 48)?;
+    let mut world = World::new(subject, &mut dice, number as usize * 64)?;
     for turn in 0..DRAWS {
         for _ in 0..dice.whole(1, 3) {
             world.change(subject, &mut dice)?;
