@@ -22,7 +22,7 @@ pub enum GlChange {
     CullFace(u32),
     /// glFrontFace, clockwise or not.
     FrontFace(bool),
-    /// Of both faces.
+    /// glPolygonMode of both faces.
     Mode(GlPolygonMode),
     Offset(GlOffset),
     /// glBlendFunc.

@@ -40,7 +40,7 @@ pub struct GlCapture {
     pub bytes: usize,
 }
 
-/// How bytes of a buffer are written.
+/// Ways to write bytes of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GlWrite {
     /// glBufferSubData.

@@ -29,7 +29,7 @@ const DRAWS: usize = 90;
 struct Sequence {
     size: [u32; 2],
     depth: GlFormat,
-    /// What its two programs do.
+    /// Traits of its two programs.
     traits: [Traits; 2],
     /// Numbers of their varyings, at most.
     numbers: [usize; 2],

@@ -81,7 +81,7 @@ impl Known {
     }
 }
 
-/// How a value is interpolated.
+/// Interpolation of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     Smooth,

@@ -1,4 +1,4 @@
-//! What each pixel of a target must hold: the model's framebuffer.
+//! The model's framebuffer: numbers that each pixel of a target must hold.
 
 use std::cmp::Ordering;
 
@@ -32,7 +32,7 @@ pub struct Picture {
     pub encoding: Encoding,
 }
 
-/// What a draw shows.
+/// Numbers that a draw shows.
 pub struct Shown<'a> {
     pub text: &'a Text,
     /// Group of numbers; the one after the last: derivatives.

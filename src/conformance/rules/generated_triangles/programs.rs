@@ -24,7 +24,7 @@ impl Component {
     }
 }
 
-/// What a program does beside its varyings.
+/// Work of a program beside its varyings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Traits {
     /// It writes eight clip distances.

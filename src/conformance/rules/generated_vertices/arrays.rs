@@ -118,7 +118,7 @@ impl Array {
         Ok(())
     }
 
-    /// What an attribute is for a vertex of an instance.
+    /// Value of an attribute for a vertex of an instance.
     pub fn read(
         &self,
         location: usize,

@@ -1,4 +1,4 @@
-//! What changes between draws, and draws of any kind.
+//! Changes between draws, and draws of any kind.
 
 use std::rc::Rc;
 

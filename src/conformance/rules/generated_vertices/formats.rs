@@ -117,7 +117,7 @@ impl Format {
         bytes
     }
 
-    /// What a shader gets, completed by 0, 0, 1; `symmetric`: the equation of OpenGL 4.2 for signed normalised numbers.
+    /// Numbers that a shader gets, completed by 0, 0, 1; `symmetric`: the equation of OpenGL 4.2 for signed normalised numbers.
     pub fn read(self, bytes: &[u8], kind: Kind, symmetric: bool) -> [Due; 4] {
         let one = if kind == Kind::Float { Due::float(1.0) } else { Due::Bits(1) };
         let zero = Due::Bits(0);
