@@ -141,6 +141,13 @@ impl Findings {
         self.add(what, verdict, measured);
     }
 
+    /// Adds to the measurement of the last finding, as which case was the first that failed.
+    pub fn note(&mut self, text: &str) {
+        if let Some(finding) = self.list.last_mut() {
+            finding.measured = format!("{}; {text}", finding.measured);
+        }
+    }
+
     pub fn untestable(&mut self, what: impl Into<String>, why: impl Into<String>) {
         self.add(what, RuleVerdict::Untestable, why);
     }

@@ -30,9 +30,35 @@ pub enum GlIndices<'a> {
 pub enum GlPrimitive {
     Points,
     Lines,
+    LineStrip,
+    LineLoop,
     Triangles,
     TriangleStrip,
     TriangleFan,
+}
+
+impl GlPrimitive {
+    pub(super) fn code(self) -> u32 {
+        match self {
+            Self::Points => glow::POINTS,
+            Self::Lines => glow::LINES,
+            Self::LineStrip => glow::LINE_STRIP,
+            Self::LineLoop => glow::LINE_LOOP,
+            Self::Triangles => glow::TRIANGLES,
+            Self::TriangleStrip => glow::TRIANGLE_STRIP,
+            Self::TriangleFan => glow::TRIANGLE_FAN,
+        }
+    }
+}
+
+impl<'a> GlIndices<'a> {
+    /// Bytes, type, and number of the indices.
+    pub(super) fn bytes(self) -> (&'a [u8], u32, usize) {
+        match self {
+            Self::Long(indices) => (bytemuck::cast_slice(indices), glow::UNSIGNED_INT, indices.len()),
+            Self::Short(indices) => (bytemuck::cast_slice(indices), glow::UNSIGNED_SHORT, indices.len()),
+        }
+    }
 }
 
 /// A draw by glDrawElements.
@@ -103,10 +129,8 @@ impl Bench {
             for attribute in draw.attributes {
                 buffers.push(arrays.upload(glow::ARRAY_BUFFER, bytemuck::cast_slice(attribute.numbers))?);
             }
-            let (bytes, kind, size): (&[u8], u32, i32) = match draw.indices {
-                GlIndices::Long(indices) => (bytemuck::cast_slice(indices), glow::UNSIGNED_INT, 4),
-                GlIndices::Short(indices) => (bytemuck::cast_slice(indices), glow::UNSIGNED_SHORT, 2),
-            };
+            let (bytes, kind, count) = draw.indices.bytes();
+            let size = bytes.len().checked_div(count).unwrap_or(0) as i32;
             let indices = arrays.upload(glow::ELEMENT_ARRAY_BUFFER, bytes)?;
             // Another buffer, bound outside of the vertex array, must not be the one that is read.
             arrays.upload(glow::ELEMENT_ARRAY_BUFFER, &vec![0; bytes.len()])?;
@@ -123,13 +147,7 @@ impl Bench {
             gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, arrays.buffers.last().copied());
             gl.use_program(Some(program));
             gl.bind_vertex_array(Some(array));
-            let mode = match draw.primitive {
-                GlPrimitive::Points => glow::POINTS,
-                GlPrimitive::Lines => glow::LINES,
-                GlPrimitive::Triangles => glow::TRIANGLES,
-                GlPrimitive::TriangleStrip => glow::TRIANGLE_STRIP,
-                GlPrimitive::TriangleFan => glow::TRIANGLE_FAN,
-            };
+            let mode = draw.primitive.code();
             let [first, count] = draw.range.map(|index| index as i32);
             match draw.base {
                 0 => gl.draw_elements(mode, count, kind, first * size),

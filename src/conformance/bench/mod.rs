@@ -6,11 +6,13 @@
 pub mod arrays;
 mod attach;
 mod blend;
+mod changes;
 mod clear;
 pub mod commands;
 mod draw;
 mod elements;
 pub mod environment;
+mod feed;
 pub mod fixed_function;
 mod format;
 mod image;
@@ -24,11 +26,13 @@ mod queries;
 mod sampling;
 mod sequence;
 mod state;
+mod stream;
 mod surface;
 mod targets;
 mod texgen;
 mod textures;
 mod transfer;
+mod values;
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -39,9 +43,11 @@ use glow::HasContext;
 
 pub use attach::{GlPart, GlPlace};
 pub use blend::{GlBlend, GlEquation, GlFactor};
+pub use changes::GlChange;
 pub use clear::GlClear;
 pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
 pub use elements::{GlAttribute, GlElements, GlIndices, GlPrimitive};
+pub use feed::{GlArray, GlBuffer, GlCapture, GlCaptured, GlCurrent, GlPointer, GlRange, GlWrite};
 pub use format::{Encoding, GlFormat};
 pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
 pub use instances::GlInstances;
@@ -52,10 +58,12 @@ pub use program::Shader;
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
+pub use stream::{GlStream, GlWhole};
 pub use surface::Surface;
 pub use texgen::GlTexgen;
 pub use textures::{GlTexelPlace, GlTexels, GlTextureBench, GlTextureStep};
 pub use transfer::{GlBlit, GlCopyTo, GlReading};
+pub use values::GlValues;
 
 use crate::context::{Context, Profile, error_name};
 

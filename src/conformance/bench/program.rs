@@ -115,7 +115,7 @@ pub(crate) fn build(gl: &Rc<glow::Context>, vertex: &str, fragment: &str) -> Res
 
 /// The same of any stages.
 pub(super) fn build_stages(gl: &Rc<glow::Context>, stages: &[(u32, &str)]) -> Result<GlProgram, Error> {
-    build_named(gl, stages, &["position", "value"])
+    build_with(gl, stages, |_, _| ())
 }
 
 /// The same with attributes of these names, by location.
@@ -124,18 +124,32 @@ pub(super) fn build_named(
     stages: &[(u32, &str)],
     attributes: &[&str],
 ) -> Result<GlProgram, Error> {
+    build_with(gl, stages, |gl, program| {
+        for (location, name) in (0..).zip(attributes) {
+            // SAFETY: the context is current, and the program is in it.
+            unsafe { gl.bind_attrib_location(program, location, name) };
+        }
+    })
+}
+
+/// The same with calls before the program is linked.
+pub(super) fn build_with(
+    gl: &Rc<glow::Context>,
+    stages: &[(u32, &str)],
+    before: impl Fn(&glow::Context, glow::Program),
+) -> Result<GlProgram, Error> {
     // SAFETY: the context is current; the program deletes itself, also on failure.
     unsafe {
         let program = GlProgram { gl: gl.clone(), name: gl.create_program().map_err(no("program"))? };
         for (stage, source) in stages {
             attach(gl, program.name, *stage, source)?;
         }
-        for (location, name) in (0..).zip(attributes) {
-            gl.bind_attrib_location(program.name, location, name);
-        }
+        gl.bind_attrib_location(program.name, 0, "position");
+        gl.bind_attrib_location(program.name, 1, "value");
         for (buffer, output) in (0..).zip(OUTPUTS) {
             gl.bind_frag_data_location(program.name, buffer, output);
         }
+        before(gl, program.name);
         gl.link_program(program.name);
         if gl.get_program_link_status(program.name) {
             Ok(program)

@@ -136,6 +136,16 @@ pub enum GlPolygonMode {
     Point,
 }
 
+impl GlPolygonMode {
+    pub(super) fn code(self) -> u32 {
+        match self {
+            Self::Fill => glow::FILL,
+            Self::Line => glow::LINE,
+            Self::Point => glow::POINT,
+        }
+    }
+}
+
 /// All of GL's state that a bench draw can have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlState {
@@ -305,11 +315,7 @@ fn apply_stencil(gl: &glow::Context, state: &GlState) {
 }
 
 fn apply_mode(gl: &glow::Context, mode: [GlPolygonMode; 2]) {
-    let code = |mode| match mode {
-        GlPolygonMode::Fill => glow::FILL,
-        GlPolygonMode::Line => glow::LINE,
-        GlPolygonMode::Point => glow::POINT,
-    };
+    let code = GlPolygonMode::code;
     // SAFETY: as in `apply`.
     unsafe {
         if mode[0] == mode[1] {

@@ -16,9 +16,19 @@ impl Bench {
     ///
     /// As [`surface`](Self::surface).
     pub fn several(&self, size: [u32; 2], colors: &[GlFormat]) -> Result<Surface, Error> {
+        self.several_with(size, colors, None)
+    }
+
+    /// The same, with a depth image.
+    ///
+    /// # Errors
+    ///
+    /// As [`surface`](Self::surface).
+    pub fn several_with(&self, size: [u32; 2], colors: &[GlFormat], depth: Option<GlFormat>) -> Result<Surface, Error> {
         let images =
             colors.iter().map(|format| self.image(*format, size).map(Rc::new)).collect::<Result<Vec<_>, _>>()?;
-        let mut surface = self.surface_at(images.first().map(GlPlace::whole), None)?;
+        let depth = depth.map(|format| self.image(format, size).map(Rc::new)).transpose()?;
+        let mut surface = self.surface_at(images.first().map(GlPlace::whole), depth.as_ref().map(GlPlace::whole))?;
         // SAFETY: the context is current; the images live as long as the surface.
         let status = unsafe {
             self.gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.name));

@@ -90,8 +90,14 @@ pub fn meaning(function: &str, parameter: &str, kind: &str, value: Value) -> Mea
     match (function, parameter) {
         ("glClear" | "glBlitFramebuffer", "mask") => Meaning::Bits,
         (_, "mask" | "index" | "reference" | "count" | "x" | "y" | "width" | "height" | "level") => Meaning::Number,
-        ("glBindBuffer", "buffer") => Meaning::Object(Kind::Buffer),
+        ("glBindBuffer" | "glBindBufferBase" | "glBindBufferRange", "buffer") => Meaning::Object(Kind::Buffer),
         ("glBindRenderbuffer" | "glFramebufferRenderbuffer", "buffer") => Meaning::Object(Kind::Renderbuffer),
+        (_, "base" | "binding" | "first" | "instances") => Meaning::Number,
+        (function, "x" | "y" | "z" | "w")
+            if function.starts_with("glUniform") || function.starts_with("glVertexAttrib") =>
+        {
+            Meaning::Number
+        }
         ("glColorMaski", "buffer") | ("glBindSampler", "unit") => Meaning::Number,
         (_, "texture") => Meaning::Object(Kind::Texture),
         (_, "framebuffer") => Meaning::Object(Kind::Framebuffer),
@@ -173,6 +179,18 @@ pub fn data_of(call: &Call, unpack: [usize; 2]) -> Option<(Scalar, usize)> {
         "glUniform2fv" => floats(2 * size(1)),
         "glUniform3fv" => floats(3 * size(1)),
         "glUniform4fv" => floats(4 * size(1)),
+        "glUniform1iv" => (Scalar::I32, 4 * size(1)),
+        "glUniform2iv" => (Scalar::I32, 8 * size(1)),
+        "glUniform3iv" => (Scalar::I32, 12 * size(1)),
+        "glUniform4iv" => (Scalar::I32, 16 * size(1)),
+        "glUniform1uiv" => (Scalar::U32, 4 * size(1)),
+        "glUniform2uiv" => (Scalar::U32, 8 * size(1)),
+        "glUniform3uiv" => (Scalar::U32, 12 * size(1)),
+        "glUniform4uiv" => (Scalar::U32, 16 * size(1)),
+        "glUniformMatrix2fv" => floats(4 * size(1)),
+        "glUniformMatrix2x3fv" | "glUniformMatrix3x2fv" => floats(6 * size(1)),
+        "glUniformMatrix2x4fv" | "glUniformMatrix4x2fv" => floats(8 * size(1)),
+        "glUniformMatrix3x4fv" | "glUniformMatrix4x3fv" => floats(12 * size(1)),
         "glUniformMatrix3fv" => floats(9 * size(1)),
         "glUniformMatrix4fv" => floats(16 * size(1)),
         "glTexParameterfv" | "glSamplerParameterfv" => {
