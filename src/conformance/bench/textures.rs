@@ -105,6 +105,8 @@ impl<'a> GlTextureBench<'a> {
         // SAFETY: the context is current; the objects are deleted on drop.
         let (framebuffer, buffer) =
             unsafe { (gl.create_framebuffer().map_err(no("framebuffer"))?, gl.create_buffer().map_err(no("buffer"))?) };
+        // SAFETY: sets state. Other rules may have left sampler objects on units.
+        unsafe { (0..32).for_each(|unit| gl.bind_sampler(unit, None)) };
         let (textures, samplers) = (vec![None; slots[0]], vec![None; slots[1]]);
         Ok(Self { bench, textures, samplers, programs, surfaces, framebuffer, buffer })
     }

@@ -271,7 +271,9 @@ faults! {
             let block = 1 << 16;
             if total > block && !total.is_multiple_of(block) {
                 let mut bytes = call.bytes(6, total);
-                bytes[total / block * block..].fill(0);
+                if let Some(last) = bytes.get_mut(total / block * block..) {
+                    last.fill(0);
+                }
                 call.write(6, &bytes);
             }
         }

@@ -11,6 +11,29 @@ impl Call<'_> {
         unsafe { self.gl().get_parameter_i32(name) }
     }
 
+    /// Tests whether pixels that this call passes lie in the client's memory, row after row. True for other calls.
+    pub fn has_plain_pixels(&self) -> bool {
+        let names = match self.name {
+            name if name.starts_with("glTex") && name.contains("Image") => [
+                glow::PIXEL_UNPACK_BUFFER_BINDING,
+                glow::UNPACK_ROW_LENGTH,
+                glow::UNPACK_SKIP_ROWS,
+                glow::UNPACK_SKIP_PIXELS,
+                glow::UNPACK_ALIGNMENT,
+            ],
+            "glReadPixels" | "glGetTexImage" => [
+                glow::PIXEL_PACK_BUFFER_BINDING,
+                glow::PACK_ROW_LENGTH,
+                glow::PACK_SKIP_ROWS,
+                glow::PACK_SKIP_PIXELS,
+                glow::PACK_ALIGNMENT,
+            ],
+            _ => return true,
+        };
+        let [buffer, row, rows, pixels, alignment] = names.map(|name| self.get(name));
+        [buffer, row, rows, pixels] == [0; 4] && alignment < 8
+    }
+
     /// Tests whether something is enabled.
     pub fn enabled(&self, name: u32) -> bool {
         // SAFETY: the context is current.

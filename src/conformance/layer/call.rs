@@ -225,9 +225,9 @@ impl Call<'_> {
         self.read(index, count)
     }
 
-    /// The first `count` bytes that an argument points to; none where it is null.
+    /// The first `count` bytes that an argument points to; none where it is null, or pixels that do not lie there row by row.
     pub fn bytes(&self, index: usize, count: usize) -> Vec<u8> {
-        self.read(index, count)
+        if self.has_plain_pixels() { self.read(index, count) } else { Vec::new() }
     }
 
     fn read<T: Copy>(&self, index: usize, count: usize) -> Vec<T> {
@@ -242,6 +242,9 @@ impl Call<'_> {
 
     /// Writes what the caller reads after the call.
     pub fn write<T: Copy>(&mut self, index: usize, values: &[T]) {
+        if !self.has_plain_pixels() {
+            return;
+        }
         if let Some(Value::Pointer(at)) = self.arguments.get(index)
             && !at.is_null()
         {

@@ -204,6 +204,10 @@ impl Log {
     /// Makes the call, and notes it.
     fn record(&mut self, call: &mut Call) {
         let Some((parameters, _)) = functions::signature(call.name) else { return };
+        // A program makes few objects, and deletes none.
+        if call.name == "glDeleteSamplers" {
+            return;
+        }
         let mut arguments = Vec::new();
         for (index, [name, kind]) in parameters.iter().enumerate() {
             arguments.push(self.argument(call, index, name, kind));

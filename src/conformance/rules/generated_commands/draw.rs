@@ -222,13 +222,12 @@ impl State {
             }
             self.set_pixel(attached.place, at, after);
         }
-        if let Some([least, most]) = &mut self.query {
+        if let Some(most) = &mut self.query {
             if samples > 0 {
                 // How many of several samples a pixel counts is another rule's.
                 *most = u32::MAX;
             }
             *most = most.saturating_add(u32::from(lives));
-            *least += u32::from(lives && sure);
         }
         if lives {
             self.write_colors(at, fragment, sure);

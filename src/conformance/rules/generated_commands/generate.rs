@@ -113,7 +113,8 @@ impl Generator {
     fn propose(&mut self, state: &State) {
         let command = match self.random.below(100) {
             0..24 => Command::Set(self.palette.setting(&mut self.random, state, &self.sizes)),
-            24..28 => return self.look(state),
+            24..27 => return self.look(state),
+            27 => return self.clip(),
             28..52 => self.draw(),
             52..57 => self.fill(),
             57..64 => self.clear(),
@@ -233,6 +234,17 @@ impl Generator {
             Drawing::Based,
         ]);
         Command::Draw { array: self.random.below(ARRAYS), first: self.random.below(CAPACITY), count, drawing }
+    }
+
+    /// Draws that a clip distance cuts: only one program writes it.
+    fn clip(&mut self) {
+        let draws = [self.draw(), self.draw()];
+        let cut = self.palette.cut(&mut self.random);
+        self.queue.push_back(Command::Set(Setting::Cut(Program::Clip, cut)));
+        self.queue.push_back(Command::Set(Setting::Color(Program::Clip, self.palette.color(&mut self.random))));
+        self.queue.push_back(Command::Set(Setting::ClipDistance(true)));
+        self.queue.extend(draws);
+        self.queue.push_back(Command::Set(Setting::ClipDistance(false)));
     }
 
     fn clear(&mut self) -> Command {

@@ -51,6 +51,10 @@ fn step(
     judged: &mut Judged,
 ) -> Result<Option<Fault>, Error> {
     let answer = player.play(command)?;
+    if let Ok(path) = std::env::var("X1_LOG") {
+        use std::io::Write as _;
+        writeln!(std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap(), "{command:?}").unwrap();
+    }
     state.apply(command);
     let fault = state.judge(command, &answer, judged);
     if matches!(command, Command::EndQuery) {

@@ -56,6 +56,12 @@ impl Palette {
         [(); 4].map(|()| *random.of(&[0.0, 1.0, 0.25, 0.75, 0.2, 0.6, 0.125, 1.0, 0.0, 0.8, 1.5, -0.5]))
     }
 
+    /// A clip distance: its slope, and its height at the middle.
+    pub fn cut(&self, random: &mut Random) -> [f32; 2] {
+        let slope = *random.of(&[0.25, -0.25, 1.0, -4.0]);
+        [slope, slope * random.between(-0.9, 0.9)]
+    }
+
     fn compare(&self, random: &mut Random) -> GlCompare {
         *random.of(&self.compares)
     }
@@ -72,13 +78,12 @@ impl Palette {
 
     fn switch(random: &mut Random) -> Setting {
         let on = random.below(3) > 0;
-        match random.below(11) {
-            9 => Setting::ClipDistance(random.below(2) == 0),
+        match random.below(10) {
             0 => Setting::DepthTest(on),
             1 => Setting::DepthMask(on),
             2 => Setting::DepthClamp(on),
             3 => Setting::CullFace(!on),
-            4 | 10 => Setting::StencilTest(on),
+            4 | 9 => Setting::StencilTest(on),
             5 => Setting::Blend(on),
             6 => Setting::BlendOf(random.below(OUTPUTS) as u32, on),
             7 => Setting::ScissorTest(!on),
@@ -140,10 +145,7 @@ impl Palette {
     fn uniform(&self, random: &mut Random) -> Setting {
         let program = *random.of(&self.programs);
         match random.below(7) {
-            6 => {
-                let [slope, height] = [*random.of(&[0.25, -0.25, 1.0, -4.0]), random.between(-0.9, 0.9)];
-                Setting::Cut(program, [slope, slope * height])
-            }
+            6 => Setting::Cut(program, self.cut(random)),
             0..3 => Setting::Color(program, self.color(random)),
             3 => Setting::Period(program, [(); 2].map(|()| 1 + random.below(5) as i32)),
             4 => Setting::Origin(program, [(); 2].map(|()| random.below(40) as i32)),

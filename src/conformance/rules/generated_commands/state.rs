@@ -105,8 +105,8 @@ pub struct State {
     pub clear_stencil: i32,
     pub program: Program,
     pub uniforms: [Uniforms; Program::ALL.len()],
-    /// Samples that passed since the query began: least and most.
-    pub query: Option<[u32; 2]>,
+    /// Samples that may have passed since the query began.
+    pub query: Option<u32>,
 }
 
 impl State {
