@@ -93,9 +93,7 @@ pub fn meaning(function: &str, parameter: &str, kind: &str, value: Value) -> Mea
         ("glBindBuffer" | "glBindBufferBase" | "glBindBufferRange", "buffer") => Meaning::Object(Kind::Buffer),
         ("glBindRenderbuffer" | "glFramebufferRenderbuffer", "buffer") => Meaning::Object(Kind::Renderbuffer),
         (_, "base" | "binding" | "first" | "instances") => Meaning::Number,
-        (function, "x" | "y" | "z" | "w")
-            if function.starts_with("glUniform") || function.starts_with("glVertexAttrib") =>
-        {
+        (function, "z" | "w") if function.starts_with("glUniform") || function.starts_with("glVertexAttrib") => {
             Meaning::Number
         }
         ("glColorMaski", "buffer") | ("glBindSampler", "unit") => Meaning::Number,

@@ -49,8 +49,7 @@ impl Player<'_> {
                         gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &color);
                     }
                     Sampled::Sampler(slot) => {
-                        let mut color = color;
-                        gl.sampler_parameter_f32_slice(self.samplers[slot], glow::TEXTURE_BORDER_COLOR, &mut color);
+                        gl.sampler_parameter_f32_slice(self.samplers[slot], glow::TEXTURE_BORDER_COLOR, &color);
                     }
                 },
                 Setting::Compare(object, compare) => {

@@ -96,6 +96,7 @@ impl State {
                 !image.format.is_depth()
                     && image.size.iter().all(|side| side.is_power_of_two())
                     && image.range == [0, image.levels - 1]
+                    && !self.is_attached(slot)
             }),
             Command::Attach { slot, point, place } => {
                 self.framebuffers[slot].is_some()
@@ -140,12 +141,22 @@ impl State {
         }
     }
 
+    /// Tests whether a framebuffer has a texture. Mesa 22.3.6 may give a texture new storage when its levels are made or
+    /// others are chosen, and a framebuffer that has one of them draws into the old storage from then on.
+    fn is_attached(&self, slot: usize) -> bool {
+        let is = |of: &Attached| !of.stale && matches!(of.place, Place::Texture { slot: other, .. } if other == slot);
+        self.framebuffers.iter().flatten().any(|framebuffer| framebuffer.places().any(is))
+    }
+
     fn allows_setting(&self, setting: Setting) -> bool {
         let texture = |slot: usize| self.textures[slot].is_some();
         match setting {
             Setting::Texture(_, slot) | Setting::Swizzle(slot, _) => texture(slot),
             Setting::Levels(slot, [base, most]) => {
-                self.textures[slot].as_ref().is_some_and(|image| base <= most && most < image.levels)
+                let has = |image: &Image| {
+                    base <= most && most < image.levels && (image.range == [base, most] || !self.is_attached(slot))
+                };
+                self.textures[slot].as_ref().is_some_and(has)
             }
             Setting::Filters(object, ..)
             | Setting::Wrap(object, _)

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use crate::conformance::bench::commands::{
-    ARRAYS, CAPACITY, Clear, Command, Drawing, FRAMEBUFFERS, Filling, Place, Point, Program, RENDERBUFFERS, Rectangle,
-    Setting, TEXTURES,
+    ARRAYS, CAPACITY, Clear, Command, Drawing, FRAMEBUFFERS, Faces, Filling, Place, Point, Program, RENDERBUFFERS,
+    Rectangle, Setting, TEXTURES,
 };
 use crate::conformance::bench::{GlFormat, GlImageDesc, GlShape, level_size};
 use crate::conformance::random::Random;
@@ -61,7 +61,21 @@ impl Generator {
         self.queue.extend(first.into_iter().chain(made));
     }
 
-    /// Commands that give a new image content: clears of each of its parts, under the masks that there are.
+    /// Makes an image, and gives it content under no masks.
+    fn make(&mut self, command: Command) {
+        let content = self.content(&command);
+        let open = [
+            Setting::ScissorTest(false),
+            Setting::ColorMask([true; 4]),
+            Setting::DepthMask(true),
+            Setting::StencilMask(Faces::Both, !0),
+        ];
+        self.queue.push_back(command);
+        self.queue.extend(open.map(Command::Set));
+        self.queue.extend(content);
+    }
+
+    /// Commands that give a new image content: clears of each of its parts.
     fn content(&mut self, command: &Command) -> Vec<Command> {
         let (places, format): (Vec<_>, _) = match *command {
             Command::Texture { slot, desc, .. } => {
@@ -130,19 +144,21 @@ impl Generator {
             92 => {
                 let slot = self.random.below(TEXTURES);
                 let command = self.texture(slot);
-                let content = self.content(&command);
-                self.queue.push_back(command);
-                return self.queue.extend(content);
+                return self.make(command);
             }
             93 => Command::DeleteTexture(self.random.below(TEXTURES)),
             94 => {
                 let slot = self.random.below(RENDERBUFFERS);
                 let command = self.renderbuffer(slot);
-                let content = self.content(&command);
-                self.queue.push_back(command);
-                return self.queue.extend(content);
+                return self.make(command);
             }
-            95 => Command::Levels(self.random.below(TEXTURES)),
+            95 => {
+                // A framebuffer that has the texture would not allow it.
+                self.queue.extend((0..FRAMEBUFFERS).map(Command::Framebuffer));
+                let slot = self.random.below(TEXTURES);
+                self.queue.push_back(Command::Levels(slot));
+                return self.look(state);
+            }
             96..98 => {
                 // Around draws alone: llvmpipe counts what a clear under a mask draws, and loses samples at a change of framebuffer.
                 let draws = [self.draw(), self.draw()];

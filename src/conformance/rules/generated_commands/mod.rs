@@ -51,10 +51,6 @@ fn step(
     judged: &mut Judged,
 ) -> Result<Option<Fault>, Error> {
     let answer = player.play(command)?;
-    if let Ok(path) = std::env::var("X1_LOG") {
-        use std::io::Write as _;
-        writeln!(std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap(), "{command:?}").unwrap();
-    }
     state.apply(command);
     let fault = state.judge(command, &answer, judged);
     if matches!(command, Command::EndQuery) {
@@ -117,16 +113,6 @@ fn judged(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Result
 
 /// GL-X1: streams of random commands.
 pub fn generated(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    if let Ok(range) = std::env::var("X1_RANGE") {
-        let ends: Vec<u64> = range.split('-').map(|n| n.parse().unwrap()).collect();
-        for number in ends[0]..ends[1] {
-            let mut count = Judged::default();
-            let start = std::time::Instant::now();
-            let broken = judged(subject, number, &mut count)?;
-            eprintln!("{number}: {:?} {count:?} {:?}", start.elapsed(), broken.map(|b| (b.fault, b.command)));
-        }
-        return Ok(());
-    }
     for group in 0..STREAMS / GROUP {
         let mut count = Judged::default();
         let mut broken = None;

@@ -141,7 +141,7 @@ pub fn plane(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: 
     if kind.shape == Shape::Cube {
         // Within the plane of a face: s and t are linear. A look-up stays on the face where the slope is small.
         let face = below(random, 6);
-        let (major, sign) = (face / 2, if face % 2 == 0 { 1.0 } else { -1.0 });
+        let (major, sign) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
         let texels = texels.min(size[0] as f64 / 48.0);
         let length = f64::from(random.between(-3.0, 3.0).exp2());
         let reach = 2.0 * texels / size[0] as f64;

@@ -2,14 +2,13 @@
 
 use super::coordinates::{by, place, plane};
 use super::formats::{Format, Numbers};
-use super::lookups::{Class, Function, Inputs, Kind, OFFSET, Source};
-use super::model::{Shape, Texture};
+use super::lookups::{Class, Function, Inputs, Kind, Source};
+use super::model::Texture;
 use super::parameters::{fit, mutate, nudge};
 use super::programs::{MAPS, Program, ROWS};
 use super::uploads::{below, chance, pick};
 use super::world::{TEXTURES, UNITS, World};
-use crate::conformance::bench::{GlCompare, GlMipmap, GlTextureStep, GlWrap, Sampling, Vertex, rectangle};
-use crate::conformance::random::Random;
+use crate::conformance::bench::{GlTextureStep, Sampling, Vertex, rectangle};
 
 /// Pixels of the surface, and of a draw's cell.
 pub const COLUMNS: usize = 256;

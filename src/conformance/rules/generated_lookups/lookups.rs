@@ -90,7 +90,7 @@ impl Kind {
             Function::Grad => true,
             Function::Fetch => !is_cube && !shadow,
             Function::FetchOffset => !is_cube && !shadow,
-            Function::Offset => !is_cube && !(shadow && shape == Shape::Array),
+            Function::Offset => !(is_cube || shadow && shape == Shape::Array),
             Function::LodOffset => has_levels && !is_cube && !(shadow && shape == Shape::Array),
             Function::Size => true,
             Function::Gather => matches!(shape, Shape::Flat | Shape::Array | Shape::Rectangle),

@@ -1,7 +1,7 @@
 //! Random expressions. Each is run at once, and made again if too few pixels know its value.
 
 use super::code::{Expr, Form, Program};
-use super::functions::{BITS, FUNCTIONS, Function, Gives, Range, Takes};
+use super::functions::{BITS, FUNCTIONS, Function, Gives, Takes};
 use super::number::{Num, SLACK};
 use super::run::{Variables, evaluate};
 use super::value::{Base, Type, Value};

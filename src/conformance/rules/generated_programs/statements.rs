@@ -1,6 +1,6 @@
 //! Random statements: declarations, assignments to parts, branches, loops, switches, and calls.
 
-use super::code::{Argument, Case, Direction, Expr, Form, Loop, Own, Place, Statement, Variable};
+use super::code::{Case, Expr, Form, Loop, Place, Statement, Variable};
 use super::functions::{FUNCTIONS, Function, Gives};
 use super::make::{Maker, call, function, variable, whole};
 use super::number::Num;
