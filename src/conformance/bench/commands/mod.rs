@@ -176,7 +176,7 @@ pub enum Command {
         fresh: bool,
     },
     DeleteTexture(usize),
-    /// glTexSubImage.
+    /// glTexSubImage; or glTexImage of a whole level, which is made `anew`.
     Upload {
         slot: usize,
         level: u32,
@@ -184,6 +184,7 @@ pub enum Command {
         area: [u32; 4],
         packing: Packing,
         bytes: Vec<u8>,
+        anew: bool,
     },
     /// glGenerateMipmap.
     Levels(usize),
@@ -266,8 +267,10 @@ impl Command {
     /// The command in a line.
     pub fn in_short(&self) -> String {
         match self {
-            Self::Upload { slot, level, layer, area, packing, .. } => {
-                format!("Upload {{ slot: {slot}, level: {level}, layer: {layer}, area: {area:?}, {packing:?} }}")
+            Self::Upload { slot, level, layer, area, packing, anew, .. } => {
+                format!(
+                    "Upload {{ slot: {slot}, level: {level}, layer: {layer}, area: {area:?}, {packing:?}, anew: {anew} }}"
+                )
             }
             Self::Fill { array, first, rectangles, filling } => {
                 format!("Fill {{ array: {array}, first: {first}, count: {}, {filling:?} }}", rectangles.len())

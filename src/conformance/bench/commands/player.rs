@@ -116,8 +116,8 @@ impl Player<'_> {
                         gl.delete_texture(name);
                     }
                 }
-                Command::Upload { slot, level, layer, area, packing, ref bytes } => {
-                    self.upload(slot, [level, layer], area, packing, bytes);
+                Command::Upload { slot, level, layer, area, packing, ref bytes, anew } => {
+                    self.upload(slot, [level, layer], area, packing, bytes, anew);
                 }
                 Command::Levels(slot) => {
                     let target = self.bind_texture(slot);

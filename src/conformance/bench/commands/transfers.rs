@@ -19,6 +19,7 @@ impl Player<'_> {
         area: [u32; 4],
         packing: Packing,
         bytes: &[u8],
+        anew: bool,
     ) {
         let gl = self.gl;
         let [x, y, width, height] = area.map(|side| side as i32);
@@ -26,7 +27,8 @@ impl Player<'_> {
         // SAFETY: as the caller promises.
         unsafe {
             let target = self.bind_texture(slot);
-            let shape = self.textures[slot].map_or(GlShape::Flat, |(_, desc)| desc.shape);
+            let Some((_, desc)) = self.textures[slot] else { return };
+            let (shape, (internal, ..)) = (desc.shape, desc.format.codes());
             store(gl, packing, true);
             if packing.buffer.is_some() {
                 gl.bind_buffer(glow::PIXEL_UNPACK_BUFFER, Some(self.pixels));
@@ -36,7 +38,10 @@ impl Player<'_> {
                 Some(offset) => glow::PixelUnpackData::BufferOffset(offset),
                 None => glow::PixelUnpackData::Slice(Some(bytes)),
             };
-            if shape == GlShape::Array {
+            if anew {
+                let (place, internal) = (shape.place(layer), internal as i32);
+                gl.tex_image_2d(place, level, internal, width, height, 0, format, kind, pixels);
+            } else if shape == GlShape::Array {
                 let layer = layer as i32;
                 gl.tex_sub_image_3d(target, level, x, y, layer, width, height, 1, format, kind, pixels);
             } else {

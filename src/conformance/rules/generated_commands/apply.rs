@@ -15,7 +15,7 @@ impl State {
         match *command {
             Command::Texture { slot, desc, fresh } => self.make_texture(slot, desc, fresh),
             Command::DeleteTexture(slot) => self.forget_texture(slot),
-            Command::Upload { slot, level, layer, area, packing, ref bytes } => {
+            Command::Upload { slot, level, layer, area, packing, ref bytes, .. } => {
                 self.upload(slot, [level, layer], area, &packing, bytes);
             }
             Command::Levels(slot) => self.make_levels(slot),
@@ -78,13 +78,14 @@ impl State {
         match *command {
             Command::Texture { .. } | Command::Renderbuffer { .. } | Command::Framebuffer(_) | Command::Flush => true,
             Command::DeleteTexture(slot) => self.textures[slot].is_some(),
-            Command::Upload { slot, level, layer, area: [x, y, width, height], packing, .. } => {
+            Command::Upload { slot, level, layer, area: [x, y, width, height], packing, anew, .. } => {
                 self.textures[slot].as_ref().is_some_and(|image| {
                     let size = image.size_of(level);
                     let depth = packing.layout[0] == glow::DEPTH_COMPONENT;
                     let both = packing.layout[0] == glow::DEPTH_STENCIL;
                     level < image.levels
                         && layer < image.layers
+                        && (!anew || [width, height] == size && image.shape != GlShape::Array)
                         && x + width <= size[0]
                         && y + height <= size[1]
                         && image.format.is_depth() == (depth || both)

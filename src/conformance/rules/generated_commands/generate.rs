@@ -254,7 +254,9 @@ impl Generator {
 
     /// Draws that a clip distance cuts: only one program writes it.
     fn clip(&mut self) {
-        let draws = [self.draw(), self.draw()];
+        let draws = [self.draw(), self.draw(), self.draw()];
+        let clamp = Setting::DepthClamp(self.random.below(2) == 0);
+        self.queue.push_back(Command::Set(clamp));
         let cut = self.palette.cut(&mut self.random);
         self.queue.push_back(Command::Set(Setting::Cut(Program::Clip, cut)));
         self.queue.push_back(Command::Set(Setting::Color(Program::Clip, self.palette.color(&mut self.random))));
@@ -338,11 +340,15 @@ impl Generator {
     fn upload(&mut self, state: &State) {
         let Some((slot, level, layer, size)) = self.place(state) else { return };
         let Some(image) = state.textures[slot].as_ref() else { return };
-        let area = self.area(size);
-        let packing = pixels::packing(&mut self.random, image.format, area, true);
+        let anew = self.random.below(3) == 0;
+        let area = if anew { [0, 0, size[0] as i32, size[1] as i32] } else { self.area(size) };
+        let mut packing = pixels::packing(&mut self.random, image.format, area, true);
+        if anew && self.random.below(2) == 0 {
+            packing = pixels::tight(packing.layout);
+        }
         let bytes = pixels::bytes(&mut self.random, &packing, [area[2] as u32, area[3] as u32]);
         let area = area.map(|side| side as u32);
-        self.queue.push_back(Command::Upload { slot, level, layer, area, packing, bytes });
+        self.queue.push_back(Command::Upload { slot, level, layer, area, packing, bytes, anew });
     }
 
     fn read(&mut self, state: &State) {

@@ -4,14 +4,15 @@ use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::Packing;
 use crate::conformance::random::Random;
 
-const fn tight(layout: [u32; 2]) -> Packing {
+/// Rows one after another, in the client's memory.
+pub const fn tight(layout: [u32; 2]) -> Packing {
     Packing { layout, alignment: 1, row: 0, skip: [0; 2], buffer: None }
 }
 
 /// The layouts by which all of an image is read.
 pub fn plain(format: GlFormat) -> Vec<Packing> {
     if !format.is_depth() {
-        return vec![tight([glow::RGBA, glow::FLOAT])];
+        return vec![tight([glow::RGBA, glow::FLOAT]), tight([glow::RGBA, glow::UNSIGNED_BYTE])];
     }
     let mut all = vec![tight([glow::DEPTH_COMPONENT, glow::FLOAT])];
     if format.has_stencil() {

@@ -94,7 +94,7 @@ impl Maker {
             body.push(Statement::Assign(place, None, value));
         }
         let count = 1 + self.below(3);
-        body.extend(self.list(count, Inside { depth: 1, a_loop: false, result }, None));
+        body.extend(self.list(count, Inside { depth: 1, a_loop: false, a_function: true, result }, None));
         if let Some(kind) = result {
             let value = self.expr(kind, 2);
             body.push(Statement::Return(Some(value)));

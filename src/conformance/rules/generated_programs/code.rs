@@ -183,7 +183,11 @@ impl Program {
                 let Loop { first, step, .. } = turns;
                 let (name, end) = (self.name(turns.counter), self.expression(&turns.end));
                 let by = if *step == 1 { format!("++{name}") } else { format!("{name} += {step}") };
-                format!("for (int {name} = {first}; {name} < {end}; {by}) {}", self.block(&turns.body, depth))
+                let body = match &turns.body[..] {
+                    [only @ Statement::For(_)] => format!("\n{}", self.statement(only, depth + 1).trim_end()),
+                    several => format!(" {}", self.block(several, depth)),
+                };
+                format!("for (int {name} = {first}; {name} < {end}; {by}){body}")
             }
             Statement::While(turns) | Statement::DoWhile(turns) => {
                 let Loop { first, step, .. } = turns;

@@ -13,7 +13,8 @@ pub struct Inside {
     /// Loops and branches around it.
     pub depth: usize,
     pub a_loop: bool,
-    /// Result of the function around it.
+    /// True in a function that is no main, with its result.
+    pub a_function: bool,
     pub result: Option<Type>,
 }
 
@@ -46,7 +47,7 @@ impl Maker {
                 let jump = if self.chance(0.5) { Statement::Break } else { Statement::Continue };
                 Statement::If(self.expr(Type::BOOL, 1), vec![jump], Vec::new())
             }
-            58..=60 if inside.result.is_some() => {
+            58..=60 if inside.a_function => {
                 let result = inside.result.map(|kind| self.expr(kind, 1));
                 Statement::If(self.expr(Type::BOOL, 1), vec![Statement::Return(result)], Vec::new())
             }
@@ -55,7 +56,7 @@ impl Maker {
             67..=80 => self.turns(inside),
             81..=87 => self.switch(inside),
             88..=90 => Statement::Block(self.body(2, inside.deeper())),
-            _ if inside.depth == 0 && inside.result.is_none() => self.call(),
+            _ if inside.depth == 0 && !inside.a_function => self.call(),
             _ => self.assignment(),
         }
     }
@@ -199,12 +200,19 @@ impl Maker {
         let count = 1 + self.below(if is_long { 2 } else { 3 });
         let inner = Inside { a_loop: true, ..inside.deeper() };
         let mut body = Vec::new();
-        if self.chance(0.4) {
+        // A loop alone in a loop is written without braces.
+        let nests = !is_long && inside.depth < 2 && self.chance(0.25);
+        if nests {
+            body.push(self.turns(inner));
+        }
+        if self.chance(0.4) && !nests {
             let jump = if self.chance(0.7) { Statement::Continue } else { Statement::Break };
             body.push(Statement::If(self.of_counter(counter), vec![jump], Vec::new()));
         }
-        body.extend(self.counted(counter));
-        body.extend(self.body(count - 1, inner));
+        if !nests {
+            body.extend(self.counted(counter));
+            body.extend(self.body(count - 1, inner));
+        }
         self.scope.retain(|seen| *seen != counter);
         let first = if self.chance(0.8) { 0 } else { self.below(5) as i32 - 2 };
         let step = if self.chance(0.8) { 1 } else { 2 };

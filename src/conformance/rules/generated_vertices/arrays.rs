@@ -10,7 +10,7 @@ use crate::conformance::rules::dice::Dice;
 /// Attributes.
 pub const LOCATIONS: usize = 16;
 /// Vertices that every array has.
-pub const VERTICES: usize = 64;
+pub const VERTICES: usize = 300;
 
 /// A buffer and what it holds. A vertex array keeps a buffer that is deleted while another is bound.
 pub struct Held {

@@ -11,7 +11,7 @@ use crate::conformance::bench::{Error, GlCaptured, GlPrimitive, GlRange};
 use crate::conformance::rules::dice::Dice;
 
 /// Bytes of the buffers: every array fits.
-const BYTES: usize = 24_000;
+const BYTES: usize = 110_000;
 const INDEX_BYTES: usize = 4000;
 const KINDS: [Kind; 6] = [Kind::Float, Kind::Float, Kind::Float, Kind::Float, Kind::Signed, Kind::Unsigned];
 
@@ -215,7 +215,9 @@ impl World {
             let first = dice.below(VERTICES - count + 1);
             return Ok((GlRange::Arrays(first as u32), (first..first + count).collect()));
         }
-        let order: Vec<usize> = (0..count).map(|_| dice.below(VERTICES)).collect();
+        // Indices of a byte reach no further than 255.
+        let reach = dice.pick(&[64, 64, VERTICES]);
+        let order: Vec<usize> = (0..count).map(|_| dice.below(reach)).collect();
         let base = dice.pick(&[0, 0, 7, 1000, -60, -100_000]);
         let kind = match base {
             -100_000 => glow::UNSIGNED_INT,
@@ -225,6 +227,9 @@ impl World {
         let least = order.iter().min().copied().unwrap_or(0) as i32;
         // No index is below 0.
         let base = base.min(least);
+        let most = order.iter().max().copied().unwrap_or(0) as i32;
+        let is_byte = kind == glow::UNSIGNED_BYTE && most - base > 255;
+        let kind = if is_byte { glow::UNSIGNED_SHORT } else { kind };
         let size = match kind {
             glow::UNSIGNED_BYTE => 1,
             glow::UNSIGNED_SHORT => 2,
