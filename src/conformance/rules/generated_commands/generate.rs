@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 
 use crate::conformance::bench::commands::{
-    ARRAYS, CAPACITY, Clear, Command, Drawing, FRAMEBUFFERS, Faces, Filling, Place, Point, Program, RENDERBUFFERS,
-    Rectangle, Setting, TEXTURES,
+    ARRAYS, CAPACITY, Clear, Command, Drawing, FRAMEBUFFERS, Filling, Place, Point, Program, RENDERBUFFERS, Rectangle,
+    Setting, TEXTURES,
 };
-use crate::conformance::bench::{GlFormat, GlImageDesc, GlShape, level_size};
+use crate::conformance::bench::{GlShape, level_size};
 use crate::conformance::random::Random;
 
 use super::palette::Palette;
@@ -18,15 +18,11 @@ pub const READER: usize = FRAMEBUFFERS - 1;
 /// Attempts at a command that the model allows.
 const ATTEMPTS: usize = 200;
 
-const COLORS: [GlFormat; 5] = [GlFormat::Rgba8, GlFormat::R8, GlFormat::Rgba16F, GlFormat::Rgba32F, GlFormat::R32F];
-const DEPTHS: [GlFormat; 5] =
-    [GlFormat::Depth16, GlFormat::Depth24, GlFormat::Depth32F, GlFormat::Depth24Stencil8, GlFormat::Depth32FStencil8];
-
 pub struct Generator {
     pub random: Random,
     pub palette: Palette,
     sizes: Vec<[u32; 2]>,
-    queue: VecDeque<Command>,
+    pub queue: VecDeque<Command>,
 }
 
 impl Generator {
@@ -37,7 +33,7 @@ impl Generator {
         sizes[1] = *random.of(&[[8, 8], [13, 7], [33, 20], [5, 16], [1, 6], [16, 16]]);
         // Drivers draw by tiles of up to 64 pixels.
         if random.below(4) == 0 {
-            sizes[0] = *random.of(&[[70, 9], [9, 70], [130, 66], [64, 64], [300, 6], [6, 300]]);
+            sizes[0] = *random.of(&[[70, 9], [9, 70], [160, 72], [64, 64], [300, 6], [6, 300]]);
         }
         let mut generator = Self { random, palette, sizes, queue: VecDeque::new() };
         generator.begin();
@@ -59,50 +55,6 @@ impl Generator {
         }
         let made: Vec<_> = first.iter().flat_map(|command| self.content(command)).collect();
         self.queue.extend(first.into_iter().chain(made));
-    }
-
-    /// Makes an image, and gives it content under no masks.
-    fn make(&mut self, command: Command) {
-        let content = self.content(&command);
-        let open = [
-            Setting::ScissorTest(false),
-            Setting::ColorMask([true; 4]),
-            Setting::DepthMask(true),
-            Setting::StencilMask(Faces::Both, !0),
-        ];
-        self.queue.push_back(command);
-        self.queue.extend(open.map(Command::Set));
-        self.queue.extend(content);
-    }
-
-    /// Commands that give a new image content: clears of each of its parts.
-    fn content(&mut self, command: &Command) -> Vec<Command> {
-        let (places, format): (Vec<_>, _) = match *command {
-            Command::Texture { slot, desc, .. } => {
-                let parts = (0..desc.levels).flat_map(|level| (0..desc.layers).map(move |layer| (level, layer)));
-                (parts.map(|(level, layer)| Place::Texture { slot, level, layer }).collect(), desc.format)
-            }
-            Command::Renderbuffer { slot, format, .. } => (vec![Place::Renderbuffer(slot)], format),
-            _ => return Vec::new(),
-        };
-        let mut commands = Vec::new();
-        for place in places {
-            let color = self.palette.color(&mut self.random);
-            commands.push(Command::Framebuffer(READER));
-            let (point, clear) = match format {
-                _ if !format.is_depth() => (Point::Color(0), Clear::Color(0, color)),
-                _ if format.has_stencil() => (Point::Depth, Clear::Both(0.7, 3)),
-                _ => (Point::Depth, Clear::Depth(0.7)),
-            };
-            commands.push(Command::Attach { slot: READER, point, place: Some(place) });
-            if format.is_depth() {
-                commands.push(Command::Bind { draw: false, read: true, slot: READER });
-                commands.push(Command::DrawBuffers([None; 2]));
-                commands.push(Command::ReadBuffer(None));
-            }
-            commands.push(Command::Clear(clear));
-        }
-        commands
     }
 
     /// Tests whether all that was put together has been given.
@@ -178,36 +130,9 @@ impl Generator {
         self.queue.push_back(command);
     }
 
-    fn size(&mut self) -> [u32; 2] {
+    pub fn size(&mut self) -> [u32; 2] {
         let sizes = self.sizes.clone();
         *self.random.of(&sizes)
-    }
-
-    fn texture(&mut self, slot: usize) -> Command {
-        let mut size = self.size();
-        let depth = slot % 2 == 1;
-        let format = if depth { *self.random.of(&DEPTHS) } else { *self.random.of(&COLORS) };
-        let (shape, layers) = match self.random.below(5) {
-            0 if size[0] < 40 => {
-                size = [size[0]; 2];
-                (GlShape::Cube, 6)
-            }
-            1 => (GlShape::Array, 3),
-            _ => (GlShape::Flat, 1),
-        };
-        let levels = 1 + self.random.below(3) as u32;
-        // Levels of one texel along a side: a driver may refuse them as attachments while the texture is not complete
-        // [GL 4.6, 9.4.2: FRAMEBUFFER_UNSUPPORTED].
-        let most = 31 - size[0].min(size[1]).leading_zeros();
-        let desc = GlImageDesc { shape, format, size, layers, levels: levels.min(most).max(1) };
-        Command::Texture { slot, desc, fresh: self.random.below(2) == 0 }
-    }
-
-    fn renderbuffer(&mut self, slot: usize) -> Command {
-        let depth = slot % 2 == 1;
-        let format = if depth { *self.random.of(&DEPTHS) } else { *self.random.of(&COLORS) };
-        let samples = if self.random.below(4) == 0 { 4 } else { 0 };
-        Command::Renderbuffer { slot, format, size: self.size(), samples }
     }
 
     /// A flat rectangle, sometimes beyond the view volume.
@@ -340,15 +265,15 @@ impl Generator {
     fn upload(&mut self, state: &State) {
         let Some((slot, level, layer, size)) = self.place(state) else { return };
         let Some(image) = state.textures[slot].as_ref() else { return };
-        let anew = self.random.below(3) == 0;
-        let area = if anew { [0, 0, size[0] as i32, size[1] as i32] } else { self.area(size) };
-        let mut packing = pixels::packing(&mut self.random, image.format, area, true);
-        if anew && self.random.below(2) == 0 {
-            packing = pixels::tight(packing.layout);
+        if image.shape != GlShape::Array && self.random.below(3) == 0 {
+            let command = self.define(slot, [level, layer], image.format, size);
+            return self.queue.push_back(command);
         }
+        let area = self.area(size);
+        let packing = pixels::packing(&mut self.random, image.format, area, true);
         let bytes = pixels::bytes(&mut self.random, &packing, [area[2] as u32, area[3] as u32]);
         let area = area.map(|side| side as u32);
-        self.queue.push_back(Command::Upload { slot, level, layer, area, packing, bytes, anew });
+        self.queue.push_back(Command::Upload { slot, level, layer, area, packing, bytes, anew: false });
     }
 
     fn read(&mut self, state: &State) {

@@ -10,6 +10,7 @@ mod blend;
 mod draw;
 mod generate;
 mod image;
+mod images;
 mod look;
 mod palette;
 mod pixel;

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::formats::Format;
+use super::formats::{Format, Numbers};
 use super::layouts;
 use super::model::Level;
 use crate::conformance::bench::GlTexels;
@@ -33,7 +33,9 @@ pub struct Block {
 impl Block {
     /// A block of columns, rows and slices; `volume`: glTexImage3D reads it.
     pub fn random(random: &mut Random, format: &Format, size: [usize; 3], scale: i32, volume: bool) -> Self {
-        let layout = layouts::layout(random, format);
+        // As pictures of files come: bytes of four channels, row by row.
+        let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && chance(random, 0.4);
+        let layout = if is_picture { [glow::RGBA, glow::UNSIGNED_BYTE] } else { layouts::layout(random, format) };
         let count = size[0] * size[1] * size[2];
         let (mut bytes, mut stored, mut slack) = (Vec::new(), Vec::with_capacity(count), 0.0_f64);
         for _ in 0..count {
@@ -44,6 +46,10 @@ impl Block {
             slack = slack.max(off);
         }
         let each = bytes.len() / count.max(1);
+        if is_picture {
+            let texels = GlTexels { layout, store: [4, 0, 0, 0, 0, 0], bytes, in_buffer: None };
+            return Self { texels, stored, slack };
+        }
         let (bytes, store) = spread(random, &bytes, each, size, volume);
         let in_buffer = chance(random, 0.25).then(|| 16 * below(random, 9) as u32);
         Self { texels: GlTexels { layout, store, bytes, in_buffer }, stored, slack }

@@ -22,7 +22,7 @@ use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings, RuleVerdict};
 
 /// Stages, and how many programs each has: a driver compiles a vertex shader faster.
-const PROGRAMS: [(Stage, usize); 3] = [(Stage::Vertex, 9), (Stage::Fragment, 4), (Stage::Fetching, 3)];
+const PROGRAMS: [(Stage, usize); 3] = [(Stage::Vertex, 11), (Stage::Fragment, 5), (Stage::Fetching, 4)];
 
 /// Colour of pixels that nothing is drawn to.
 const CLEAR: f32 = 77.0;

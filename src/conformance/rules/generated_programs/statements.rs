@@ -47,10 +47,8 @@ impl Maker {
                 let jump = if self.chance(0.5) { Statement::Break } else { Statement::Continue };
                 Statement::If(self.expr(Type::BOOL, 1), vec![jump], Vec::new())
             }
-            58..=60 if inside.a_function => {
-                let result = inside.result.map(|kind| self.expr(kind, 1));
-                Statement::If(self.expr(Type::BOOL, 1), vec![Statement::Return(result)], Vec::new())
-            }
+            58..=60 if inside.a_function => self.early(inside),
+            61..=68 if inside.a_function && inside.depth == 1 => self.early(inside),
             _ if is_short => self.assignment(),
             54..=66 => self.branch(inside),
             67..=80 => self.turns(inside),
@@ -59,6 +57,12 @@ impl Maker {
             _ if inside.depth == 0 && !inside.a_function => self.call(),
             _ => self.assignment(),
         }
+    }
+
+    /// A return that some pixels take.
+    fn early(&mut self, inside: Inside) -> Statement {
+        let result = inside.result.map(|kind| self.expr(kind, 1));
+        Statement::If(self.expr(Type::BOOL, 1), vec![Statement::Return(result)], Vec::new())
     }
 
     fn declaration(&mut self) -> Statement {

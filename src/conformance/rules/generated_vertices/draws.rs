@@ -216,8 +216,15 @@ impl World {
             return Ok((GlRange::Arrays(first as u32), (first..first + count).collect()));
         }
         // Indices of a byte reach no further than 255.
-        let reach = dice.pick(&[64, 64, VERTICES]);
-        let order: Vec<usize> = (0..count).map(|_| dice.below(reach)).collect();
+        let reach = dice.pick(&[64, VERTICES]);
+        let mut order: Vec<usize> = (0..count).map(|_| dice.below(reach)).collect();
+        // One after another, some agree in their low byte.
+        for at in 1..count {
+            if reach == VERTICES && dice.chance(0.3) {
+                order[at] = (order[at - 1] + 256) % 512;
+                order[at] = if order[at] < VERTICES { order[at] } else { order[at - 1] };
+            }
+        }
         let base = dice.pick(&[0, 0, 7, 1000, -60, -100_000]);
         let kind = match base {
             -100_000 => glow::UNSIGNED_INT,
