@@ -12,15 +12,20 @@ pub fn nudge(random: &mut Random, sampling: &mut Sampling) {
         sampling.border[below(random, 4)] = random.between(-0.5, 1.5);
     }
     if sampling.lod[0] > -900.0 && chance(random, 0.5) {
-        sampling.lod[0] = (random.between(0.125, 3.0) * 8.0).round() / 8.0;
+        sampling.lod[0] = end(random, 0.125, 3.0);
     }
     if sampling.lod[1] < 900.0 && chance(random, 0.5) {
-        sampling.lod[1] = (random.between(0.125, 6.0) * 8.0).round() / 8.0;
+        sampling.lod[1] = end(random, 0.125, 6.0);
     }
     sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);
     if sampling.bias != 0.0 && chance(random, 0.5) {
         sampling.bias = (random.between(0.1, 2.5) * 8.0).round() / 8.0;
     }
+}
+
+/// An end of the range of levels, in odd sixteenths: halfway between two levels either may be the nearest.
+fn end(random: &mut Random, low: f32, high: f32) -> f32 {
+    (random.between(low, high) * 8.0).floor() / 8.0 + 0.0625
 }
 
 /// Changes one parameter.
@@ -40,13 +45,8 @@ pub fn mutate(random: &mut Random, sampling: &mut Sampling) {
             }
         }
         6 => sampling.compare = Some(pick(random, &GlCompare::ALL)),
-        7 => {
-            sampling.lod[0] =
-                if chance(random, 0.5) { -1000.0 } else { (random.between(-2.0, 3.0) * 8.0).round() / 8.0 }
-        }
-        8 => {
-            sampling.lod[1] = if chance(random, 0.5) { 1000.0 } else { (random.between(0.0, 6.0) * 8.0).round() / 8.0 }
-        }
+        7 => sampling.lod[0] = if chance(random, 0.5) { -1000.0 } else { end(random, -2.0, 3.0) },
+        8 => sampling.lod[1] = if chance(random, 0.5) { 1000.0 } else { end(random, 0.0, 6.0) },
         _ => sampling.bias = if chance(random, 0.4) { 0.0 } else { (random.between(-2.5, 2.5) * 8.0).round() / 8.0 },
     }
     sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);

@@ -34,7 +34,7 @@ impl Block {
     /// A block of columns, rows and slices; `volume`: glTexImage3D reads it.
     pub fn random(random: &mut Random, format: &Format, size: [usize; 3], scale: i32, volume: bool) -> Self {
         // As pictures of files come: bytes of four channels, row by row.
-        let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && chance(random, 0.4);
+        let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && chance(random, 0.8);
         let layout = if is_picture { [glow::RGBA, glow::UNSIGNED_BYTE] } else { layouts::layout(random, format) };
         let count = size[0] * size[1] * size[2];
         let (mut bytes, mut stored, mut slack) = (Vec::new(), Vec::with_capacity(count), 0.0_f64);

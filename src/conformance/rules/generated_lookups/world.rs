@@ -146,7 +146,7 @@ impl<'a> World<'a> {
             Shape::Line => [side(130), 1, 1],
             Shape::Flat if side(10) == 1 => [2000 + side(90), side(3), 1],
             Shape::Flat if side(10) == 1 => [side(3), 2000 + side(90), 1],
-            Shape::Flat if side(10) < 4 => [128 + side(60), 40 + side(50), 1],
+            Shape::Flat if side(10) < 6 => [128 + side(60), 40 + side(50), 1],
             Shape::Flat | Shape::Rectangle => [side(130), side(130), 1],
             Shape::Volume => [side(30), side(24), side(16)],
             Shape::Cube => {
