@@ -111,7 +111,7 @@ tested here. Verdicts come from bounds on what the specification allows, never f
 Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
 F framebuffers, E texture environments, M cube maps, L levels and filters of textures,
 U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q queries,
-K sequences of calls, and large numbers.
+K sequences of calls, and large numbers, X what is generated at random and held against models.
 --list has all.
 
 The rules run in a child process. What ends it is a verdict of the rule that it was at, and the rest

@@ -60,7 +60,7 @@ pub enum GlTextureStep {
     Draw { program: usize, more: Vec<[f32; 4]>, vertices: Vec<Vertex> },
 }
 
-/// What steps work on.
+/// Objects that steps work on.
 pub struct GlTextureBench<'a> {
     bench: &'a Bench,
     textures: Vec<Option<glow::Texture>>,

@@ -88,7 +88,7 @@ fn is_bound(call: &Call) -> bool {
         && on_units(call, |call| attached.contains(&call.get(glow::TEXTURE_BINDING_2D))).contains(&true)
 }
 
-/// What is found with each unit active.
+/// Texture state that is found with each unit active.
 fn on_units<T>(call: &Call, find: impl Fn(&Call) -> T) -> Vec<T> {
     let active = f64::from(call.get(glow::ACTIVE_TEXTURE));
     let found = (0..UNITS).map(|unit| {

@@ -244,6 +244,47 @@ pub fn functions(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
         findings.part(|findings| one(subject, findings, function));
     }
     findings.part(|findings| loops(subject, findings));
+    findings.part(|findings| structures(subject, findings));
+    Ok(())
+}
+
+/// A function that takes a structure and gives it back, all of its members [GLSL 4.60, 6.1.1].
+const STRUCTURES: Shader = Shader {
+    declarations: "struct Cone {
+    vec3 way;
+    float reach;
+    vec2 ends;
+};
+void turn(inout Cone cone) {
+    cone.way = cone.way.yzx * cone.reach;
+    cone.reach += cone.ends.x;
+    cone.ends = cone.ends.yx + cone.way.z;
+}
+",
+    fragment: "vec4 at = texelFetch(inputs, ivec2(gl_FragCoord.xy), 0);
+Cone cone = Cone(at.xyz, at.w, at.xw);
+turn(cone);
+turn(cone);
+result = vec4(cone.way.x + cone.way.y, cone.reach, cone.ends);",
+    ..Shader::PLAIN
+};
+
+fn structures(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    // Whole numbers that are small enough for f32 to be exact.
+    let inputs: Vec<[f32; 4]> =
+        (0..64).map(|of| [of % 4, of / 4 % 4, of / 16, of % 5].map(|number| number as f32)).collect();
+    let due = |[x, y, z, w]: [f32; 4]| {
+        let (mut way, mut reach, mut ends) = ([x, y, z], w, [x, w]);
+        for _ in 0..2 {
+            way = [way[1], way[2], way[0]].map(|part| part * reach);
+            reach += ends[0];
+            ends = [ends[1] + way[2], ends[0] + way[2]];
+        }
+        [way[0] + way[1], reach, ends[0], ends[1]]
+    };
+    let seen = subject.bench.map_by(STRUCTURES, &inputs, &[])?;
+    let wrong = seen.iter().zip(&inputs).filter(|(seen, input)| **seen != due(**input)).count();
+    findings.none_wrong("a structure that is inout", wrong, inputs.len());
     Ok(())
 }
 

@@ -28,7 +28,7 @@ pub const UNITS: u32 = 4;
 /// Draw buffers of a framebuffer.
 pub const OUTPUTS: usize = 2;
 
-/// What is attached to a framebuffer.
+/// An image that can be attached to a framebuffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A level of a layer or a face.
@@ -151,7 +151,7 @@ impl Packing {
     }
 }
 
-/// What a clear writes.
+/// A clear, and its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Clear {
     /// glClear with the values that are set: colour, depth, stencil.

@@ -11,7 +11,7 @@ use super::{
     SAMPLERS, TEXTURES, programs,
 };
 
-/// What a command gives back.
+/// Answer of a command.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     Nothing,

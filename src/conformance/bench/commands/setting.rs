@@ -17,7 +17,7 @@ pub enum Faces {
 }
 
 impl Faces {
-    /// Whether front and back are meant.
+    /// True for front, and for back, where they are meant.
     pub fn sides(self) -> [bool; 2] {
         [self != Self::Back, self != Self::Front]
     }
@@ -52,7 +52,7 @@ pub enum Setting {
     BlendOf(u32, bool),
     /// Source and destination of RGB, then of alpha; by glBlendFunc where both are the same.
     BlendFunc([GlFactor; 4]),
-    /// Of RGB and of alpha.
+    /// Equations of RGB and of alpha.
     BlendEquation([GlEquation; 2]),
     ColorMask([bool; 4]),
     /// glColorMaski.

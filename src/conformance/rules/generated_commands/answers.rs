@@ -1,4 +1,4 @@
-//! What a command gives back, held against the model.
+//! Answers of commands, held against the model.
 
 use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::{Answer, Command, Packing};
@@ -9,7 +9,7 @@ use super::state::State;
 /// Bytes that GL must leave alone.
 const UNTOUCHED: u8 = 0xA5;
 
-/// What was judged of answers.
+/// Numbers of answers that were judged.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Judged {
     /// Numbers that were compared, and numbers that the model does not know.
@@ -20,7 +20,7 @@ pub struct Judged {
 /// A number that is not what it must be.
 #[derive(Clone, Debug)]
 pub struct Fault {
-    /// What was read, in words.
+    /// The number that was read, in words.
     pub what: String,
     pub expected: Range,
     pub got: f64,

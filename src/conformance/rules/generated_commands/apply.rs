@@ -1,4 +1,4 @@
-//! What a command does to the model, and whether GL says what it does at all.
+//! Commands, applied to the model, and a test whether GL defines what they do.
 
 use crate::conformance::bench::commands::{
     CAPACITY, Clear, Command, Filling, Place, Point, Program, Rectangle, Setting,

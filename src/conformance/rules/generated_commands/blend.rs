@@ -20,7 +20,7 @@ fn factor(factor: GlFactor, channel: usize, source: [Range; 4], destination: [Ra
     }
 }
 
-/// What a format stores of `source` blended over `before`.
+/// Blends `source` over `before`, as a format stores the result.
 pub fn blended(
     format: GlFormat,
     source: [Range; 4],

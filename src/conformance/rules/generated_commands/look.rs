@@ -1,4 +1,4 @@
-//! What the programs read from textures: texels at places that are known, by filters whose result is known there.
+//! Look-ups of the programs in the model: texels at places that are known, by filters whose result is known there.
 
 use crate::conformance::bench::commands::Program;
 use crate::conformance::bench::{GlFormat, GlMipmap, GlShape, GlSwizzle, GlWrap};
@@ -78,7 +78,7 @@ impl Looked<'_> {
             && (program != Program::LookCube || !sampler.linear[0] && !sampler.linear[1])
     }
 
-    /// What the program reads at a pixel.
+    /// The colour that the program reads at a pixel.
     pub fn color(&self, program: Program, [x, y]: [u32; 2]) -> [Range; 4] {
         let Self { image, sampler, uniforms } = self;
         let level = image.range[0] + uniforms.level as u32;

@@ -30,13 +30,13 @@ use pixel::Range;
 use state::State;
 
 /// Streams, and commands of each before all is read.
-const STREAMS: u64 = 40;
+const STREAMS: u64 = 30;
 const COMMANDS: usize = 220;
 
 /// Streams in a finding.
 const GROUP: u64 = 10;
 
-/// What is wrong in a stream.
+/// A number that is wrong in a stream.
 struct Broken {
     stream: u64,
     fault: Fault,

@@ -101,7 +101,7 @@ impl Depth {
         if self.is_known() { Range::of(self.value).widened(self.slack) } else { Range::UNKNOWN }
     }
 
-    /// Whether `self OP stored` holds in a format of this step; `None`: either.
+    /// Tests whether `self OP stored` holds in a format of this step; `None`: it may or may not.
     pub fn passes(self, compare: GlCompare, stored: Self, step: f64) -> Option<bool> {
         if matches!(compare, GlCompare::Always | GlCompare::Never) {
             return Some(compare == GlCompare::Always);
@@ -147,7 +147,7 @@ pub fn step(format: GlFormat) -> f64 {
     }
 }
 
-/// What is stored of a value: `error` is what the computation before may be off, in codes of 8 bits or relative to
+/// A value as a format stores it; `error` is how far the computation before may be off, in codes of 8 bits or relative to
 /// `size` in floats.
 pub fn stored(format: GlFormat, value: Range, error: Option<f64>) -> Range {
     if is_fixed(format) {

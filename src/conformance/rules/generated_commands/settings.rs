@@ -1,4 +1,4 @@
-//! What settings do to the model's state.
+//! Settings, applied to the model's state.
 
 use crate::conformance::bench::commands::Setting;
 

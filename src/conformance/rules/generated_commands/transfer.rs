@@ -41,7 +41,7 @@ pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> P
     pixel
 }
 
-/// What an image of a format holds after a pixel is put into it.
+/// A pixel of an image of a format, after another is put into it.
 pub fn put(format: GlFormat, pixel: Pixel, before: Pixel) -> Pixel {
     if !format.is_depth() {
         let color = pixel.color.map(|value| stored(format, value, None));

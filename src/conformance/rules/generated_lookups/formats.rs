@@ -179,7 +179,7 @@ impl Format {
         self.seen(border.map(|value| self.range().map_or(value, |[low, high]| value.clamp(low, high))))
     }
 
-    /// What is stored of a client's value, as a shader sees it, and by how much that may be off.
+    /// A client's value as it is stored and a shader sees it, and by how much that may be off.
     pub fn store(&self, value: [f64; 4]) -> ([f64; 4], f64) {
         let mut slack = 0.0_f64;
         let mut stored = [0.0; 4];

@@ -262,7 +262,7 @@ pub struct Inputs {
     pub error: f64,
 }
 
-/// What a look-up is due to give.
+/// Results that a look-up may give.
 pub enum Due<'a> {
     Filtered(Query<'a>),
     Open,
@@ -272,7 +272,7 @@ pub enum Due<'a> {
 }
 
 impl Kind {
-    /// What the look-up is due to give from a texture by the parameters in force.
+    /// The results that a look-up may give in a texture, by the parameters in force.
     pub fn due<'a>(self, texture: &'a Texture, sampling: &'a Sampling, seamless: bool, inputs: &Inputs) -> Due<'a> {
         use Function::{Bias, Fetch, FetchOffset, Gather, Grad, Lod, LodOffset, Offset, ProjLod, ProjOffset, Size};
         let last = texture.levels.len() - 1;

@@ -17,7 +17,7 @@ pub struct Query<'a> {
     pub at: [f64; 3],
     /// Relative error of the coordinates.
     pub error: f64,
-    /// Of textureOffset.
+    /// The offset of textureOffset.
     pub offset: [i64; 3],
     /// lambda before the bounds: least, most.
     pub lod: [f64; 2],

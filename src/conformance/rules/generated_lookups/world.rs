@@ -22,7 +22,7 @@ const NEW: Sampling = Sampling {
     ..Sampling::NEAREST
 };
 
-/// What copies come from: bytes of a surface, rows from below.
+/// Source of copies: bytes of a surface, rows from below.
 pub struct Source {
     pub size: [usize; 2],
     pub colors: Vec<[u8; 4]>,
