@@ -5,12 +5,11 @@ mod player;
 mod programs;
 mod sampled;
 mod setting;
+mod states;
 mod transfers;
 
 pub use player::{Answer, Player};
-pub use programs::Program;
-pub use sampled::Sampled;
-pub use setting::{Faces, Setting};
+pub use setting::{Faces, Program, Sampled, Setting};
 
 use super::{GlFormat, GlImageDesc};
 

@@ -3,15 +3,7 @@
 use glow::HasContext;
 
 use super::super::{GlCompare, GlMipmap, GlSwizzle, GlWrap};
-use super::{Player, Setting};
-
-/// The object whose sampling state is set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sampled {
-    /// A texture, bound to the unit that is active.
-    Texture(usize),
-    Sampler(usize),
-}
+use super::{Player, Sampled, Setting};
 
 impl Player<'_> {
     /// # Safety

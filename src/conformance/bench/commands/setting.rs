@@ -1,9 +1,6 @@
 //! Settings: pieces of GL's state, each set by one call.
 
-use glow::HasContext;
-
 use super::super::{GlCompare, GlEquation, GlFace, GlFactor, GlMipmap, GlOffset, GlStencilOp, GlSwizzle, GlWrap};
-use super::{Player, Program, Sampled};
 
 /// Faces that a stencil call is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +19,7 @@ impl Faces {
         [self != Self::Back, self != Self::Front]
     }
 
-    fn code(self) -> u32 {
+    pub(super) fn code(self) -> u32 {
         match self {
             Self::Short | Self::Both => glow::FRONT_AND_BACK,
             Self::Front => glow::FRONT,
@@ -93,79 +90,81 @@ pub enum Setting {
     Swizzle(usize, [GlSwizzle; 4]),
 }
 
-impl Player<'_> {
-    /// # Safety
-    ///
-    /// The context is current.
-    pub(super) unsafe fn set(&mut self, setting: Setting) {
-        let gl = self.gl;
-        let enable = |what, on| unsafe { if on { gl.enable(what) } else { gl.disable(what) } };
-        let face = |face| if face == GlFace::Front { glow::FRONT } else { glow::BACK };
-        // SAFETY: as the caller promises; only state is set.
-        unsafe {
-            match setting {
-                Setting::DepthTest(on) => enable(glow::DEPTH_TEST, on),
-                Setting::DepthFunc(compare) => gl.depth_func(compare.code()),
-                Setting::DepthMask(on) => gl.depth_mask(on),
-                Setting::DepthRange([near, far], false) => gl.depth_range(near, far),
-                Setting::DepthRange([near, far], true) => gl.depth_range_f32(near as f32, far as f32),
-                Setting::DepthClamp(on) => enable(glow::DEPTH_CLAMP, on),
-                Setting::CullFace(on) => enable(glow::CULL_FACE, on),
-                Setting::Culled(which) => gl.cull_face(face(which)),
-                Setting::Clockwise(on) => gl.front_face(if on { glow::CW } else { glow::CCW }),
-                Setting::StencilTest(on) => enable(glow::STENCIL_TEST, on),
-                Setting::StencilFunc(Faces::Short, compare, reference, mask) => {
-                    gl.stencil_func(compare.code(), reference, mask);
-                }
-                Setting::StencilFunc(faces, compare, reference, mask) => {
-                    gl.stencil_func_separate(faces.code(), compare.code(), reference, mask);
-                }
-                Setting::StencilOp(faces, ops) => {
-                    let [fail, depth_fail, pass] = ops.map(GlStencilOp::code);
-                    if faces == Faces::Short {
-                        gl.stencil_op(fail, depth_fail, pass);
-                    } else {
-                        gl.stencil_op_separate(faces.code(), fail, depth_fail, pass);
-                    }
-                }
-                Setting::StencilMask(Faces::Short, mask) => gl.stencil_mask(mask),
-                Setting::StencilMask(faces, mask) => gl.stencil_mask_separate(faces.code(), mask),
-                Setting::Blend(on) => enable(glow::BLEND, on),
-                Setting::BlendOf(output, true) => gl.enable_draw_buffer(glow::BLEND, output),
-                Setting::BlendOf(output, false) => gl.disable_draw_buffer(glow::BLEND, output),
-                Setting::BlendFunc(factors) => {
-                    let [source, destination, source_alpha, destination_alpha] = factors.map(GlFactor::code);
-                    if [source, destination] == [source_alpha, destination_alpha] {
-                        gl.blend_func(source, destination);
-                    } else {
-                        gl.blend_func_separate(source, destination, source_alpha, destination_alpha);
-                    }
-                }
-                Setting::BlendEquation([rgb, alpha]) if rgb == alpha => gl.blend_equation(rgb.code()),
-                Setting::BlendEquation([rgb, alpha]) => gl.blend_equation_separate(rgb.code(), alpha.code()),
-                Setting::ColorMask([r, g, b, a]) => gl.color_mask(r, g, b, a),
-                Setting::ColorMaskOf(output, [r, g, b, a]) => gl.color_mask_draw_buffer(output, r, g, b, a),
-                Setting::ScissorTest(on) => enable(glow::SCISSOR_TEST, on),
-                Setting::Scissor([x, y, width, height]) => gl.scissor(x, y, width, height),
-                Setting::Viewport([x, y, width, height]) => gl.viewport(x, y, width, height),
-                Setting::ClipDistance(on) => enable(glow::CLIP_DISTANCE0, on),
-                Setting::OffsetFill(on) => enable(glow::POLYGON_OFFSET_FILL, on),
-                Setting::Offset(GlOffset { factor, units, .. }) => gl.polygon_offset(factor, units),
-                Setting::ClearColor([r, g, b, a]) => gl.clear_color(r, g, b, a),
-                Setting::ClearDepth(depth) => gl.clear_depth(depth),
-                Setting::ClearStencil(value) => gl.clear_stencil(value),
-                Setting::Program(_)
-                | Setting::Color(..)
-                | Setting::Period(..)
-                | Setting::Origin(..)
-                | Setting::Level(..)
-                | Setting::Layer(..)
-                | Setting::Reference(..)
-                | Setting::Unit(..)
-                | Setting::Axes(..)
-                | Setting::Cut(..) => self.set_uniform(setting),
-                _ => self.set_sampling(setting),
-            }
+/// The object whose sampling state is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampled {
+    /// A texture, bound to the unit that is active.
+    Texture(usize),
+    Sampler(usize),
+}
+
+/// The program that draws; each is one fragment shader. Textures are read at the pixel's own place, moved by `origin`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Program {
+    /// The colour of the uniform.
+    Plain,
+    /// The colour of the vertices.
+    Varying,
+    /// Squares of pixels, `period` on a side, in turn discarded and drawn.
+    Squares,
+    /// Two outputs: the uniform, and the uniform with its channels turned round.
+    Two,
+    /// The uniform's colour, at the depth `reference`.
+    Depth,
+    /// A texel of a 2D texture's level by texelFetch, times the uniform.
+    Fetch,
+    /// The red channel of the same, in all channels: of a depth texture.
+    FetchDepth,
+    /// A texel of an array's layer by texelFetch.
+    FetchLayer,
+    /// A texel of a 2D texture by textureLod, at its centre and beyond the texture.
+    Look,
+    /// A texel of a cube map by textureLod, at its centre.
+    LookCube,
+    /// A comparison with `reference` in a 2D texture by textureLod, at a texel's centre: result, 1/4, result, 1.
+    Compare,
+    /// By which side is seen: the uniform or the vertices' colour.
+    Sides,
+    /// The uniform's colour with an alpha of 1.
+    Opaque,
+    /// The uniform's colour, where `cut.x * x + cut.y * w` of the position is not negative: a clip distance.
+    Clip,
+}
+
+impl Program {
+    pub const ALL: [Self; 14] = [
+        Self::Plain,
+        Self::Varying,
+        Self::Squares,
+        Self::Two,
+        Self::Depth,
+        Self::Fetch,
+        Self::FetchDepth,
+        Self::FetchLayer,
+        Self::Look,
+        Self::LookCube,
+        Self::Compare,
+        Self::Sides,
+        Self::Opaque,
+        Self::Clip,
+    ];
+
+    /// Tests whether it reads a texture.
+    pub fn reads(self) -> bool {
+        matches!(self, Self::Fetch | Self::FetchDepth | Self::FetchLayer | Self::Look | Self::LookCube | Self::Compare)
+    }
+
+    /// Tests whether it has `reference`, `period` and `layer`.
+    pub fn has(self, setting: &Setting) -> bool {
+        match setting {
+            Setting::Color(..) => !matches!(self, Self::Varying) && (!self.reads() || self == Self::Fetch),
+            Setting::Period(..) => self == Self::Squares,
+            Setting::Reference(..) => matches!(self, Self::Depth | Self::Compare),
+            Setting::Layer(..) => self == Self::FetchLayer,
+            Setting::Axes(..) => self == Self::LookCube,
+            Setting::Cut(..) => self == Self::Clip,
+            Setting::Origin(..) | Setting::Level(..) | Setting::Unit(..) => self.reads(),
+            _ => false,
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::{Answer, Command, Packing};
 
-use super::pixel::{Pixel, Range, filled, step};
+use super::pixel::{KnownPixel, Range, filled, step};
 use super::state::State;
 
 /// Bytes that GL must leave alone.
@@ -27,7 +27,7 @@ pub struct Fault {
 }
 
 /// The range of each number of a pixel in the client's layout.
-fn expected(layout: u32, format: GlFormat, pixel: &Pixel) -> Vec<Range> {
+fn expected(layout: u32, format: GlFormat, pixel: &KnownPixel) -> Vec<Range> {
     match layout {
         glow::DEPTH_COMPONENT => vec![pixel.depth.range().widened(step(format))],
         glow::STENCIL_INDEX => vec![pixel.stencil.map_or(Range::UNKNOWN, |value| Range::of(f64::from(value)))],

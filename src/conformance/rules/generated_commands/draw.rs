@@ -4,7 +4,7 @@ use crate::conformance::bench::commands::{OUTPUTS, Place, Program, Rectangle};
 use crate::conformance::bench::{GlFace, GlFormat, GlStencil, GlStencilOp};
 
 use super::blend::blended;
-use super::pixel::{Depth, Pixel, Range, Way, channels, filled, step, stored};
+use super::pixel::{Depth, KnownPixel, Range, Way, channels, filled, step, stored};
 use super::state::State;
 
 /// Share of a pixel by which a corner may be off in the window: eight bits of sub-pixels, and the arithmetic.
@@ -264,12 +264,12 @@ impl State {
         value.map(|value| state.compare.holds(reference.cmp(&(value & mask))))
     }
 
-    pub fn pixel(&self, place: Place, at: [u32; 2]) -> Option<(Pixel, GlFormat)> {
+    pub fn pixel(&self, place: Place, at: [u32; 2]) -> Option<(KnownPixel, GlFormat)> {
         let [level, layer] = Self::part(place);
         self.image(place).map(|image| (image.at(level, layer, at), image.format))
     }
 
-    pub fn set_pixel(&mut self, place: Place, [x, y]: [u32; 2], pixel: Pixel) {
+    pub fn set_pixel(&mut self, place: Place, [x, y]: [u32; 2], pixel: KnownPixel) {
         let [level, layer] = Self::part(place);
         if let Some(image) = self.image_mut(place) {
             let width = image.size_of(level)[0];

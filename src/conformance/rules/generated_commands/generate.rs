@@ -33,7 +33,7 @@ impl Generator {
         sizes[1] = *random.of(&[[8, 8], [13, 7], [33, 20], [5, 16], [1, 6], [16, 16]]);
         // Drivers draw by tiles of up to 64 pixels.
         if random.below(4) == 0 {
-            sizes[0] = *random.of(&[[70, 9], [9, 70], [160, 72], [64, 64], [300, 6], [6, 300]]);
+            sizes[0] = *random.of(&[[70, 9], [9, 70], [160, 72], [300, 6], [300, 6], [6, 300]]);
         }
         let mut generator = Self { random, palette, sizes, queue: VecDeque::new() };
         generator.begin();
@@ -80,7 +80,7 @@ impl Generator {
         let command = match self.random.below(100) {
             0..24 => Command::Set(self.palette.setting(&mut self.random, state, &self.sizes)),
             24..27 => return self.look(state),
-            27 => return self.clip(),
+            27 => return if self.random.below(2) == 0 { self.clip() } else { self.squares() },
             28..52 => self.draw(),
             52..57 => self.fill(),
             57..64 => self.clear(),
@@ -175,6 +175,15 @@ impl Generator {
             Drawing::Based,
         ]);
         Command::Draw { array: self.random.below(ARRAYS), first: self.random.below(CAPACITY), count, drawing }
+    }
+
+    /// Draws of which every second square is discarded, into whatever is attached.
+    fn squares(&mut self) {
+        let draws = [self.draw(), self.draw()];
+        let period = [(); 2].map(|()| 1 + self.random.below(5) as i32);
+        self.queue.push_back(Command::Set(Setting::Period(Program::Squares, period)));
+        self.queue.push_back(Command::Set(Setting::DepthTest(true)));
+        self.queue.extend(draws);
     }
 
     /// Draws that a clip distance cuts: only one program writes it.

@@ -1,6 +1,6 @@
 //! Images of the model: pixels of levels and layers.
 
-use super::pixel::Pixel;
+use super::pixel::KnownPixel;
 use crate::conformance::bench::{GlCompare, GlFormat, GlMipmap, GlShape, GlSwizzle, GlWrap, level_size};
 
 /// Sampling state of a texture or of a sampler object; at the start as GL has it [GL 4.6, table 23.18].
@@ -34,7 +34,7 @@ pub struct Image {
     pub layers: u32,
     pub levels: u32,
     pub samples: u32,
-    pub planes: Vec<Vec<Pixel>>,
+    pub planes: Vec<Vec<KnownPixel>>,
     pub sampler: Sampler,
     /// TEXTURE_BASE_LEVEL and TEXTURE_MAX_LEVEL.
     pub range: [u32; 2],
@@ -45,7 +45,7 @@ impl Image {
     pub fn new(shape: GlShape, format: GlFormat, size: [u32; 2], layers: u32, levels: u32, samples: u32) -> Self {
         let plane = |level: u32| {
             let [width, height] = level_size(size, level);
-            vec![Pixel::UNKNOWN; (width * height) as usize]
+            vec![KnownPixel::UNKNOWN; (width * height) as usize]
         };
         Self {
             shape,
@@ -65,15 +65,15 @@ impl Image {
         level_size(self.size, level)
     }
 
-    pub fn plane(&self, level: u32, layer: u32) -> &[Pixel] {
+    pub fn plane(&self, level: u32, layer: u32) -> &[KnownPixel] {
         &self.planes[(level * self.layers + layer) as usize]
     }
 
-    pub fn plane_mut(&mut self, level: u32, layer: u32) -> &mut [Pixel] {
+    pub fn plane_mut(&mut self, level: u32, layer: u32) -> &mut [KnownPixel] {
         &mut self.planes[(level * self.layers + layer) as usize]
     }
 
-    pub fn at(&self, level: u32, layer: u32, [x, y]: [u32; 2]) -> Pixel {
+    pub fn at(&self, level: u32, layer: u32, [x, y]: [u32; 2]) -> KnownPixel {
         self.plane(level, layer)[(y * self.size_of(level)[0] + x) as usize]
     }
 }

@@ -5,7 +5,7 @@ use crate::conformance::bench::{GlFormat, GlMipmap, GlShape, GlSwizzle, GlWrap};
 use crate::conformance::verify::cube;
 
 use super::image::{Image, Sampler};
-use super::pixel::{self, Depth, Pixel, Range, Way, filled, step};
+use super::pixel::{self, Depth, KnownPixel, Range, Way, filled, step};
 use super::state::{State, Uniforms, target};
 
 /// Share of a texel within which a place may belong to the texel beside it.
@@ -135,7 +135,7 @@ impl Looked<'_> {
         nearest(place, |at| texel(std::array::from_fn(|axis| at[axis].clamp(0, i64::from(size[axis]) - 1) as u32)))
     }
 
-    fn swizzled(&self, pixel: Pixel) -> [Range; 4] {
+    fn swizzled(&self, pixel: KnownPixel) -> [Range; 4] {
         let [r, g, b, a] = filled(self.image.format, pixel.color);
         self.image.swizzle.map(|source| match source {
             GlSwizzle::Red => r,
@@ -152,7 +152,7 @@ impl Looked<'_> {
         let Self { image, sampler, uniforms } = self;
         let size = image.size_of(level);
         let index = [0, 1].map(|axis| wrapped(at[axis], size[axis], sampler.wrap[axis]));
-        let mut pixel = Pixel::UNKNOWN;
+        let mut pixel = KnownPixel::UNKNOWN;
         if let [Some(x), Some(y)] = index {
             pixel = image.at(level, 0, [x, y]);
         } else {

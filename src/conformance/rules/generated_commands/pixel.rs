@@ -118,13 +118,13 @@ impl Depth {
 
 /// All that a pixel of an image may hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pixel {
+pub struct KnownPixel {
     pub color: [Range; 4],
     pub depth: Depth,
     pub stencil: Option<u8>,
 }
 
-impl Pixel {
+impl KnownPixel {
     pub const UNKNOWN: Self = Self { color: [Range::UNKNOWN; 4], depth: Depth::UNKNOWN, stencil: None };
 }
 

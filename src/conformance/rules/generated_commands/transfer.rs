@@ -3,11 +3,11 @@
 use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::{Clear, Packing, Place};
 
-use super::pixel::{Depth, Pixel, Range, Way, channels, filled, step, stored};
+use super::pixel::{Depth, KnownPixel, Range, Way, channels, filled, step, stored};
 use super::state::State;
 
 /// A pixel of the client's memory.
-pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> Pixel {
+pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> KnownPixel {
     let (components, size) = packing.pixel();
     let from = packing.at(width, at[0], at[1]);
     let bytes = &bytes[from..from + size];
@@ -18,7 +18,7 @@ pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> P
         glow::UNSIGNED_INT => f64::from(word()) / f64::from(u32::MAX),
         _ => f64::from(f32::from_ne_bytes(bytes[4 * index..4 * index + 4].try_into().unwrap_or_default())),
     };
-    let mut pixel = Pixel::UNKNOWN;
+    let mut pixel = KnownPixel::UNKNOWN;
     match packing.layout[0] {
         glow::DEPTH_STENCIL => {
             pixel.depth = Depth { value: f64::from(word() >> 8) / 16_777_215.0, slack: 0.0, way: Way::Other };
@@ -42,13 +42,13 @@ pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> P
 }
 
 /// A pixel of an image of a format, after another is put into it.
-pub fn put(format: GlFormat, pixel: Pixel, before: Pixel) -> Pixel {
+pub fn put(format: GlFormat, pixel: KnownPixel, before: KnownPixel) -> KnownPixel {
     if !format.is_depth() {
         let color = pixel.color.map(|value| stored(format, value, None));
-        return Pixel { color: filled(format, color), ..before };
+        return KnownPixel { color: filled(format, color), ..before };
     }
     let depth = Depth { slack: pixel.depth.slack + step(format), way: Way::Other, ..pixel.depth };
-    Pixel { depth, stencil: if format.has_stencil() { pixel.stencil } else { None }, ..before }
+    KnownPixel { depth, stencil: if format.has_stencil() { pixel.stencil } else { None }, ..before }
 }
 
 impl State {
@@ -211,13 +211,13 @@ impl State {
 }
 
 /// A pixel that is copied into an image of another format, or of the same: then to the bit.
-fn moved(given: Pixel, from: GlFormat, before: Pixel, to: GlFormat) -> Pixel {
+fn moved(given: KnownPixel, from: GlFormat, before: KnownPixel, to: GlFormat) -> KnownPixel {
     if from == to {
         return if to.is_depth() {
-            Pixel { color: before.color, ..given }
+            KnownPixel { color: before.color, ..given }
         } else {
-            Pixel { color: given.color, ..before }
+            KnownPixel { color: given.color, ..before }
         };
     }
-    put(to, Pixel { color: filled(from, given.color), ..given }, before)
+    put(to, KnownPixel { color: filled(from, given.color), ..given }, before)
 }

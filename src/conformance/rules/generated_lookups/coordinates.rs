@@ -1,20 +1,20 @@
 //! Coordinates of every kind: within a texture, at the middles and edges of texels, far outside; near a cube's edges; planes.
 
-use super::lookups::{Class, Function, Kind, OFFSET};
+use super::lookups::{Class, LookUp, LookUpKind, OFFSET};
 use super::model::{Shape, Texture};
 use super::uploads::{below, chance, pick};
 use crate::conformance::bench::Sampling;
 use crate::conformance::random::Random;
 
 /// Numbers beside the coordinates: a level, a bias, gradients.
-pub fn by(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: Kind) -> [f32; 4] {
+pub fn by(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: LookUpKind) -> [f32; 4] {
     let levels = texture.levels.len() as f32;
     match kind.function {
-        Function::Size => {
+        LookUp::Size => {
             let [base, most] = sampling.levels.unwrap_or([0, 1000]).map(|level| level as usize);
             [below(random, most.min(texture.levels.len() - 1) - base + 1) as f32; 4]
         }
-        Function::Grad => {
+        LookUp::Grad => {
             let size = texture.levels[0].size[0].max(texture.levels[0].size[1]) as f32;
             let texels = random.between(-2.0, levels + 1.0).exp2();
             let unit = if kind.shape == Shape::Rectangle { 1.0 } else { size };
@@ -83,15 +83,15 @@ fn direction(random: &mut Random) -> [f32; 3] {
 }
 
 /// Coordinates of one look-up.
-pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: Kind) -> [f32; 4] {
+pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: LookUpKind) -> [f32; 4] {
     let [base, most] = sampling.levels.unwrap_or([0, 1000]);
     let last = (most as usize).min(texture.levels.len() - 1);
     let level = base as usize + below(random, last - base as usize + 1);
     let size = texture.levels[level].size;
-    if matches!(kind.function, Function::Fetch | Function::FetchOffset | Function::Size) {
+    if matches!(kind.function, LookUp::Fetch | LookUp::FetchOffset | LookUp::Size) {
         let axes = kind.shape.axes();
         let moved = |axis: usize| {
-            if kind.function == Function::FetchOffset && axis < axes { OFFSET[axis] as f32 } else { 0.0 }
+            if kind.function == LookUp::FetchOffset && axis < axes { OFFSET[axis] as f32 } else { 0.0 }
         };
         // With an offset that leads back into the texture.
         let at = [0, 1, 2].map(|axis| below(random, size[axis]) as f32 - moved(axis));
@@ -125,7 +125,12 @@ pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: 
 }
 
 /// Coordinates at the middle of a cell, and their derivatives.
-pub fn plane(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: Kind) -> ([f64; 4], [[f64; 4]; 2]) {
+pub fn plane(
+    random: &mut Random,
+    texture: &Texture,
+    sampling: &Sampling,
+    kind: LookUpKind,
+) -> ([f64; 4], [[f64; 4]; 2]) {
     let base = sampling.levels.map_or(0, |[base, _]| base) as usize;
     let size = texture.levels[base.min(texture.levels.len() - 1)].size;
     let levels = texture.levels.len() as f32;

@@ -1,11 +1,11 @@
 //! Draws of look-ups: a program and a texture that go together, parameters of which a few change, coordinates of every kind.
 
 use super::coordinates::{by, place, plane};
-use super::formats::{Format, Numbers};
-use super::lookups::{Class, Function, Inputs, Kind, Source};
+use super::formats::{Numbers, TexelFormat};
+use super::lookups::{Class, Inputs, LookUp, LookUpKind, Source};
 use super::model::Texture;
 use super::parameters::{fit, mutate, nudge};
-use super::programs::{MAPS, Program, ROWS};
+use super::programs::{LookUpProgram, MAPS, ROWS};
 use super::uploads::{below, chance, pick};
 use super::world::{TEXTURES, UNITS, World};
 use crate::conformance::bench::{GlTextureStep, Sampling, Vertex, rectangle};
@@ -17,7 +17,7 @@ pub const CELLS: usize = COLUMNS / CELL[0] * (ROWS / CELL[1]);
 
 /// A draw, with all that its model needs.
 pub struct Drawn {
-    pub kind: Kind,
+    pub kind: LookUpKind,
     pub texture: Texture,
     pub sampling: Sampling,
     pub seamless: bool,
@@ -47,7 +47,7 @@ impl World<'_> {
     /// Draws by each of the programs; textures are made as they are needed, and so often anew as `fresh` says; `uniforms` has
     /// the units of their samplers; `step` leaves programs out.
     /// A program draws a few times, with little set anew in between.
-    pub fn chunk(&mut self, programs: &[Program], uniforms: &mut [[usize; 4]], fresh: f32, step: usize) -> Chunk {
+    pub fn chunk(&mut self, programs: &[LookUpProgram], uniforms: &mut [[usize; 4]], fresh: f32, step: usize) -> Chunk {
         let mut chunk = Chunk { drawn: Vec::new(), inputs: vec![[0.0; 4]; 2 * ROWS * COLUMNS], cells: 0 };
         for number in (0..programs.len()).step_by(step) {
             if chance(&mut self.random, 0.3) {
@@ -69,7 +69,7 @@ impl World<'_> {
     }
 
     /// A texture and a unit for each look-up, all of them different.
-    fn uses(&mut self, kinds: &[Kind], uniforms: &[usize; 4], fresh: f32) -> Vec<Use> {
+    fn uses(&mut self, kinds: &[LookUpKind], uniforms: &[usize; 4], fresh: f32) -> Vec<Use> {
         let mut uses: Vec<Use> = Vec::new();
         for (kind, now) in kinds.iter().zip(uniforms) {
             let fits = |world: &Self, slot: usize| {
@@ -101,7 +101,7 @@ impl World<'_> {
 
     fn draw(
         &mut self,
-        (program, kinds): (usize, &[Kind]),
+        (program, kinds): (usize, &[LookUpKind]),
         uses: &[Use],
         uniforms: &mut [usize; 4],
         again: bool,
@@ -155,7 +155,7 @@ impl World<'_> {
 
     /// Binds a texture, and changes a few of the parameters in force; after the first draw only numbers that a driver need not
     /// compile anew. `taken`: sampler objects of other look-ups.
-    fn prepare(&mut self, kind: Kind, Use { slot, unit }: Use, again: bool, taken: &[usize]) -> Sampling {
+    fn prepare(&mut self, kind: LookUpKind, Use { slot, unit }: Use, again: bool, taken: &[usize]) -> Sampling {
         let mut active = false;
         if self.bindings[unit][kind.shape as usize] != Some(slot) {
             self.bind(unit, slot);
@@ -213,7 +213,7 @@ impl World<'_> {
         &mut self,
         texture: &Texture,
         sampling: &Sampling,
-        kind: Kind,
+        kind: LookUpKind,
         (corner, index, count): ([usize; 2], usize, usize),
         inputs: &mut [[f32; 4]],
     ) -> (Vec<([usize; 2], Inputs)>, [[f32; 4]; 4], Vec<Vertex>) {
@@ -236,7 +236,7 @@ impl World<'_> {
         match kind.source {
             Source::Fetched => {
                 let lookups = places.map(|[x, y]| {
-                    let is_one = kind.function == Function::Size;
+                    let is_one = kind.function == LookUp::Size;
                     let at = place(random, texture, sampling, kind);
                     let by = if is_one { uniform } else { by(random, texture, sampling, kind) };
                     inputs[y * COLUMNS + x] = at;
@@ -282,14 +282,14 @@ impl World<'_> {
     }
 }
 
-impl Kind {
+impl LookUpKind {
     /// Tests whether a texture is one for this look-up.
     pub fn reads(self, texture: &Texture) -> bool {
         self.shape == texture.shape && self.takes(texture.format)
     }
 
     /// Tests whether the look-up is one of a format's.
-    pub fn takes(self, format: &Format) -> bool {
+    pub fn takes(self, format: &TexelFormat) -> bool {
         match self.class {
             Class::Uint => format.numbers == Numbers::Uint,
             Class::Int => format.numbers == Numbers::Int,

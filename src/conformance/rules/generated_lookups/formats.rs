@@ -18,7 +18,7 @@ pub enum Numbers {
 
 /// Channels that a look-up gives [GL 4.6, table 15.1 and table 8.11 compat.].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
+pub enum TexelBase {
     /// So many of red, green, blue and alpha; depth is red.
     Colors(usize),
     Alpha,
@@ -29,27 +29,34 @@ pub enum Base {
 
 /// An internal format.
 #[derive(Debug)]
-pub struct Format {
+pub struct TexelFormat {
     pub name: &'static str,
     pub internal: u32,
     pub numbers: Numbers,
-    pub base: Base,
+    pub base: TexelBase,
     /// Bits of red, green, blue and alpha.
     pub bits: [u32; 4],
     /// Tests whether it may be drawn into [GL 4.6, 9.4].
     pub drawn: bool,
 }
 
-const fn color(name: &'static str, internal: u32, numbers: Numbers, channels: usize, bits: u32, drawn: bool) -> Format {
-    Format { name, internal, numbers, base: Base::Colors(channels), bits: [bits; 4], drawn }
+const fn color(
+    name: &'static str,
+    internal: u32,
+    numbers: Numbers,
+    channels: usize,
+    bits: u32,
+    drawn: bool,
+) -> TexelFormat {
+    TexelFormat { name, internal, numbers, base: TexelBase::Colors(channels), bits: [bits; 4], drawn }
 }
 
-const fn old(name: &'static str, internal: u32, base: Base) -> Format {
-    Format { name, internal, numbers: Numbers::Unorm, base, bits: [8; 4], drawn: false }
+const fn old(name: &'static str, internal: u32, base: TexelBase) -> TexelFormat {
+    TexelFormat { name, internal, numbers: Numbers::Unorm, base, bits: [8; 4], drawn: false }
 }
 
 /// Formats of every context.
-pub const FORMATS: &[Format] = &[
+pub const FORMATS: &[TexelFormat] = &[
     color("R8", glow::R8, Numbers::Unorm, 1, 8, true),
     color("RG8", glow::RG8, Numbers::Unorm, 2, 8, true),
     color("RGB8", glow::RGB8, Numbers::Unorm, 3, 8, false),
@@ -71,11 +78,11 @@ pub const FORMATS: &[Format] = &[
     color("RGB32F", glow::RGB32F, Numbers::Float, 3, 32, false),
     color("RGBA32F", glow::RGBA32F, Numbers::Float, 4, 32, true),
     color("R11F_G11F_B10F", glow::R11F_G11F_B10F, Numbers::SmallFloat, 3, 0, true),
-    Format {
+    TexelFormat {
         name: "RGB10_A2",
         internal: glow::RGB10_A2,
         numbers: Numbers::Unorm,
-        base: Base::Colors(4),
+        base: TexelBase::Colors(4),
         bits: [10, 10, 10, 2],
         drawn: true,
     },
@@ -94,14 +101,14 @@ pub const FORMATS: &[Format] = &[
 ];
 
 /// Formats that the core profile removed: GL_ALPHA8, GL_LUMINANCE8, GL_LUMINANCE8_ALPHA8, GL_INTENSITY8.
-pub const OLD_FORMATS: &[Format] = &[
-    old("ALPHA8", 0x803C, Base::Alpha),
-    old("LUMINANCE8", 0x8040, Base::Luminance),
-    old("LUMINANCE8_ALPHA8", 0x8045, Base::LuminanceAlpha),
-    old("INTENSITY8", 0x804B, Base::Intensity),
+pub const OLD_FORMATS: &[TexelFormat] = &[
+    old("ALPHA8", 0x803C, TexelBase::Alpha),
+    old("LUMINANCE8", 0x8040, TexelBase::Luminance),
+    old("LUMINANCE8_ALPHA8", 0x8045, TexelBase::LuminanceAlpha),
+    old("INTENSITY8", 0x804B, TexelBase::Intensity),
 ];
 
-impl Format {
+impl TexelFormat {
     pub fn is_depth(&self) -> bool {
         matches!(self.numbers, Numbers::Depth | Numbers::DepthFloat)
     }
@@ -141,24 +148,24 @@ impl Format {
     /// Tests whether a channel of the client's is kept.
     fn uses(&self, channel: usize) -> bool {
         match self.base {
-            Base::Colors(channels) => channel < channels,
-            Base::Alpha => channel == 3,
-            Base::Luminance | Base::Intensity => channel == 0,
-            Base::LuminanceAlpha => channel == 0 || channel == 3,
+            TexelBase::Colors(channels) => channel < channels,
+            TexelBase::Alpha => channel == 3,
+            TexelBase::Luminance | TexelBase::Intensity => channel == 0,
+            TexelBase::LuminanceAlpha => channel == 0 || channel == 3,
         }
     }
 
     /// Texels as a shader sees them, of what is stored.
     fn seen(&self, [r, g, b, a]: [f64; 4]) -> [f64; 4] {
         match self.base {
-            Base::Colors(1) => [r, 0.0, 0.0, 1.0],
-            Base::Colors(2) => [r, g, 0.0, 1.0],
-            Base::Colors(3) => [r, g, b, 1.0],
-            Base::Colors(_) => [r, g, b, a],
-            Base::Alpha => [0.0, 0.0, 0.0, a],
-            Base::Luminance => [r, r, r, 1.0],
-            Base::LuminanceAlpha => [r, r, r, a],
-            Base::Intensity => [r; 4],
+            TexelBase::Colors(1) => [r, 0.0, 0.0, 1.0],
+            TexelBase::Colors(2) => [r, g, 0.0, 1.0],
+            TexelBase::Colors(3) => [r, g, b, 1.0],
+            TexelBase::Colors(_) => [r, g, b, a],
+            TexelBase::Alpha => [0.0, 0.0, 0.0, a],
+            TexelBase::Luminance => [r, r, r, 1.0],
+            TexelBase::LuminanceAlpha => [r, r, r, a],
+            TexelBase::Intensity => [r; 4],
         }
     }
 

@@ -1,6 +1,6 @@
 //! Layouts of the client's texels, and random values that a format can hold [GL 4.6, 8.4.4].
 
-use super::formats::{Base, Format, Numbers, round_to};
+use super::formats::{Numbers, TexelBase, TexelFormat, round_to};
 use crate::conformance::random::Random;
 
 /// Layout of the client's texels: format, type.
@@ -34,7 +34,7 @@ const COLORS: [Layout; 24] = [
 ];
 
 /// A layout for texels of a format.
-pub fn layout(random: &mut Random, format: &Format) -> Layout {
+pub fn layout(random: &mut Random, format: &TexelFormat) -> Layout {
     let pick = |random: &mut Random, of: &[Layout]| of[(random.unit() * of.len() as f32) as usize];
     match format.numbers {
         Numbers::Depth if format.has_stencil() => [glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8],
@@ -55,7 +55,7 @@ pub fn layout(random: &mut Random, format: &Format) -> Layout {
                 (_, true) => glow::INT,
             };
             let all = [glow::RED_INTEGER, glow::RG_INTEGER, glow::RGB_INTEGER, glow::RGBA_INTEGER];
-            let channels = if let Base::Colors(channels) = format.base { channels } else { 4 };
+            let channels = if let TexelBase::Colors(channels) = format.base { channels } else { 4 };
             [all[channels - 1], kind]
         }
         Numbers::Half | Numbers::Float => {
@@ -72,7 +72,7 @@ pub fn layout(random: &mut Random, format: &Format) -> Layout {
 }
 
 /// A random value that the format could hold.
-pub fn value(random: &mut Random, format: &Format, scale: i32) -> [f64; 4] {
+pub fn value(random: &mut Random, format: &TexelFormat, scale: i32) -> [f64; 4] {
     let mut unit = || f64::from(random.unit());
     [0, 1, 2, 3].map(|channel| match format.numbers {
         Numbers::Unorm | Numbers::Srgb | Numbers::Depth => {

@@ -4,7 +4,7 @@ use super::model::{Comparison, Shape, Span, Texture};
 use super::query::Query;
 use crate::conformance::bench::Sampling;
 
-/// Kind of a sampler.
+/// LookUpKind of a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     Float,
@@ -14,7 +14,7 @@ pub enum Class {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
+pub enum LookUp {
     Texture,
     Bias,
     /// textureProj with one coordinate more than the texture has.
@@ -46,26 +46,26 @@ pub enum Source {
 
 /// A look-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kind {
+pub struct LookUpKind {
     pub shape: Shape,
     pub class: Class,
-    pub function: Function,
+    pub function: LookUp,
     pub source: Source,
 }
 
 /// Offset of functions that have one.
 pub const OFFSET: [i64; 3] = [-3, 5, 2];
 
-impl Kind {
+impl LookUpKind {
     /// Every look-up that the GLSL at hand has.
     pub fn all(gathers: bool) -> Vec<Self> {
         let mut all = Vec::new();
         for shape in Shape::ALL {
             for class in [Class::Float, Class::Shadow, Class::Int, Class::Uint] {
-                for function in Function::ALL {
+                for function in LookUp::ALL {
                     for source in [Source::Interpolated, Source::Fetched, Source::Vertex] {
                         let kind = Self { shape, class, function, source };
-                        if kind.is_there() && (gathers || function != Function::Gather) {
+                        if kind.is_there() && (gathers || function != LookUp::Gather) {
                             all.push(kind);
                         }
                     }
@@ -81,51 +81,50 @@ impl Kind {
         let has_levels = shape != Shape::Rectangle;
         let shadow = class == Class::Shadow;
         let there = match function {
-            Function::Texture => true,
-            Function::Bias => has_levels && !(shadow && shape == Shape::Array),
-            Function::Proj => !matches!(shape, Shape::Cube | Shape::Array | Shape::Volume) && !shadow,
-            Function::ProjOfFour | Function::ProjOffset => !matches!(shape, Shape::Cube | Shape::Array),
-            Function::ProjLod => has_levels && !matches!(shape, Shape::Cube | Shape::Array),
-            Function::Lod => has_levels && !(shadow && matches!(shape, Shape::Cube | Shape::Array)),
-            Function::Grad => true,
-            Function::Fetch => !is_cube && !shadow,
-            Function::FetchOffset => !is_cube && !shadow,
-            Function::Offset => !(is_cube || shadow && shape == Shape::Array),
-            Function::LodOffset => has_levels && !is_cube && !(shadow && shape == Shape::Array),
-            Function::Size => true,
-            Function::Gather => matches!(shape, Shape::Flat | Shape::Array | Shape::Rectangle),
+            LookUp::Texture => true,
+            LookUp::Bias => has_levels && !(shadow && shape == Shape::Array),
+            LookUp::Proj => !matches!(shape, Shape::Cube | Shape::Array | Shape::Volume) && !shadow,
+            LookUp::ProjOfFour | LookUp::ProjOffset => !matches!(shape, Shape::Cube | Shape::Array),
+            LookUp::ProjLod => has_levels && !matches!(shape, Shape::Cube | Shape::Array),
+            LookUp::Lod => has_levels && !(shadow && matches!(shape, Shape::Cube | Shape::Array)),
+            LookUp::Grad => true,
+            LookUp::Fetch => !is_cube && !shadow,
+            LookUp::FetchOffset => !is_cube && !shadow,
+            LookUp::Offset => !(is_cube || shadow && shape == Shape::Array),
+            LookUp::LodOffset => has_levels && !is_cube && !(shadow && shape == Shape::Array),
+            LookUp::Size => true,
+            LookUp::Gather => matches!(shape, Shape::Flat | Shape::Array | Shape::Rectangle),
         };
         let shape_is_there = !(shadow && shape == Shape::Volume);
         let source_is_there = match source {
-            Source::Interpolated => matches!(
-                function,
-                Function::Texture | Function::Bias | Function::Proj | Function::ProjOfFour | Function::Offset
-            ),
-            Source::Fetched => !matches!(function, Function::Bias),
-            Source::Vertex => matches!(function, Function::Lod | Function::Fetch | Function::ProjLod | Function::Size),
+            Source::Interpolated => {
+                matches!(function, LookUp::Texture | LookUp::Bias | LookUp::Proj | LookUp::ProjOfFour | LookUp::Offset)
+            }
+            Source::Fetched => !matches!(function, LookUp::Bias),
+            Source::Vertex => matches!(function, LookUp::Lod | LookUp::Fetch | LookUp::ProjLod | LookUp::Size),
         };
         // Each function has a texture of two dimensions; fewer are read with the others, and of integers.
         let is_flat = shape == Shape::Flat;
         let is_usual = match function {
-            Function::FetchOffset | Function::LodOffset | Function::ProjOffset => is_flat,
-            Function::Proj => is_flat || source == Source::Fetched && shape == Shape::Rectangle,
-            Function::ProjLod | Function::Grad | Function::Gather => shape != Shape::Rectangle,
-            Function::ProjOfFour => is_flat || source == Source::Fetched,
-            Function::Offset => source == Source::Fetched || is_flat,
-            Function::Size => source == Source::Fetched || is_flat,
+            LookUp::FetchOffset | LookUp::LodOffset | LookUp::ProjOffset => is_flat,
+            LookUp::Proj => is_flat || source == Source::Fetched && shape == Shape::Rectangle,
+            LookUp::ProjLod | LookUp::Grad | LookUp::Gather => shape != Shape::Rectangle,
+            LookUp::ProjOfFour => is_flat || source == Source::Fetched,
+            LookUp::Offset => source == Source::Fetched || is_flat,
+            LookUp::Size => source == Source::Fetched || is_flat,
             _ => true,
         };
         let is_usual = is_usual
             && match class {
                 Class::Float => true,
-                Class::Shadow => !matches!(shape, Shape::Line) && function != Function::Size,
+                Class::Shadow => !matches!(shape, Shape::Line) && function != LookUp::Size,
                 Class::Int | Class::Uint => {
-                    is_flat && matches!(function, Function::Texture | Function::Fetch | Function::ProjOfFour)
-                        || matches!((shape, function), (Shape::Cube | Shape::Array, Function::Lod))
+                    is_flat && matches!(function, LookUp::Texture | LookUp::Fetch | LookUp::ProjOfFour)
+                        || matches!((shape, function), (Shape::Cube | Shape::Array, LookUp::Lod))
                 }
             };
         let is_usual = is_usual
-            && (source != Source::Vertex || class != Class::Int && matches!(function, Function::Lod | Function::Fetch));
+            && (source != Source::Vertex || class != Class::Int && matches!(function, LookUp::Lod | LookUp::Fetch));
         there && shape_is_there && source_is_there && is_usual
     }
 
@@ -150,19 +149,19 @@ impl Kind {
 
     /// Tests whether the coordinates are divided by the last.
     pub fn is_projective(self) -> bool {
-        use Function::{Proj, ProjLod, ProjOfFour, ProjOffset};
+        use LookUp::{Proj, ProjLod, ProjOfFour, ProjOffset};
         matches!(self.function, Proj | ProjOfFour | ProjLod | ProjOffset)
     }
 
     /// Tests whether the level follows from derivatives.
     pub fn is_implicit(self) -> bool {
-        use Function::{Bias, Offset, Proj, ProjOfFour, ProjOffset, Texture};
+        use LookUp::{Bias, Offset, Proj, ProjOfFour, ProjOffset, Texture};
         matches!(self.function, Texture | Bias | Proj | ProjOfFour | Offset | ProjOffset)
     }
 
     /// The look-up of `at` and `by`, as a vec4.
     pub fn expression(self) -> String {
-        use Function::{
+        use LookUp::{
             Bias, Fetch, FetchOffset, Gather, Grad, Lod, LodOffset, Offset, Proj, ProjLod, ProjOfFour, ProjOffset,
             Size, Texture,
         };
@@ -232,7 +231,7 @@ impl Kind {
     }
 }
 
-impl Function {
+impl LookUp {
     const ALL: [Self; 14] = [
         Self::Texture,
         Self::Bias,
@@ -263,7 +262,7 @@ pub struct Inputs {
 }
 
 /// Results that a look-up may give.
-pub enum Due<'a> {
+pub enum DueTexel<'a> {
     Filtered(Query<'a>),
     Open,
     Texel(Span),
@@ -271,10 +270,16 @@ pub enum Due<'a> {
     Four(Query<'a>),
 }
 
-impl Kind {
+impl LookUpKind {
     /// The results that a look-up may give in a texture, by the parameters in force.
-    pub fn due<'a>(self, texture: &'a Texture, sampling: &'a Sampling, seamless: bool, inputs: &Inputs) -> Due<'a> {
-        use Function::{Bias, Fetch, FetchOffset, Gather, Grad, Lod, LodOffset, Offset, ProjLod, ProjOffset, Size};
+    pub fn due<'a>(
+        self,
+        texture: &'a Texture,
+        sampling: &'a Sampling,
+        seamless: bool,
+        inputs: &Inputs,
+    ) -> DueTexel<'a> {
+        use LookUp::{Bias, Fetch, FetchOffset, Gather, Grad, Lod, LodOffset, Offset, ProjLod, ProjOffset, Size};
         let last = texture.levels.len() - 1;
         let base = (sampling.levels.map_or(0, |[base, _]| base) as usize).min(last);
         let [x, y, z, w] = inputs.at;
@@ -284,7 +289,7 @@ impl Kind {
             let texels = &texture.levels[level.min(last)];
             let [width, height, depth] = texels.size.map(|side| side as f64);
             if self.function == Size {
-                return Due::Exactly(match self.shape {
+                return DueTexel::Exactly(match self.shape {
                     Shape::Line => [width, 0.0, 0.0, 1.0],
                     Shape::Array | Shape::Volume => [width, height, depth, 1.0],
                     _ => [width, height, 0.0, 1.0],
@@ -296,9 +301,9 @@ impl Kind {
                 |axis: usize| if self.function == FetchOffset && axis < self.shape.axes() { OFFSET[axis] } else { 0 };
             let texel = [0, 1, 2].map(|axis| if axis < used { place[axis] + moved(axis) } else { 0 });
             if !texels.known {
-                return Due::Open;
+                return DueTexel::Open;
             }
-            return Due::Texel(Span::of(texels.at(texel), texels.slack));
+            return DueTexel::Texel(Span::of(texels.at(texel), texels.slack));
         }
         let projective = self.is_projective();
         let divisor = if projective { w } else { 1.0 };
@@ -357,7 +362,7 @@ impl Kind {
             offset: if has_offset { OFFSET } else { [0; 3] },
             lod: lod.map(|lod| lod + bias),
         };
-        if self.function == Gather { Due::Four(query) } else { Due::Filtered(query) }
+        if self.function == Gather { DueTexel::Four(query) } else { DueTexel::Filtered(query) }
     }
 }
 

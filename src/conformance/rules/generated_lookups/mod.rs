@@ -17,8 +17,8 @@ mod world;
 use std::collections::BTreeMap;
 
 use self::draws::{COLUMNS, Chunk, Drawn};
-use self::lookups::{Class, Due, Inputs};
-use self::programs::{Program, ROWS};
+use self::lookups::{Class, DueTexel, Inputs};
+use self::programs::{LookUpProgram, ROWS};
 use self::world::{SAMPLERS, Source, TEXTURES, World};
 use crate::conformance::bench::{
     Error, GlFormat, GlImage, GlPlace, GlState, GlSwizzle, GlTextureBench, Surface, build,
@@ -44,7 +44,7 @@ struct Results {
 pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let bench = &subject.bench;
     let mut random = Random::new(SEED + 2);
-    let texts = Program::all(bench.has((4, 0), "GL_ARB_texture_gather"), &mut random);
+    let texts = LookUpProgram::all(bench.has((4, 0), "GL_ARB_texture_gather"), &mut random);
     let programs = texts
         .iter()
         .map(|program| {
@@ -115,7 +115,7 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
     let format = drawn.texture.format;
     let mut swizzle = drawn.sampling.swizzle;
     if drawn.compatible && format.is_depth() && drawn.kind.class == Class::Float {
-        // DEPTH_TEXTURE_MODE is LUMINANCE as long as nothing else is said [GL 4.6 compat., 8.24].
+        // DEPTH_TEXTURE_MODE is LUMINANCE as long as nothing else is said [GL 4.6, 8.24].
         swizzle = swizzle.map(|from| match from {
             GlSwizzle::Green | GlSwizzle::Blue => GlSwizzle::Red,
             from => from,
@@ -123,12 +123,12 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
     }
     let exact = |off: f64, error: f64| (if off <= error { Grade::Good } else { Grade::Wrong }, off);
     match drawn.kind.due(&drawn.texture, &drawn.sampling, drawn.seamless, inputs) {
-        Due::Open => None,
-        Due::Exactly(due) => {
+        DueTexel::Open => None,
+        DueTexel::Exactly(due) => {
             let off = (0..4).map(|part| (value[part] - due[part]).abs()).fold(0.0, f64::max);
             Some(exact(off, 0.0))
         }
-        Due::Texel(span) => {
+        DueTexel::Texel(span) => {
             let [strict, most] = [0, 1].map(|tier| span.distance(value, format, tier, swizzle));
             let grade = if strict <= 0.0 {
                 Grade::Good
@@ -139,7 +139,7 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
             };
             Some((grade, strict.max(0.0)))
         }
-        Due::Four(query) => {
+        DueTexel::Four(query) => {
             let four = query.gathered()?;
             let shadow = drawn.kind.class == Class::Shadow;
             let mut worst = 0.0_f64;
@@ -156,7 +156,7 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
             }
             Some(exact(worst.max(0.0), 0.0))
         }
-        Due::Filtered(query) => {
+        DueTexel::Filtered(query) => {
             let nearest = |tier: usize| {
                 let spans = query.spans(tier)?;
                 Some(spans.iter().map(|span| span.distance(value, format, tier, swizzle)).fold(f64::INFINITY, f64::min))
@@ -175,11 +175,11 @@ fn grade(drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> Option<(Grade, f64)
 fn words(number: usize, drawn: &Drawn, inputs: &Inputs, value: [f64; 4]) -> String {
     let Drawn { kind, texture, sampling, seamless, by_object, unit, .. } = drawn;
     let due = match kind.due(texture, sampling, *seamless, inputs) {
-        Due::Open => "anything".to_owned(),
-        Due::Exactly(due) => format!("{due:?}"),
-        Due::Texel(span) => format!("{:?}", span.low),
-        Due::Four(query) => format!("{:?}", query.gathered()),
-        Due::Filtered(query) => {
+        DueTexel::Open => "anything".to_owned(),
+        DueTexel::Exactly(due) => format!("{due:?}"),
+        DueTexel::Texel(span) => format!("{:?}", span.low),
+        DueTexel::Four(query) => format!("{:?}", query.gathered()),
+        DueTexel::Filtered(query) => {
             let spans = query.spans(0).unwrap_or_default();
             let some: Vec<_> = spans.iter().take(2).map(|span| [span.low, span.high]).collect();
             format!("{some:.5?}")

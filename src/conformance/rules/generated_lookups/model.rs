@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-use super::formats::Format;
+use super::formats::TexelFormat;
 use crate::conformance::bench::{GlCompare, GlSwizzle, Sampling};
 
 /// Target of a texture.
@@ -56,7 +56,7 @@ pub struct Level {
 #[derive(Clone, Debug)]
 pub struct Texture {
     pub shape: Shape,
-    pub format: &'static Format,
+    pub format: &'static TexelFormat,
     pub levels: Vec<Level>,
     pub sampling: Sampling,
     pub name: usize,
@@ -80,7 +80,7 @@ impl Span {
     }
 
     /// Distance of a value from the span, less what the format allows; `tier` 0: strictly.
-    pub fn distance(&self, value: [f64; 4], format: &Format, tier: usize, swizzle: [GlSwizzle; 4]) -> f64 {
+    pub fn distance(&self, value: [f64; 4], format: &TexelFormat, tier: usize, swizzle: [GlSwizzle; 4]) -> f64 {
         let error = format.error(self.most, self.blended)[tier] + self.slack;
         let mut worst = 0.0_f64;
         for channel in 0..4 {

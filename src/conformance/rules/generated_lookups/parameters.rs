@@ -1,6 +1,6 @@
 //! Parameters of textures and sampler objects: changes of one at a time, and what makes a result defined.
 
-use super::lookups::{Class, Kind, Source};
+use super::lookups::{Class, LookUpKind, Source};
 use super::model::{Shape, Texture};
 use super::uploads::{below, chance, pick};
 use crate::conformance::bench::{GlCompare, GlMipmap, GlWrap, Sampling};
@@ -57,7 +57,7 @@ pub fn fit(
     random: &mut Random,
     (sampling, own): (&mut Sampling, &mut Sampling),
     texture: &Texture,
-    kind: Kind,
+    kind: LookUpKind,
     (seamless, again): (bool, bool),
 ) {
     let integer = texture.format.is_integer();

@@ -1,6 +1,6 @@
 //! Programs of up to four look-ups: every fourth column of pixels shows the same one.
 
-use super::lookups::{Class, Function, Kind, Source};
+use super::lookups::{Class, LookUp, LookUpKind, Source};
 use super::uploads::below;
 use crate::conformance::random::Random;
 
@@ -11,15 +11,15 @@ pub const ROWS: usize = 128;
 pub const MAPS: [&str; 4] = ["map0", "map1", "map2", "map3"];
 
 /// Look-ups of one program.
-pub struct Program {
-    pub kinds: Vec<Kind>,
+pub struct LookUpProgram {
+    pub kinds: Vec<LookUpKind>,
 }
 
-impl Program {
+impl LookUpProgram {
     /// Programs that together have every look-up once; those of vertex shaders have one each.
     pub fn all(gathers: bool, random: &mut Random) -> Vec<Self> {
         let (vertex, mut kinds): (Vec<_>, Vec<_>) =
-            Kind::all(gathers).into_iter().partition(|kind| kind.source == Source::Vertex);
+            LookUpKind::all(gathers).into_iter().partition(|kind| kind.source == Source::Vertex);
         for index in (1..kinds.len()).rev() {
             kinds.swap(index, below(random, index + 1));
         }
@@ -29,7 +29,7 @@ impl Program {
 
     /// Whole sources of the vertex and the fragment shader.
     pub fn sources(&self) -> [String; 2] {
-        let gathers = self.kinds.iter().any(|kind| kind.function == Function::Gather);
+        let gathers = self.kinds.iter().any(|kind| kind.function == LookUp::Gather);
         let version = if gathers { "#version 400" } else { "#version 330" };
         let functions: String = self.kinds.iter().zip(MAPS).map(|(kind, map)| kind.text(map)).collect();
         if self.kinds.first().is_some_and(|kind| kind.source == Source::Vertex) {
@@ -46,7 +46,7 @@ impl Program {
             let [middle, x, y, by] = [0, 1, 2, 3].map(|part| format!("more[{}]", 4 * index + part));
             let plane = format!("{middle} + {x} * passed.x + {y} * passed.y");
             let at = if kind.source == Source::Interpolated { plane.as_str() } else { "at" };
-            let is_one = kind.source == Source::Interpolated || kind.function == Function::Size;
+            let is_one = kind.source == Source::Interpolated || kind.function == LookUp::Size;
             let by = if is_one { by.as_str() } else { "by" };
             calls += &format!("    vec4 seen_{index} = look_{map}({at}, {by});\n");
         }
@@ -67,7 +67,7 @@ void main() {{ gl_Position = position; passed = value; }}\n"
     }
 }
 
-impl Kind {
+impl LookUpKind {
     /// The sampler, and a function that looks up in it.
     fn text(self, map: &str) -> String {
         let (sampler, call) = (self.sampler(), self.expression().replace("(map", &format!("({map}")));
@@ -76,6 +76,6 @@ impl Kind {
 
     /// Tests whether a comparison's result is what comes out.
     pub fn compares(self) -> bool {
-        self.class == Class::Shadow && self.function != Function::Size
+        self.class == Class::Shadow && self.function != LookUp::Size
     }
 }

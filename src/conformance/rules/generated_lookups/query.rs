@@ -50,7 +50,7 @@ impl Query<'_> {
         (spans.len() <= 48).then_some(spans)
     }
 
-    /// Base level and the last that there is.
+    /// TexelBase level and the last that there is.
     fn range(&self) -> [f64; 2] {
         let last = self.texture.levels.len() as u32 - 1;
         let [base, most] = self.sampling.levels.unwrap_or([0, last]);

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::formats::{Format, Numbers};
+use super::formats::{Numbers, TexelFormat};
 use super::layouts;
 use super::model::Level;
 use crate::conformance::bench::GlTexels;
@@ -32,7 +32,7 @@ pub struct Block {
 
 impl Block {
     /// A block of columns, rows and slices; `volume`: glTexImage3D reads it.
-    pub fn random(random: &mut Random, format: &Format, size: [usize; 3], scale: i32, volume: bool) -> Self {
+    pub fn random(random: &mut Random, format: &TexelFormat, size: [usize; 3], scale: i32, volume: bool) -> Self {
         // As pictures of files come: bytes of four channels, row by row.
         let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && chance(random, 0.8);
         let layout = if is_picture { [glow::RGBA, glow::UNSIGNED_BYTE] } else { layouts::layout(random, format) };
@@ -100,7 +100,7 @@ impl Level {
     }
 
     /// The next level by a box of two along each axis that is halved: known where sides are powers of two.
-    pub fn halved(&self, axes: usize, format: &Format) -> Self {
+    pub fn halved(&self, axes: usize, format: &TexelFormat) -> Self {
         let half = |axis: usize| if axis < axes { (self.size[axis] / 2).max(1) } else { self.size[axis] };
         let size = [half(0), half(1), half(2)];
         let known = self.known && (0..axes).all(|axis| self.size[axis].is_power_of_two());

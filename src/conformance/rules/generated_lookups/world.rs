@@ -1,7 +1,7 @@
 //! State of the context as the model has it, and the steps that change it: textures, sampler objects, units.
 
-use super::formats::{FORMATS, Format, Numbers, OLD_FORMATS};
-use super::lookups::Kind;
+use super::formats::{FORMATS, Numbers, OLD_FORMATS, TexelFormat};
+use super::lookups::LookUpKind;
 use super::model::{Level, Shape, Texture};
 use super::uploads::{Block, below, chance, pick};
 use crate::conformance::bench::{GlMipmap, GlSwizzle, GlTexelPlace, GlTextureStep, GlWrap, Sampling};
@@ -38,14 +38,14 @@ pub struct World<'a> {
     pub steps: Vec<GlTextureStep>,
     pub source: &'a Source,
     pub compatible: bool,
-    formats: Vec<&'static Format>,
+    formats: Vec<&'static TexelFormat>,
     names: usize,
     turn: usize,
 }
 
 impl<'a> World<'a> {
     pub fn new(seed: u64, compatible: bool, source: &'a Source) -> Self {
-        let old: &[Format] = if compatible { OLD_FORMATS } else { &[] };
+        let old: &[TexelFormat] = if compatible { OLD_FORMATS } else { &[] };
         let formats = FORMATS.iter().chain(old).collect();
         Self {
             random: Random::new(seed),
@@ -90,12 +90,12 @@ impl<'a> World<'a> {
     }
 
     /// A new texture that a look-up can read.
-    pub fn make_for(&mut self, slot: usize, kind: Kind) {
+    pub fn make_for(&mut self, slot: usize, kind: LookUpKind) {
         let format = self.format(kind.shape, |format| kind.takes(format));
         self.make_as(slot, kind.shape, format);
     }
 
-    fn make_as(&mut self, slot: usize, shape: Shape, format: &'static Format) {
+    fn make_as(&mut self, slot: usize, shape: Shape, format: &'static TexelFormat) {
         for unit in &mut self.bindings {
             for bound in unit.iter_mut().filter(|bound| **bound == Some(slot)) {
                 *bound = None;
@@ -120,7 +120,7 @@ impl<'a> World<'a> {
     }
 
     /// Takes formats by turns, so that none is left out.
-    pub(super) fn format(&mut self, shape: Shape, takes: impl Fn(&Format) -> bool) -> &'static Format {
+    pub(super) fn format(&mut self, shape: Shape, takes: impl Fn(&TexelFormat) -> bool) -> &'static TexelFormat {
         loop {
             self.turn += 1;
             let format = self.formats[self.turn * 7 % self.formats.len()];

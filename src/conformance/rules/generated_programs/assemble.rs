@@ -7,7 +7,7 @@ use super::make::{self, Maker, Use, call, variable, whole};
 use super::number::Num;
 use super::run::{Ended, Variables, evaluate, run};
 use super::statements::Inside;
-use super::value::{Base, Type};
+use super::value::{NumberBase, Type};
 use crate::conformance::random::Random;
 
 /// Scalars that a program gives: four of each of eight targets.
@@ -40,7 +40,7 @@ pub struct Assembled {
 }
 
 /// Outcome of a pixel.
-pub struct Due {
+pub struct DueNumber {
     pub results: Vec<Num>,
     pub is_discarded: bool,
 }
@@ -143,7 +143,7 @@ impl Assembled {
     }
 
     /// Results of pixels with these values.
-    pub fn due(&self, pixels: Vec<Variables>) -> Vec<Due> {
+    pub fn due(&self, pixels: Vec<Variables>) -> Vec<DueNumber> {
         let program = &self.maker.program;
         let of_pixel = |mut variables: Variables| {
             let ended = run(program, &program.body, &mut variables);
@@ -153,7 +153,7 @@ impl Assembled {
                 }
                 _ => vec![Num::UNKNOWN; RESULTS],
             };
-            Due { results, is_discarded: ended == Ended::Discarded }
+            DueNumber { results, is_discarded: ended == Ended::Discarded }
         };
         pixels.into_iter().map(of_pixel).collect()
     }
@@ -247,9 +247,9 @@ fn listed(count: usize, text: impl Fn(usize) -> String) -> String {
 fn encoded(kind: Type) -> usize {
     match kind.base {
         _ if kind.count > 0 => 0,
-        Base::Int | Base::Uint => 2,
-        Base::Bool => 1,
-        Base::Float => kind.rows,
+        NumberBase::Int | NumberBase::Uint => 2,
+        NumberBase::Bool => 1,
+        NumberBase::Float => kind.rows,
     }
 }
 
@@ -273,7 +273,7 @@ fn scalars(index: usize, kind: Type) -> Vec<Expr> {
     let integers = |name, a: Expr, b: Expr| call(name, Gives::Integers, vec![a, b], one);
     match kind.base {
         _ if kind.count > 0 => Vec::new(),
-        Base::Float if kind.is_matrix() => {
+        NumberBase::Float if kind.is_matrix() => {
             let weighed = parts.into_iter().zip([1.0, 2.0, -3.0, 0.5]).map(|(column, weight)| {
                 let weight = make::constant(Num::exact(weight).into(), Type::FLOAT);
                 let kind = column.kind;
@@ -285,8 +285,8 @@ fn scalars(index: usize, kind: Type) -> Vec<Expr> {
             });
             sum.map_or_else(Vec::new, |sum| (0..kind.rows).map(|row| at(&sum, row)).collect())
         }
-        Base::Float => parts,
-        Base::Bool => {
+        NumberBase::Float => parts,
+        NumberBase::Bool => {
             let bit = |(place, part): (usize, Expr)| {
                 let weight = make::constant(Num::exact(f64::from(1 << place)).into(), Type::FLOAT);
                 call("*", Gives::Floats, vec![float(part), weight], Type::FLOAT)
@@ -295,7 +295,7 @@ fn scalars(index: usize, kind: Type) -> Vec<Expr> {
                 parts.into_iter().enumerate().map(bit).reduce(|a, b| call("+", Gives::Floats, vec![a, b], Type::FLOAT));
             sum.into_iter().collect()
         }
-        Base::Int | Base::Uint => {
+        NumberBase::Int | NumberBase::Uint => {
             let mixed = parts.into_iter().reduce(|a, b| integers("^", integers("*", a, whole(31, one)), b));
             let halves = |mixed: Expr| {
                 vec![

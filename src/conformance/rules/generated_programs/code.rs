@@ -2,7 +2,7 @@
 
 use super::functions::{Function, Style};
 use super::number::Num;
-use super::value::{Base, Type, Value, literal};
+use super::value::{NumberBase, Type, Value, literal};
 
 /// An expression with its type.
 #[derive(Clone)]
@@ -274,7 +274,7 @@ fn literal_of(value: &[Num], kind: Type) -> String {
             let parts = value.chunks(element.scalars()).map(|part| literal_of(part, element));
             format!("{}[{}]({})", element.name(), kind.count, parts.collect::<Vec<_>>().join(", "))
         }
-        _ if kind.is_scalar() => match value[0].value < 0.0 && kind.base != Base::Uint {
+        _ if kind.is_scalar() => match value[0].value < 0.0 && kind.base != NumberBase::Uint {
             true => format!("({})", texts[0]),
             false => texts[0].clone(),
         },

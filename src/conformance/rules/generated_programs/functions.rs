@@ -2,7 +2,7 @@
 
 use super::number::Num;
 use super::scalars as s;
-use super::value::{Base, Type, Value, unknown};
+use super::value::{NumberBase, Type, Value, unknown};
 use super::vectors::{self as v, Arguments};
 
 /// Place of a function's name in an expression.
@@ -295,8 +295,8 @@ fn select(a: Arguments, kind: Type) -> Value {
 
 /// Bits of floats as integers and back, from GLSL 3.30.
 pub const BITS: &[Function] = &[
-    named("floatBitsToInt", G::Signed, &[ALIKE], One(|x| bits(x, Base::Int))),
-    named("floatBitsToUint", G::Unsigned, &[ALIKE], One(|x| bits(x, Base::Uint))),
+    named("floatBitsToInt", G::Signed, &[ALIKE], One(|x| bits(x, NumberBase::Int))),
+    named("floatBitsToUint", G::Unsigned, &[ALIKE], One(|x| bits(x, NumberBase::Uint))),
     own(
         "THERE_AND_BACK",
         "#define THERE_AND_BACK(x) intBitsToFloat(floatBitsToInt(x))",
@@ -314,7 +314,7 @@ pub const BITS: &[Function] = &[
 ];
 
 /// Bits of exact floats but 0, which has two signs.
-fn bits(x: Num, base: Base) -> Num {
+fn bits(x: Num, base: NumberBase) -> Num {
     let is_sure = x.error == 0.0 && x.value != 0.0;
     Num::integer(is_sure.then(|| s::wrapped(i64::from((x.value as f32).to_bits()), base)))
 }

@@ -5,7 +5,7 @@ use super::make::Ranges;
 use super::number::Num;
 use super::run::Variables;
 use super::scalars::wrapped;
-use super::value::{Base, Type, Value};
+use super::value::{NumberBase, Type, Value};
 use crate::conformance::bench::GlUniform;
 use crate::conformance::random::Random;
 
@@ -141,27 +141,27 @@ pub struct Given {
 pub fn given() -> Given {
     let vec4 = |base| Type::vector(base, 4);
     let mut list: Vec<(String, Type)> =
-        FLOATS.iter().map(|(name, _)| ((*name).to_owned(), vec4(Base::Float))).collect();
+        FLOATS.iter().map(|(name, _)| ((*name).to_owned(), vec4(NumberBase::Float))).collect();
     let mut more = |name: &str, kind: Type| list.push((name.to_owned(), kind));
-    more("i", vec4(Base::Int));
-    more("j", vec4(Base::Int));
-    more("u", vec4(Base::Uint));
+    more("i", vec4(NumberBase::Int));
+    more("j", vec4(NumberBase::Int));
+    more("u", vec4(NumberBase::Uint));
     more("uf", Type::FLOAT);
-    more("uv", vec4(Base::Float));
-    more("u3", Type::vector(Base::Float, 3));
+    more("uv", vec4(NumberBase::Float));
+    more("u3", Type::vector(NumberBase::Float, 3));
     more("um3", Type::matrix(3, 3));
     more("um4", Type::matrix(4, 4));
-    more("ul", vec4(Base::Float).array(8));
+    more("ul", vec4(NumberBase::Float).array(8));
     more("ui", Type::INT);
     more("KF", Type::FLOAT);
-    more("KV", Type::vector(Base::Float, 3));
+    more("KV", Type::vector(NumberBase::Float, 3));
     more("KI", Type::INT.array(5));
-    more("KA", Type::vector(Base::Float, 2).array(3));
+    more("KA", Type::vector(NumberBase::Float, 2).array(3));
     let globals: Vec<usize> = (0..list.len()).collect();
     for name in ["one", "pairs[0]", "pairs[1]"] {
-        list.push((format!("{name}.first"), Type::vector(Base::Float, 3)));
+        list.push((format!("{name}.first"), Type::vector(NumberBase::Float, 3)));
         list.push((format!("{name}.second"), Type::FLOAT));
-        list.push((format!("{name}.third"), Type::vector(Base::Int, 2)));
+        list.push((format!("{name}.third"), Type::vector(NumberBase::Int, 2)));
     }
     let members = (globals.len()..list.len()).collect();
     let variables = list.into_iter().map(|(name, kind)| Variable { name, kind }).collect();
@@ -182,7 +182,7 @@ pub fn values(vectors: &[Vec<[f32; 4]>], uniforms: &Uniforms) -> Vec<Variables> 
         let integers = |numbers: [i64; 4]| numbers.map(|x| Num::exact(x as f64)).into_iter().collect::<Value>();
         list.push(integers(small));
         list.push(integers(wide));
-        list.push(integers(std::array::from_fn(|part| wrapped(wide[part] ^ small[part], Base::Uint))));
+        list.push(integers(std::array::from_fn(|part| wrapped(wide[part] ^ small[part], NumberBase::Uint))));
         list.extend(uniforms.values());
         list.extend(constants.map(|numbers| numbers.iter().map(|x| float(*x)).collect()));
         list

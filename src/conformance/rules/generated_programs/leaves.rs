@@ -4,7 +4,7 @@ use super::code::{Expr, Form};
 use super::functions::{Gives, Range};
 use super::make::{Maker, Ranges, call, constant, variable, whole};
 use super::number::Num;
-use super::value::{Base, Type, Value};
+use super::value::{NumberBase, Type, Value};
 
 impl Maker {
     pub fn swizzled(&mut self, inner: Expr, kind: Type) -> Expr {
@@ -28,7 +28,7 @@ impl Maker {
     }
 
     fn input(&mut self, index: usize, kind: Type) -> Expr {
-        let whole = variable(index, Type::vector(Base::Float, 4));
+        let whole = variable(index, Type::vector(NumberBase::Float, 4));
         self.swizzled(whole, kind)
     }
 
@@ -36,19 +36,19 @@ impl Maker {
     pub fn few(&mut self, kind: Type) -> Expr {
         let Ranges { special, small_integers, .. } = self.ranges;
         match kind.base {
-            Base::Float => self.input(special, kind),
-            Base::Bool => self.leaf(kind),
+            NumberBase::Float => self.input(special, kind),
+            NumberBase::Bool => self.leaf(kind),
             base => {
-                let whole_input = variable(small_integers, Type::vector(Base::Int, 4));
-                let inner = self.swizzled(whole_input, kind.of(Base::Int));
-                let inner = call("&", Gives::Integers, vec![inner, whole(3, Type::INT)], kind.of(Base::Int));
-                if base == Base::Int { inner } else { Expr { kind, form: Form::Construct(vec![inner]) } }
+                let whole_input = variable(small_integers, Type::vector(NumberBase::Int, 4));
+                let inner = self.swizzled(whole_input, kind.of(NumberBase::Int));
+                let inner = call("&", Gives::Integers, vec![inner, whole(3, Type::INT)], kind.of(NumberBase::Int));
+                if base == NumberBase::Int { inner } else { Expr { kind, form: Form::Construct(vec![inner]) } }
             }
         }
     }
 
     pub fn ranged(&mut self, kind: Type, range: Range, depth: usize) -> Expr {
-        let is_float = kind.base == Base::Float;
+        let is_float = kind.base == NumberBase::Float;
         let direct = self.chance(0.5);
         let Ranges { positive, unit, small, share, .. } = self.ranges;
         let input = match range {
@@ -84,7 +84,7 @@ impl Maker {
                 call("clamp", Gives::Floats, vec![inner, bound(-end), bound(end)], kind)
             }
             Range::NotZero if !is_float => integers("|", 1),
-            Range::NotNegative if kind.base == Base::Int => integers("&", 0x7FFF_FFFF),
+            Range::NotNegative if kind.base == NumberBase::Int => integers("&", 0x7FFF_FFFF),
             Range::Shift => match self.chance(0.5) {
                 true => {
                     let by = self.below(32);
@@ -123,14 +123,14 @@ impl Maker {
                 let columns = (0..kind.columns).map(|_| self.leaf(kind.element())).collect();
                 Expr { kind, form: Form::Construct(columns) }
             }
-            () if kind.base == Base::Bool && kind.rows == 1 => {
-                let base = self.pick(&[Base::Float, Base::Int]);
+            () if kind.base == NumberBase::Bool && kind.rows == 1 => {
+                let base = self.pick(&[NumberBase::Float, NumberBase::Int]);
                 let sides = vec![self.leaf(kind.of(base)), self.leaf(kind.of(base))];
                 let name = self.pick(&["<", ">", "<=", ">="]);
                 call(name, Gives::OneBool, sides, kind)
             }
-            () if kind.base == Base::Bool => {
-                let sides = vec![self.leaf(kind.of(Base::Float)), self.leaf(kind.of(Base::Float))];
+            () if kind.base == NumberBase::Bool => {
+                let sides = vec![self.leaf(kind.of(NumberBase::Float)), self.leaf(kind.of(NumberBase::Float))];
                 call("lessThan", Gives::BoolVector, sides, kind)
             }
             () => self.literal(kind),
@@ -142,10 +142,10 @@ impl Maker {
             [0.0, 1.0, -1.0, 0.5, 2.0, -0.25, 3.0, 0.125, 10.0, 1.5, -7.0, 100.0, 0.0078125, 65536.0];
         const INTEGERS: [i64; 12] = [0, 1, 2, 3, 5, 7, 16, 31, 255, 4096, 65535, 0x0F0F_1234];
         let one = |maker: &mut Self| match kind.base {
-            Base::Float if maker.chance(0.5) => maker.pick(&FLOATS),
-            Base::Float => (maker.below(257) as f64 - 128.0) / 16.0,
-            Base::Int if maker.chance(0.4) => -(maker.below(40) as f64),
-            Base::Bool => maker.below(2) as f64,
+            NumberBase::Float if maker.chance(0.5) => maker.pick(&FLOATS),
+            NumberBase::Float => (maker.below(257) as f64 - 128.0) / 16.0,
+            NumberBase::Int if maker.chance(0.4) => -(maker.below(40) as f64),
+            NumberBase::Bool => maker.below(2) as f64,
             _ if maker.chance(0.5) => maker.pick(&INTEGERS) as f64,
             _ => maker.below(12) as f64,
         };

@@ -4,7 +4,7 @@ use super::code::{Expr, Form, Program};
 use super::functions::{BITS, FUNCTIONS, Function, Gives, Takes};
 use super::number::{Num, SLACK};
 use super::run::{Variables, evaluate};
-use super::value::{Base, Type, Value};
+use super::value::{NumberBase, Type, Value};
 use crate::conformance::random::Random;
 
 /// Inputs that functions of a narrow range take.
@@ -97,10 +97,10 @@ impl Maker {
     pub fn kind(&mut self) -> Type {
         let rows = 1 + self.below(4);
         match self.below(20) {
-            0..=11 => Type::vector(Base::Float, rows),
-            12..=14 => Type::vector(Base::Int, rows.min(3)),
-            15..=16 => Type::vector(Base::Uint, rows.min(2)),
-            17..=18 => Type::vector(Base::Bool, rows),
+            0..=11 => Type::vector(NumberBase::Float, rows),
+            12..=14 => Type::vector(NumberBase::Int, rows.min(3)),
+            15..=16 => Type::vector(NumberBase::Uint, rows.min(2)),
+            17..=18 => Type::vector(NumberBase::Bool, rows),
             _ => self.matrix(),
         }
     }
@@ -149,7 +149,7 @@ impl Maker {
     /// A constructor of scalars and vectors of any base type, or of columns.
     fn constructor(&mut self, kind: Type, depth: usize) -> Option<Expr> {
         let other = |maker: &mut Self| {
-            let bases = [Base::Float, Base::Float, Base::Int, Base::Uint, Base::Bool];
+            let bases = [NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool];
             if maker.chance(0.6) { kind.base } else { maker.pick(&bases) }
         };
         let arguments = match () {
@@ -162,7 +162,7 @@ impl Maker {
                 _ => (0..kind.columns).map(|_| self.expr(kind.element(), depth - 1)).collect(),
             },
             () if kind.rows == 1 => {
-                let base = self.pick(&[Base::Float, Base::Int, Base::Uint, Base::Bool]);
+                let base = self.pick(&[NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool]);
                 (base != kind.base).then_some(())?;
                 vec![self.expr(kind.of(base), depth - 1)]
             }
@@ -192,7 +192,7 @@ impl Maker {
         }
         let from = match () {
             () if kind.rows == 1 => Type::vector(kind.base, 2 + self.below(3)),
-            () if kind.base == Base::Float => Type::matrix(2 + self.below(3), kind.rows),
+            () if kind.base == NumberBase::Float => Type::matrix(2 + self.below(3), kind.rows),
             () => return None,
         };
         let whole = self.leaf(from);
@@ -253,7 +253,8 @@ impl Maker {
 
     fn kind_of(&mut self, wanted: Gives) -> Type {
         loop {
-            let base = self.pick(&[Base::Float, Base::Float, Base::Int, Base::Uint, Base::Bool]);
+            let base =
+                self.pick(&[NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool]);
             let vector = Type::vector(base, 1 + self.below(4));
             let kind = if matches!(wanted, Gives::Matrix | Gives::SquareMatrix) { self.matrix() } else { vector };
             if gives(wanted, kind) {
@@ -263,11 +264,13 @@ impl Maker {
     }
 
     fn arguments(&mut self, function: &'static Function, kind: Type, depth: usize) -> Option<Vec<Expr>> {
-        let free = Type::vector(Base::Float, 2 + self.below(3));
-        let number = self.pick(&[Base::Float, Base::Float, Base::Float, Base::Int, Base::Uint]);
+        let free = Type::vector(NumberBase::Float, 2 + self.below(3));
+        let number =
+            self.pick(&[NumberBase::Float, NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint]);
         let side = 2 + self.below(3);
         let (one, few) = (self.chance(0.4), self.chance(0.5));
-        let (count, matrix, booleans) = (1 + self.below(4), self.matrix(), Type::vector(Base::Bool, 2 + self.below(3)));
+        let (count, matrix, booleans) =
+            (1 + self.below(4), self.matrix(), Type::vector(NumberBase::Bool, 2 + self.below(3)));
         let anything = if self.chance(0.15) { matrix } else { Type::vector(number, count) };
         let factors = self.factors(kind)?;
         let mut list = Vec::new();
@@ -277,9 +280,9 @@ impl Maker {
                 Takes::SameOrOne if one => Type::vector(kind.base, 1),
                 Takes::SameOrOne => kind,
                 Takes::One => Type::vector(kind.base, 1),
-                Takes::Choices => kind.of(Base::Bool),
+                Takes::Choices => kind.of(NumberBase::Bool),
                 Takes::Floats => free,
-                Takes::FloatsAlike => kind.of(Base::Float),
+                Takes::FloatsAlike => kind.of(NumberBase::Float),
                 Takes::Numbers => kind.of(number),
                 Takes::Anything => anything,
                 Takes::Booleans => booleans,
@@ -287,8 +290,8 @@ impl Maker {
                 Takes::Square => Type::matrix(side, side),
                 Takes::Transposed => Type::matrix(kind.rows, kind.columns),
                 Takes::Factors => factors[place],
-                Takes::Rows => Type::vector(Base::Float, kind.rows),
-                Takes::Columns => Type::vector(Base::Float, kind.columns),
+                Takes::Rows => Type::vector(NumberBase::Float, kind.rows),
+                Takes::Columns => Type::vector(NumberBase::Float, kind.columns),
             };
             let is_compared = matches!(takes, Takes::Numbers | Takes::Anything) && kind.is_vector();
             list.push(if is_compared && few { self.few(kind) } else { self.ranged(kind, *range, depth) });
@@ -302,9 +305,9 @@ impl Maker {
         Some(match () {
             () if kind.is_matrix() => [Type::matrix(inner, kind.rows), Type::matrix(kind.columns, inner)],
             () if kind.rows > 1 && self.chance(0.6) => {
-                [Type::matrix(inner, kind.rows), Type::vector(Base::Float, inner)]
+                [Type::matrix(inner, kind.rows), Type::vector(NumberBase::Float, inner)]
             }
-            () => [Type::vector(Base::Float, inner), Type::matrix(kind.rows.max(2), inner)],
+            () => [Type::vector(NumberBase::Float, inner), Type::matrix(kind.rows.max(2), inner)],
         })
     }
 }
@@ -315,15 +318,15 @@ fn gives(gives: Gives, kind: Type) -> bool {
         Gives::Matrix => columns > 0,
         Gives::SquareMatrix => columns == rows,
         _ if columns > 0 => false,
-        Gives::Floats => base == Base::Float,
-        Gives::OneFloat => base == Base::Float && rows == 1,
-        Gives::FloatVector => base == Base::Float && rows > 1,
-        Gives::Vec3 => base == Base::Float && rows == 3,
-        Gives::Integers => matches!(base, Base::Int | Base::Uint),
-        Gives::Signed => base == Base::Int,
-        Gives::Unsigned => base == Base::Uint,
-        Gives::OneBool => base == Base::Bool && rows == 1,
-        Gives::BoolVector => base == Base::Bool && rows > 1,
+        Gives::Floats => base == NumberBase::Float,
+        Gives::OneFloat => base == NumberBase::Float && rows == 1,
+        Gives::FloatVector => base == NumberBase::Float && rows > 1,
+        Gives::Vec3 => base == NumberBase::Float && rows == 3,
+        Gives::Integers => matches!(base, NumberBase::Int | NumberBase::Uint),
+        Gives::Signed => base == NumberBase::Int,
+        Gives::Unsigned => base == NumberBase::Uint,
+        Gives::OneBool => base == NumberBase::Bool && rows == 1,
+        Gives::BoolVector => base == NumberBase::Bool && rows > 1,
     }
 }
 

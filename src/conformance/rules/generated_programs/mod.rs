@@ -14,7 +14,7 @@ mod statements;
 mod value;
 mod vectors;
 
-use self::assemble::{Assembled, Due, RESULTS, Stage, Uses, assemble};
+use self::assemble::{Assembled, DueNumber, RESULTS, Stage, Uses, assemble};
 use self::inputs::{PIXELS, Uniforms, VECTORS};
 use self::number::{Num, SLACK};
 use crate::conformance::bench::{Error, GlFormat, GlPoints, Sampling, Surface};
@@ -145,7 +145,7 @@ fn one(
     Ok(())
 }
 
-fn judge(surface: &Surface, made: &Assembled, due: &[Due], tally: &mut Tally, said: &dyn Fn() -> String) {
+fn judge(surface: &Surface, made: &Assembled, due: &[DueNumber], tally: &mut Tally, said: &dyn Fn() -> String) {
     for target in 0..RESULTS / 4 {
         surface.read_from(target as u32);
         for (pixel, (seen, due)) in surface.floats().iter().zip(due).enumerate() {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::number::{Num, ROUNDING, SLACK};
-use super::value::Base;
+use super::value::NumberBase;
 
 /// Angles: SPIR-V's environment for Vulkan allows 2^-11 within a turn, and 4096 units in the last place of an arc. GLSL
 /// says nothing. With the slack, 2^-8 and 2^-8.
@@ -167,12 +167,12 @@ pub fn smoothstep(low: Num, high: Num, x: Num) -> Num {
 }
 
 /// The low 32 bits.
-pub fn wrapped(value: i64, base: Base) -> i64 {
-    if base == Base::Uint { i64::from(value as u32) } else { i64::from(value as i32) }
+pub fn wrapped(value: i64, base: NumberBase) -> i64 {
+    if base == NumberBase::Uint { i64::from(value as u32) } else { i64::from(value as i32) }
 }
 
 /// An operator of integers; `None`: GLSL leaves it open.
-pub fn integers(a: Num, b: Num, base: Base, operate: fn(i64, i64) -> Option<i64>) -> Num {
+pub fn integers(a: Num, b: Num, base: NumberBase, operate: fn(i64, i64) -> Option<i64>) -> Num {
     let result = a.whole().zip(b.whole()).and_then(|(a, b)| operate(a, b));
     Num::integer(result.map(|value| wrapped(value, base)))
 }
@@ -196,18 +196,18 @@ pub fn right(a: i64, by: i64) -> Option<i64> {
 }
 
 /// A constructor's conversion of one scalar [GLSL 4.60, 5.4.1].
-pub fn converted(x: Num, from: Base, to: Base) -> Num {
+pub fn converted(x: Num, from: NumberBase, to: NumberBase) -> Num {
     match (from, to) {
         _ if from == to => x,
-        (Base::Float, Base::Bool) => Num::boolean(x.equals(Num::exact(0.0)).map(|is_zero| !is_zero)),
-        (Base::Float, _) => {
-            let range = if to == Base::Uint { 0.0..=4_294_967_000.0 } else { -2_147_483_000.0..=2_147_483_000.0 };
+        (NumberBase::Float, NumberBase::Bool) => Num::boolean(x.equals(Num::exact(0.0)).map(|is_zero| !is_zero)),
+        (NumberBase::Float, _) => {
+            let range = if to == NumberBase::Uint { 0.0..=4_294_967_000.0 } else { -2_147_483_000.0..=2_147_483_000.0 };
             let is_meant = range.contains(&(x.value - SLACK * x.error)) && range.contains(&(x.value + SLACK * x.error));
             if is_meant { x.step(f64::trunc) } else { Num::UNKNOWN }
         }
-        (_, Base::Bool) => Num::integer(x.whole().map(|value| i64::from(value != 0))),
-        (Base::Int | Base::Uint, Base::Float) if x.is_known() => x.plus(Num::exact(0.0)),
-        (_, Base::Float) => x,
+        (_, NumberBase::Bool) => Num::integer(x.whole().map(|value| i64::from(value != 0))),
+        (NumberBase::Int | NumberBase::Uint, NumberBase::Float) if x.is_known() => x.plus(Num::exact(0.0)),
+        (_, NumberBase::Float) => x,
         _ => Num::integer(x.whole().map(|value| wrapped(value, to))),
     }
 }

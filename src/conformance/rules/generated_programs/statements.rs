@@ -5,7 +5,7 @@ use super::functions::{FUNCTIONS, Function, Gives};
 use super::make::{Maker, call, function, variable, whole};
 use super::number::Num;
 use super::run::run;
-use super::value::{Base, Type, Value};
+use super::value::{NumberBase, Type, Value};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, Default)]
@@ -134,13 +134,13 @@ impl Maker {
         let kind = place.kind;
         let suits = |name: &str| -> Option<&'static Function> {
             let is_meant = |function: &&Function| function.name == name && function.takes.len() == 2;
-            let gives = if kind.base == Base::Float { Gives::Floats } else { Gives::Integers };
+            let gives = if kind.base == NumberBase::Float { Gives::Floats } else { Gives::Integers };
             FUNCTIONS.iter().filter(is_meant).find(|function| function.gives == gives)
         };
         let operator = match kind.base {
             _ if kind.is_matrix() || self.chance(0.4) => None,
-            Base::Float => suits(self.pick(&["+", "-", "*"])),
-            Base::Bool => None,
+            NumberBase::Float => suits(self.pick(&["+", "-", "*"])),
+            NumberBase::Bool => None,
             _ => suits(self.pick(&["+", "-", "*", "&", "|", "^"])),
         };
         let depth = 1 + self.below(2);
@@ -245,14 +245,16 @@ impl Maker {
         for _ in 0..16 {
             let place = self.place()?;
             let kind = place.kind;
-            if !kind.is_vector() || kind.base == Base::Bool {
+            if !kind.is_vector() || kind.base == NumberBase::Bool {
                 continue;
             }
             let more = self.expr(Type::INT, 1);
             let turn = variable(counter, Type::INT);
             let by = whole(1 + self.below(30) as i64, Type::INT);
             let (share, gives) = match kind.base {
-                Base::Float => (call("+", Gives::Integers, vec![turn, whole(1, Type::INT)], Type::INT), Gives::Floats),
+                NumberBase::Float => {
+                    (call("+", Gives::Integers, vec![turn, whole(1, Type::INT)], Type::INT), Gives::Floats)
+                }
                 _ => {
                     let product = call("*", Gives::Integers, vec![turn, by], Type::INT);
                     (call("^", Gives::Integers, vec![product, more], Type::INT), Gives::Integers)

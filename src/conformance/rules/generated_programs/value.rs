@@ -3,7 +3,7 @@
 use super::number::Num;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
+pub enum NumberBase {
     Float,
     Int,
     Uint,
@@ -13,7 +13,7 @@ pub enum Base {
 /// A scalar, a vector, a matrix of floats, or an array of scalars or vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Type {
-    pub base: Base,
+    pub base: NumberBase,
     /// 0: no matrix.
     pub columns: usize,
     /// Components of a vector or of a column.
@@ -23,23 +23,23 @@ pub struct Type {
 }
 
 impl Type {
-    pub const FLOAT: Self = Self::vector(Base::Float, 1);
-    pub const INT: Self = Self::vector(Base::Int, 1);
-    pub const BOOL: Self = Self::vector(Base::Bool, 1);
+    pub const FLOAT: Self = Self::vector(NumberBase::Float, 1);
+    pub const INT: Self = Self::vector(NumberBase::Int, 1);
+    pub const BOOL: Self = Self::vector(NumberBase::Bool, 1);
 
-    pub const fn vector(base: Base, rows: usize) -> Self {
+    pub const fn vector(base: NumberBase, rows: usize) -> Self {
         Self { base, columns: 0, rows, count: 0 }
     }
 
     pub const fn matrix(columns: usize, rows: usize) -> Self {
-        Self { base: Base::Float, columns, rows, count: 0 }
+        Self { base: NumberBase::Float, columns, rows, count: 0 }
     }
 
     pub fn array(self, count: usize) -> Self {
         Self { count, ..self }
     }
 
-    pub fn of(self, base: Base) -> Self {
+    pub fn of(self, base: NumberBase) -> Self {
         Self { base, ..self }
     }
 
@@ -78,10 +78,10 @@ impl Type {
     pub fn name(self) -> String {
         let Self { base, columns, rows, .. } = self;
         let [scalar, letter] = match base {
-            Base::Float => ["float", ""],
-            Base::Int => ["int", "i"],
-            Base::Uint => ["uint", "u"],
-            Base::Bool => ["bool", "b"],
+            NumberBase::Float => ["float", ""],
+            NumberBase::Int => ["int", "i"],
+            NumberBase::Uint => ["uint", "u"],
+            NumberBase::Bool => ["bool", "b"],
         };
         match (columns, rows) {
             (0, 1) => scalar.to_owned(),
@@ -160,13 +160,13 @@ pub fn unknown(kind: Type) -> Value {
 }
 
 /// A scalar as the text of a literal: floats are dyadic and of few digits.
-pub fn literal(value: f64, base: Base) -> String {
+pub fn literal(value: f64, base: NumberBase) -> String {
     match base {
-        Base::Float => format!("{value:?}"),
-        Base::Int if value as i64 == i64::from(i32::MIN) => "(-2147483647 - 1)".to_owned(),
-        Base::Int => format!("{}", value as i64),
-        Base::Uint if value >= 65536.0 => format!("{:#x}u", value as i64),
-        Base::Uint => format!("{}u", value as i64),
-        Base::Bool => (value != 0.0).to_string(),
+        NumberBase::Float => format!("{value:?}"),
+        NumberBase::Int if value as i64 == i64::from(i32::MIN) => "(-2147483647 - 1)".to_owned(),
+        NumberBase::Int => format!("{}", value as i64),
+        NumberBase::Uint if value >= 65536.0 => format!("{:#x}u", value as i64),
+        NumberBase::Uint => format!("{}u", value as i64),
+        NumberBase::Bool => (value != 0.0).to_string(),
     }
 }
