@@ -3,7 +3,7 @@
 use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::{Answer, Command, Packing};
 
-use super::pixel::{KnownPixel, Range, filled, step};
+use super::pixel::{Bounds, KnownPixel, filled, step};
 use super::state::State;
 
 /// Bytes that GL must leave alone.
@@ -22,17 +22,17 @@ pub struct Judged {
 pub struct Fault {
     /// The number that was read, in words.
     pub what: String,
-    pub expected: Range,
+    pub expected: Bounds,
     pub got: f64,
 }
 
 /// The range of each number of a pixel in the client's layout.
-fn expected(layout: u32, format: GlFormat, pixel: &KnownPixel) -> Vec<Range> {
+fn expected(layout: u32, format: GlFormat, pixel: &KnownPixel) -> Vec<Bounds> {
     match layout {
         glow::DEPTH_COMPONENT => vec![pixel.depth.range().widened(step(format))],
-        glow::STENCIL_INDEX => vec![pixel.stencil.map_or(Range::UNKNOWN, |value| Range::of(f64::from(value)))],
+        glow::STENCIL_INDEX => vec![pixel.stencil.map_or(Bounds::UNKNOWN, |value| Bounds::of(f64::from(value)))],
         glow::DEPTH_STENCIL => {
-            let stencil = pixel.stencil.map_or(Range::UNKNOWN, |value| Range::of(f64::from(value)));
+            let stencil = pixel.stencil.map_or(Bounds::UNKNOWN, |value| Bounds::of(f64::from(value)));
             vec![pixel.depth.range().widened(step(format)), stencil]
         }
         _ => {
@@ -119,7 +119,7 @@ impl State {
         let spoilt = bytes.iter().zip(&written).position(|(byte, written)| !written && *byte != UNTOUCHED);
         spoilt.map(|at| Fault {
             what: format!("byte {at} of the client's memory, beside the rows that are read"),
-            expected: Range::of(f64::from(UNTOUCHED)),
+            expected: Bounds::of(f64::from(UNTOUCHED)),
             got: f64::from(bytes[at]),
         })
     }

@@ -2,13 +2,13 @@
 
 use crate::conformance::bench::{GlEquation, GlFactor, GlFormat};
 
-use super::pixel::{Range, filled, is_fixed, stored};
+use super::pixel::{Bounds, filled, is_fixed, stored};
 
-fn factor(factor: GlFactor, channel: usize, source: [Range; 4], destination: [Range; 4]) -> Range {
-    let minus = |range: Range| Range::ONE.minus(range);
+fn factor(factor: GlFactor, channel: usize, source: [Bounds; 4], destination: [Bounds; 4]) -> Bounds {
+    let minus = |range: Bounds| Bounds::ONE.minus(range);
     match factor {
-        GlFactor::Zero => Range::ZERO,
-        GlFactor::One => Range::ONE,
+        GlFactor::Zero => Bounds::ZERO,
+        GlFactor::One => Bounds::ONE,
         GlFactor::SrcColor => source[channel],
         GlFactor::OneMinusSrcColor => minus(source[channel]),
         GlFactor::DstColor => destination[channel],
@@ -23,18 +23,18 @@ fn factor(factor: GlFactor, channel: usize, source: [Range; 4], destination: [Ra
 /// Blends `source` over `before`, as a format stores the result.
 pub fn blended(
     format: GlFormat,
-    source: [Range; 4],
-    before: [Range; 4],
+    source: [Bounds; 4],
+    before: [Bounds; 4],
     factors: [GlFactor; 4],
     equations: [GlEquation; 2],
-) -> [Range; 4] {
-    let source = if is_fixed(format) { source.map(Range::clamped) } else { source };
+) -> [Bounds; 4] {
+    let source = if is_fixed(format) { source.map(Bounds::clamped) } else { source };
     let destination = filled(format, before);
     std::array::from_fn(|channel| {
         let alpha = usize::from(channel == 3);
         let of = [source[channel], destination[channel]];
         let by = [factors[2 * alpha], factors[2 * alpha + 1]];
-        let terms: [Range; 2] =
+        let terms: [Bounds; 2] =
             std::array::from_fn(|side| of[side].times(factor(by[side], channel, source, destination)));
         let result = match equations[alpha] {
             GlEquation::Add => terms[0].plus(terms[1]),
@@ -44,7 +44,7 @@ pub fn blended(
             GlEquation::Max => of[0].greatest(of[1]),
         };
         if result.low.is_nan() || result.high.is_nan() {
-            return if is_fixed(format) { Range { low: 0.0, high: 1.0 } } else { Range::UNKNOWN };
+            return if is_fixed(format) { Bounds { low: 0.0, high: 1.0 } } else { Bounds::UNKNOWN };
         }
         let plain = matches!(equations[alpha], GlEquation::Min | GlEquation::Max)
             || by.iter().all(|by| matches!(by, GlFactor::Zero | GlFactor::One));

@@ -4,7 +4,7 @@ use crate::conformance::bench::commands::{OUTPUTS, Place, Program, Rectangle};
 use crate::conformance::bench::{GlFace, GlFormat, GlStencil, GlStencilOp};
 
 use super::blend::blended;
-use super::pixel::{Depth, KnownPixel, Range, Way, channels, filled, step, stored};
+use super::pixel::{Bounds, Depth, KnownPixel, Way, channels, filled, step, stored};
 use super::state::State;
 
 /// Share of a pixel by which a corner may be off in the window: eight bits of sub-pixels, and the arithmetic.
@@ -36,7 +36,7 @@ pub fn stencil_result(op: GlStencilOp, value: u8, reference: i32) -> u8 {
 
 /// A fragment before the tests.
 struct Fragment {
-    colors: [[Range; 4]; OUTPUTS],
+    colors: [[Bounds; 4]; OUTPUTS],
     depth: Depth,
     /// False: it may be there or not.
     sure: bool,
@@ -123,16 +123,16 @@ impl State {
     }
 
     /// Colours of the outputs; `None`: discarded.
-    fn shaded(&self, rectangle: &Rectangle, front: bool, at: [u32; 2]) -> Option<[[Range; 4]; OUTPUTS]> {
+    fn shaded(&self, rectangle: &Rectangle, front: bool, at: [u32; 2]) -> Option<[[Bounds; 4]; OUTPUTS]> {
         let uniforms = self.uniforms[self.program as usize];
-        let of = |color: [f32; 4]| color.map(|value| Range::of(f64::from(value)));
-        let unknown = [Range::UNKNOWN; 4];
+        let of = |color: [f32; 4]| color.map(|value| Bounds::of(f64::from(value)));
+        let unknown = [Bounds::UNKNOWN; 4];
         // An interpolated constant is the constant, within the rounding of a division and of the sums before it.
         let passed = of(rectangle.color).map(|value| value.widened(1e-5 * value.high.abs()));
         let color = of(uniforms.color);
         Some(match self.program {
             Program::Plain | Program::Depth | Program::Clip => [color, unknown],
-            Program::Opaque => [[color[0], color[1], color[2], Range::ONE], unknown],
+            Program::Opaque => [[color[0], color[1], color[2], Bounds::ONE], unknown],
             Program::Varying => [passed, unknown],
             Program::Squares => {
                 let square = |axis: usize| at[axis] as i32 / uniforms.period[axis];

@@ -5,7 +5,7 @@ use crate::conformance::bench::{GlFormat, GlMipmap, GlShape, GlSwizzle, GlWrap};
 use crate::conformance::verify::cube;
 
 use super::image::{Image, Sampler};
-use super::pixel::{self, Depth, KnownPixel, Range, Way, filled, step};
+use super::pixel::{self, Bounds, Depth, KnownPixel, Way, filled, step};
 use super::state::{State, Uniforms, target};
 
 /// Share of a texel within which a place may belong to the texel beside it.
@@ -79,7 +79,7 @@ impl Looked<'_> {
     }
 
     /// The colour that the program reads at a pixel.
-    pub fn color(&self, program: Program, [x, y]: [u32; 2]) -> [Range; 4] {
+    pub fn color(&self, program: Program, [x, y]: [u32; 2]) -> [Bounds; 4] {
         let Self { image, sampler, uniforms } = self;
         let level = image.range[0] + uniforms.level as u32;
         let size = image.size_of(level);
@@ -100,7 +100,7 @@ impl Looked<'_> {
                     let place = cube::on_face(face, direction).map(|place| (place * side).clamp(0.0, side - 1e-9));
                     self.near([place[0], place[1]], |index| self.swizzled(image.at(level, face as u32, index)), level)
                 });
-                let first = results.next().unwrap_or([Range::UNKNOWN; 4]);
+                let first = results.next().unwrap_or([Bounds::UNKNOWN; 4]);
                 results.fold(first, either)
             }
             Program::Look | Program::Compare => {
@@ -116,7 +116,7 @@ impl Looked<'_> {
                     if sampler.linear[1] && !sampler.linear[0] && sampler.mipmap != GlMipmap::Off { 0.5 } else { 0.0 };
                 if sampler.linear[usize::from(clamped <= most)] { linear(place, texel) } else { nearest(place, texel) }
             }
-            _ => [Range::UNKNOWN; 4],
+            _ => [Bounds::UNKNOWN; 4],
         }
     }
 
@@ -130,25 +130,25 @@ impl Looked<'_> {
     }
 
     /// Nearest texel at a place within a level.
-    fn near(&self, place: [f64; 2], texel: impl Fn([u32; 2]) -> [Range; 4], level: u32) -> [Range; 4] {
+    fn near(&self, place: [f64; 2], texel: impl Fn([u32; 2]) -> [Bounds; 4], level: u32) -> [Bounds; 4] {
         let size = self.image.size_of(level);
         nearest(place, |at| texel(std::array::from_fn(|axis| at[axis].clamp(0, i64::from(size[axis]) - 1) as u32)))
     }
 
-    fn swizzled(&self, pixel: KnownPixel) -> [Range; 4] {
+    fn swizzled(&self, pixel: KnownPixel) -> [Bounds; 4] {
         let [r, g, b, a] = filled(self.image.format, pixel.color);
         self.image.swizzle.map(|source| match source {
             GlSwizzle::Red => r,
             GlSwizzle::Green => g,
             GlSwizzle::Blue => b,
             GlSwizzle::Alpha => a,
-            GlSwizzle::Zero => Range::ZERO,
-            GlSwizzle::One => Range::ONE,
+            GlSwizzle::Zero => Bounds::ZERO,
+            GlSwizzle::One => Bounds::ONE,
         })
     }
 
     /// A texel, or the border, as the program makes a colour of it.
-    fn texel(&self, program: Program, level: u32, at: [i64; 2]) -> [Range; 4] {
+    fn texel(&self, program: Program, level: u32, at: [i64; 2]) -> [Bounds; 4] {
         let Self { image, sampler, uniforms } = self;
         let size = image.size_of(level);
         let index = [0, 1].map(|axis| wrapped(at[axis], size[axis], sampler.wrap[axis]));
@@ -157,7 +157,7 @@ impl Looked<'_> {
             pixel = image.at(level, 0, [x, y]);
         } else {
             let error = if pixel::is_fixed(image.format) { 0.6 / 255.0 } else { 1e-3 };
-            pixel.color = sampler.border.map(|value| Range::of(f64::from(value)).widened(error));
+            pixel.color = sampler.border.map(|value| Bounds::of(f64::from(value)).widened(error));
             let value = f64::from(sampler.border[0]).clamp(0.0, 1.0);
             pixel.depth = Depth { value, slack: 2.0 * step(image.format), way: Way::Other };
         }
@@ -170,22 +170,22 @@ impl Looked<'_> {
         let value = if fixed { reference.clamp(0.0, 1.0) } else { reference };
         let reference = Depth { value, slack: 1.0 / 65536.0, way: Way::Other };
         let passes = sampler.compare.and_then(|compare| reference.passes(compare, pixel.depth, step(image.format)));
-        let lit = passes.map_or(Range { low: 0.0, high: 1.0 }, |passes| Range::of(f64::from(u8::from(passes))));
-        [lit, Range::of(0.25), lit, Range::ONE]
+        let lit = passes.map_or(Bounds { low: 0.0, high: 1.0 }, |passes| Bounds::of(f64::from(u8::from(passes))));
+        [lit, Bounds::of(0.25), lit, Bounds::ONE]
     }
 }
 
 /// A depth as a look-up without comparison gives it.
-fn sampled_depth(format: GlFormat, depth: Depth) -> Range {
+fn sampled_depth(format: GlFormat, depth: Depth) -> Bounds {
     depth.range().widened(2.0 * step(format))
 }
 
-fn either(one: [Range; 4], other: [Range; 4]) -> [Range; 4] {
+fn either(one: [Bounds; 4], other: [Bounds; 4]) -> [Bounds; 4] {
     std::array::from_fn(|channel| one[channel].or(other[channel]))
 }
 
 /// The texel that a place lies in; near an edge of texels either.
-fn nearest(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Range; 4]) -> [Range; 4] {
+fn nearest(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Bounds; 4]) -> [Bounds; 4] {
     let ends = place.map(|at| [at - NEAR, at + NEAR].map(|at| at.floor() as i64));
     let mut all = texel([ends[0][0], ends[1][0]]);
     for at in [[ends[0][1], ends[1][0]], [ends[0][0], ends[1][1]], [ends[0][1], ends[1][1]]] {
@@ -195,13 +195,13 @@ fn nearest(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Range; 4]) -> [Range; 4
 }
 
 /// Four texels' mean. At a centre it is that texel, with a 64th of what lies around; elsewhere anything between them.
-fn linear(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Range; 4]) -> [Range; 4] {
+fn linear(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Bounds; 4]) -> [Bounds; 4] {
     let places = place.map(|at| at - 0.5);
     let is_centre = places.iter().all(|at| (at - at.round()).abs() < NEAR);
     let low = places.map(|at| if is_centre { at.round() as i64 - 1 } else { at.floor() as i64 });
     let reach = if is_centre { 3 } else { 2 };
     let around = (0..reach * reach).map(|of| texel([low[0] + of % reach, low[1] + of / reach]));
-    let hull = around.reduce(either).unwrap_or([Range::UNKNOWN; 4]);
+    let hull = around.reduce(either).unwrap_or([Bounds::UNKNOWN; 4]);
     if !is_centre {
         return hull;
     }
@@ -211,8 +211,8 @@ fn linear(place: [f64; 2], texel: impl Fn([i64; 2]) -> [Range; 4]) -> [Range; 4]
         let (middle, all) = (centre[channel], hull[channel]);
         let part = |from: f64, to: f64| if from == to { from } else { from + (to - from) / 64.0 };
         if !all.is_known() {
-            return Range::UNKNOWN;
+            return Bounds::UNKNOWN;
         }
-        Range { low: part(middle.low, all.low), high: part(middle.high, all.high) }
+        Bounds { low: part(middle.low, all.low), high: part(middle.high, all.high) }
     })
 }

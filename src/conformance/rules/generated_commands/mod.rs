@@ -26,7 +26,7 @@ use crate::conformance::{DriverUnderTest, Findings};
 
 use answers::{Fault, Judged};
 use generate::Generator;
-use pixel::Range;
+use pixel::Bounds;
 use state::State;
 
 /// Streams, and commands of each before all is read.
@@ -125,7 +125,7 @@ pub fn generated(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
         }
         let what = format!("streams {} to {}", group * GROUP, (group + 1) * GROUP - 1);
         let measured = match &broken {
-            Some(Broken { stream, fault: Fault { what, expected: Range { low, high }, got }, command }) => {
+            Some(Broken { stream, fault: Fault { what, expected: Bounds { low, high }, got }, command }) => {
                 let after = command.as_ref().map_or("it is right if all is read after each command", String::as_str);
                 format!("stream {stream}: {what}: {low} to {high} expected, {got} found; first wrong after: {after}")
             }

@@ -6,12 +6,12 @@ use crate::conformance::bench::{GlCompare, GlFormat};
 
 /// A number that is known to lie within two bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct Bounds {
     pub low: f64,
     pub high: f64,
 }
 
-impl Range {
+impl Bounds {
     pub const UNKNOWN: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
     pub const ZERO: Self = Self::of(0.0);
     pub const ONE: Self = Self::of(1.0);
@@ -97,8 +97,8 @@ impl Depth {
         self.slack.is_finite()
     }
 
-    pub fn range(self) -> Range {
-        if self.is_known() { Range::of(self.value).widened(self.slack) } else { Range::UNKNOWN }
+    pub fn range(self) -> Bounds {
+        if self.is_known() { Bounds::of(self.value).widened(self.slack) } else { Bounds::UNKNOWN }
     }
 
     /// Tests whether `self OP stored` holds in a format of this step; `None`: it may or may not.
@@ -119,13 +119,13 @@ impl Depth {
 /// All that a pixel of an image may hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnownPixel {
-    pub color: [Range; 4],
+    pub color: [Bounds; 4],
     pub depth: Depth,
     pub stencil: Option<u8>,
 }
 
 impl KnownPixel {
-    pub const UNKNOWN: Self = Self { color: [Range::UNKNOWN; 4], depth: Depth::UNKNOWN, stencil: None };
+    pub const UNKNOWN: Self = Self { color: [Bounds::UNKNOWN; 4], depth: Depth::UNKNOWN, stencil: None };
 }
 
 /// Channels that a colour format has.
@@ -149,26 +149,26 @@ pub fn step(format: GlFormat) -> f64 {
 
 /// A value as a format stores it; `error` is how far the computation before may be off, in codes of 8 bits or relative to
 /// `size` in floats.
-pub fn stored(format: GlFormat, value: Range, error: Option<f64>) -> Range {
+pub fn stored(format: GlFormat, value: Bounds, error: Option<f64>) -> Bounds {
     if is_fixed(format) {
         // Rounding to the nearest code, with a tenth for the arithmetic [GL 4.6, 2.3.5.1]. A blend in 8 bits may be a
         // code off: GL asks only for as many bits as the buffer has [17.3.6].
         let slack = if error.is_some() { 1.6 } else { 0.6 };
         let value = value.clamped();
         let code = |code: f64| code.clamp(0.0, 255.0) / 255.0;
-        return Range {
+        return Bounds {
             low: code((value.low * 255.0 - slack).ceil()),
             high: code((value.high * 255.0 + slack).floor()),
         };
     }
     if !value.is_known() {
-        return Range::UNKNOWN;
+        return Bounds::UNKNOWN;
     }
     let value = value.widened(error.map_or(0.0, |size| 1e-6 * size));
     let half = format == GlFormat::Rgba16F;
     // What is too large may become infinite, or the largest half [GL 4.6, 2.3.4.2].
     if half && value.magnitude() > 65000.0 {
-        return Range::UNKNOWN;
+        return Bounds::UNKNOWN;
     }
     let is_exact = |number: f64| {
         let significant = if half { 11 } else { 24 };
@@ -184,6 +184,6 @@ pub fn stored(format: GlFormat, value: Range, error: Option<f64>) -> Range {
 }
 
 /// Channels as a look-up or a read-back has them: what the format lacks is 0, and alpha 1.
-pub fn filled(format: GlFormat, color: [Range; 4]) -> [Range; 4] {
-    if channels(format) == 4 { color } else { [color[0], Range::ZERO, Range::ZERO, Range::ONE] }
+pub fn filled(format: GlFormat, color: [Bounds; 4]) -> [Bounds; 4] {
+    if channels(format) == 4 { color } else { [color[0], Bounds::ZERO, Bounds::ZERO, Bounds::ONE] }
 }

@@ -3,7 +3,7 @@
 use crate::conformance::bench::GlFormat;
 use crate::conformance::bench::commands::{Clear, Packing, Place};
 
-use super::pixel::{Depth, KnownPixel, Range, Way, channels, filled, step, stored};
+use super::pixel::{Bounds, Depth, KnownPixel, Way, channels, filled, step, stored};
 use super::state::State;
 
 /// A pixel of the client's memory.
@@ -28,9 +28,9 @@ pub fn decoded(packing: &Packing, bytes: &[u8], width: u32, at: [usize; 2]) -> K
             pixel.depth = Depth { value: component(0).clamp(0.0, 1.0), slack: 0.0, way: Way::Other };
         }
         layout => {
-            let mut color = [Range::ZERO, Range::ZERO, Range::ZERO, Range::ONE];
+            let mut color = [Bounds::ZERO, Bounds::ZERO, Bounds::ZERO, Bounds::ONE];
             for (index, channel) in color.iter_mut().enumerate().take(components) {
-                *channel = Range::of(component(index));
+                *channel = Bounds::of(component(index));
             }
             if layout == glow::BGRA {
                 color.swap(0, 2);
@@ -80,8 +80,12 @@ impl State {
                 };
                 let four = [index(0, 0), index(1, 0), index(0, 1), index(1, 1)].map(|index| from[index].color);
                 let color = std::array::from_fn(|channel| {
-                    let sum = four.iter().map(|color| color[channel]).fold(Range::ZERO, Range::plus);
-                    if sum.is_known() { stored(format, sum.times(Range::of(0.25)), Some(1.0)) } else { Range::UNKNOWN }
+                    let sum = four.iter().map(|color| color[channel]).fold(Bounds::ZERO, Bounds::plus);
+                    if sum.is_known() {
+                        stored(format, sum.times(Bounds::of(0.25)), Some(1.0))
+                    } else {
+                        Bounds::UNKNOWN
+                    }
                 });
                 image.plane_mut(level, layer)[(y * width + x) as usize].color = filled(format, color);
             }
@@ -137,7 +141,7 @@ impl State {
     fn clear_color(&mut self, place: Place, at: [u32; 2], color: [f32; 4], mask: [bool; 4]) {
         let Some((mut pixel, format)) = self.pixel(place, at) else { return };
         for channel in (0..channels(format)).filter(|channel| mask[*channel]) {
-            pixel.color[channel] = stored(format, Range::of(f64::from(color[channel])), None);
+            pixel.color[channel] = stored(format, Bounds::of(f64::from(color[channel])), None);
         }
         pixel.color = filled(format, pixel.color);
         self.set_pixel(place, at, pixel);

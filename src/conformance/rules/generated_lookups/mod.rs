@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use self::draws::{COLUMNS, Chunk, Drawn};
 use self::lookups::{Class, DueTexel, Inputs};
 use self::programs::{LookUpProgram, ROWS};
-use self::world::{SAMPLERS, Source, TEXTURES, World};
+use self::world::{CopySource, SAMPLERS, TEXTURES, World};
 use crate::conformance::bench::{
     Error, GlFormat, GlImage, GlPlace, GlState, GlSwizzle, GlTextureBench, Surface, build,
 };
@@ -82,13 +82,13 @@ pub fn lookups(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(),
 }
 
 /// A surface of 8-bit colours, and these.
-fn source(subject: &DriverUnderTest) -> Result<(Surface, Source), Error> {
+fn source(subject: &DriverUnderTest) -> Result<(Surface, CopySource), Error> {
     const SIZE: [usize; 2] = [48, 40];
     let mut random = Random::new(SEED + 1);
     let colors: Vec<_> = (0..SIZE[0] * SIZE[1]).map(|_| [(); 4].map(|()| (random.unit() * 256.0) as u8)).collect();
     let image: std::rc::Rc<GlImage> = subject.bench.byte_image(SIZE.map(|side| side as u32), &colors)?.into();
     let surface = subject.bench.surface_at(Some(GlPlace::whole(&image)), None)?;
-    Ok((surface, Source { size: SIZE, colors }))
+    Ok((surface, CopySource { size: SIZE, colors }))
 }
 
 fn judge(chunk: &Chunk, seen: &[[f32; 4]], results: &mut BTreeMap<String, Results>) {

@@ -23,7 +23,7 @@ const NEW: Sampling = Sampling {
 };
 
 /// Source of copies: bytes of a surface, rows from below.
-pub struct Source {
+pub struct CopySource {
     pub size: [usize; 2],
     pub colors: Vec<[u8; 4]>,
 }
@@ -36,7 +36,7 @@ pub struct World<'a> {
     pub units: [Option<usize>; UNITS],
     pub seamless: bool,
     pub steps: Vec<GlTextureStep>,
-    pub source: &'a Source,
+    pub source: &'a CopySource,
     pub compatible: bool,
     formats: Vec<&'static TexelFormat>,
     names: usize,
@@ -44,7 +44,7 @@ pub struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    pub fn new(seed: u64, compatible: bool, source: &'a Source) -> Self {
+    pub fn new(seed: u64, compatible: bool, source: &'a CopySource) -> Self {
         let old: &[TexelFormat] = if compatible { OLD_FORMATS } else { &[] };
         let formats = FORMATS.iter().chain(old).collect();
         Self {

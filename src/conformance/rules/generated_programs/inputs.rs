@@ -77,13 +77,13 @@ pub fn vectors(random: &mut Random, turn: usize) -> Vec<Vec<[f32; 4]>> {
 /// Statements that make the integers of three vectors.
 pub const INTEGERS: &str = "i = ivec4(x8); j = ivec4(x9) * 65536 + ivec4(x10); u = uvec4(j) ^ uvec4(i);";
 
-/// Uniforms of a draw.
-pub struct Uniforms {
+/// GivenUniforms of a draw.
+pub struct GivenUniforms {
     numbers: Vec<f32>,
     turns: i32,
 }
 
-impl Uniforms {
+impl GivenUniforms {
     pub fn new(random: &mut Random) -> Self {
         let turns = (random.unit() * 12.0) as i32;
         Self { numbers: (0..65).map(|_| (random.between(-3.0, 3.0) * 256.0).round() / 256.0).collect(), turns }
@@ -170,7 +170,7 @@ pub fn given() -> Given {
 }
 
 /// Their values for each pixel.
-pub fn values(vectors: &[Vec<[f32; 4]>], uniforms: &Uniforms) -> Vec<Variables> {
+pub fn values(vectors: &[Vec<[f32; 4]>], uniforms: &GivenUniforms) -> Vec<Variables> {
     let float = |x: f32| Num::exact(f64::from(x));
     let constants: [&[f32]; 4] =
         [&[0.625], &[0.5, -1.25, 3.0], &[3.0, -1.0, 40.0, 0.0, 1000.0], &[1.0, 0.25, -2.0, 7.0, 0.0, 12.5]];

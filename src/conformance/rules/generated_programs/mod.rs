@@ -15,7 +15,7 @@ mod value;
 mod vectors;
 
 use self::assemble::{Assembled, DueNumber, RESULTS, Stage, Uses, assemble};
-use self::inputs::{PIXELS, Uniforms, VECTORS};
+use self::inputs::{GivenUniforms, PIXELS, VECTORS};
 use self::number::{Num, SLACK};
 use crate::conformance::bench::{Error, GlFormat, GlPoints, Sampling, Surface};
 use crate::conformance::random::Random;
@@ -114,7 +114,7 @@ fn one(
     tally: &mut Tally,
 ) -> Result<(), Error> {
     let Kind { stage, version, number } = kind;
-    let draws = TURNS.map(|turn| (turn, inputs::vectors(&mut random, turn), Uniforms::new(&mut random)));
+    let draws = TURNS.map(|turn| (turn, inputs::vectors(&mut random, turn), GivenUniforms::new(&mut random)));
     // A third of the pixels tells which statements say enough.
     let some = inputs::values(&draws[0].1, &draws[0].2).into_iter().step_by(3).collect();
     let made = assemble(random, version, stage, some, uses);

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::Judged;
 use super::arrays::Held;
-use super::types::{Base, Type, word};
+use super::types::{Base, DataType, word};
 use super::uniforms::{capture, judge};
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCapture};
@@ -40,7 +40,7 @@ impl Layout {
     }
 
     /// Places a member; offsets of its components by elements, columns and rows.
-    fn member(&mut self, of: Type, length: Option<usize>, row_major: bool) -> Vec<usize> {
+    fn member(&mut self, of: DataType, length: Option<usize>, row_major: bool) -> Vec<usize> {
         let alignment = |count: usize| 4 * [1_usize, 2, 4, 4][count - 1];
         // A matrix is an array of columns, or of rows.
         let (vectors, components) = match (of.columns, row_major) {
@@ -65,7 +65,7 @@ impl Layout {
     }
 }
 
-struct Program {
+struct CapturingProgram {
     capture: GlCapture,
     leaves: Vec<Leaf>,
     bytes: usize,
@@ -73,8 +73,8 @@ struct Program {
 }
 
 /// A random member: its type, length, matrix order and declaration; the order is that of the whole structure, if it is in one.
-fn member(dice: &mut Dice, name: &str, order: Option<bool>) -> (Type, Option<usize>, bool, String) {
-    let of = Type::any(dice);
+fn member(dice: &mut Dice, name: &str, order: Option<bool>) -> (DataType, Option<usize>, bool, String) {
+    let of = DataType::any(dice);
     let length = dice.chance(0.3).then(|| dice.whole(1, 3) as usize);
     let row_major = order.unwrap_or(of.columns > 1 && dice.chance(0.4));
     let after = length.map_or(String::new(), |length| format!("[{length}]"));
@@ -82,11 +82,11 @@ fn member(dice: &mut Dice, name: &str, order: Option<bool>) -> (Type, Option<usi
     (of, length, row_major, format!("{order}{} {name}{after};", of.name()))
 }
 
-impl Program {
+impl CapturingProgram {
     fn new(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Self, Error> {
         let (mut structs, mut block) = (String::new(), String::new());
         let (mut words, mut leaves, mut layout) = (Vec::new(), Vec::new(), Layout::default());
-        let mut show = |path: &str, of: Type, length: Option<usize>, offsets: Vec<usize>| {
+        let mut show = |path: &str, of: DataType, length: Option<usize>, offsets: Vec<usize>| {
             let mut expressions = Vec::new();
             for element in 0..length.unwrap_or(1) {
                 let place = length.map_or(path.to_owned(), |_| format!("{path}[{element}]"));
@@ -146,7 +146,8 @@ pub fn blocks(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Erro
     let mut dice = Dice::new(7400);
     let alignment = bench.block_alignment();
     let mut buffers = (0..BUFFERS).map(|_| held(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
-    let mut programs = (0..PROGRAMS).map(|_| Program::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
+    let mut programs =
+        (0..PROGRAMS).map(|_| CapturingProgram::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
     let mut bound: [Option<Bound>; BINDINGS] = [const { None }; BINDINGS];
     let array = bench.feed_array()?;
     bench.bind_feed(&array);
@@ -177,7 +178,7 @@ pub fn blocks(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Erro
                 old.name.borrow_mut().take();
                 buffers[slot] = held(subject, &mut dice)?;
             }
-            8 if dice.chance(0.2) => programs[which] = Program::new(subject, &mut dice)?,
+            8 if dice.chance(0.2) => programs[which] = CapturingProgram::new(subject, &mut dice)?,
             _ => {}
         }
         let program = &programs[which];

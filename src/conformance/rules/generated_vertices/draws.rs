@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::World;
 use super::arrays::{Array, Held, LOCATIONS, VERTICES, current};
 use super::formats::{Due, Format, Kind};
-use super::programs::Program;
+use super::programs::CapturingProgram;
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCaptured, GlPrimitive, GlRange};
 use crate::conformance::rules::dice::Dice;
@@ -32,7 +32,7 @@ impl World {
         let (buffers, indices) = (held(4, BYTES)?, held(2, INDEX_BYTES)?);
         let arrays = (0..3).map(|_| Array::new(bench)).collect::<Result<Vec<_>, _>>()?;
         let programs = [0.0, 0.5, 0.6]
-            .map(|left_out| Program::new(bench, dice, &kinds, left_out))
+            .map(|left_out| CapturingProgram::new(bench, dice, &kinds, left_out))
             .into_iter()
             .collect::<Result<Vec<_>, _>>()?;
         let symmetric = bench.has((4, 2), "");

@@ -16,7 +16,7 @@ use std::rc::Rc;
 
 use self::arrays::{Array, Held, LOCATIONS};
 use self::formats::{Due, Kind};
-use self::programs::Program;
+use self::programs::CapturingProgram;
 use crate::conformance::bench::{Error, GlFormat};
 use crate::conformance::rules::dice::Dice;
 use crate::conformance::{DriverUnderTest, Findings};
@@ -62,7 +62,7 @@ struct World {
     indices: Vec<Rc<Held>>,
     arrays: Vec<Array>,
     bound: usize,
-    programs: Vec<Program>,
+    programs: Vec<CapturingProgram>,
     used: usize,
     /// Signed numbers are normalised as OpenGL 4.2 has it.
     symmetric: bool,

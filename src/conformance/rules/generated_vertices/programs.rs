@@ -16,7 +16,7 @@ pub struct Input {
     pub components: usize,
 }
 
-pub struct Program {
+pub struct CapturingProgram {
     pub capture: GlCapture,
     pub inputs: Vec<Input>,
 }
@@ -24,7 +24,7 @@ pub struct Program {
 /// Numbers that are captured of a vertex, at most; what every driver can do.
 const MOST: usize = 64;
 
-impl Program {
+impl CapturingProgram {
     /// A program of the locations but for a share that is left out, in any order.
     pub fn new(bench: &Bench, dice: &mut Dice, kinds: &[Kind; LOCATIONS], left_out: f32) -> Result<Self, Error> {
         let mut inputs = Vec::new();

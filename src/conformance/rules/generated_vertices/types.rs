@@ -2,7 +2,7 @@
 
 use crate::conformance::rules::dice::Dice;
 
-/// Type of a component.
+/// DataType of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     Float,
@@ -13,7 +13,7 @@ pub enum Base {
 
 /// A scalar, vector or matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Type {
+pub struct DataType {
     pub base: Base,
     /// More than one: a matrix.
     pub columns: usize,
@@ -21,7 +21,7 @@ pub struct Type {
     pub rows: usize,
 }
 
-impl Type {
+impl DataType {
     pub fn any(dice: &mut Dice) -> Self {
         if dice.chance(0.4) {
             return Self { base: Base::Float, columns: dice.whole(2, 4) as usize, rows: dice.whole(2, 4) as usize };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::types::{Base, Type, word};
+use super::types::{Base, DataType, word};
 use super::{Due, Judged};
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCapture, GlCaptured, GlPrimitive, GlRange, GlValues};
@@ -17,14 +17,14 @@ const TURNS: usize = 500;
 struct Uniform {
     /// Name as GL and GLSL have it, without an element.
     path: String,
-    of: Type,
+    of: DataType,
     /// `None`: no array.
     length: Option<usize>,
     /// Bits of all elements' components.
     words: Vec<u32>,
 }
 
-struct Program {
+struct CapturingProgram {
     capture: GlCapture,
     uniforms: Vec<Uniform>,
 }
@@ -68,11 +68,11 @@ pub fn judge(
     Ok(())
 }
 
-impl Program {
+impl CapturingProgram {
     fn new(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Self, Error> {
         let (mut declared, mut words, mut uniforms) = (String::new(), Vec::new(), Vec::new());
         for number in 0..40 {
-            let of = Type::any(dice);
+            let of = DataType::any(dice);
             let length = dice.chance(0.4).then(|| dice.whole(1, 5) as usize);
             let in_struct = dice.chance(0.2);
             let copies = if in_struct && dice.chance(0.5) { 2 } else { 1 };
@@ -179,7 +179,8 @@ impl Program {
 /// Programs whose uniforms are set and drawn in any order, linked again, deleted and made anew.
 pub fn uniforms(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Error> {
     let mut dice = Dice::new(7300);
-    let mut programs = (0..PROGRAMS).map(|_| Program::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
+    let mut programs =
+        (0..PROGRAMS).map(|_| CapturingProgram::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
     let array = subject.bench.feed_array()?;
     subject.bench.bind_feed(&array);
     let mut last = String::new();
@@ -192,7 +193,7 @@ pub fn uniforms(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Er
                 last = format!("program {which} linked again");
             }
             1 => {
-                programs[which] = Program::new(subject, &mut dice)?;
+                programs[which] = CapturingProgram::new(subject, &mut dice)?;
                 last = format!("program {which} made anew");
             }
             _ => {
