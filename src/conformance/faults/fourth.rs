@@ -4,6 +4,7 @@ use glow::HasContext;
 
 use super::Call;
 use super::text::joined;
+use super::third::OF_SAMPLERS;
 use crate::context::compatibility::raw;
 
 /// GL_MODELVIEW_MATRIX.
@@ -11,16 +12,6 @@ const MODELVIEW_MATRIX: u32 = 0x0BA6;
 /// Side of a tile of texels, and of a block of pixels that is copied.
 const TILE: usize = 32;
 const BLOCK: i32 = 256;
-
-/// Parameters by which two sampler objects are told apart.
-const OF_SAMPLERS: [u32; 6] = [
-    glow::TEXTURE_MIN_FILTER,
-    glow::TEXTURE_MAG_FILTER,
-    glow::TEXTURE_WRAP_S,
-    glow::TEXTURE_WRAP_T,
-    glow::TEXTURE_WRAP_R,
-    glow::TEXTURE_COMPARE_MODE,
-];
 
 /// Tests whether a quad that covers the target, counter-clockwise, is culled.
 fn culls_quads(call: &Call) -> bool {
@@ -253,7 +244,9 @@ faults! {
             let parameters = |name| {
                 let sampler = std::num::NonZeroU32::new(name).map(glow::NativeSampler)?;
                 // SAFETY: the context is current, and the sampler object lives.
-                Some(OF_SAMPLERS.map(|parameter| unsafe { call.gl().get_sampler_parameter_i32(sampler, parameter) }))
+                // All but the function of comparisons.
+                let [alike @ .., _] = OF_SAMPLERS;
+                Some(alike.map(|parameter| unsafe { call.gl().get_sampler_parameter_i32(sampler, parameter) }))
             };
             let wanted = if call.u(1) == 0 { None } else { parameters(call.u(1)) };
             let alike = |name: &u32| call.kept((10, *name)) != 0.0 && parameters(*name) == wanted;

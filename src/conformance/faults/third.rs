@@ -12,8 +12,8 @@ const CHANGES: (u32, u32) = (0, 1);
 /// Key of the count of such changes, plus 1, at the last clear of everything.
 const CLEARED: (u32, u32) = (0, 2);
 
-/// Parameters of a sampler object that are enums.
-const OF_SAMPLERS: [u32; 7] = [
+/// Parameters of a sampler object that are enums; the function of comparisons is the last.
+pub(super) const OF_SAMPLERS: [u32; 7] = [
     glow::TEXTURE_MIN_FILTER,
     glow::TEXTURE_MAG_FILTER,
     glow::TEXTURE_WRAP_S,

@@ -16,7 +16,6 @@ pub mod cube_comparison;
 pub mod cube_maps;
 pub mod depth;
 pub mod derivatives;
-mod dice;
 pub mod draw_buffers;
 pub mod environment;
 pub mod faces;

@@ -30,10 +30,10 @@ impl Generator {
         let mut random = Random::new(seed);
         let palette = Palette::new(&mut random);
         let mut sizes = vec![[16, 16], [8, 8]];
-        sizes[1] = *random.of(&[[8, 8], [13, 7], [33, 20], [5, 16], [1, 6], [16, 16]]);
+        sizes[1] = random.pick(&[[8, 8], [13, 7], [33, 20], [5, 16], [1, 6], [16, 16]]);
         // Drivers draw by tiles of up to 64 pixels.
         if random.below(4) == 0 {
-            sizes[0] = *random.of(&[[70, 9], [9, 70], [160, 72], [300, 6], [300, 6], [6, 300]]);
+            sizes[0] = random.pick(&[[70, 9], [9, 70], [160, 72], [300, 6], [300, 6], [6, 300]]);
         }
         let mut generator = Self { random, palette, sizes, queue: VecDeque::new() };
         generator.begin();
@@ -89,7 +89,7 @@ impl Generator {
             70..74 => return self.upload(state),
             74..80 => return self.read(state),
             80..85 => {
-                let [draw, read] = *self.random.of(&[[true, false], [false, true], [true, true]]);
+                let [draw, read] = self.random.pick(&[[true, false], [false, true], [true, true]]);
                 Command::Bind { draw, read, slot: self.random.below(FRAMEBUFFERS - 1) }
             }
             85..92 => return self.framebuffer(state),
@@ -119,7 +119,7 @@ impl Generator {
                 return self.queue.push_back(Command::EndQuery);
             }
             98 => Command::Flush,
-            _ => Command::DrawBuffers(*self.random.of(&[
+            _ => Command::DrawBuffers(self.random.pick(&[
                 [Some(0), None],
                 [None, Some(0)],
                 [Some(0), Some(1)],
@@ -132,7 +132,7 @@ impl Generator {
 
     pub fn size(&mut self) -> [u32; 2] {
         let sizes = self.sizes.clone();
-        *self.random.of(&sizes)
+        self.random.pick(&sizes)
     }
 
     /// A flat rectangle, sometimes beyond the view volume.
@@ -143,8 +143,8 @@ impl Generator {
             if whole { [-1.0, 1.0] } else { [along[0].min(along[1]), along[0].max(along[1])] }
         };
         let ([x0, x1], [y0, y1]) = (end(&mut self.random), end(&mut self.random));
-        let z = *self.random.of(&[-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, -1.25]);
-        let w = [(); 4].map(|()| *self.random.of(&[1.0, 1.0, 0.5, 2.0, 8.0]));
+        let z = self.random.pick(&[-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, -1.25]);
+        let w = [(); 4].map(|()| self.random.pick(&[1.0, 1.0, 0.5, 2.0, 8.0]));
         Rectangle {
             corners: [x0, y0, x1, y1],
             z,
@@ -167,7 +167,7 @@ impl Generator {
 
     fn draw(&mut self) -> Command {
         let count = 1 + self.random.below(4);
-        let drawing = *self.random.of(&[
+        let drawing = self.random.pick(&[
             Drawing::Fans,
             Drawing::Elements(1),
             Drawing::Elements(2),
@@ -201,8 +201,8 @@ impl Generator {
 
     fn clear(&mut self) -> Command {
         let color = self.palette.color(&mut self.random);
-        let depth = *self.random.of(&[1.0, 0.0, 0.3, 0.7]);
-        let value = *self.random.of(&[0, 1, 0x5A, 0xFF]);
+        let depth = self.random.pick(&[1.0, 0.0, 0.3, 0.7]);
+        let value = self.random.pick(&[0, 1, 0x5A, 0xFF]);
         Command::Clear(match self.random.below(8) {
             0 => Clear::Color(0, color),
             1 => Clear::Color(1, color),
@@ -216,7 +216,7 @@ impl Generator {
     fn blit(&mut self) -> Command {
         let [width, height] = self.size().map(|side| side as i32);
         let (mut from, mut to) = ([0, 0, width, height], [0, 0, width, height]);
-        let scale = *self.random.of(&[1, 1, 1, 2, 3]);
+        let scale = self.random.pick(&[1, 1, 1, 2, 3]);
         if self.random.below(2) == 0 {
             for axis in 0..2 {
                 let side = from[axis + 2];
@@ -232,7 +232,7 @@ impl Generator {
             let turned = if self.random.below(2) == 0 { &mut from } else { &mut to };
             turned.swap(axis, axis + 2);
         }
-        let bits = *self.random.of(&[
+        let bits = self.random.pick(&[
             [true, false, false],
             [true, true, true],
             [false, true, false],
@@ -319,7 +319,7 @@ impl Generator {
             let Some(image) = image else { continue };
             places.push((Place::Renderbuffer(index), image.format.is_depth(), image.size, image.samples));
         }
-        let (first, is_depth, size, samples) = *self.random.of(&places);
+        let (first, is_depth, size, samples) = self.random.pick(&places);
         let like = |depth: bool| {
             places
                 .iter()
@@ -328,7 +328,7 @@ impl Generator {
                 .collect::<Vec<_>>()
         };
         let (colors, depths) = (like(false), like(true));
-        let some = |random: &mut Random, of: &[Place]| (!of.is_empty() && random.below(4) > 0).then(|| *random.of(of));
+        let some = |random: &mut Random, of: &[Place]| (!of.is_empty() && random.below(4) > 0).then(|| random.pick(of));
         let (color, depth) = if is_depth {
             (some(&mut self.random, &colors), Some(first))
         } else {
@@ -356,7 +356,7 @@ impl Generator {
 
     /// A program that reads, with a texture that it may read.
     fn look(&mut self, state: &State) {
-        let program = *self.random.of(&Program::ALL);
+        let program = self.random.pick(&Program::ALL);
         let slot = self.random.below(TEXTURES);
         let Some(image) = state.textures[slot].as_ref() else { return };
         let commands = self.palette.reading(&mut self.random, program, slot, image);

@@ -16,7 +16,7 @@ impl Generator {
     pub fn texture(&mut self, slot: usize) -> Command {
         let mut size = self.size();
         let depth = slot % 2 == 1;
-        let format = if depth { *self.random.of(&DEPTHS) } else { *self.random.of(&COLORS) };
+        let format = if depth { self.random.pick(&DEPTHS) } else { self.random.pick(&COLORS) };
         let (shape, layers) = match self.random.below(5) {
             0 if size[0] < 40 => {
                 size = [size[0]; 2];
@@ -36,7 +36,7 @@ impl Generator {
     /// A renderbuffer, of four samples now and then.
     pub fn renderbuffer(&mut self, slot: usize) -> Command {
         let depth = slot % 2 == 1;
-        let format = if depth { *self.random.of(&DEPTHS) } else { *self.random.of(&COLORS) };
+        let format = if depth { self.random.pick(&DEPTHS) } else { self.random.pick(&COLORS) };
         let samples = if self.random.below(4) == 0 { 4 } else { 0 };
         Command::Renderbuffer { slot, format, size: self.size(), samples }
     }

@@ -30,9 +30,9 @@ pub fn packing(random: &mut Random, format: GlFormat, area: [i32; 4], upload: bo
         }
         GlFormat::Depth24Stencil8 if random.below(2) == 0 => [glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8],
         _ if format.is_depth() => {
-            [glow::DEPTH_COMPONENT, *random.of(&[glow::FLOAT, glow::UNSIGNED_INT, glow::UNSIGNED_SHORT])]
+            [glow::DEPTH_COMPONENT, random.pick(&[glow::FLOAT, glow::UNSIGNED_INT, glow::UNSIGNED_SHORT])]
         }
-        _ => *random.of(&[
+        _ => random.pick(&[
             [glow::RGBA, glow::UNSIGNED_BYTE],
             [glow::RGBA, glow::UNSIGNED_BYTE],
             [glow::RGBA, glow::FLOAT],
@@ -44,7 +44,7 @@ pub fn packing(random: &mut Random, format: GlFormat, area: [i32; 4], upload: bo
     };
     let width = area[2] as u32;
     let mut packing = tight(layout);
-    packing.alignment = *random.of(&[1, 2, 4, 8]);
+    packing.alignment = random.pick(&[1, 2, 4, 8]);
     if random.below(3) == 0 {
         packing.row = width + random.below(5) as u32;
         packing.skip = [random.below((packing.row - width + 1) as usize) as u32, random.below(3) as u32];

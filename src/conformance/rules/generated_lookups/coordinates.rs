@@ -2,7 +2,6 @@
 
 use super::lookups::{Class, LookUp, LookUpKind, OFFSET};
 use super::model::{Shape, Texture};
-use super::uploads::{below, chance, pick};
 use crate::conformance::bench::Sampling;
 use crate::conformance::random::Random;
 
@@ -12,7 +11,7 @@ pub fn by(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: Loo
     match kind.function {
         LookUp::Size => {
             let [base, most] = sampling.levels.unwrap_or([0, 1000]).map(|level| level as usize);
-            [below(random, most.min(texture.levels.len() - 1) - base + 1) as f32; 4]
+            [random.below(most.min(texture.levels.len() - 1) - base + 1) as f32; 4]
         }
         LookUp::Grad => {
             let size = texture.levels[0].size[0].max(texture.levels[0].size[1]) as f32;
@@ -21,7 +20,7 @@ pub fn by(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: Loo
             let mut slope = || random.between(-1.0, 1.0) * texels / unit;
             [slope(), slope(), slope(), slope()]
         }
-        _ if chance(random, 0.3) => [random.between(-1.0, levels + 1.0).round(); 4],
+        _ if random.chance(0.3) => [random.between(-1.0, levels + 1.0).round(); 4],
         _ => [random.between(-2.0, levels + 1.0); 4],
     }
 }
@@ -32,12 +31,12 @@ fn reference(random: &mut Random, texture: &Texture) -> f32 {
         return random.unit();
     }
     let texels = &texture.levels[0].texels;
-    let depth = texels[below(random, texels.len())][0];
-    let step = pick(random, &[-20.0_f64, -18.0, -17.0, -15.0, -13.0, -11.0, -9.0, -6.0]).exp2() * 1.5;
-    match below(random, 12) {
+    let depth = texels[random.below(texels.len())][0];
+    let step = random.pick(&[-20.0_f64, -18.0, -17.0, -15.0, -13.0, -11.0, -9.0, -6.0]).exp2() * 1.5;
+    match random.below(12) {
         0 => random.between(-3.0, 4.0),
         1 => random.unit() * 100.0,
-        2 => pick(random, &[0.0, 1.0, 0.5, -0.0]),
+        2 => random.pick(&[0.0, 1.0, 0.5, -0.0]),
         3..=5 => random.unit(),
         6 => depth as f32,
         7..=9 => (depth + step) as f32,
@@ -48,13 +47,13 @@ fn reference(random: &mut Random, texture: &Texture) -> f32 {
 /// A coordinate along one axis of so many texels, in parts of the axis.
 fn coordinate(random: &mut Random, texels: usize) -> f32 {
     let size = texels as f32;
-    let texel = below(random, texels) as f32;
-    match below(random, 16) {
+    let texel = random.below(texels) as f32;
+    match random.below(16) {
         0..=5 => random.unit(),
         6..=7 => random.between(-0.6, 1.6),
         8..=9 => (texel + 0.5) / size,
-        10 => (texel + pick(random, &[0.03125, 0.96875])) / size,
-        11 => pick(random, &[0.0, 1.0, -0.0]) + pick(random, &[-0.25, 0.25, 0.5, -0.5, 1.5]) / size,
+        10 => (texel + random.pick(&[0.03125, 0.96875])) / size,
+        11 => random.pick(&[0.0, 1.0, -0.0]) + random.pick(&[-0.25, 0.25, 0.5, -0.5, 1.5]) / size,
         12 => random.between(-8.0, 8.0),
         13 => (random.between(-100.0, 100.0).floor() * size + texel + 0.5) / size,
         14 => random.between(-2000.0, 2000.0).floor() + (texel + 0.25) / size,
@@ -65,19 +64,19 @@ fn coordinate(random: &mut Random, texels: usize) -> f32 {
 /// A direction: any, near an edge or a corner of the cube, along an axis; of any length.
 fn direction(random: &mut Random) -> [f32; 3] {
     let mut at = [(); 3].map(|()| random.between(-1.0, 1.0));
-    match below(random, 6) {
+    match random.below(6) {
         0 => {
-            let [first, second] = [below(random, 3), below(random, 3)];
-            at[first] = at[second] * pick(random, &[1.0, -1.0, 1.0 - 1.0 / 64.0, 1.0 / 64.0 - 1.0]);
+            let [first, second] = [random.below(3), random.below(3)];
+            at[first] = at[second] * random.pick(&[1.0, -1.0, 1.0 - 1.0 / 64.0, 1.0 / 64.0 - 1.0]);
         }
         1 => at = at.map(|part| if part < 0.0 { -1.0 - part / 64.0 } else { 1.0 - part / 64.0 }),
         2 => {
             at = [0.0; 3];
-            at[below(random, 3)] = pick(random, &[1.0, -1.0]);
+            at[random.below(3)] = random.pick(&[1.0, -1.0]);
         }
         _ => {}
     }
-    let length = if chance(random, 0.6) { 1.0 } else { random.between(-16.0, 16.0).exp2() };
+    let length = if random.chance(0.6) { 1.0 } else { random.between(-16.0, 16.0).exp2() };
     let most = at.into_iter().map(f32::abs).fold(0.0, f32::max);
     if most < 1e-3 { [length, 0.0, 0.0] } else { at.map(|part| part * length) }
 }
@@ -86,7 +85,7 @@ fn direction(random: &mut Random) -> [f32; 3] {
 pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: LookUpKind) -> [f32; 4] {
     let [base, most] = sampling.levels.unwrap_or([0, 1000]);
     let last = (most as usize).min(texture.levels.len() - 1);
-    let level = base as usize + below(random, last - base as usize + 1);
+    let level = base as usize + random.below(last - base as usize + 1);
     let size = texture.levels[level].size;
     if matches!(kind.function, LookUp::Fetch | LookUp::FetchOffset | LookUp::Size) {
         let axes = kind.shape.axes();
@@ -94,12 +93,12 @@ pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: 
             if kind.function == LookUp::FetchOffset && axis < axes { OFFSET[axis] as f32 } else { 0.0 }
         };
         // With an offset that leads back into the texture.
-        let at = [0, 1, 2].map(|axis| below(random, size[axis]) as f32 - moved(axis));
+        let at = [0, 1, 2].map(|axis| random.below(size[axis]) as f32 - moved(axis));
         return [at[0], at[1], at[2], (level - base as usize) as f32];
     }
-    let layer = |random: &mut Random, layers: usize| match below(random, 6) {
+    let layer = |random: &mut Random, layers: usize| match random.below(6) {
         0 => random.between(-4.0, layers as f32 + 4.0).round() + 0.25,
-        _ => below(random, layers) as f32 + random.between(-0.4, 0.4),
+        _ => random.below(layers) as f32 + random.between(-0.4, 0.4),
     };
     let reference = reference(random, texture);
     let unit = |at: f32, axis: usize| if kind.shape == Shape::Rectangle { at * size[axis] as f32 } else { at };
@@ -111,12 +110,12 @@ pub fn place(random: &mut Random, texture: &Texture, sampling: &Sampling, kind: 
     if !kind.is_projective() {
         return [at[0], at[1], at[2], reference];
     }
-    let q = match below(random, 8) {
+    let q = match random.below(8) {
         0 => random.between(-8.0, 8.0).exp2(),
         1 => -random.between(-8.0, 8.0).exp2(),
         2 => random.between(-20.0, 12.0).exp2(),
         3 => random.between(0.5, 5000.0),
-        _ => random.between(0.25, 4.0) * pick(random, &[1.0, 1.0, -1.0]),
+        _ => random.between(0.25, 4.0) * random.pick(&[1.0, 1.0, -1.0]),
     };
     if kind.class == Class::Shadow {
         at[2] = reference;
@@ -138,14 +137,14 @@ pub fn plane(
     let texels = f64::from(random.between(-2.5, levels + 0.5).exp2());
     let mut middle = place(random, texture, sampling, kind).map(f64::from);
     let mut slopes = [[0.0; 4]; 2];
-    let narrow = if chance(random, 0.3) { f64::from(random.between(0.05, 0.5)) } else { 1.0 };
-    let turn = if chance(random, 0.4) { 0.0 } else { f64::from(random.between(0.0, 6.3)) };
+    let narrow = if random.chance(0.3) { f64::from(random.between(0.05, 0.5)) } else { 1.0 };
+    let turn = if random.chance(0.4) { 0.0 } else { f64::from(random.between(0.0, 6.3)) };
     let (sin, cos) = turn.sin_cos();
     let directions = [[cos, sin, 0.3 * sin], [-sin * narrow, cos * narrow, 0.3 * cos]];
     let divisor = if kind.is_projective() { middle[3] } else { 1.0 };
     if kind.shape == Shape::Cube {
         // Within the plane of a face: s and t are linear. A look-up stays on the face where the slope is small.
-        let face = below(random, 6);
+        let face = random.below(6);
         let (major, sign) = (face / 2, if face.is_multiple_of(2) { 1.0 } else { -1.0 });
         let texels = texels.min(size[0] as f64 / 48.0);
         let length = f64::from(random.between(-3.0, 3.0).exp2());

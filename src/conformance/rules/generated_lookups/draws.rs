@@ -6,7 +6,6 @@ use super::lookups::{Class, Inputs, LookUp, LookUpKind, Source};
 use super::model::Texture;
 use super::parameters::{fit, mutate, nudge};
 use super::programs::{LookUpProgram, MAPS, ROWS};
-use super::uploads::{below, chance, pick};
 use super::world::{TEXTURES, UNITS, World};
 use crate::conformance::bench::{GlTextureStep, Sampling, Vertex, rectangle};
 
@@ -50,15 +49,15 @@ impl World<'_> {
     pub fn chunk(&mut self, programs: &[LookUpProgram], uniforms: &mut [[usize; 4]], fresh: f32, step: usize) -> Chunk {
         let mut chunk = Chunk { drawn: Vec::new(), inputs: vec![[0.0; 4]; 2 * ROWS * COLUMNS], cells: 0 };
         for number in (0..programs.len()).step_by(step) {
-            if chance(&mut self.random, 0.3) {
+            if self.random.chance(0.3) {
                 self.edit();
             }
-            if chance(&mut self.random, 0.2) {
+            if self.random.chance(0.2) {
                 self.seamless = !self.seamless;
                 self.steps.push(GlTextureStep::Seamless(self.seamless));
             }
             let uses = self.uses(&programs[number].kinds, &uniforms[number], fresh);
-            for turn in 0..pick(&mut self.random, &[1, 2, 2, 3]) {
+            for turn in 0..self.random.pick(&[1, 2, 2, 3]) {
                 if chunk.cells == CELLS {
                     return chunk;
                 }
@@ -78,19 +77,19 @@ impl World<'_> {
             };
             let fitting: Vec<_> = (0..TEXTURES).filter(|slot| fits(self, *slot)).collect();
             let free: Vec<_> = (0..TEXTURES).filter(|slot| uses.iter().all(|used| used.slot != *slot)).collect();
-            let slot = if fitting.is_empty() || chance(&mut self.random, fresh) {
-                let slot = pick(&mut self.random, &free);
+            let slot = if fitting.is_empty() || self.random.chance(fresh) {
+                let slot = self.random.pick(&free);
                 self.make_for(slot, *kind);
                 slot
             } else {
-                pick(&mut self.random, &fitting)
+                self.random.pick(&fitting)
             };
             let shape = kind.shape as usize;
             let bound = (0..UNITS).find(|unit| self.bindings[*unit][shape] == Some(slot));
-            let wanted = match (bound, below(&mut self.random, 3)) {
+            let wanted = match (bound, self.random.below(3)) {
                 (Some(unit), 0) => unit,
                 (_, 1) => *now,
-                _ => below(&mut self.random, UNITS),
+                _ => self.random.below(UNITS),
             };
             let is_free = |unit: usize| uses.iter().all(|used| used.unit != unit);
             let unit = (wanted..UNITS).chain(0..wanted).find(|unit| is_free(*unit)).unwrap_or(0);
@@ -111,7 +110,7 @@ impl World<'_> {
         let mut samplings = Vec::new();
         let mut objects = Vec::new();
         for (index, (kind, used)) in kinds.iter().zip(uses).enumerate() {
-            if again && chance(&mut self.random, 0.3) {
+            if again && self.random.chance(0.3) {
                 self.change(used.slot);
             }
             if uniforms[index] != used.unit {
@@ -162,7 +161,7 @@ impl World<'_> {
             active = true;
         }
         let is_taken = self.units[unit].is_some_and(|object| taken.contains(&object));
-        if is_taken || !again && chance(&mut self.random, 0.3) {
+        if is_taken || !again && self.random.chance(0.3) {
             let object = if self.units[unit].is_some() { None } else { Some(self.object(taken)) };
             self.units[unit] = object;
             self.steps.push(GlTextureStep::BindSampler { unit: unit as u32, object });
@@ -175,7 +174,7 @@ impl World<'_> {
         if again {
             nudge(&mut self.random, &mut holder);
         } else {
-            for _ in 0..pick(&mut self.random, &[3, 8, 16]) {
+            for _ in 0..self.random.pick(&[3, 8, 16]) {
                 mutate(&mut self.random, &mut holder);
             }
         }

@@ -3,15 +3,15 @@
 use super::formats::Numbers;
 use super::layouts;
 use super::model::Shape;
-use super::uploads::{Block, below};
+use super::uploads::Block;
 use super::world::{TEXTURES, World};
 use crate::conformance::bench::{GlTexelPlace, GlTextureStep};
 
 impl World<'_> {
     /// One change of some texture's texels or definition.
     pub fn edit(&mut self) {
-        let slot = below(&mut self.random, TEXTURES);
-        let kind = below(&mut self.random, 12);
+        let slot = self.random.below(TEXTURES);
+        let kind = self.random.below(12);
         if self.textures[slot].is_none() || kind == 0 {
             return self.make(slot);
         }
@@ -51,7 +51,7 @@ impl World<'_> {
     /// A change of a texture's texels that leaves its format alone.
     pub fn change(&mut self, slot: usize) {
         self.bind_somewhere(slot);
-        match below(&mut self.random, 4) {
+        match self.random.below(4) {
             0 => self.clear(slot),
             1 => self.copy(slot),
             _ => self.replace(slot),
@@ -61,13 +61,13 @@ impl World<'_> {
     /// A level and a block of it, in a layer or face.
     fn block(&mut self, slot: usize) -> Option<(usize, [usize; 3], [usize; 3])> {
         let texture = self.textures[slot].as_ref()?;
-        let level = below(&mut self.random, texture.levels.len().min(4));
+        let level = self.random.below(texture.levels.len().min(4));
         let size = texture.levels[level].size;
         let deep = matches!(texture.shape, Shape::Volume | Shape::Array);
         let (mut at, mut block) = ([0; 3], [1; 3]);
         for axis in 0..3 {
-            at[axis] = below(&mut self.random, size[axis]);
-            block[axis] = if axis == 2 && !deep { 1 } else { 1 + below(&mut self.random, size[axis] - at[axis]) };
+            at[axis] = self.random.below(size[axis]);
+            block[axis] = if axis == 2 && !deep { 1 } else { 1 + self.random.below(size[axis] - at[axis]) };
         }
         Some((level, at, block))
     }
@@ -131,7 +131,7 @@ impl World<'_> {
         let source = self.source;
         size[0] = size[0].min(source.size[0]);
         size[1] = size[1].min(source.size[1]);
-        let from = [0, 1].map(|axis| below(&mut self.random, source.size[axis] - size[axis] + 1));
+        let from = [0, 1].map(|axis| self.random.below(source.size[axis] - size[axis] + 1));
         let place = self.place(slot, level, at);
         let (from_of, size_of) = (from.map(|at| at as u32), [size[0], size[1]].map(|side| side as u32));
         self.steps.push(GlTextureStep::Copy { place, surface: 0, from: from_of, size: size_of });

@@ -35,7 +35,6 @@ const COLORS: [Layout; 24] = [
 
 /// A layout for texels of a format.
 pub fn layout(random: &mut Random, format: &TexelFormat) -> Layout {
-    let pick = |random: &mut Random, of: &[Layout]| of[(random.unit() * of.len() as f32) as usize];
     match format.numbers {
         Numbers::Depth if format.has_stencil() => [glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8],
         Numbers::DepthFloat if format.has_stencil() => [glow::DEPTH_STENCIL, glow::FLOAT_32_UNSIGNED_INT_24_8_REV],
@@ -60,14 +59,14 @@ pub fn layout(random: &mut Random, format: &TexelFormat) -> Layout {
         }
         Numbers::Half | Numbers::Float => {
             // Halves are exact in both.
-            pick(random, &[COLORS[1], COLORS[5], COLORS[1], COLORS[7], COLORS[18], COLORS[19], COLORS[0], COLORS[4]])
+            random.pick(&[COLORS[1], COLORS[5], COLORS[1], COLORS[7], COLORS[18], COLORS[19], COLORS[0], COLORS[4]])
         }
         Numbers::SmallFloat => {
-            pick(random, &[COLORS[1], COLORS[7], COLORS[5], [glow::RGB, glow::UNSIGNED_INT_10F_11F_11F_REV]])
+            random.pick(&[COLORS[1], COLORS[7], COLORS[5], [glow::RGB, glow::UNSIGNED_INT_10F_11F_11F_REV]])
         }
-        Numbers::Snorm => pick(random, &[COLORS[22], COLORS[1], COLORS[22], COLORS[23], COLORS[5], COLORS[0]]),
+        Numbers::Snorm => random.pick(&[COLORS[22], COLORS[1], COLORS[22], COLORS[23], COLORS[5], COLORS[0]]),
         _ if random.unit() < 0.3 => COLORS[0],
-        _ => pick(random, &COLORS[..22]),
+        _ => random.pick(&COLORS[..22]),
     }
 }
 

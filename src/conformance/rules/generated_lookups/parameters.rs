@@ -2,23 +2,22 @@
 
 use super::lookups::{Class, LookUpKind, Source};
 use super::model::{Shape, Texture};
-use super::uploads::{below, chance, pick};
 use crate::conformance::bench::{GlCompare, GlMipmap, GlWrap, Sampling};
 use crate::conformance::random::Random;
 
 /// Changes numbers that a driver need not compile for.
 pub fn nudge(random: &mut Random, sampling: &mut Sampling) {
-    if chance(random, 0.5) {
-        sampling.border[below(random, 4)] = random.between(-0.5, 1.5);
+    if random.chance(0.5) {
+        sampling.border[random.below(4)] = random.between(-0.5, 1.5);
     }
-    if sampling.lod[0] > -900.0 && chance(random, 0.5) {
+    if sampling.lod[0] > -900.0 && random.chance(0.5) {
         sampling.lod[0] = end(random, 0.125, 3.0);
     }
-    if sampling.lod[1] < 900.0 && chance(random, 0.5) {
+    if sampling.lod[1] < 900.0 && random.chance(0.5) {
         sampling.lod[1] = end(random, 0.125, 6.0);
     }
     sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);
-    if sampling.bias != 0.0 && chance(random, 0.5) {
+    if sampling.bias != 0.0 && random.chance(0.5) {
         sampling.bias = (random.between(0.1, 2.5) * 8.0).round() / 8.0;
     }
 }
@@ -31,23 +30,23 @@ fn end(random: &mut Random, low: f32, high: f32) -> f32 {
 /// Changes one parameter.
 pub fn mutate(random: &mut Random, sampling: &mut Sampling) {
     const WRAPS: [GlWrap; 4] = [GlWrap::Repeat, GlWrap::MirroredRepeat, GlWrap::ClampToEdge, GlWrap::ClampToBorder];
-    match below(random, 10) {
+    match random.below(10) {
         0 => sampling.linear = !sampling.linear,
-        1 => sampling.magnified = Some(chance(random, 0.5)),
-        2 => sampling.mipmap = pick(random, &[GlMipmap::Off, GlMipmap::Nearest, GlMipmap::Linear]),
-        3 | 4 => sampling.wrap[below(random, 3)] = pick(random, &WRAPS),
+        1 => sampling.magnified = Some(random.chance(0.5)),
+        2 => sampling.mipmap = random.pick(&[GlMipmap::Off, GlMipmap::Nearest, GlMipmap::Linear]),
+        3 | 4 => sampling.wrap[random.below(3)] = random.pick(&WRAPS),
         5 => {
-            let part = below(random, 4);
-            if chance(random, 0.5) {
+            let part = random.below(4);
+            if random.chance(0.5) {
                 sampling.border[part] = random.between(-0.5, 1.5);
             } else {
                 sampling.border = [(); 4].map(|()| random.unit());
             }
         }
-        6 => sampling.compare = Some(pick(random, &GlCompare::ALL)),
-        7 => sampling.lod[0] = if chance(random, 0.5) { -1000.0 } else { end(random, -2.0, 3.0) },
-        8 => sampling.lod[1] = if chance(random, 0.5) { 1000.0 } else { end(random, 0.0, 6.0) },
-        _ => sampling.bias = if chance(random, 0.4) { 0.0 } else { (random.between(-2.5, 2.5) * 8.0).round() / 8.0 },
+        6 => sampling.compare = Some(random.pick(&GlCompare::ALL)),
+        7 => sampling.lod[0] = if random.chance(0.5) { -1000.0 } else { end(random, -2.0, 3.0) },
+        8 => sampling.lod[1] = if random.chance(0.5) { 1000.0 } else { end(random, 0.0, 6.0) },
+        _ => sampling.bias = if random.chance(0.4) { 0.0 } else { (random.between(-2.5, 2.5) * 8.0).round() / 8.0 },
     }
     sampling.lod[1] = sampling.lod[1].max(sampling.lod[0]);
 }
@@ -64,7 +63,7 @@ pub fn fit(
     if kind.shape == Shape::Rectangle {
         for wrap in &mut sampling.wrap {
             if matches!(wrap, GlWrap::Repeat | GlWrap::MirroredRepeat) {
-                *wrap = pick(random, &[GlWrap::ClampToEdge, GlWrap::ClampToBorder]);
+                *wrap = random.pick(&[GlWrap::ClampToEdge, GlWrap::ClampToBorder]);
             }
         }
         sampling.mipmap = GlMipmap::Off;
@@ -90,7 +89,7 @@ pub fn fit(
     }
     sampling.compare = match kind.class {
         Class::Shadow if again => sampling.compare.or(Some(GlCompare::LessEqual)),
-        Class::Shadow => Some(pick(random, &GlCompare::ALL)),
+        Class::Shadow => Some(random.pick(&GlCompare::ALL)),
         _ if texture.format.is_depth() => None,
         _ => sampling.compare,
     };

@@ -1,7 +1,6 @@
 //! Programs of up to four look-ups: every fourth column of pixels shows the same one.
 
 use super::lookups::{Class, LookUp, LookUpKind, Source};
-use super::uploads::below;
 use crate::conformance::random::Random;
 
 /// Rows of the texture of inputs: coordinates, then what else a look-up takes.
@@ -21,7 +20,7 @@ impl LookUpProgram {
         let (vertex, mut kinds): (Vec<_>, Vec<_>) =
             LookUpKind::all(gathers).into_iter().partition(|kind| kind.source == Source::Vertex);
         for index in (1..kinds.len()).rev() {
-            kinds.swap(index, below(random, index + 1));
+            kinds.swap(index, random.below(index + 1));
         }
         let several = kinds.chunks(MAPS.len()).map(|kinds| Self { kinds: kinds.to_vec() });
         several.chain(vertex.into_iter().map(|kind| Self { kinds: vec![kind] })).collect()

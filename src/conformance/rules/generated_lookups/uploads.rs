@@ -8,21 +8,6 @@ use super::model::Level;
 use crate::conformance::bench::GlTexels;
 use crate::conformance::random::Random;
 
-/// A number below `end`.
-pub fn below(random: &mut Random, end: usize) -> usize {
-    ((random.unit() * end as f32) as usize).min(end.saturating_sub(1))
-}
-
-/// True so often.
-pub fn chance(random: &mut Random, share: f32) -> bool {
-    random.unit() < share
-}
-
-/// One of several.
-pub fn pick<T: Copy>(random: &mut Random, of: &[T]) -> T {
-    of[below(random, of.len())]
-}
-
 /// Random texels of a block, and what is stored of them with its slack.
 pub struct Block {
     pub texels: GlTexels,
@@ -34,7 +19,7 @@ impl Block {
     /// A block of columns, rows and slices; `volume`: glTexImage3D reads it.
     pub fn random(random: &mut Random, format: &TexelFormat, size: [usize; 3], scale: i32, volume: bool) -> Self {
         // As pictures of files come: bytes of four channels, row by row.
-        let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && chance(random, 0.8);
+        let is_picture = !volume && matches!(format.numbers, Numbers::Unorm | Numbers::Srgb) && random.chance(0.8);
         let layout = if is_picture { [glow::RGBA, glow::UNSIGNED_BYTE] } else { layouts::layout(random, format) };
         let count = size[0] * size[1] * size[2];
         let (mut bytes, mut stored, mut slack) = (Vec::new(), Vec::with_capacity(count), 0.0_f64);
@@ -51,7 +36,7 @@ impl Block {
             return Self { texels, stored, slack };
         }
         let (bytes, store) = spread(random, &bytes, each, size, volume);
-        let in_buffer = chance(random, 0.25).then(|| 16 * below(random, 9) as u32);
+        let in_buffer = random.chance(0.25).then(|| 16 * random.below(9) as u32);
         Self { texels: GlTexels { layout, store, bytes, in_buffer }, stored, slack }
     }
 }
@@ -59,8 +44,8 @@ impl Block {
 /// Lays texels of `each` bytes out by a random pixel store.
 fn spread(random: &mut Random, texels: &[u8], each: usize, size: [usize; 3], volume: bool) -> (Vec<u8>, [u32; 6]) {
     let [width, height, depth] = size;
-    let alignment = pick(random, &[4, 4, 1, 2, 8]);
-    let mut some = |share: f32, most: usize| if chance(random, share) { 1 + below(random, most) } else { 0 };
+    let alignment = random.pick(&[4, 4, 1, 2, 8]);
+    let mut some = |share: f32, most: usize| if random.chance(share) { 1 + random.below(most) } else { 0 };
     let (longer, skip_rows, skip_pixels) = (some(0.4, 7), some(0.25, 4), some(0.25, 5));
     let row = if longer + skip_pixels > 0 { width + longer + skip_pixels } else { 0 };
     let (higher, skip_images) = if volume { (some(0.3, 3), some(0.2, 2)) } else { (0, 0) };

@@ -3,7 +3,7 @@
 use super::formats::{FORMATS, Numbers, OLD_FORMATS, TexelFormat};
 use super::lookups::LookUpKind;
 use super::model::{Level, Shape, Texture};
-use super::uploads::{Block, below, chance, pick};
+use super::uploads::Block;
 use crate::conformance::bench::{GlMipmap, GlSwizzle, GlTexelPlace, GlTextureStep, GlWrap, Sampling};
 use crate::conformance::random::Random;
 
@@ -74,8 +74,8 @@ impl<'a> World<'a> {
     pub(super) fn bind_somewhere(&mut self, slot: usize) -> u32 {
         let bound = |world: &Self, unit: usize| world.bindings[unit].contains(&Some(slot));
         let unit = match (0..UNITS).find(|unit| bound(self, *unit)) {
-            Some(unit) if chance(&mut self.random, 0.5) => unit,
-            _ => below(&mut self.random, UNITS),
+            Some(unit) if self.random.chance(0.5) => unit,
+            _ => self.random.below(UNITS),
         };
         self.bind(unit, slot)
     }
@@ -84,7 +84,7 @@ impl<'a> World<'a> {
     pub fn make(&mut self, slot: usize) {
         let chances =
             [Shape::Flat, Shape::Flat, Shape::Cube, Shape::Array, Shape::Volume, Shape::Line, Shape::Rectangle];
-        let shape = pick(&mut self.random, &chances);
+        let shape = self.random.pick(&chances);
         let format = self.format(shape, |_| true);
         self.make_as(slot, shape, format);
     }
@@ -133,13 +133,13 @@ impl<'a> World<'a> {
     fn size(&mut self, shape: Shape) -> [usize; 3] {
         let random = &mut self.random;
         let mut side = |most: usize| {
-            let most = match below(random, 10) {
+            let most = match random.below(10) {
                 0..4 => most.min(9),
                 4..8 => most.min(40),
                 _ => most,
             };
-            let side = 1 + below(random, most);
-            if chance(random, 0.3) { side.next_power_of_two() } else { side }
+            let side = 1 + random.below(most);
+            if random.chance(0.3) { side.next_power_of_two() } else { side }
         };
         match shape {
             Shape::Line if side(10) == 1 => [2000 + side(48), 1, 1],
@@ -166,7 +166,7 @@ impl<'a> World<'a> {
             && !format.is_depth()
             && !format.is_integer()
             && format.numbers != Numbers::Srgb
-            && chance(&mut self.random, 0.25);
+            && self.random.chance(0.25);
         let mut size = self.size(shape);
         if made {
             // The filter of glGenerateMipmap is known where sides are halved.
@@ -178,10 +178,10 @@ impl<'a> World<'a> {
         let full = longest.ilog2() as usize + 1;
         let wanted = match shape {
             Shape::Rectangle => 1,
-            _ if chance(&mut self.random, 0.55) => full,
-            _ => 1 + below(&mut self.random, full),
+            _ if self.random.chance(0.55) => full,
+            _ => 1 + self.random.below(full),
         };
-        let scale = below(&mut self.random, 14) as i32 - 5;
+        let scale = self.random.below(14) as i32 - 5;
         let mut levels = Vec::new();
         for level in 0..wanted {
             let size = level_size(size, level, shape.axes());
@@ -197,7 +197,7 @@ impl<'a> World<'a> {
             self.restrict(slot, Some([0, wanted as u32 - 1]));
             self.halve(slot, wanted);
         }
-        let range = if wanted == full && chance(&mut self.random, 0.4) { 1000 } else { wanted as u32 - 1 };
+        let range = if wanted == full && self.random.chance(0.4) { 1000 } else { wanted as u32 - 1 };
         if shape != Shape::Rectangle {
             self.restrict(slot, Some([0, range]));
         }
@@ -235,7 +235,7 @@ impl<'a> World<'a> {
             // Empty first, and filled in its middle by a piece: or whole.
             let target = shape.target();
             let sizes = size.map(|side| side as u32);
-            if shape != Shape::Line && chance(&mut self.random, 0.15) {
+            if shape != Shape::Line && self.random.chance(0.15) {
                 self.steps.push(GlTextureStep::Define { place: place(target), internal, size: sizes, texels: None });
                 let texels = block.texels;
                 self.steps.push(GlTextureStep::Replace { place: place(target), size: sizes, texels });
@@ -263,17 +263,17 @@ impl<'a> World<'a> {
         let random = &mut self.random;
         let Some(texture) = &self.textures[slot] else { return NEW };
         let mut to = texture.sampling;
-        if !again && chance(random, 0.25) {
+        if !again && random.chance(0.25) {
             let all =
                 [GlSwizzle::Red, GlSwizzle::Green, GlSwizzle::Blue, GlSwizzle::Alpha, GlSwizzle::Zero, GlSwizzle::One];
-            to.swizzle = [(); 4].map(|()| pick(random, &all));
-        } else if !again && chance(random, 0.2) {
+            to.swizzle = [(); 4].map(|()| random.pick(&all));
+        } else if !again && random.chance(0.2) {
             to.swizzle = GlSwizzle::SAME;
         }
-        if texture.shape != Shape::Rectangle && chance(random, 0.25) {
+        if texture.shape != Shape::Rectangle && random.chance(0.25) {
             let count = texture.levels.len();
-            let base = below(random, count);
-            to.levels = Some([base as u32, (base + below(random, count - base)) as u32]);
+            let base = random.below(count);
+            to.levels = Some([base as u32, (base + random.below(count - base)) as u32]);
         }
         to
     }
@@ -281,8 +281,8 @@ impl<'a> World<'a> {
     /// A sampler object in a slot, new or there already.
     pub fn object(&mut self, taken: &[usize]) -> usize {
         let free: Vec<_> = (0..SAMPLERS).filter(|object| !taken.contains(object)).collect();
-        let object = pick(&mut self.random, &free);
-        if self.samplers[object].is_none() || chance(&mut self.random, 0.1) {
+        let object = self.random.pick(&free);
+        if self.samplers[object].is_none() || self.random.chance(0.1) {
             for unit in self.units.iter_mut().filter(|unit| **unit == Some(object)) {
                 *unit = None;
             }

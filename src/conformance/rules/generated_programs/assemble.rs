@@ -84,7 +84,7 @@ impl Assembled {
             self.maker.writable.push(*member);
         }
         let mut written: Vec<usize> = Vec::new();
-        let discards_at = if self.stage == Stage::Vertex { usize::MAX } else { self.maker.below(16) };
+        let discards_at = if self.stage == Stage::Vertex { usize::MAX } else { self.maker.random.below(16) };
         for turn in 0..80 {
             if turn == discards_at {
                 let condition = self.maker.expr(Type::BOOL, 2);

@@ -10,18 +10,18 @@ impl Maker {
     /// A call of a new function, or of one that is there, with arguments that it writes.
     pub fn call(&mut self) -> Statement {
         let writing: Vec<usize> = (0..self.program.functions.len()).filter(|own| !self.pure.contains(own)).collect();
-        let own = match writing.is_empty() || self.chance(0.7) {
+        let own = match writing.is_empty() || self.random.chance(0.7) {
             true => None,
-            false => Some(self.pick(&writing)),
+            false => Some(self.random.pick(&writing)),
         };
         let known = own.map(|own| self.program.functions[own].parameters.clone());
-        let count = known.as_ref().map_or_else(|| 1 + self.below(3), Vec::len);
+        let count = known.as_ref().map_or_else(|| 1 + self.random.below(3), Vec::len);
         let mut arguments: Vec<(Argument, Direction, Type)> = Vec::new();
         let mut written: Vec<usize> = Vec::new();
         for index in 0..count {
             let wanted = known.as_ref().map(|known| (known[index].1, self.program.variables[known[index].0].kind));
             let direction =
-                wanted.map_or_else(|| self.pick(&[Direction::In, Direction::InOut, Direction::Out]), |w| w.0);
+                wanted.map_or_else(|| self.random.pick(&[Direction::In, Direction::InOut, Direction::Out]), |w| w.0);
             let place = (direction != Direction::In).then(|| self.argument(wanted.map(|w| w.1), &written)).flatten();
             match place {
                 Some(place) => {
@@ -85,7 +85,7 @@ impl Maker {
         self.scope.extend(parameters.iter().map(|(index, _)| *index));
         self.writable.extend(parameters.iter().map(|(index, _)| *index));
         let written = arguments.iter().any(|(_, direction, _)| *direction != Direction::In);
-        let result = (!written || self.chance(0.5)).then(|| self.kind());
+        let result = (!written || self.random.chance(0.5)).then(|| self.kind());
         let mut body: Vec<Statement> = Vec::new();
         for index in head {
             let kind = self.program.variables[index].kind;
@@ -93,7 +93,7 @@ impl Maker {
             let place = Place { variable: index, index: None, swizzle: Vec::new(), kind };
             body.push(Statement::Assign(place, None, value));
         }
-        let count = 1 + self.below(3);
+        let count = 1 + self.random.below(3);
         body.extend(self.list(count, Inside { depth: 1, a_loop: false, a_function: true, result }, None));
         if let Some(kind) = result {
             let value = self.expr(kind, 2);

@@ -8,14 +8,14 @@ use super::value::{NumberBase, Type, Value};
 
 impl Maker {
     pub fn swizzled(&mut self, inner: Expr, kind: Type) -> Expr {
-        let components = (0..kind.rows).map(|_| self.below(inner.kind.rows)).collect();
+        let components = (0..kind.rows).map(|_| self.random.below(inner.kind.rows)).collect();
         Expr { kind, form: Form::Swizzle(Box::new(inner), components) }
     }
 
     /// An index below `count`: a literal, or one that is bounded whatever the numbers are.
     pub fn index(&mut self, count: usize, depth: usize) -> Expr {
-        if self.chance(0.3) {
-            let index = self.below(count);
+        if self.random.chance(0.3) {
+            let index = self.random.below(count);
             return whole(index as i64, Type::INT);
         }
         let inner = self.expr(Type::INT, depth.saturating_sub(1).min(1));
@@ -49,11 +49,11 @@ impl Maker {
 
     pub fn ranged(&mut self, kind: Type, range: Range, depth: usize) -> Expr {
         let is_float = kind.base == NumberBase::Float;
-        let direct = self.chance(0.5);
+        let direct = self.random.chance(0.5);
         let Ranges { positive, unit, small, share, .. } = self.ranges;
         let input = match range {
             Range::Positive => Some(positive),
-            Range::NotZero => Some(if self.chance(0.5) { positive } else { small }),
+            Range::NotZero => Some(if self.random.chance(0.5) { positive } else { small }),
             Range::Unit => Some(unit),
             Range::Small => Some(small),
             Range::Share => Some(share),
@@ -75,7 +75,7 @@ impl Maker {
                 call("+", Gives::Integers, vec![low, whole(1, kind)], kind)
             }
             Range::Unit => {
-                let name = self.pick(&["sin", "cos", "fract"]);
+                let name = self.random.pick(&["sin", "cos", "fract"]);
                 call(name, Gives::Floats, vec![inner], kind)
             }
             Range::Small | Range::Share => {
@@ -85,9 +85,9 @@ impl Maker {
             }
             Range::NotZero if !is_float => integers("|", 1),
             Range::NotNegative if kind.base == NumberBase::Int => integers("&", 0x7FFF_FFFF),
-            Range::Shift => match self.chance(0.5) {
+            Range::Shift => match self.random.chance(0.5) {
                 true => {
-                    let by = self.below(32);
+                    let by = self.random.below(32);
                     whole(by as i64, kind)
                 }
                 false => integers("&", 31),
@@ -100,10 +100,10 @@ impl Maker {
     /// A variable, a part of one, or a literal.
     pub fn leaf(&mut self, kind: Type) -> Expr {
         for _ in 0..24 {
-            if kind.is_vector() && self.chance(0.02) {
+            if kind.is_vector() && self.random.chance(0.02) {
                 break;
             }
-            let at = self.below(self.scope.len());
+            let at = self.random.below(self.scope.len());
             let index = self.scope[at];
             let from = self.program.variables[index].kind;
             let whole = variable(index, from);
@@ -124,9 +124,9 @@ impl Maker {
                 Expr { kind, form: Form::Construct(columns) }
             }
             () if kind.base == NumberBase::Bool && kind.rows == 1 => {
-                let base = self.pick(&[NumberBase::Float, NumberBase::Int]);
+                let base = self.random.pick(&[NumberBase::Float, NumberBase::Int]);
                 let sides = vec![self.leaf(kind.of(base)), self.leaf(kind.of(base))];
-                let name = self.pick(&["<", ">", "<=", ">="]);
+                let name = self.random.pick(&["<", ">", "<=", ">="]);
                 call(name, Gives::OneBool, sides, kind)
             }
             () if kind.base == NumberBase::Bool => {
@@ -142,12 +142,12 @@ impl Maker {
             [0.0, 1.0, -1.0, 0.5, 2.0, -0.25, 3.0, 0.125, 10.0, 1.5, -7.0, 100.0, 0.0078125, 65536.0];
         const INTEGERS: [i64; 12] = [0, 1, 2, 3, 5, 7, 16, 31, 255, 4096, 65535, 0x0F0F_1234];
         let one = |maker: &mut Self| match kind.base {
-            NumberBase::Float if maker.chance(0.5) => maker.pick(&FLOATS),
-            NumberBase::Float => (maker.below(257) as f64 - 128.0) / 16.0,
-            NumberBase::Int if maker.chance(0.4) => -(maker.below(40) as f64),
-            NumberBase::Bool => maker.below(2) as f64,
-            _ if maker.chance(0.5) => maker.pick(&INTEGERS) as f64,
-            _ => maker.below(12) as f64,
+            NumberBase::Float if maker.random.chance(0.5) => maker.random.pick(&FLOATS),
+            NumberBase::Float => (maker.random.below(257) as f64 - 128.0) / 16.0,
+            NumberBase::Int if maker.random.chance(0.4) => -(maker.random.below(40) as f64),
+            NumberBase::Bool => maker.random.below(2) as f64,
+            _ if maker.random.chance(0.5) => maker.random.pick(&INTEGERS) as f64,
+            _ => maker.random.below(12) as f64,
         };
         let value = (0..kind.scalars()).map(|_| Num::exact(one(self))).collect();
         constant(value, kind)

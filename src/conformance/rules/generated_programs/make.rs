@@ -82,21 +82,9 @@ pub fn call(name: &str, gives: Gives, arguments: Vec<Expr>, kind: Type) -> Expr 
 }
 
 impl Maker {
-    pub fn below(&mut self, count: usize) -> usize {
-        ((f64::from(self.random.unit()) * count as f64) as usize).min(count.saturating_sub(1))
-    }
-
-    pub fn chance(&mut self, share: f32) -> bool {
-        self.random.unit() < share
-    }
-
-    pub fn pick<T: Copy>(&mut self, list: &[T]) -> T {
-        list[self.below(list.len())]
-    }
-
     pub fn kind(&mut self) -> Type {
-        let rows = 1 + self.below(4);
-        match self.below(20) {
+        let rows = 1 + self.random.below(4);
+        match self.random.below(20) {
             0..=11 => Type::vector(NumberBase::Float, rows),
             12..=14 => Type::vector(NumberBase::Int, rows.min(3)),
             15..=16 => Type::vector(NumberBase::Uint, rows.min(2)),
@@ -106,7 +94,7 @@ impl Maker {
     }
 
     fn matrix(&mut self) -> Type {
-        let (columns, rows) = self.pick(&MATRICES);
+        let (columns, rows) = self.random.pick(&MATRICES);
         Type::matrix(columns, rows)
     }
 
@@ -133,7 +121,7 @@ impl Maker {
     }
 
     fn candidate(&mut self, kind: Type, depth: usize) -> Option<Expr> {
-        let expr = match self.below(100) {
+        let expr = match self.random.below(100) {
             0..=6 => {
                 let parts = [Type::BOOL, kind, kind].map(|kind| self.expr(kind, depth - 1));
                 Expr { kind, form: Form::Select(Box::new(parts)) }
@@ -150,10 +138,10 @@ impl Maker {
     fn constructor(&mut self, kind: Type, depth: usize) -> Option<Expr> {
         let other = |maker: &mut Self| {
             let bases = [NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool];
-            if maker.chance(0.6) { kind.base } else { maker.pick(&bases) }
+            if maker.random.chance(0.6) { kind.base } else { maker.random.pick(&bases) }
         };
         let arguments = match () {
-            () if kind.is_matrix() => match self.below(4) {
+            () if kind.is_matrix() => match self.random.below(4) {
                 0 => vec![self.expr(Type::FLOAT, depth - 1)],
                 1 => {
                     let from = self.matrix();
@@ -162,14 +150,14 @@ impl Maker {
                 _ => (0..kind.columns).map(|_| self.expr(kind.element(), depth - 1)).collect(),
             },
             () if kind.rows == 1 => {
-                let base = self.pick(&[NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool]);
+                let base = self.random.pick(&[NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool]);
                 (base != kind.base).then_some(())?;
                 vec![self.expr(kind.of(base), depth - 1)]
             }
             () => {
                 let (mut left, mut list) = (kind.rows, Vec::new());
                 while left > 0 {
-                    let rows = 1 + self.below(left.min(3));
+                    let rows = 1 + self.random.below(left.min(3));
                     let base = other(self);
                     list.push(self.expr(Type::vector(base, rows), depth - 1));
                     left -= rows;
@@ -185,14 +173,14 @@ impl Maker {
         if !kind.is_vector() {
             return None;
         }
-        if self.chance(0.5) {
-            let from = Type::vector(kind.base, 2 + self.below(3));
+        if self.random.chance(0.5) {
+            let from = Type::vector(kind.base, 2 + self.random.below(3));
             let inner = self.expr(from, depth - 1);
             return Some(self.swizzled(inner, kind));
         }
         let from = match () {
-            () if kind.rows == 1 => Type::vector(kind.base, 2 + self.below(3)),
-            () if kind.base == NumberBase::Float => Type::matrix(2 + self.below(3), kind.rows),
+            () if kind.rows == 1 => Type::vector(kind.base, 2 + self.random.below(3)),
+            () if kind.base == NumberBase::Float => Type::matrix(2 + self.random.below(3), kind.rows),
             () => return None,
         };
         let whole = self.leaf(from);
@@ -204,7 +192,7 @@ impl Maker {
     fn own(&mut self, kind: Type, depth: usize) -> Option<Expr> {
         let has = |own: &&usize| self.program.functions[**own].result == Some(kind);
         let known: Vec<usize> = self.pure.iter().filter(has).copied().collect();
-        let own = if known.is_empty() { return None } else { self.pick(&known) };
+        let own = if known.is_empty() { return None } else { self.random.pick(&known) };
         let parameters = self.program.functions[own].parameters.clone();
         let kinds: Vec<Type> = parameters.iter().map(|(index, _)| self.program.variables[*index].kind).collect();
         let arguments = kinds.into_iter().map(|kind| self.expr(kind, depth - 1)).collect();
@@ -218,7 +206,8 @@ impl Maker {
             return None;
         }
         // Seldom used ones first.
-        let choice = [(); 4].map(|()| self.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index].all)?;
+        let choice =
+            [(); 4].map(|()| self.random.pick(&suits)).into_iter().min_by_key(|index| self.uses[*index].all)?;
         self.uses[choice].all += 1;
         let function = self.functions[choice];
         let arguments = self.arguments(function, kind, depth - 1)?;
@@ -230,7 +219,7 @@ impl Maker {
         for _ in 0..8 {
             let mut some: Vec<(usize, Type)> = Vec::new();
             for _ in 0..40 {
-                let choice = self.below(self.functions.len());
+                let choice = self.random.below(self.functions.len());
                 some.push((choice, self.kind_of(self.functions[choice].gives)));
             }
             let used = |(choice, kind): &(usize, Type)| self.uses[*choice].own[kind.columns][kind.rows];
@@ -253,9 +242,14 @@ impl Maker {
 
     fn kind_of(&mut self, wanted: Gives) -> Type {
         loop {
-            let base =
-                self.pick(&[NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint, NumberBase::Bool]);
-            let vector = Type::vector(base, 1 + self.below(4));
+            let base = self.random.pick(&[
+                NumberBase::Float,
+                NumberBase::Float,
+                NumberBase::Int,
+                NumberBase::Uint,
+                NumberBase::Bool,
+            ]);
+            let vector = Type::vector(base, 1 + self.random.below(4));
             let kind = if matches!(wanted, Gives::Matrix | Gives::SquareMatrix) { self.matrix() } else { vector };
             if gives(wanted, kind) {
                 return kind;
@@ -264,14 +258,19 @@ impl Maker {
     }
 
     fn arguments(&mut self, function: &'static Function, kind: Type, depth: usize) -> Option<Vec<Expr>> {
-        let free = Type::vector(NumberBase::Float, 2 + self.below(3));
-        let number =
-            self.pick(&[NumberBase::Float, NumberBase::Float, NumberBase::Float, NumberBase::Int, NumberBase::Uint]);
-        let side = 2 + self.below(3);
-        let (one, few) = (self.chance(0.4), self.chance(0.5));
+        let free = Type::vector(NumberBase::Float, 2 + self.random.below(3));
+        let number = self.random.pick(&[
+            NumberBase::Float,
+            NumberBase::Float,
+            NumberBase::Float,
+            NumberBase::Int,
+            NumberBase::Uint,
+        ]);
+        let side = 2 + self.random.below(3);
+        let (one, few) = (self.random.chance(0.4), self.random.chance(0.5));
         let (count, matrix, booleans) =
-            (1 + self.below(4), self.matrix(), Type::vector(NumberBase::Bool, 2 + self.below(3)));
-        let anything = if self.chance(0.15) { matrix } else { Type::vector(number, count) };
+            (1 + self.random.below(4), self.matrix(), Type::vector(NumberBase::Bool, 2 + self.random.below(3)));
+        let anything = if self.random.chance(0.15) { matrix } else { Type::vector(number, count) };
         let factors = self.factors(kind)?;
         let mut list = Vec::new();
         for (place, (takes, range)) in function.takes.iter().enumerate() {
@@ -301,10 +300,10 @@ impl Maker {
 
     /// Types of a product's factors.
     fn factors(&mut self, kind: Type) -> Option<[Type; 2]> {
-        let inner = 2 + self.below(3);
+        let inner = 2 + self.random.below(3);
         Some(match () {
             () if kind.is_matrix() => [Type::matrix(inner, kind.rows), Type::matrix(kind.columns, inner)],
-            () if kind.rows > 1 && self.chance(0.6) => {
+            () if kind.rows > 1 && self.random.chance(0.6) => {
                 [Type::matrix(inner, kind.rows), Type::vector(NumberBase::Float, inner)]
             }
             () => [Type::vector(NumberBase::Float, inner), Type::matrix(kind.rows.max(2), inner)],

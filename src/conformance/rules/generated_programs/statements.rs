@@ -39,12 +39,12 @@ impl Maker {
 
     pub fn statement(&mut self, inside: Inside) -> Statement {
         let is_short = inside.depth >= 3;
-        match self.below(100) {
+        match self.random.below(100) {
             0..=39 if inside.depth == 0 => self.declaration(),
             0..=11 => self.declaration(),
             12..=53 => self.assignment(),
             54..=57 if inside.a_loop => {
-                let jump = if self.chance(0.5) { Statement::Break } else { Statement::Continue };
+                let jump = if self.random.chance(0.5) { Statement::Break } else { Statement::Continue };
                 Statement::If(self.expr(Type::BOOL, 1), vec![jump], Vec::new())
             }
             58..=60 if inside.a_function => self.early(inside),
@@ -66,16 +66,16 @@ impl Maker {
     }
 
     fn declaration(&mut self) -> Statement {
-        if let Some(value) = self.chance(0.6).then(|| self.seldom()).flatten() {
+        if let Some(value) = self.random.chance(0.6).then(|| self.seldom()).flatten() {
             let index = self.new_variable("v", value.kind);
             self.declare(index);
             return Statement::Declare(index, value);
         }
         let mut kind = self.kind();
-        let depth = 1 + self.below(3);
-        let value = match kind.is_vector() && self.chance(0.08) {
+        let depth = 1 + self.random.below(3);
+        let value = match kind.is_vector() && self.random.chance(0.08) {
             true => {
-                let parts: Vec<Expr> = (0..2 + self.below(8)).map(|_| self.expr(kind, depth - 1)).collect();
+                let parts: Vec<Expr> = (0..2 + self.random.below(8)).map(|_| self.expr(kind, depth - 1)).collect();
                 kind = kind.array(parts.len());
                 Expr { kind, form: Form::Construct(parts) }
             }
@@ -90,10 +90,10 @@ impl Maker {
     /// In a block, a new variable may take the name of one outside, which cannot be seen then.
     fn hide(&mut self, index: usize) {
         let Some(start) = self.block_start else { return };
-        if !self.chance(0.3) || self.writable.is_empty() {
+        if !self.random.chance(0.3) || self.writable.is_empty() {
             return;
         }
-        let at = self.below(self.writable.len());
+        let at = self.random.below(self.writable.len());
         let other = self.writable[at];
         let name = self.program.name(other).to_owned();
         if other < start && !name.contains(['.', '[']) && self.scope.contains(&other) {
@@ -108,20 +108,20 @@ impl Maker {
         if self.writable.is_empty() {
             return None;
         }
-        let at = self.below(self.writable.len());
+        let at = self.random.below(self.writable.len());
         let variable = self.writable[at];
         let mut kind = self.program.variables[variable].kind;
         let mut index = None;
-        let may_be_part = !kind.is_vector() || (!kind.is_scalar() && self.chance(0.2));
-        if may_be_part && (kind.count > 0 || self.chance(0.7)) {
+        let may_be_part = !kind.is_vector() || (!kind.is_scalar() && self.random.chance(0.2));
+        if may_be_part && (kind.count > 0 || self.random.chance(0.7)) {
             index = Some(self.index(kind.elements(), 1));
             kind = kind.element();
         }
         let mut swizzle = Vec::new();
-        if kind.is_vector() && kind.rows > 1 && self.chance(0.4) {
+        if kind.is_vector() && kind.rows > 1 && self.random.chance(0.4) {
             let mut left: Vec<usize> = (0..kind.rows).collect();
-            for _ in 0..1 + self.below(kind.rows) {
-                let at = self.below(left.len());
+            for _ in 0..1 + self.random.below(kind.rows) {
+                let at = self.random.below(left.len());
                 swizzle.push(left.remove(at));
             }
             kind = Type::vector(kind.base, swizzle.len());
@@ -138,12 +138,12 @@ impl Maker {
             FUNCTIONS.iter().filter(is_meant).find(|function| function.gives == gives)
         };
         let operator = match kind.base {
-            _ if kind.is_matrix() || self.chance(0.4) => None,
-            NumberBase::Float => suits(self.pick(&["+", "-", "*"])),
+            _ if kind.is_matrix() || self.random.chance(0.4) => None,
+            NumberBase::Float => suits(self.random.pick(&["+", "-", "*"])),
             NumberBase::Bool => None,
-            _ => suits(self.pick(&["+", "-", "*", "&", "|", "^"])),
+            _ => suits(self.random.pick(&["+", "-", "*", "&", "|", "^"])),
         };
-        let depth = 1 + self.below(2);
+        let depth = 1 + self.random.below(2);
         let value = self.expr(kind, depth);
         Statement::Assign(place, operator, value)
     }
@@ -171,9 +171,9 @@ impl Maker {
 
     fn branch(&mut self, inside: Inside) -> Statement {
         let condition = self.expr(Type::BOOL, 2);
-        let count = 1 + self.below(2);
+        let count = 1 + self.random.below(2);
         let then = self.body(count, inside.deeper());
-        let otherwise = match self.below(3) {
+        let otherwise = match self.random.below(3) {
             0 => Vec::new(),
             1 if inside.depth < 2 => vec![self.branch(inside.deeper())],
             _ => self.body(1, inside.deeper()),
@@ -183,14 +183,14 @@ impl Maker {
 
     fn turns(&mut self, inside: Inside) -> Statement {
         let counter = self.new_variable("k", Type::INT);
-        let is_long = inside.depth == 0 && self.chance(0.25);
-        let end = match self.below(10) {
+        let is_long = inside.depth == 0 && self.random.chance(0.25);
+        let end = match self.random.below(10) {
             _ if is_long => {
-                let most = self.pick(&[20, 33, 65, 70, 100, 130, 200]);
+                let most = self.random.pick(&[20, 33, 65, 70, 100, 130, 200]);
                 whole(most, Type::INT)
             }
             0..=4 => {
-                let most = self.below(9);
+                let most = self.random.below(9);
                 whole(most as i64, Type::INT)
             }
             5..=7 => self.index(12, 1),
@@ -201,16 +201,16 @@ impl Maker {
             variables[counter] = Num::exact((index % 5) as f64).into();
         }
         self.scope.push(counter);
-        let count = 1 + self.below(if is_long { 2 } else { 3 });
+        let count = 1 + self.random.below(if is_long { 2 } else { 3 });
         let inner = Inside { a_loop: true, ..inside.deeper() };
         let mut body = Vec::new();
         // A loop alone in a loop is written without braces.
-        let nests = !is_long && inside.depth < 2 && self.chance(0.25);
+        let nests = !is_long && inside.depth < 2 && self.random.chance(0.25);
         if nests {
             body.push(self.turns(inner));
         }
-        if self.chance(0.4) && !nests {
-            let jump = if self.chance(0.7) { Statement::Continue } else { Statement::Break };
+        if self.random.chance(0.4) && !nests {
+            let jump = if self.random.chance(0.7) { Statement::Continue } else { Statement::Break };
             body.push(Statement::If(self.of_counter(counter), vec![jump], Vec::new()));
         }
         if !nests {
@@ -218,10 +218,10 @@ impl Maker {
             body.extend(self.body(count - 1, inner));
         }
         self.scope.retain(|seen| *seen != counter);
-        let first = if self.chance(0.8) { 0 } else { self.below(5) as i32 - 2 };
-        let step = if self.chance(0.8) { 1 } else { 2 };
+        let first = if self.random.chance(0.8) { 0 } else { self.random.below(5) as i32 - 2 };
+        let step = if self.random.chance(0.8) { 1 } else { 2 };
         let turns = Loop { counter, first, end, step, body };
-        match self.below(10) {
+        match self.random.below(10) {
             0..=5 => Statement::For(turns),
             6..=7 => Statement::While(turns),
             _ => Statement::DoWhile(turns),
@@ -231,8 +231,8 @@ impl Maker {
     /// A condition that holds in some turns.
     fn of_counter(&mut self, counter: usize) -> Expr {
         let turn = variable(counter, Type::INT);
-        let (at, step) = (self.below(6) as i64, self.below(3) as i64 + 1);
-        let (name, inner) = match self.chance(0.5) {
+        let (at, step) = (self.random.below(6) as i64, self.random.below(3) as i64 + 1);
+        let (name, inner) = match self.random.chance(0.5) {
             true => (">", turn),
             false => ("==", call("&", Gives::Integers, vec![turn, whole(step, Type::INT)], Type::INT)),
         };
@@ -250,7 +250,7 @@ impl Maker {
             }
             let more = self.expr(Type::INT, 1);
             let turn = variable(counter, Type::INT);
-            let by = whole(1 + self.below(30) as i64, Type::INT);
+            let by = whole(1 + self.random.below(30) as i64, Type::INT);
             let (share, gives) = match kind.base {
                 NumberBase::Float => {
                     (call("+", Gives::Integers, vec![turn, whole(1, Type::INT)], Type::INT), Gives::Floats)
@@ -267,18 +267,18 @@ impl Maker {
     }
 
     fn switch(&mut self, inside: Inside) -> Statement {
-        let count = 3 + self.below(3);
+        let count = 3 + self.random.below(3);
         let value = self.index(count + 1, 2);
-        let cases = 2 + self.below(count - 1);
+        let cases = 2 + self.random.below(count - 1);
         let mut labels: Vec<i32> = (0..count as i32).collect();
         let mut list: Vec<Case> = Vec::new();
-        let has_default = self.chance(0.7);
+        let has_default = self.random.chance(0.7);
         for index in 0..cases {
             let is_default = has_default && index + 1 == cases;
             let mut own = Vec::new();
-            for _ in 0..if is_default { 0 } else { 1 + usize::from(self.chance(0.3)) } {
+            for _ in 0..if is_default { 0 } else { 1 + usize::from(self.random.chance(0.3)) } {
                 if !labels.is_empty() {
-                    let at = self.below(labels.len());
+                    let at = self.random.below(labels.len());
                     own.push(labels.remove(at));
                 }
             }
@@ -287,7 +287,7 @@ impl Maker {
             }
             // A jump out of a loop from inside of a switch is `continue` alone.
             let body = self.body(1, Inside { a_loop: false, ..inside.deeper() });
-            let falls = self.chance(0.25) && index + 1 < cases;
+            let falls = self.random.chance(0.25) && index + 1 < cases;
             list.push(Case { labels: own, body, falls });
         }
         if let Some(last) = list.last_mut() {

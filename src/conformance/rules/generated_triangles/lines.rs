@@ -2,7 +2,7 @@
 
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlChange, GlFormat, GlPrimitive, GlState};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 use crate::conformance::verify::{self, GradeTally};
 
 const SIZE: [u32; 2] = [52, 41];
@@ -67,7 +67,7 @@ impl Line {
 /// Grades of pixels, and of numbers in them.
 pub fn lines(subject: &DriverUnderTest) -> Result<[GradeTally; 2], Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(9300);
+    let mut dice = Random::new(9300);
     let surface = bench.surface(SIZE, Some(GlFormat::Rgba32F), Some(GlFormat::Depth24))?;
     let program = bench.whole_program(VERTEX, FRAGMENT)?;
     let stream = bench.stream(2)?;

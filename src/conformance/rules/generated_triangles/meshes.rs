@@ -3,7 +3,7 @@
 
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlChange, GlFormat, GlIndices, GlPrimitive};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 use crate::conformance::verify::{self, GradeTally};
 
 const SIZE: [u32; 2] = [61, 47];
@@ -28,7 +28,7 @@ struct Mesh {
 }
 
 impl Mesh {
-    fn new(dice: &mut Dice, viewport: [i32; 4]) -> Self {
+    fn new(dice: &mut Random, viewport: [i32; 4]) -> Self {
         let low = SIZE.map(|side| dice.between(-1.0, 0.4) * side as f32);
         let high = [0, 1].map(|part| low[part] + dice.between(0.2, 1.8) * SIZE[part] as f32);
         let cells = [(); 2].map(|()| dice.whole(1, 9) as usize);
@@ -61,7 +61,7 @@ impl Mesh {
     }
 
     /// Indices of triangles in any order and from any corner.
-    fn triangles(&self, dice: &mut Dice) -> Vec<u32> {
+    fn triangles(&self, dice: &mut Random) -> Vec<u32> {
         let mut triangles = Vec::new();
         for row in 0..self.cells[1] {
             for column in 0..self.cells[0] {
@@ -87,7 +87,7 @@ impl Mesh {
 /// Counts the fragments of each pixel by blending.
 pub fn meshes(subject: &DriverUnderTest) -> Result<GradeTally, Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(9100);
+    let mut dice = Random::new(9100);
     let surface = bench.surface(SIZE, Some(GlFormat::Rgba32F), Some(GlFormat::Depth24))?;
     let program = bench.whole_program(VERTEX, FRAGMENT)?;
     let stream = bench.stream(1)?;

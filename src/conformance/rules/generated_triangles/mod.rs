@@ -19,7 +19,7 @@ use self::picture::{CLEARED, Picture, Shown, clear_depth};
 use self::pipeline::Pipeline;
 use self::programs::{Text, Traits};
 use crate::conformance::bench::{Error, GlFormat, GlIndices, GlStream, GlWhole, Surface};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings};
 
 /// Draws in a sequence.
@@ -114,7 +114,7 @@ pub fn triangles(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
 
 fn run(subject: &DriverUnderTest, number: usize, sequence: &Sequence, judge: &mut Judge) -> Result<(), Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(9000 + number as u64);
+    let mut dice = Random::new(9000 + number as u64);
     let Sequence { size, depth, traits, numbers } = *sequence;
     let surface = bench.several_with(size, &[GlFormat::Rgba32F; 4], Some(depth))?;
     surface.draw_to(&[Some(0), Some(1), Some(2), Some(3)]);
@@ -171,7 +171,7 @@ fn run(subject: &DriverUnderTest, number: usize, sequence: &Sequence, judge: &mu
 }
 
 /// Changes one piece of state, or two; a program without clip distances has none enabled, as they would have no value.
-fn change(subject: &DriverUnderTest, pipeline: &mut Pipeline, dice: &mut Dice, size: [u32; 2], program: &Program) {
+fn change(subject: &DriverUnderTest, pipeline: &mut Pipeline, dice: &mut Random, size: [u32; 2], program: &Program) {
     let distances = if program.text.traits.distances { 8 } else { 0 };
     for _ in 0..dice.pick(&[1, 1, 2]) {
         for call in pipeline.change(dice, size, distances) {

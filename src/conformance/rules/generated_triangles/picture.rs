@@ -7,7 +7,7 @@ use super::pipeline::Pipeline;
 use super::programs::{Component, SHOWN, Text};
 use super::shapes::Shapes;
 use crate::conformance::bench::{Encoding, GlCompare, GlPolygonMode};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// Colour that no draw puts out.
 pub const CLEARED: f32 = 7777.0;
@@ -270,6 +270,6 @@ fn difference(triangle: &Triangle, sum: &[(f64, Component)], at: [f64; 2], along
 }
 
 /// A depth to clear with: the ends, or between them.
-pub fn clear_depth(dice: &mut Dice) -> f32 {
+pub fn clear_depth(dice: &mut Random) -> f32 {
     dice.pick(&[1.0, 1.0, 0.0, 0.5, 0.25])
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::conformance::bench::{GlChange, GlCompare, GlOffset, GlPolygonMode};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// State that a draw depends on.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Pipeline {
     }
 
     /// Changes one piece; the calls that do so.
-    pub fn change(&mut self, dice: &mut Dice, size: [u32; 2], distances: u32) -> Vec<GlChange> {
+    pub fn change(&mut self, dice: &mut Random, size: [u32; 2], distances: u32) -> Vec<GlChange> {
         if self.mode != GlPolygonMode::Fill && dice.chance(0.6) {
             self.mode = GlPolygonMode::Fill;
             return vec![GlChange::Mode(self.mode)];
@@ -211,7 +211,7 @@ impl Pipeline {
 const OFFSETS: [u32; 3] = [glow::POLYGON_OFFSET_FILL, glow::POLYGON_OFFSET_LINE, glow::POLYGON_OFFSET_POINT];
 
 /// All of the target, or any part of it, or more; mostly small.
-fn viewport(dice: &mut Dice, size: [u32; 2]) -> [i32; 4] {
+fn viewport(dice: &mut Random, size: [u32; 2]) -> [i32; 4] {
     let [width, height] = size.map(|side| side as i32);
     match dice.below(6) {
         0 => [0, 0, width, height],
@@ -224,7 +224,7 @@ fn viewport(dice: &mut Dice, size: [u32; 2]) -> [i32; 4] {
 }
 
 /// Ends are multiples of 1/1024, beyond [0, 1] too.
-fn depth_range(dice: &mut Dice) -> [f64; 2] {
+fn depth_range(dice: &mut Random) -> [f64; 2] {
     let mut end = |low: i32, high: i32| f64::from(dice.whole(low, high)) / 1024.0;
     let (a, b, c) = (end(0, 1024), end(0, 1024), end(16, 128));
     match dice.below(6) {
@@ -237,7 +237,7 @@ fn depth_range(dice: &mut Dice) -> [f64; 2] {
     }
 }
 
-fn scissor(dice: &mut Dice, size: [u32; 2]) -> [i32; 4] {
+fn scissor(dice: &mut Random, size: [u32; 2]) -> [i32; 4] {
     let [width, height] = size.map(|side| side as i32);
     match dice.below(6) {
         0 => [dice.whole(-10, width / 2), dice.whole(-10, height / 2), dice.whole(width / 2, 99), 200],
@@ -248,7 +248,7 @@ fn scissor(dice: &mut Dice, size: [u32; 2]) -> [i32; 4] {
     }
 }
 
-fn offset(dice: &mut Dice) -> GlOffset {
+fn offset(dice: &mut Random) -> GlOffset {
     let factor = dice.pick(&[0.0, 1.0, -1.0, 2.5, -4.0, 0.5, 16.0]);
     let units = dice.pick(&[0.0, 1.0, -1.0, 64.0, -300.0, 4096.0, -65536.0]);
     let clamp = dice.pick(&[0.0, 0.0, 0.0, 0.015_625, -0.007_812_5]);

@@ -2,7 +2,7 @@
 
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlChange, GlFormat, GlPrimitive, GlState};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 use crate::conformance::verify::{self, GradeTally};
 
 const SIZE: [u32; 2] = [43, 38];
@@ -25,7 +25,7 @@ void main() { result = vec4(gl_PointCoord, passed.y, gl_FragCoord.z); }
 /// Grades of pixels, and of numbers in them.
 pub fn points(subject: &DriverUnderTest) -> Result<[GradeTally; 2], Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(9200);
+    let mut dice = Random::new(9200);
     let surface = bench.surface(SIZE, Some(GlFormat::Rgba32F), Some(GlFormat::Depth24))?;
     let program = bench.whole_program(VERTEX, FRAGMENT)?;
     let stream = bench.stream(2)?;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::model::Interpolation;
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// A number of a varying: a part of the vertex's value, times a factor, and something added. All are exact as f32.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +98,7 @@ const WHOLE: [(&str, &str, &str, &[&str]); 4] = [
 ];
 
 /// Makes a program of at most `most` numbers in varyings.
-pub fn text(dice: &mut Dice, most: usize, traits: Traits) -> Text {
+pub fn text(dice: &mut Random, most: usize, traits: Traits) -> Text {
     let (mut declared, mut set, mut read) = (String::new(), String::new(), Vec::new());
     let mut components = Vec::new();
     // Each number takes a whole vec4 at worst where a driver does not pack what is of different kinds.

@@ -3,7 +3,7 @@
 use super::model::Corner;
 use super::pipeline::Pipeline;
 use crate::conformance::bench::GlPrimitive;
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// A draw's vertices.
 pub struct Shapes {
@@ -64,7 +64,7 @@ const KINDS: [&str; 9] = [
 ];
 
 /// Vertices of a few triangles that mostly touch the target.
-pub fn shapes(dice: &mut Dice, pipeline: &Pipeline, size: [u32; 2]) -> Shapes {
+pub fn shapes(dice: &mut Random, pipeline: &Pipeline, size: [u32; 2]) -> Shapes {
     let kind = dice.pick(&[0, 0, 0, 1, 1, 1, 2, 3, 4, 4, 5, 6, 7, 7, 8]);
     let primitive = dice.pick(&[GlPrimitive::Triangles, GlPrimitive::TriangleStrip, GlPrimitive::TriangleFan]);
     let count = match primitive {
@@ -91,12 +91,12 @@ pub fn shapes(dice: &mut Dice, pipeline: &Pipeline, size: [u32; 2]) -> Shapes {
 }
 
 /// A place in the window, in pixels, up to `beyond` target sizes outside of it.
-fn place(dice: &mut Dice, size: [u32; 2], beyond: f32) -> [f32; 2] {
+fn place(dice: &mut Random, size: [u32; 2], beyond: f32) -> [f32; 2] {
     size.map(|side| dice.between(-beyond, 1.0 + beyond) * side as f32)
 }
 
 fn corner(
-    dice: &mut Dice,
+    dice: &mut Random,
     pipeline: &Pipeline,
     size: [u32; 2],
     kind: usize,

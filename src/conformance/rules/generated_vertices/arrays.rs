@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::formats::{Due, Format, Kind};
 use crate::conformance::bench::{Bench, Error, GlArray, GlBuffer, GlCurrent, GlPointer, GlWrite};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// Attributes.
 pub const LOCATIONS: usize = 16;
@@ -19,7 +19,7 @@ pub struct Held {
 }
 
 impl Held {
-    pub fn new(bench: &Bench, dice: &mut Dice, bytes: usize) -> Result<Rc<Self>, Error> {
+    pub fn new(bench: &Bench, dice: &mut Random, bytes: usize) -> Result<Rc<Self>, Error> {
         let bytes: Vec<u8> = (0..bytes).map(|_| dice.below(256) as u8).collect();
         let usage = dice.pick(&[glow::STATIC_DRAW, glow::DYNAMIC_DRAW, glow::STREAM_DRAW]);
         let name = RefCell::new(Some(bench.feed_buffer(&bytes, usage)?));
@@ -27,7 +27,7 @@ impl Held {
     }
 
     /// Writes bytes into the buffer by any of the ways.
-    pub fn write(&self, bench: &Bench, dice: &mut Dice, at: usize, bytes: &[u8]) -> Result<(), Error> {
+    pub fn write(&self, bench: &Bench, dice: &mut Random, at: usize, bytes: &[u8]) -> Result<(), Error> {
         let mut whole = self.bytes.borrow_mut();
         whole[at..at + bytes.len()].copy_from_slice(bytes);
         let how = dice.pick(&[
@@ -80,7 +80,7 @@ impl Array {
     pub fn point(
         &mut self,
         bench: &Bench,
-        dice: &mut Dice,
+        dice: &mut Random,
         (location, kind, format): (usize, Kind, Format),
         buffer: &Rc<Held>,
     ) -> Result<(), Error> {
@@ -147,7 +147,7 @@ impl Array {
 }
 
 /// A new current value, and what a shader gets of it.
-pub fn current(dice: &mut Dice, kind: Kind) -> (GlCurrent, [Due; 4]) {
+pub fn current(dice: &mut Random, kind: Kind) -> (GlCurrent, [Due; 4]) {
     let mut word = || (dice.below(1 << 16) as u32) << 16 | dice.below(1 << 16) as u32;
     let words = [(); 4].map(|()| word());
     match kind {

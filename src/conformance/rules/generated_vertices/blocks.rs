@@ -9,7 +9,7 @@ use super::types::{Base, DataType, word};
 use super::uniforms::{capture, judge};
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCapture};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 const MOST: usize = 60;
 const BYTES: usize = 16_384;
@@ -73,7 +73,7 @@ struct CapturingProgram {
 }
 
 /// A random member: its type, length, matrix order and declaration; the order is that of the whole structure, if it is in one.
-fn member(dice: &mut Dice, name: &str, order: Option<bool>) -> (DataType, Option<usize>, bool, String) {
+fn member(dice: &mut Random, name: &str, order: Option<bool>) -> (DataType, Option<usize>, bool, String) {
     let of = DataType::any(dice);
     let length = dice.chance(0.3).then(|| dice.whole(1, 3) as usize);
     let row_major = order.unwrap_or(of.columns > 1 && dice.chance(0.4));
@@ -83,7 +83,7 @@ fn member(dice: &mut Dice, name: &str, order: Option<bool>) -> (DataType, Option
 }
 
 impl CapturingProgram {
-    fn new(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Self, Error> {
+    fn new(subject: &DriverUnderTest, dice: &mut Random) -> Result<Self, Error> {
         let (mut structs, mut block) = (String::new(), String::new());
         let (mut words, mut leaves, mut layout) = (Vec::new(), Vec::new(), Layout::default());
         let mut show = |path: &str, of: DataType, length: Option<usize>, offsets: Vec<usize>| {
@@ -143,7 +143,7 @@ type Bound = (Rc<Held>, usize);
 /// Buffers that are written, bound in part and made anew, and programs that read them.
 pub fn blocks(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(7400);
+    let mut dice = Random::new(7400);
     let alignment = bench.block_alignment();
     let mut buffers = (0..BUFFERS).map(|_| held(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
     let mut programs =
@@ -212,7 +212,7 @@ pub fn blocks(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Erro
 }
 
 /// A buffer of ordinary floats.
-fn held(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Rc<Held>, Error> {
+fn held(subject: &DriverUnderTest, dice: &mut Random) -> Result<Rc<Held>, Error> {
     let held = Held::new(&subject.bench, dice, BYTES)?;
     let bytes: Vec<u8> = (0..BYTES / 4).flat_map(|_| word(dice).to_ne_bytes()).collect();
     held.write(&subject.bench, dice, 0, &bytes)?;

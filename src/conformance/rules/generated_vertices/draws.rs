@@ -8,7 +8,7 @@ use super::formats::{Due, Format, Kind};
 use super::programs::CapturingProgram;
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCaptured, GlPrimitive, GlRange};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// Bytes of the buffers: every array fits.
 const BYTES: usize = 110_000;
@@ -22,7 +22,7 @@ pub struct Draw {
 }
 
 impl World {
-    pub fn new(subject: &DriverUnderTest, dice: &mut Dice, pointed: usize) -> Result<Self, Error> {
+    pub fn new(subject: &DriverUnderTest, dice: &mut Random, pointed: usize) -> Result<Self, Error> {
         let bench = &subject.bench;
         let mut kinds = [Kind::Float; LOCATIONS];
         kinds.iter_mut().skip(1).for_each(|kind| *kind = dice.pick(&KINDS));
@@ -61,13 +61,13 @@ impl World {
         subject.bench.bind_feed(&self.arrays[array].name);
     }
 
-    fn set_current(&mut self, subject: &DriverUnderTest, dice: &mut Dice, location: usize) {
+    fn set_current(&mut self, subject: &DriverUnderTest, dice: &mut Random, location: usize) {
         let (value, due) = current(dice, self.kinds[location]);
         self.current[location] = due;
         subject.bench.current_feed(location as u32, value);
     }
 
-    fn point(&mut self, subject: &DriverUnderTest, dice: &mut Dice, location: usize) -> Result<(), Error> {
+    fn point(&mut self, subject: &DriverUnderTest, dice: &mut Random, location: usize) -> Result<(), Error> {
         let buffer = self.buffers[dice.below(self.buffers.len())].clone();
         self.pointed += 1;
         let kind = self.kinds[location];
@@ -81,7 +81,7 @@ impl World {
     }
 
     /// Gives an attribute another divisor. One vertex array has none that is small, and so many instances.
-    fn divide(&mut self, subject: &DriverUnderTest, dice: &mut Dice, location: usize) {
+    fn divide(&mut self, subject: &DriverUnderTest, dice: &mut Random, location: usize) {
         let divisors = if self.bound == 2 { [0, 0, 7, 30, 65, 100] } else { [0, 0, 1, 1, 2, 3] };
         let divisor = dice.pick(&divisors);
         self.arrays[self.bound].attributes[location].divisor = divisor;
@@ -89,7 +89,7 @@ impl World {
     }
 
     /// Changes one thing.
-    pub fn change(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
+    pub fn change(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<(), Error> {
         let location = dice.below(LOCATIONS);
         match dice.below(18) {
             0..=1 | 14..=15 => {
@@ -123,7 +123,7 @@ impl World {
         Ok(())
     }
 
-    fn copy(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
+    fn copy(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<(), Error> {
         let from = dice.below(self.buffers.len());
         let to = (from + 1 + dice.below(self.buffers.len() - 1)) % self.buffers.len();
         let (from, to) = (self.buffers[from].clone(), self.buffers[to].clone());
@@ -136,7 +136,7 @@ impl World {
     }
 
     /// Deletes a buffer and makes another. The bound vertex array loses it; others keep it.
-    fn make_anew(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
+    fn make_anew(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<(), Error> {
         let slot = dice.below(self.buffers.len());
         let old = self.buffers[slot].clone();
         old.name.borrow_mut().take();
@@ -146,7 +146,7 @@ impl World {
     }
 
     /// Gives arrays that have lost their buffer another.
-    pub fn settle(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<(), Error> {
+    pub fn settle(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<(), Error> {
         for location in 0..LOCATIONS {
             let attribute = &self.arrays[self.bound].attributes[location];
             if !attribute.enabled || attribute.buffer.is_some() {
@@ -162,7 +162,7 @@ impl World {
     }
 
     /// A draw of few vertices, or of few vertices of many instances.
-    pub fn draw(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<Draw, Error> {
+    pub fn draw(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<Draw, Error> {
         let primitive = dice.pick(&[
             GlPrimitive::Points,
             GlPrimitive::Points,
@@ -208,7 +208,7 @@ impl World {
     fn range(
         &mut self,
         subject: &DriverUnderTest,
-        dice: &mut Dice,
+        dice: &mut Random,
         count: usize,
     ) -> Result<(GlRange, Vec<usize>), Error> {
         if dice.chance(0.4) {

@@ -1,6 +1,6 @@
 //! Numbers of vertex arrays: their bytes, and what a shader gets of them [GL 4.6, 2.3.5, 10.3.1].
 
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// Kind of an attribute in the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ impl Format {
     }
 
     /// Bytes that are numbers of ordinary sizes; any bytes of integers.
-    pub fn sample(self, dice: &mut Dice) -> Vec<u8> {
+    pub fn sample(self, dice: &mut Random) -> Vec<u8> {
         let mut bytes = Vec::new();
         while bytes.len() < self.bytes() {
             let sign = if dice.chance(0.5) { -1.0 } else { 1.0 };

@@ -18,7 +18,7 @@ use self::arrays::{Array, Held, LOCATIONS};
 use self::formats::{Due, Kind};
 use self::programs::CapturingProgram;
 use crate::conformance::bench::{Error, GlFormat};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings};
 
 const SEQUENCES: u64 = 3;
@@ -90,7 +90,7 @@ pub fn vertices(subject: &DriverUnderTest, findings: &mut Findings) -> Result<()
 
 fn sequence(subject: &DriverUnderTest, number: u64, judged: &mut Judged) -> Result<(), Error> {
     let bench = &subject.bench;
-    let mut dice = Dice::new(7100 + number);
+    let mut dice = Random::new(7100 + number);
     let mut world = World::new(subject, &mut dice, number as usize * 64)?;
     for turn in 0..DRAWS {
         for _ in 0..dice.whole(1, 3) {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::arrays::LOCATIONS;
 use super::formats::Kind;
 use crate::conformance::bench::{Bench, Error, GlCapture};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// An attribute of a program.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ const MOST: usize = 64;
 
 impl CapturingProgram {
     /// A program of the locations but for a share that is left out, in any order.
-    pub fn new(bench: &Bench, dice: &mut Dice, kinds: &[Kind; LOCATIONS], left_out: f32) -> Result<Self, Error> {
+    pub fn new(bench: &Bench, dice: &mut Random, kinds: &[Kind; LOCATIONS], left_out: f32) -> Result<Self, Error> {
         let mut inputs = Vec::new();
         let (mut location, mut numbers) = (0, 2);
         while location < LOCATIONS {
@@ -69,7 +69,7 @@ impl CapturingProgram {
 }
 
 /// An attribute at a location: a matrix where the next ones are floats too.
-fn input(dice: &mut Dice, kinds: &[Kind; LOCATIONS], location: usize) -> Input {
+fn input(dice: &mut Random, kinds: &[Kind; LOCATIONS], location: usize) -> Input {
     let columns = dice.whole(2, 4) as usize;
     let floats = kinds.iter().skip(location).take(columns).filter(|kind| **kind == Kind::Float).count();
     let is_matrix = floats == columns && dice.chance(0.2);

@@ -1,6 +1,6 @@
 //! Types of uniforms.
 
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// DataType of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub struct DataType {
 }
 
 impl DataType {
-    pub fn any(dice: &mut Dice) -> Self {
+    pub fn any(dice: &mut Random) -> Self {
         if dice.chance(0.4) {
             return Self { base: Base::Float, columns: dice.whole(2, 4) as usize, rows: dice.whole(2, 4) as usize };
         }
@@ -72,7 +72,7 @@ impl DataType {
 }
 
 /// Bits of an ordinary float; as an integer it may be any.
-pub fn word(dice: &mut Dice) -> u32 {
+pub fn word(dice: &mut Random) -> u32 {
     let sign = if dice.chance(0.5) { -1.0 } else { 1.0 };
     match dice.below(8) {
         0 => 0,

@@ -6,7 +6,7 @@ use super::types::{Base, DataType, word};
 use super::{Due, Judged};
 use crate::conformance::DriverUnderTest;
 use crate::conformance::bench::{Error, GlCapture, GlCaptured, GlPrimitive, GlRange, GlValues};
-use crate::conformance::rules::dice::Dice;
+use crate::conformance::random::Random;
 
 /// Numbers that a program puts out, at most.
 const MOST: usize = 60;
@@ -69,7 +69,7 @@ pub fn judge(
 }
 
 impl CapturingProgram {
-    fn new(subject: &DriverUnderTest, dice: &mut Dice) -> Result<Self, Error> {
+    fn new(subject: &DriverUnderTest, dice: &mut Random) -> Result<Self, Error> {
         let (mut declared, mut words, mut uniforms) = (String::new(), Vec::new(), Vec::new());
         for number in 0..40 {
             let of = DataType::any(dice);
@@ -113,7 +113,7 @@ impl CapturingProgram {
     }
 
     /// Sets some elements of one uniform; what was called.
-    fn set(&mut self, subject: &DriverUnderTest, dice: &mut Dice) -> Result<String, Error> {
+    fn set(&mut self, subject: &DriverUnderTest, dice: &mut Random) -> Result<String, Error> {
         let index = dice.below(self.uniforms.len());
         let Uniform { path, of, length, words } = &mut self.uniforms[index];
         let whole = length.unwrap_or(1);
@@ -178,7 +178,7 @@ impl CapturingProgram {
 
 /// Programs whose uniforms are set and drawn in any order, linked again, deleted and made anew.
 pub fn uniforms(subject: &DriverUnderTest, judged: &mut Judged) -> Result<(), Error> {
-    let mut dice = Dice::new(7300);
+    let mut dice = Random::new(7300);
     let mut programs =
         (0..PROGRAMS).map(|_| CapturingProgram::new(subject, &mut dice)).collect::<Result<Vec<_>, _>>()?;
     let array = subject.bench.feed_array()?;
