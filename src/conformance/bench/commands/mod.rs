@@ -8,8 +8,9 @@ mod setting;
 mod states;
 mod transfers;
 
-pub use player::{Answer, Player};
+pub use player::Player;
 pub use setting::{Faces, Program, Sampled, Setting};
+pub use transfers::UNTOUCHED;
 
 use super::{GlFormat, GlImageDesc};
 

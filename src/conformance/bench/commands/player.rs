@@ -11,15 +11,6 @@ use super::{
     SAMPLERS, TEXTURES, programs,
 };
 
-/// Answer of a command.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
-    Nothing,
-    Bytes(Vec<u8>),
-    /// Samples that passed.
-    Samples(u32),
-}
-
 /// Objects by slot. All are deleted on drop, and the context's state is set back.
 pub struct Player<'a> {
     pub(super) bench: &'a Bench,
@@ -99,14 +90,14 @@ impl Bench {
 }
 
 impl Player<'_> {
-    /// Gives one command.
+    /// Gives one command. The answer is the memory that it has read into.
     ///
     /// # Errors
     ///
     /// GL's: the command makes one, or an object is refused.
-    pub fn play(&mut self, command: &Command) -> Result<Answer, Error> {
+    pub fn play(&mut self, command: &Command) -> Result<Option<Vec<u8>>, Error> {
         let gl = self.gl;
-        let mut answer = Answer::Nothing;
+        let mut answer = None;
         // SAFETY: the context is current; slots that a command names are filled, and areas lie within their images.
         unsafe {
             match *command {
@@ -191,11 +182,12 @@ impl Player<'_> {
                         None => {}
                     }
                 }
-                Command::Read { area, packing } => answer = Answer::Bytes(self.read(area, packing)),
+                Command::Read { area, packing } => answer = Some(self.read(area, packing)),
                 Command::BeginQuery => gl.begin_query(glow::SAMPLES_PASSED, self.query),
                 Command::EndQuery => {
                     gl.end_query(glow::SAMPLES_PASSED);
-                    answer = Answer::Samples(gl.get_query_parameter_u32(self.query, glow::QUERY_RESULT));
+                    // Waits for the count.
+                    gl.get_query_parameter_u32(self.query, glow::QUERY_RESULT);
                 }
                 Command::Flush => gl.flush(),
             }

@@ -1,13 +1,10 @@
 //! Answers of commands, held against the model.
 
 use crate::conformance::bench::GlFormat;
-use crate::conformance::bench::commands::{Answer, Command, Packing};
+use crate::conformance::bench::commands::{Command, Packing, UNTOUCHED};
 
 use super::pixel::{Bounds, KnownPixel, filled, step};
 use super::state::State;
-
-/// Bytes that GL must leave alone.
-const UNTOUCHED: u8 = 0xA5;
 
 /// Numbers of answers that were judged.
 #[derive(Clone, Copy, Debug, Default)]
@@ -78,12 +75,10 @@ fn numbers(packing: &Packing, bytes: &[u8]) -> Vec<(f64, f64)> {
 }
 
 impl State {
-    /// Judges the answer to a command, which has been applied already.
-    pub fn judge(&self, command: &Command, answer: &Answer, judged: &mut Judged) -> Option<Fault> {
-        match (command, answer) {
-            (Command::Read { area, packing }, Answer::Bytes(bytes)) => self.judge_pixels(*area, packing, bytes, judged),
-            _ => None,
-        }
+    /// Judges what a command has read; it has been applied already.
+    pub fn judge(&self, command: &Command, bytes: &[u8], judged: &mut Judged) -> Option<Fault> {
+        let Command::Read { area, packing } = command else { return None };
+        self.judge_pixels(*area, packing, bytes, judged)
     }
 
     fn judge_pixels(&self, area: [i32; 4], packing: &Packing, bytes: &[u8], judged: &mut Judged) -> Option<Fault> {

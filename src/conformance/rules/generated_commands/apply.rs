@@ -68,8 +68,9 @@ impl State {
             }
             Command::Blit { from, to, bits } => self.blit(from, to, bits),
             Command::Copy { from, slot, level, layer, at } => self.copy(from, slot, [level, layer], at),
-            Command::BeginQuery => self.query = Some(0),
-            Command::EndQuery | Command::Read { .. } | Command::Flush => {}
+            Command::BeginQuery => self.is_counting = true,
+            Command::EndQuery => self.is_counting = false,
+            Command::Read { .. } | Command::Flush => {}
         }
     }
 
@@ -137,8 +138,8 @@ impl State {
             Command::Blit { from, to, bits } => self.allows_blit(from, to, bits),
             Command::Copy { from, slot, level, layer, at } => self.allows_copy(from, slot, [level, layer], at),
             Command::Read { area, packing } => self.allows_read(area, packing.layout),
-            Command::BeginQuery => self.query.is_none(),
-            Command::EndQuery => self.query.is_some(),
+            Command::BeginQuery => !self.is_counting,
+            Command::EndQuery => self.is_counting,
         }
     }
 

@@ -74,7 +74,7 @@ impl State {
                 let Some(colors) = self.shaded(rectangle, front, at) else { continue };
                 let depth = if self.program == Program::Depth { self.written_depth() } else { depth };
                 let fragment = Fragment { colors, depth, sure: !sides.contains(&None) };
-                self.write(at, &fragment, usize::from(!front), samples);
+                self.write(at, &fragment, usize::from(!front));
             }
         }
     }
@@ -162,7 +162,7 @@ impl State {
     }
 
     /// Tests and writes at one pixel [GL 4.6, 17.3].
-    fn write(&mut self, at: [u32; 2], fragment: &Fragment, side: usize, samples: u32) {
+    fn write(&mut self, at: [u32; 2], fragment: &Fragment, side: usize) {
         let Some(framebuffer) = self.framebuffer(false).copied() else { return };
         let mut sure = fragment.sure;
         let mut lives = true;
@@ -221,13 +221,6 @@ impl State {
                 after.stencil = after.stencil.filter(|value| Some(*value) == before.stencil);
             }
             self.set_pixel(attached.place, at, after);
-        }
-        if let Some(most) = &mut self.query {
-            if samples > 0 {
-                // How many of several samples a pixel counts is another rule's.
-                *most = u32::MAX;
-            }
-            *most = most.saturating_add(u32::from(lives));
         }
         if lives {
             self.write_colors(at, fragment, sure);

@@ -112,7 +112,7 @@ impl Generator {
                 return self.look(state);
             }
             96..98 => {
-                // Around draws alone: llvmpipe counts what a clear under a mask draws, and loses samples at a change of framebuffer.
+                // A query around draws must change none of them.
                 let draws = [self.draw(), self.draw()];
                 self.queue.push_back(Command::BeginQuery);
                 self.queue.extend(draws);

@@ -53,11 +53,7 @@ fn step(
 ) -> Result<Option<Fault>, Error> {
     let answer = player.play(command)?;
     state.apply(command);
-    let fault = state.judge(command, &answer, judged);
-    if matches!(command, Command::EndQuery) {
-        state.query = None;
-    }
-    Ok(fault)
+    Ok(answer.and_then(|bytes| state.judge(command, &bytes, judged)))
 }
 
 /// Plays commands until one gives back what is wrong.
@@ -88,7 +84,7 @@ fn stream(
         let Some(command) = generator.next(&state) else { break };
         left -= usize::from(generator.is_between());
         let mut fault = step(player, &mut state, &command, judged)?;
-        if each && command.writes() && state.query.is_none() {
+        if each && command.writes() && !state.is_counting {
             let all = reading::all(&state);
             fault = fault.or(steps(player, &mut state, &all, judged)?);
         }

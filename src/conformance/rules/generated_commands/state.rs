@@ -105,8 +105,8 @@ pub struct State {
     pub clear_stencil: i32,
     pub program: Program,
     pub uniforms: [Uniforms; Program::ALL.len()],
-    /// Samples that may have passed since the query began.
-    pub query: Option<u32>,
+    /// True while a query counts samples. What it counts is not judged: GL-Q1 to GL-Q3 do that.
+    pub is_counting: bool,
 }
 
 impl State {
@@ -147,7 +147,7 @@ impl State {
             clear_stencil: 0,
             program: Program::Plain,
             uniforms: [Uniforms::default(); Program::ALL.len()],
-            query: None,
+            is_counting: false,
         }
     }
 
