@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
+use super::screen::Screen;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::figures::{self, FIGURES};
@@ -43,7 +43,7 @@ Examples:
   glumbra figures --scale 2 -o out/large      # for slides and print";
 
 /// Draws and writes.
-pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
+pub fn run(arguments: &FiguresArgs, screen: Screen) -> Result<(), Error> {
     use std::io::Write;
     let chosen = figures::chosen(&arguments.only)?;
     if arguments.list {
@@ -57,10 +57,9 @@ pub fn run(arguments: &FiguresArgs) -> Result<(), Error> {
     std::fs::create_dir_all(folder).map_err(|reason| figures::Error::Folder { folder: folder.clone(), reason })?;
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     let mut renderer = Renderer::new(&context);
-    let bar = ProgressBar::new(chosen.iter().map(|figure| figure.panels.len() as u64).sum());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} panels, {eta} left  {msg}") {
-        bar.set_style(style);
-    }
+    screen.driver(context.as_ref());
+    let panels = chosen.iter().map(|figure| figure.panels.len() as u64).sum();
+    let bar = screen.bar(panels, "{bar:40} {pos}/{len} panels, {eta} left  {msg}");
     let mut sheets = Vec::new();
     for figure in &chosen {
         bar.set_message(figure.name);

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use clap::Args;
 use serde::Serialize;
 
+use super::json::JsonArgs;
 use super::{ContextArgs, Error};
 use crate::conformance::probe::{self, DepthFacts, MeasuredDepth, OffsetUnit};
 use crate::context::{self, ContextInfo, Profile, egl};
@@ -17,9 +18,8 @@ pub(super) struct InfoArgs {
     /// Uses a context with the fixed-function pipeline
     #[arg(long)]
     compatibility: bool,
-    /// Prints JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// All that is printed.
@@ -44,11 +44,8 @@ pub(super) fn run(arguments: &InfoArgs) -> Result<(), Error> {
         Err(error) => (Vec::new(), Some(error)),
     };
     let info = Info { context: context.describe(), depth_formats, egl_devices, egl_devices_error };
-    let mut text = if arguments.json { serde_json::to_string_pretty(&info)? } else { describe(&info) };
-    if !text.ends_with('\n') {
-        text.push('\n');
-    }
-    super::print(&text)
+    arguments.json.write("info", &info)?;
+    if arguments.json.takes_standard_output() { Ok(()) } else { super::print(&describe(&info)) }
 }
 
 fn describe(info: &Info) -> String {

@@ -3,7 +3,9 @@
 mod check;
 mod context_args;
 mod figures;
+mod generate;
 mod info;
+mod json;
 mod path_text;
 mod pipeline;
 mod plan;
@@ -15,9 +17,13 @@ mod report_light;
 pub mod sample;
 pub mod sample_model;
 mod scene_args;
+mod screen;
 mod stress;
 mod truth_views;
 mod tune;
+
+#[cfg(test)]
+mod help_tests;
 
 use std::process::ExitCode;
 
@@ -34,6 +40,9 @@ use crate::context;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+
+    #[command(flatten)]
+    screen: screen::Screen,
 }
 
 #[derive(Debug, Subcommand)]
@@ -48,6 +57,8 @@ enum Command {
     Report(report::ReportArgs),
     Stress(stress::StressArgs),
     Tune(tune::TuneArgs),
+    #[command(hide = true)]
+    Generate(generate::GenerateArgs),
 }
 
 /// Error of a subcommand.
@@ -133,6 +144,14 @@ pub enum Error {
     SameFile { path: std::path::PathBuf, first: &'static str, second: &'static str },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    #[error("{folder}: the folder cannot be made: {error}", folder = .folder.display())]
+    MakeFolder { folder: std::path::PathBuf, error: std::io::Error },
+    #[error("{file}: {first} and {second} would both be written there; render them one by one, with -o", file = .file.display(), first = .first.display(), second = .second.display())]
+    SamePicture { file: std::path::PathBuf, first: std::path::PathBuf, second: std::path::PathBuf },
+    #[error("-o {file}: is a file; several scenes are drawn into a folder", file = .0.display())]
+    NotAFolder(std::path::PathBuf),
+    #[error("-o -: standard output holds one picture; {0}")]
+    OnePicture(&'static str),
 }
 
 /// Runs the command with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.
@@ -144,16 +163,19 @@ pub fn run() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
+    let screen = arguments.screen;
+    screen.apply();
     let result = match arguments.command {
-        Command::Check(arguments) => return check::run(&arguments),
-        Command::Figures(arguments) => figures::run(&arguments),
+        Command::Check(arguments) => return check::run(&arguments, screen),
+        Command::Figures(arguments) => figures::run(&arguments, screen),
         Command::Info(arguments) => info::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
-        Command::Render(arguments) => render::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments, screen),
         Command::Repack(arguments) => repack::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
-        Command::Stress(arguments) => return stress::run(&arguments),
-        Command::Tune(arguments) => tune::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments, screen),
+        Command::Stress(arguments) => return stress::run(&arguments, screen),
+        Command::Tune(arguments) => tune::run(&arguments, screen),
+        Command::Generate(arguments) => generate::run(&arguments, screen),
     };
     exit_code(result)
 }
@@ -202,24 +224,10 @@ fn say(line: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Pretty JSON and a line's end on standard output.
-fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
-    print(&(serde_json::to_string_pretty(value)? + "\n"))
-}
-
 /// Writes on standard output, to the last byte.
 fn print(text: &str) -> Result<(), Error> {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
     out.write_all(text.as_bytes())?;
     Ok(out.flush()?)
-}
-
-/// A spinner with a message, for work without a known length.
-fn spinner(template: &str) -> indicatif::ProgressBar {
-    let bar = indicatif::ProgressBar::new_spinner();
-    if let Ok(style) = indicatif::ProgressStyle::with_template(&format!("{{spinner}} {template}")) {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::Error;
+use super::json::JsonArgs;
 use super::scene_args::{SceneArgs, parse_view};
 use crate::plan::{self, Request, ViewRequest};
 use crate::scene;
@@ -22,27 +23,26 @@ pub struct PlanArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
 
-    /// Prints JSON
-    #[arg(long, group = "listing")]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
 
     /// Prints the finished GLSL of every program, as the driver compiles it, with file and line marks; with PASS, of the
     /// passes whose name contains it
-    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", group = "listing")]
+    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", group = "listing", conflicts_with = "json")]
     shaders: Option<String>,
 
     /// Prints each light's matrices with their numbers: S, P_light, L^-1, V, and the texgen planes E_po and E_e of each
     /// set-up, with the modelview under which they are loaded; for a cube map those of its six faces
-    #[arg(long, group = "listing")]
+    #[arg(long, group = "listing", conflicts_with = "json")]
     matrices: bool,
 
     /// Prints each pass as OpenGL calls, in C that compiles: glTexGenfv, glPolygonOffset, glCopyTexSubImage2D and so on
-    #[arg(long, group = "listing")]
+    #[arg(long, group = "listing", conflicts_with = "json")]
     gl: bool,
 
     /// Prints the scene itself as TOML, with what was supplied around a model and every --set, to start one's own from;
     /// it names files by absolute paths, so that it may be saved in any folder
-    #[arg(long, group = "listing")]
+    #[arg(long, group = "listing", conflicts_with = "json")]
     print_scene: bool,
 }
 
@@ -71,8 +71,6 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
         let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.changes.overrides())?;
         return super::print(&settings.to_toml());
     }
-    if arguments.json {
-        return super::print_json(&summary);
-    }
-    super::print(&summary.to_string())
+    arguments.json.write("plan", &summary)?;
+    if arguments.json.takes_standard_output() { Ok(()) } else { super::print(&summary.to_string()) }
 }

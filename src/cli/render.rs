@@ -1,31 +1,40 @@
 //! `glumbra render`: a scene to a picture, and the views beside it.
 
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::time::Instant;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use serde::Serialize;
 
+use super::json::JsonArgs;
 use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
-use super::scene_args::SceneArgs;
+use super::scene_args::SceneChanges;
+use super::screen::Screen;
 use super::truth_views::{Aov, parse_aov};
 use super::{ContextArgs, Error};
+use crate::context::Context;
 use crate::device::Pixels;
 use crate::frame::{Frame, Renderer, Times};
-use crate::output::{self, Output};
-use crate::plan::{Request, Summary};
+use crate::output::{self, FileFormat, Output};
+use crate::plan::{Plan, Request, Summary};
 use crate::scene::Scene;
 
 /// Renders a scene or a model to a picture.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct RenderArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
+    /// Scenes (.toml), or models (.obj, .md2) around which a floor, a spotlight and a camera are supplied
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
 
-    /// The picture's file: .png, or .exr or .npy with exact 32-bit values; by default the scene's name with .png, here
+    #[command(flatten)]
+    changes: SceneChanges,
+
+    /// The picture's file: .png, or .exr or .npy with exact 32-bit values; by default the scene's name with .png, here.
+    /// Of several scenes the folder, made if it is not there
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -33,9 +42,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "NAME", value_parser = parse_aov)]
     aov: Vec<Aov>,
 
-    /// Prints passes, times, bytes and what was left out as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
 
     /// Draws this many frames (and times each, for --json)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -56,33 +64,43 @@ pub struct RenderArgs {
 
 const HELP: &str = "\
 Views for --aov:
-  shade           the shadow term: white lit, black shadowed, transparent where the light does not reach
-  depth           the camera's window-space depth
-  light-depth     the shadow map
-  light-view      the scene as the light sees it
-  light-distance  r/q, each sample's planar distance from the light
-  projected-map   the shadow map projected onto the scene
-  texels-per-pixel  texels of the shadow map that a pixel's side shows; a PNG has them as colours with a legend
-  stencil-count   the shadow volumes that hold each point, as counted: grey values are the integers
-  stencil-colors  the same for the eye: green lit, red shadowed, with a legend
-  volume          the shadow volumes over the scene: outsides orange, insides blue
-  silhouette      the casters' possible silhouettes, as the light sees them
-  truth           the ray tracer's picture: lit and shadowed; colours, of all lights, where light or a photograph is
-                  projected
-  difference      the picture's error against the truth; that of colours 16 times as large in a PNG; black where the
-                  bounds of a colour at an edge allow it; grey where the truth is not certain
-  (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
+  shade             white lit, black shadowed, transparent beyond the light
+  depth             the camera's window-space depth
+  light-depth       the shadow map
+  light-view        the scene as the light sees it
+  light-distance    r/q, each sample's planar distance from the light
+  projected-map     the shadow map projected onto the scene
+  texels-per-pixel  texels of the map that a pixel's side shows, as colours
+  stencil-count     the shadow volumes that hold each point: grey is the count
+  stencil-colors    the same for the eye: green lit, red shadowed
+  volume            the shadow volumes: outsides orange, insides blue
+  silhouette        the casters' possible silhouettes, as the light sees them
+  truth             the ray tracer's picture: lit and shadowed; colours, of all
+                    lights, where light or a photograph is projected
+  difference        the picture's error against the truth; black where the
+                    bounds of a colour at an edge allow it, grey where the truth
+                    is not certain. A PNG has errors of colours 16 times as large
+A PNG stretches depths and distances for the eye. EXR and NPY have them as they are.
 
 Examples:
   glumbra render data/scenes/main.toml -o statue.png
   glumbra render model.obj -o model.png --size 800x600 --set camera.fov_y=30
   glumbra render scene.toml -o out.exr --aov shade --aov light-depth
-  glumbra render scene.toml --set light.shadow.filter=nearest --set light.shadow.size=256
-  glumbra render data/scenes/hw_shadowmaps_simple.toml --pipeline fixed-function -o by-the-driver.png
-  glumbra render scene.toml --set shading.passes=shadow --after-pass \"shade of light 0\" -o shade.png
-  glumbra render scene.toml --frames 100 --json --set light.shadow.redraw=always";
+  glumbra render scene.toml --set light.shadow.filter=nearest
+  glumbra render scene.toml --pipeline fixed-function -o by-the-driver.png
+  glumbra render scene.toml --set shading.passes=shadow --after-pass 2
+  glumbra render scene.toml --frames 100 --json -
+  glumbra render a.toml b.toml -o out --quiet";
 
 /// Output of `--json`.
+#[derive(Serialize)]
+struct Results {
+    context: String,
+    renderer: String,
+    /// In the order of the arguments.
+    scenes: Vec<Report>,
+}
+
 #[derive(Serialize)]
 struct Report {
     scene: String,
@@ -90,8 +108,6 @@ struct Report {
     /// The paths above that are not UTF-8.
     #[serde(skip_serializing_if = "PathBytes::is_empty")]
     path_bytes: PathBytes,
-    context: String,
-    renderer: String,
     #[serde(flatten)]
     plan: Summary,
     times: TimesReport,
@@ -116,17 +132,83 @@ struct PassReport {
     gpu_ms: Option<f64>,
 }
 
+impl RenderArgs {
+    /// The folder of the pictures, where several scenes are drawn.
+    fn folder(&self) -> Option<&Path> {
+        self.output.as_deref().filter(|_| self.scenes.len() > 1)
+    }
+}
+
+/// A scene that is to be drawn, and its files: the picture's first.
+struct Job {
+    path: PathBuf,
+    scene: Scene,
+    files: Vec<PathBuf>,
+    plan: Plan,
+    load_ms: f64,
+}
+
 /// Renders.
-pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
-    let path = arguments.output.clone().unwrap_or_else(|| default_output(&arguments.scene.scene));
-    let format = output::check_path(&path)?;
+///
+/// # Errors
+///
+/// Every scene is read and planned before the first is drawn: a scene that cannot be drawn leaves no picture.
+pub fn run(arguments: &RenderArgs, screen: Screen) -> Result<(), Error> {
     let views = each_once(&arguments.aov);
-    let names = views.iter().map(|wanted| output::beside(&path, &wanted.file_name()));
-    let files: Vec<PathBuf> = [path.clone()].into_iter().chain(names).collect();
+    let jobs = jobs(arguments, &views)?;
+    let context = arguments.pipeline.open(&arguments.context)?;
+    if let Some(folder) = arguments.folder() {
+        std::fs::create_dir_all(folder).map_err(|error| Error::MakeFolder { folder: folder.to_owned(), error })?;
+    }
+    screen.driver(context.as_ref());
+    let mut renderer = Renderer::new(&context);
+    let bar = progress(arguments.frames.saturating_mul(jobs.len() as u32), screen);
+    let mut results = Results { context: context.backend().to_owned(), renderer: String::new(), scenes: Vec::new() };
+    let info = context.describe();
+    results.renderer = format!("{}, {}", info.renderer, info.version);
+    for job in jobs {
+        let drawn = draw(job, arguments, &views, (&context, &mut renderer), screen, || bar.inc(1));
+        if drawn.is_err() {
+            bar.finish_and_clear();
+        }
+        results.scenes.push(drawn?);
+    }
+    bar.finish_and_clear();
+    arguments.json.write("render", &results)
+}
+
+/// Reads and plans all scenes, and finds a name for every file.
+fn jobs(arguments: &RenderArgs, views: &[Aov]) -> Result<Vec<Job>, Error> {
+    let pictures = pictures(arguments)?;
+    arguments.scenes.iter().zip(pictures).map(|(path, picture)| job(arguments, views, path, picture)).collect()
+}
+
+/// The picture's file of each scene.
+fn pictures(arguments: &RenderArgs) -> Result<Vec<PathBuf>, Error> {
+    let scenes = &arguments.scenes;
+    let file = match (&arguments.output, scenes.len()) {
+        (Some(file), 1) if !file.is_dir() => return Ok(vec![file.clone()]),
+        (Some(file), _) if file.is_file() => return Err(Error::NotAFolder(file.clone())),
+        (folder, _) => |scene: &PathBuf| folder.as_deref().unwrap_or(Path::new("")).join(default_output(scene)),
+    };
+    let files: Vec<PathBuf> = scenes.iter().map(file).collect();
+    for (index, file) in files.iter().enumerate() {
+        if let Some(other) = files[..index].iter().position(|other| other == file) {
+            let [first, second] = [other, index].map(|index| scenes[index].clone());
+            return Err(Error::SamePicture { file: file.clone(), first, second });
+        }
+    }
+    Ok(files)
+}
+
+fn job(arguments: &RenderArgs, views: &[Aov], path: &Path, picture: PathBuf) -> Result<Job, Error> {
+    let format = if arguments.folder().is_some() { FileFormat::Png } else { output::check_path(&picture)? };
+    let names = views.iter().map(|wanted| output::beside(&picture, &wanted.file_name()));
+    let files: Vec<PathBuf> = [picture.clone()].into_iter().chain(names).collect();
     let start = Instant::now();
-    let loaded = arguments.scene.load()?;
+    let loaded = arguments.changes.load(path)?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
-    refuse_to_overwrite(&files, &arguments.scene.scene, &loaded.scene)?;
+    refuse_to_overwrite(&files, path, &loaded.scene)?;
     let request = Request {
         views: views.iter().filter_map(|wanted| wanted.drawn(&loaded.scene)).collect(),
         float_picture: format.is_exact(),
@@ -138,45 +220,59 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     if let Some(pass) = &arguments.after_pass {
         plan = plan.after_pass(pass)?;
     }
-    let context = arguments.pipeline.open(&arguments.context)?;
-    let mut renderer = Renderer::new(&context);
+    Ok(Job { path: path.to_owned(), scene: loaded.scene, files, plan, load_ms })
+}
+
+/// Draws a scene, and writes its files: all or none.
+fn draw(
+    job: Job,
+    arguments: &RenderArgs,
+    views: &[Aov],
+    (context, renderer): (&Rc<dyn Context>, &mut Renderer),
+    screen: Screen,
+    tick: impl FnMut(),
+) -> Result<Report, Error> {
+    let Job { path, scene, files, mut plan, load_ms } = job;
     renderer.accept(&mut plan)?;
     for warning in &plan.warnings {
         super::say(format_args!("warning: {warning}"));
     }
-    let progress = progress(arguments.frames);
-    let (frames, passes) = (arguments.frames, arguments.json);
-    let drawn = arguments.pipeline.draw(&context, &mut renderer, &plan, frames, passes, || progress.inc(1));
-    progress.finish_and_clear();
-    let (times, mut frame) = drawn?;
+    for left in &plan.left_out {
+        screen.detail(format_args!("left out: {}: {}", left.what, left.why));
+    }
+    let passes = arguments.json.is_wanted() || screen.is_verbose();
+    let (times, mut frame) = arguments.pipeline.draw(context, renderer, &plan, arguments.frames, passes, tick)?;
     if plan.ends_in_alpha() {
         frame.picture = frame.picture.alpha_as_gray();
     }
-    let traced = trace(&views, &loaded.scene, &frame, format.is_exact())?;
+    let format = output::check_path(&files[0])?;
+    let traced = trace(views, &scene, &frame, format.is_exact())?;
     let mut drawn = frame.views.iter();
-    let views = views.iter().zip(&traced).filter_map(|(wanted, traced)| {
-        let view = wanted.drawn(&loaded.scene).and_then(|wanted| Some((drawn.next()?, Some(wanted.view))));
+    let shown = views.iter().zip(&traced).filter_map(|(wanted, traced)| {
+        let view = wanted.drawn(&scene).and_then(|wanted| Some((drawn.next()?, Some(wanted.view))));
         traced.as_ref().map(|pixels| (pixels, None)).or(view)
     });
-    let pictures = [(&frame.picture, None)].into_iter().chain(views);
+    let pictures = [(&frame.picture, None)].into_iter().chain(shown);
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
     output::write_all(&outputs)?;
-    if arguments.json {
-        let info = context.describe();
-        let mut path_bytes = PathBytes::new();
-        let report = Report {
-            scene: path_text(&arguments.scene.scene, &mut path_bytes),
-            files: files.iter().map(|path| path_text(path, &mut path_bytes)).collect(),
-            path_bytes,
-            context: context.backend().to_owned(),
-            renderer: format!("{}, {}", info.renderer, info.version),
-            plan: plan.summary(),
-            times: report_times(load_ms, times),
-        };
-        super::print_json(&report)?;
+    for (index, output) in outputs.iter().enumerate() {
+        let [width, height] = output.pixels.size();
+        let what = index.checked_sub(1).map_or("picture".to_owned(), |view| views[view].file_name());
+        screen.wrote(output.path, format_args!("{what}, {width} x {height}"));
     }
-    Ok(())
+    let times = report_times(load_ms, times);
+    for pass in &times.passes {
+        screen.detail(format_args!("pass {}: {:.3} ms", pass.label, pass.wall_ms));
+    }
+    let mut path_bytes = PathBytes::new();
+    Ok(Report {
+        scene: path_text(&path, &mut path_bytes),
+        files: files.iter().map(|path| path_text(path, &mut path_bytes)).collect(),
+        path_bytes,
+        plan: plan.summary(),
+        times,
+    })
 }
 
 /// Pictures of the views that the ray tracer makes; `None`: of those that were drawn.
@@ -221,15 +317,11 @@ fn default_output(scene: &Path) -> PathBuf {
 }
 
 /// A bar on a terminal when there is time to look at it.
-fn progress(frames: u32) -> ProgressBar {
-    if frames < 10 {
-        return ProgressBar::hidden();
+fn progress(frames: u32, screen: Screen) -> ProgressBar {
+    match frames {
+        0..10 => ProgressBar::hidden(),
+        _ => screen.bar(u64::from(frames), "{bar:40} frame {pos}/{len}, {eta} left"),
     }
-    let bar = ProgressBar::new(u64::from(frames));
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos}/{len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }
 
 fn report_times(load_ms: f64, times: Times) -> TimesReport {

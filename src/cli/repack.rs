@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::json::JsonArgs;
 use super::repack_report::{Report, print, warn};
 use super::scene_args::parse_size;
 use crate::geometry::md2::{self, Model, NormalSource, Pose};
@@ -62,32 +63,30 @@ pub struct RepackArgs {
     #[arg(long, value_name = "N")]
     frame: Option<usize>,
 
-    /// Prints the numbers as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 const HELP: &str = "\
-Bump maps are lit in tangent space, by each triangle's directions of s and t. Where two triangles meet whose t axes point
-apart, the light's direction jumps in tangent space, and the shading of an interpolated vector shows the edge. The command
-cuts the skin into islands (triangles that are joined on the surface and on the skin), turns them until no turn of one
+Bump maps are lit in tangent space, by each triangle's directions of s and t. Where two triangles meet whose t axes point \
+apart, the light's direction jumps in tangent space, and the shading of an interpolated vector shows the edge. The command \
+cuts the skin into islands (triangles that are joined on the surface and on the skin), turns them until no turn of one \
 island lessens the sum of length times angle over the edges between them, and packs them in a new picture.
 
-The table has the angle between the t axes of each two neighbouring triangles, around their common vertex normal: the most
-that a light vector jumps there in tangent space. Where one of the two is mirrored and the other not, a light vector along
+The table has the angle between the t axes of each two neighbouring triangles, around their common vertex normal: the most \
+that a light vector jumps there in tangent space. Where one of the two is mirrored and the other not, a light vector along \
 the surface is reversed whatever the angle: those edges are counted apart, and --unmirror removes them.
 
-Islands that share texels (mirrored halves, left and right limbs) share them afterwards too and turn together, except
-mirrored ones with --unmirror. A quarter turn keeps every texel: it is taken where the mean angle at the island's edges
-is at most 0.05 degrees worse than at the best angle. MD2 files hold whole texels: places
-on the skin are rounded, which turns small triangles by some degrees, and the pictures are sampled in the rounded places;
+Islands that share texels (mirrored halves, left and right limbs) share them afterwards too and turn together, except \
+mirrored ones with --unmirror. A quarter turn keeps every texel: it is taken where the mean angle at the island's edges \
+is at most 0.05 degrees worse than at the best angle. MD2 files hold whole texels: places \
+on the skin are rounded, which turns small triangles by some degrees, and the pictures are sampled in the rounded places; \
 --steps 8 rounds to eighths. An OBJ model gets a material library with the decal; its own materials are left out.
 
 Examples:
-  glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --height data/textures/knight-height.png \\
-      --gloss data/textures/knight-gloss.png -o repacked
-  glumbra repack data/meshes/knight.md2 --decal data/textures/knight.png --unmirror --cut 45 -o repacked
-  glumbra repack model.obj --decal skin.png --size 1024x1024 --gutter 8 -o repacked";
+  glumbra repack knight.md2 --decal knight.png --height height.png -o repacked
+  glumbra repack knight.md2 --decal knight.png --unmirror --cut 45 -o repacked
+  glumbra repack model.obj --decal skin.png --size 512x512 --gutter 8 -o out";
 
 /// Greatest place on the skin in an MD2 file.
 const MOST_STEPS: u32 = i16::MAX as u32;
@@ -134,7 +133,8 @@ enum Source {
 /// Repacks, writes, and prints what changed.
 pub fn run(arguments: &RepackArgs) -> Result<(), super::Error> {
     let report = repack(arguments)?;
-    if arguments.json { super::print_json(&report) } else { super::print(&print(&report)) }
+    arguments.json.write("repack", &report)?;
+    if arguments.json.takes_standard_output() { Ok(()) } else { super::print(&print(&report)) }
 }
 
 fn repack(arguments: &RepackArgs) -> Result<Report, Error> {

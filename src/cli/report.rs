@@ -6,10 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, Subcommand};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::report_light::{measure_light, print_sweeps};
 use super::scene_args::SceneChanges;
+use super::screen::Screen;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
@@ -122,14 +122,15 @@ A grid file varies what it lists:
 Examples:
   glumbra report data/scenes/main.toml -o out/report --quick
   glumbra report a.toml b.toml -o out/report --grid grid.toml --error 0.05
-  parallel glumbra report a.toml -o part{} --shard {}/4 ::: 1 2 3 4 && glumbra report merge part* -o out/report
+  parallel glumbra report a.toml -o part{} --shard {}/4 ::: 1 2 3 4
+  glumbra report merge part* -o out/report
 
-A row is the scene's own [light.shadow] with the row's keys in place of its own, as `render --set` would draw it. All rows are
-checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of
+A row is the scene's own [light.shadow] with the row's keys in place of its own, as `render --set` would draw it. All rows are \
+checked before the first is drawn; a grid has at most 100000. The settings to take are printed as TOML; they take the place of \
 [light.shadow]. Rows that could not be measured end in exit code 1, and the report holds the others.
 
-Without a grid file the report also measures, on each scene, what the techniques' documents claim, and sweeps the keys of
-projected light that the light has: focus.samples, dust.slices, the filter of its image. Colours are compared by RMSE, by the
+Without a grid file the report also measures, on each scene, what the techniques' documents claim, and sweeps the keys of \
+projected light that the light has: focus.samples, dust.slices, the filter of its image. Colours are compared by RMSE, by the \
 greatest difference, by the share of pixels beyond a bound and by FLIP.
 
 Ctrl-C leaves a report of the rows so far; --resume continues it.";
@@ -144,7 +145,7 @@ pub(super) fn parse_shard(text: &str) -> Result<(usize, usize), String> {
 }
 
 /// Measures and writes, or merges.
-pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
+pub fn run(arguments: &ReportArgs, screen: Screen) -> Result<(), Error> {
     if let Some(ReportCommand::Merge(merge)) = &arguments.command {
         return run_merge(merge);
     }
@@ -154,7 +155,7 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
         None => Grid::Standard { quick: arguments.quick },
     };
     let options = options(arguments);
-    let sweeps = prepare(arguments, &grid, &options)?;
+    let sweeps = prepare(arguments, &grid, &options, screen)?;
     let mut report = Report {
         version: VERSION,
         complete: false,
@@ -170,13 +171,13 @@ pub fn run(arguments: &ReportArgs) -> Result<(), Error> {
         take_up(&folder, &stamp, &sweeps, &mut report)?;
     }
     let mut journal = Journal::open(&folder, arguments.resume, &stamp)?;
-    measure(&sweeps, &options, &stop, &mut journal, &mut report)?;
+    measure((&sweeps, screen), &options, &stop, &mut journal, &mut report)?;
     report.complete = report.has_all_rows();
     let goals = Goals { wrong_percent: arguments.error, milliseconds: arguments.time };
     let mut swept = Vec::new();
     if arguments.grid.is_none() && options.shard.0 == 1 && !stop.load(Ordering::Relaxed) {
-        swept = measure_light(&sweeps, &mut report, arguments.quick, &options)?;
-        measure_claims(&sweeps, &mut report, &options)?;
+        swept = measure_light((&sweeps, screen), &mut report, arguments.quick, &options)?;
+        measure_claims((&sweeps, screen), &mut report, &options)?;
     }
     let pictures = draw_pictures((&sweeps, &swept), &mut report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
@@ -227,10 +228,10 @@ fn options(arguments: &ReportArgs) -> MeasureOptions {
     }
 }
 
-fn prepare(arguments: &ReportArgs, grid: &Grid, options: &MeasureOptions) -> Result<Vec<Sweep>, Error> {
+fn prepare(arguments: &ReportArgs, grid: &Grid, options: &MeasureOptions, screen: Screen) -> Result<Vec<Sweep>, Error> {
     arguments.scenes.iter().try_for_each(|path| arguments.changes.check(path))?;
     let overrides = arguments.changes.overrides();
-    let bar = super::spinner("tracing the truth of {msg}");
+    let bar = screen.spinner("tracing the truth of {msg}");
     let prepared = arguments.scenes.iter().map(|path| {
         bar.set_message(path.display().to_string());
         bar.tick();
@@ -276,7 +277,7 @@ fn take_up(folder: &Path, stamp: &str, sweeps: &[Sweep], report: &mut Report) ->
 
 /// Runs every scene's rows that are not there yet, and puts all of them into the journal and the report.
 fn measure(
-    sweeps: &[Sweep],
+    (sweeps, screen): (&[Sweep], Screen),
     options: &MeasureOptions,
     stop: &Arc<AtomicBool>,
     journal: &mut Journal,
@@ -284,10 +285,8 @@ fn measure(
 ) -> Result<(), Error> {
     let todo: Vec<Vec<usize>> =
         sweeps.iter().zip(&report.scenes).map(|(sweep, scene)| sweep.todo(options, &scene.rows)).collect();
-    let bar = ProgressBar::new(todo.iter().map(|rows| rows.len() as u64).sum());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} settings, {eta} left  {msg}") {
-        bar.set_style(style);
-    }
+    let settings = todo.iter().map(|rows| rows.len() as u64).sum();
+    let bar = screen.bar(settings, "{bar:40} {pos}/{len} settings, {eta} left  {msg}");
     for ((sweep, todo), scene) in sweeps.iter().zip(&todo).zip(&mut report.scenes) {
         bar.set_message(scene.path.display().to_string());
         let mut failure = None;
@@ -309,10 +308,15 @@ fn measure(
 }
 
 /// Measures published claims on each scene.
-fn measure_claims(sweeps: &[Sweep], report: &mut Report, options: &MeasureOptions) -> Result<(), Error> {
+fn measure_claims(
+    (sweeps, screen): (&[Sweep], Screen),
+    report: &mut Report,
+    options: &MeasureOptions,
+) -> Result<(), Error> {
     let context = context::open(&options.context)?;
+    screen.driver(context.as_ref());
     let mut renderer = Renderer::new(&context);
-    let bar = super::spinner("published claims, on {msg}");
+    let bar = screen.spinner("published claims, on {msg}");
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         bar.set_message(scene.path.display().to_string());
         bar.tick();

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use super::Error;
+use super::screen::Screen;
 use crate::context;
 use crate::frame::Renderer;
 use crate::report::measure::run::{self, MeasureOptions, Sweep};
@@ -12,14 +13,14 @@ use crate::report::store::swept::SweepSeries;
 
 /// Measures the sweeps over keys of projected light on each scene.
 pub(super) fn measure_light(
-    sweeps: &[Sweep],
+    (sweeps, screen): (&[Sweep], Screen),
     report: &mut Report,
     quick: bool,
     options: &MeasureOptions,
 ) -> Result<Vec<Vec<MeasuredSweep>>, Error> {
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
-    let bar = super::spinner("projected light, {msg}");
+    let bar = screen.spinner("projected light, {msg}");
     let mut all = Vec::new();
     for (sweep, scene) in sweeps.iter().zip(&mut report.scenes) {
         let (light, runs) = (options.light, options.runs);

@@ -33,6 +33,20 @@ impl SceneChanges {
         size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
     }
 
+    /// Loads the file `scene` with these changes, and prints its warnings.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file, and of options that do not apply to it.
+    pub fn load(&self, scene: &Path) -> Result<Loaded, Error> {
+        self.check(scene)?;
+        let loaded = crate::load(scene, &self.overrides())?;
+        for warning in &loaded.warnings {
+            super::say(format_args!("warning: {warning}"));
+        }
+        Ok(loaded)
+    }
+
     /// Refuses options that do not apply to the file `scene`.
     pub fn check(&self, scene: &Path) -> Result<(), Error> {
         let is_scene = scene.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
@@ -53,12 +67,7 @@ pub struct SceneArgs {
 impl SceneArgs {
     /// Loads the scene and prints its warnings.
     pub fn load(&self) -> Result<Loaded, Error> {
-        self.changes.check(&self.scene)?;
-        let loaded = crate::load(&self.scene, &self.changes.overrides())?;
-        for warning in &loaded.warnings {
-            super::say(format_args!("warning: {warning}"));
-        }
-        Ok(loaded)
+        self.changes.load(&self.scene)
     }
 }
 

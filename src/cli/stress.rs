@@ -7,13 +7,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::report::{parse_shard, stop_on_interrupt};
-use super::{ContextArgs, Error, spinner};
+use super::screen::Screen;
+use super::{ContextArgs, Error, json};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
-use crate::output::atomic_write;
 use crate::stress::{self, Case, CaseResult, StressOptions, Verdict, named, random};
 use crate::techniques::TABLE;
 
@@ -49,7 +48,7 @@ pub struct StressArgs {
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard)]
     shard: (usize, usize),
 
-    /// Writes every row as JSON
+    /// Writes every row as JSON to a file; - is standard output, in place of the table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 
@@ -73,10 +72,10 @@ Verdicts:
   refused         an error instead of a picture
   silently wrong  outside it, without a warning
 
-The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's
-reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face
-the light. Colours of projected light and of bumps lie within bounds that a sample's error, roundings and tables explain;
-with shadow maps in dust or through a lens, so does their mean. A scene that fails is reduced, and written as a scene file
+The bound: a shadow volume has no wrong pixel where the ray caster is certain. A map has wrong pixels only within a lookup's \
+reach of a silhouette or a crease, or where a shadow is thinner than its bias, and at most 1.5 % of the surfaces that face \
+the light. Colours of projected light and of bumps lie within bounds that a sample's error, roundings and tables explain; \
+with shadow maps in dust or through a lens, so does their mean. A scene that fails is reduced, and written as a scene file \
 for `glumbra render`.
 
 Exit status: 0 nothing is silently wrong, 1 something is, 2 nothing could be run.
@@ -85,7 +84,7 @@ Examples:
   glumbra stress
   glumbra stress --seed 7 --count 1000 -o out/stress
   glumbra stress --count 0 --case cone --technique shadow-map
-  glumbra stress --count 50 --case projected    beams, slides, alpha shadows, lenses, dust, bumps, by their colours
+  glumbra stress --count 50 --case projected    # beams, lenses, bumps, …
   parallel glumbra stress --count 10000 --shard {}/4 -o part{} ::: 1 2 3 4";
 
 /// Scenes reduced at most: each takes some seconds.
@@ -100,14 +99,14 @@ fn parse_technique(text: &str) -> Result<String, String> {
 }
 
 /// Draws, judges, prints, writes.
-pub fn run(arguments: &StressArgs) -> ExitCode {
-    match stress(arguments) {
+pub fn run(arguments: &StressArgs, screen: Screen) -> ExitCode {
+    match stress(arguments, screen) {
         Ok(fails) => ExitCode::from(u8::from(fails)),
         Err(error) => super::failure(error, 2),
     }
 }
 
-fn stress(arguments: &StressArgs) -> Result<bool, Error> {
+fn stress(arguments: &StressArgs, screen: Screen) -> Result<bool, Error> {
     let cases = cases(arguments)?;
     if arguments.list {
         let mut out = std::io::stdout().lock();
@@ -123,17 +122,17 @@ fn stress(arguments: &StressArgs) -> Result<bool, Error> {
         context: arguments.context.request(Profile::Core33),
     };
     let stop = stop_on_interrupt();
-    let results = draw(&cases, &options, &stop)?;
+    let results = draw(&cases, &options, &stop, screen)?;
     if let Some(folder) = &arguments.output {
-        let reduced = reduce(&cases, &results, &options)?;
+        let reduced = reduce(&cases, &results, &options, screen)?;
         stress::write(folder, arguments.seed, &results, &reduced)?;
     }
     if let Some(path) = &arguments.json {
-        let json = stress::to_json(arguments.seed, &results)?;
-        let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &json));
-        written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
+        json::put(path, &stress::to_json(arguments.seed, &results)?)?;
     }
-    print(arguments, &results)?;
+    if !arguments.json.as_deref().is_some_and(json::is_standard_output) {
+        print(arguments, &results)?;
+    }
     Ok(results.iter().any(CaseResult::fails))
 }
 
@@ -155,11 +154,13 @@ fn cases(arguments: &StressArgs) -> Result<Vec<Case>, Error> {
     }
 }
 
-fn draw(cases: &[Case], options: &StressOptions, stop: &Arc<AtomicBool>) -> Result<Vec<CaseResult>, Error> {
-    let bar = ProgressBar::new(cases.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left  {msg}") {
-        bar.set_style(style);
-    }
+fn draw(
+    cases: &[Case],
+    options: &StressOptions,
+    stop: &Arc<AtomicBool>,
+    screen: Screen,
+) -> Result<Vec<CaseResult>, Error> {
+    let bar = screen.bar(cases.len() as u64, "{bar:40} {pos}/{len} cases, {eta} left  {msg}");
     let mut results: Vec<Option<CaseResult>> = cases.iter().map(|_| None).collect();
     let mut failing = 0;
     stress::run(cases, options, stop, |index, result| {
@@ -175,7 +176,7 @@ fn draw(cases: &[Case], options: &StressOptions, stop: &Arc<AtomicBool>) -> Resu
 }
 
 /// The first failing cases, each made small under its first setting that is silently wrong.
-fn reduce(cases: &[Case], results: &[CaseResult], options: &StressOptions) -> Result<Vec<Case>, Error> {
+fn reduce(cases: &[Case], results: &[CaseResult], options: &StressOptions, screen: Screen) -> Result<Vec<Case>, Error> {
     let failing = results.iter().filter_map(|result| {
         let row = result.rows.iter().find(|row| row.verdict == Verdict::SilentlyWrong)?;
         Some((cases.iter().find(|case| case.name == result.name)?, row.settings.to_inline()))
@@ -187,7 +188,7 @@ fn reduce(cases: &[Case], results: &[CaseResult], options: &StressOptions) -> Re
     let context = context::open(&options.context)?;
     let mut renderer = Renderer::new(&context);
     let options = StressOptions { pictures: false, ..options.clone() };
-    let bar = spinner("making {msg} small");
+    let bar = screen.spinner("making {msg} small");
     let mut reduced = Vec::new();
     for (case, inside) in failing {
         bar.set_message(case.name.clone());

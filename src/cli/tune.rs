@@ -2,7 +2,9 @@
 
 use clap::Args;
 
+use super::json::JsonArgs;
 use super::scene_args::SceneArgs;
+use super::screen::Screen;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
@@ -11,10 +13,10 @@ use crate::report::measure::tune::{self, TuneOptions, Tuned, TunedPoint};
 /// Finds the polygon offset and the smallest map that a scene needs, with ray-traced truth as the judge.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-For each map size and slope factor the least number of units is searched that leaves no false shadow (acne) on surfaces
-that face the light, beyond a band of texels around the true shadow edge; of these offsets the one that leaks least is
-taken, and of the sizes the smallest that leaks no more than --leak percent. At least 1000 pixels must be comparable.
-The answer takes the place of the light's [light.shadow]: it has the scene's other keys too. Whatever technique the scene names, it is the
+For each map size and slope factor the least number of units is searched that leaves no false shadow (acne) on surfaces \
+that face the light, beyond a band of texels around the true shadow edge; of these offsets the one that leaks least is \
+taken, and of the sizes the smallest that leaks no more than --leak percent. At least 1000 pixels must be comparable. \
+The answer takes the place of the light's [light.shadow]: it has the scene's other keys too. Whatever technique the scene names, it is the \
 shadow map's offset; techniques without one are measured beside it.
 
 Example:
@@ -44,16 +46,15 @@ pub struct TuneArgs {
     #[arg(long, value_name = "TEXELS", default_value_t = 2.0)]
     band: f64,
 
-    /// Prints the curve and the choice as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArgs,
 
     #[command(flatten)]
     context: ContextArgs,
 }
 
 /// Tunes and prints.
-pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
+pub fn run(arguments: &TuneArgs, screen: Screen) -> Result<(), Error> {
     let scene = arguments.scene.load()?.scene;
     let mut sizes = arguments.sizes.clone();
     sizes.sort_unstable();
@@ -67,13 +68,15 @@ pub fn run(arguments: &TuneArgs) -> Result<(), Error> {
     };
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     let mut renderer = Renderer::new(&context);
-    let bar = super::spinner("{pos} offsets seen, {elapsed}: {msg}");
+    screen.driver(context.as_ref());
+    let bar = screen.spinner("{pos} offsets seen, {elapsed}: {msg}");
     let tuned = tune::tune(&scene, &options, &mut renderer, |point| {
         bar.inc(1);
         bar.set_message(line(point));
     })?;
     bar.finish_and_clear();
-    if arguments.json { super::print_json(&tuned) } else { print(&tuned, &options) }
+    arguments.json.write("tune", &tuned)?;
+    if arguments.json.takes_standard_output() { Ok(()) } else { print(&tuned, &options) }
 }
 
 /// Fewest pixels in shadow; with fewer there is little that could leak.

@@ -34,7 +34,7 @@ pub use repeats::{Flake, join};
 pub use reset::ResetStatus;
 pub use screen::{list, screen};
 pub use table::TABLE;
-pub use write::{json, junit};
+pub use write::junit;
 
 use self::bench::fixed_function::FixedBench;
 use self::bench::{Bench, Mutation};

@@ -1,19 +1,10 @@
-//! Machine-readable results: JSON, and JUnit's XML for continuous integration.
+//! JUnit's XML of the results, for continuous integration.
 
 use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{Checked, Finding, RuleOutcome, RuleVerdict};
-
-/// All of it, pretty.
-///
-/// # Errors
-///
-/// Those of serde.
-pub fn json(checked: &Checked) -> Result<String, serde_json::Error> {
-    serde_json::to_string_pretty(checked).map(|text| text + "\n")
-}
 
 /// A suite each rule, and in it a test case each finding. The driver's numbers are the suites' properties. One suite more
 /// has the waivers that are out of date, and one the rules that were not run when a run was ended.

@@ -5,6 +5,8 @@ pub(crate) mod atomic_write;
 pub mod canvas;
 mod counts;
 mod density;
+#[doc(hidden)]
+pub mod json;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::case::Case;
 use super::results::CaseResult;
 use super::{page, plot};
-use crate::output::atomic_write;
+use crate::output::{atomic_write, json};
 use crate::report::show::plots;
 
 /// Reason why a run's results could not be written.
@@ -34,7 +34,6 @@ pub enum Error {
 /// All of a run, as JSON has it.
 #[derive(serde::Serialize)]
 struct Run<'a> {
-    glumbra: &'static str,
     seed: u64,
     cases: &'a [CaseResult],
 }
@@ -44,8 +43,8 @@ struct Run<'a> {
 /// # Errors
 ///
 /// An error of the encoder.
-pub fn to_json(seed: u64, results: &[CaseResult]) -> Result<Vec<u8>, Error> {
-    Ok(serde_json::to_vec_pretty(&Run { glumbra: env!("CARGO_PKG_VERSION"), seed, cases: results })?)
+pub fn to_json(seed: u64, results: &[CaseResult]) -> Result<String, Error> {
+    Ok(json::document("stress", &Run { seed, cases: results })?)
 }
 
 /// Writes `stress.html` and `stress.json` into `folder`, and the `reduced` scenes into its folder `scenes`. Both folders
@@ -66,7 +65,7 @@ pub fn write(folder: &Path, seed: u64, results: &[CaseResult], reduced: &[Case])
     }
     let plots = plot::sweeps(results)?;
     let files = [
-        (folder.join("stress.json"), to_json(seed, results)?),
+        (folder.join("stress.json"), to_json(seed, results)?.into_bytes()),
         (folder.join("stress.html"), page::to_html(results, &plots).into_bytes()),
     ];
     let paths: Vec<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();

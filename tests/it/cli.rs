@@ -182,7 +182,6 @@ const ARGUMENTS: &[(&[&str], i32, &str)] = &[
     (&["-o", "absent/x.png"], 1, "absent/x.png: the folder absent does not exist"),
     (&["-o", "x.jpeg"], 1, "x.jpeg: cannot tell the format: end it in .png, .exr or .npy"),
     (&["-o", "x"], 1, "cannot tell the format"),
-    (&["-o", "."], 1, "is a folder; name a file"),
     (&["-o", ""], 2, "a value is required"),
 ];
 
@@ -225,7 +224,7 @@ fn files_that_are_no_scenes_are_refused() {
 #[test]
 fn what_the_driver_cannot_hold_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let info = glumbra(folder.path(), &["info", "--json"]);
+    let info = glumbra(folder.path(), &["info", "--json", "-"]);
     let info: serde_json::Value = serde_json::from_slice(&info.stdout).unwrap();
     let limits = &info["context"]["limits"];
     let sides = [&limits["texture_size"], &limits["renderbuffer_size"], &limits["viewport"][0], &limits["viewport"][1]];
@@ -486,8 +485,10 @@ fn maps_hold_the_codes_of_their_format() {
 #[test]
 fn json_has_passes_times_bytes_and_what_was_left_out() {
     let folder = tempfile::tempdir().unwrap();
-    let done = render(folder.path(), &["-o", "x.png", "--aov", "shade", "--json", "--frames", "3"]);
+    let done = render(folder.path(), &["-o", "x.png", "--aov", "shade", "--json", "-", "--frames", "3"]);
     let json: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!((&json["schema"], &json["schema_version"]), (&"glumbra-render".into(), &1.into()));
+    let json = &json["scenes"][0];
     assert_eq!(json["files"], serde_json::json!(["x.png", "x.shade.png"]));
     assert_eq!(json["times"]["frames_ms"].as_array().unwrap().len(), 3);
     let labels = |list: &serde_json::Value| -> Vec<String> {
@@ -499,6 +500,64 @@ fn json_has_passes_times_bytes_and_what_was_left_out() {
     let left_out = json["left_out"].as_array().unwrap();
     assert!(left_out.iter().any(|left| left["what"].as_str().unwrap().starts_with("colour attachment")), "{json}");
     assert_eq!(names(folder.path()), ["x.png", "x.shade.png"]);
+}
+
+#[test]
+fn several_scenes_are_drawn_into_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let (boxes, plane) = (boxes(), boxes().replace("box.toml", "plane.toml"));
+    let arguments = ["render", &boxes, &plane, "-o", "out", "--size", "64x48", "--aov", "shade", "--json", "all.json"];
+    let done = glumbra(folder.path(), &arguments);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let said = text(&done.stderr);
+    for file in ["box.png", "box.shade.png", "plane.png", "plane.shade.png"] {
+        assert!(said.contains(&format!("wrote out/{file}: ")), "{said}");
+    }
+    assert_eq!(names(&folder.path().join("out")), ["box.png", "box.shade.png", "plane.png", "plane.shade.png"]);
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("all.json")).unwrap()).unwrap();
+    assert_eq!(json["scenes"].as_array().unwrap().len(), 2);
+    glumbra(folder.path(), &["render", &plane, "-o", "alone.png", "--size", "64x48"]);
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(read("alone.png") == read("out/plane.png"), "a picture depends on what was drawn before");
+
+    let twice = glumbra(folder.path(), &["render", &boxes, &boxes, "-o", "twice"]);
+    refusal(&twice, 1, "would both be written there").unwrap();
+    let bad = glumbra(folder.path(), &["render", &boxes, "none.toml", "-o", "late"]);
+    refusal(&bad, 1, "none.toml").unwrap();
+    assert!(!folder.path().join("late").exists(), "a picture beside a scene that cannot be read");
+}
+
+#[test]
+fn quiet_and_verbose_say_less_and_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |option: &str| text(&render(folder.path(), &["-o", "x.png", option]).stderr);
+    assert_eq!(said("--quiet"), "");
+    assert_eq!(said("--color=never").lines().count(), 1);
+    let more = said("--verbose");
+    for part in ["driver: ", "left out: colour attachment", "wrote x.png: picture, 64 x 48", "pass lit: "] {
+        assert!(more.contains(part), "{part}: {more}");
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_know_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = text(&glumbra(folder.path(), &["--help"]).stdout);
+    let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let commands: Vec<String> = listed
+        .filter(|line| !line.starts_with("   "))
+        .filter_map(|line| Some(line.split_whitespace().next()?.to_owned()))
+        .filter(|name| name != "help")
+        .collect();
+    assert!(commands.len() >= 9 && !commands.contains(&"generate".to_owned()), "{commands:?}");
+    let script = text(&glumbra(folder.path(), &["generate", "completions", "bash"]).stdout);
+    assert!(glumbra(folder.path(), &["generate", "man", "pages", "--quiet"]).status.success());
+    for command in &commands {
+        assert!(script.contains(&format!("glumbra__subcmd__{command}")), "{command} has no completions");
+        let page = fs::read_to_string(folder.path().join(format!("pages/glumbra-{command}.1"))).unwrap();
+        assert!(page.contains(".SH OPTIONS"), "{command}: {page}");
+    }
+    assert!(!folder.path().join("pages/glumbra-generate.1").exists());
 }
 
 #[test]
@@ -530,7 +589,7 @@ fn a_plan_needs_no_gl() {
     for expected in ["light 0: depth", "lit", "shade", "DEPTH_COMPONENT24", "colour attachment"] {
         assert!(plan.contains(expected), "{expected}: {plan}");
     }
-    let done = without_gl(&["plan", &boxes(), "--json"]);
+    let done = without_gl(&["plan", &boxes(), "--json", "-"]);
     let json: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
     assert!(!json["passes"].as_array().unwrap().is_empty());
 }

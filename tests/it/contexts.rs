@@ -173,7 +173,7 @@ fn info_prints_what_a_person_looks_for() {
 
 #[test]
 fn info_prints_json() {
-    let output = glumbra(&["info", "--json", "--compatibility"]);
+    let output = glumbra(&["info", "--json", "-", "--compatibility"]);
     assert_eq!((output.code, output.stderr.as_str()), (0, ""));
     let json: serde_json::Value = serde_json::from_str(&output.stdout).unwrap();
     assert_eq!(json["context"]["profile"], "compatibility");

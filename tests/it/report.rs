@@ -254,7 +254,7 @@ fn tune_finds_an_offset_at_any_size() {
         );
         std::fs::write(work.path("sized.toml"), scene).unwrap();
         let mut command = Command::new(GLUMBRA);
-        command.current_dir(work.folder.path()).args(["tune", "sized.toml", "--sizes", "128,256", "--json"]);
+        command.current_dir(work.folder.path()).args(["tune", "sized.toml", "--sizes", "128,256", "--json", "-"]);
         let tuned: serde_json::Value = serde_json::from_str(&succeed(&mut command)).unwrap();
         let chosen = tuned["chosen"].clone();
         assert!(chosen["false_shadow_percent"].as_f64().unwrap() < 0.05, "{chosen}");
@@ -511,7 +511,7 @@ fn what_tune_chose_is_what_its_toml_draws() {
     let text = with_keys();
     std::fs::write(work.path("scene.toml"), &text).unwrap();
     let mut command = Command::new(GLUMBRA);
-    command.current_dir(work.folder.path()).args(["tune", "scene.toml", "--sizes", "128", "--json"]);
+    command.current_dir(work.folder.path()).args(["tune", "scene.toml", "--sizes", "128", "--json", "-"]);
     let tuned: serde_json::Value = serde_json::from_str(&succeed(&mut command)).unwrap();
     let toml = tuned["chosen_toml"].as_str().unwrap();
     for key in ["filter = \"nearest\"", "format = \"depth16\"", "dimming = 0.25", "size = 128"] {

@@ -90,7 +90,7 @@ fn window_and_pbuffer_draw_under_xvfb() -> Done {
         return Ok(Completion::ignored_with("this machine has no Xvfb"));
     };
     for (kind, backend) in [("window", "window"), ("egl", "EGL surfaceless")] {
-        let mut command = command(&["info", "--json", "--context", kind]);
+        let mut command = command(&["info", "--json", "-", "--context", kind]);
         command.env("DISPLAY", server.display());
         let output = run(command);
         assert_eq!(output.code, 0, "{kind}: {}", output.stderr);

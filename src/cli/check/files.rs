@@ -6,12 +6,11 @@ use std::time::{Duration, Instant};
 
 use super::CheckArgs;
 use crate::cli::Error;
+use crate::cli::json::is_standard_output;
 use crate::conformance::waivers::{self, Waiver};
 use crate::conformance::{self, Checked};
 use crate::output::{self, atomic_write};
 
-/// The name that stands for standard output.
-const STANDARD_OUTPUT: &str = "-";
 /// Between two writes while rules are run.
 const PAUSE: Duration = Duration::from_millis(200);
 
@@ -74,17 +73,13 @@ impl<'a> Files<'a> {
     fn write(&self, checked: &Checked, wanted: impl Fn(&Path) -> bool) -> Result<(), Error> {
         let mut files: Vec<(&Path, String)> = Vec::new();
         if let Some(path) = self.json.filter(|path| wanted(path)) {
-            files.push((path, conformance::json(checked)?));
+            files.push((path, output::json::document("check", checked)?));
         }
         if let Some(path) = self.junit.filter(|path| wanted(path)) {
             files.push((path, conformance::junit(checked)?));
         }
         put(&files)
     }
-}
-
-fn is_standard_output(path: &Path) -> bool {
-    path == Path::new(STANDARD_OUTPUT)
 }
 
 /// Writes all, or none.

@@ -10,11 +10,12 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 pub use self::children::ChildError;
 use self::children::Heard;
 use self::files::Files;
+use super::screen::Screen;
 use super::{ContextArgs, Error};
 use crate::conformance::events::Event;
 use crate::conformance::{self, Checked, Rule, RuleOutcome, baseline, events, waivers};
@@ -31,10 +32,6 @@ pub struct CheckArgs {
     /// Lists the rules, a line each, and draws nothing
     #[arg(long)]
     list: bool,
-
-    /// Shows the full table: checks that pass, tolerances, the driver's numbers
-    #[arg(short, long)]
-    verbose: bool,
 
     /// Uses a core context, where rules of the fixed-function pipeline cannot be tested
     #[arg(long)]
@@ -105,16 +102,16 @@ impl CheckArgs {
 }
 
 const HELP: &str = "\
-A rule passes, has a quality warning (it is allowed, but good drivers do better), fails, or cannot be
+A rule passes, has a quality warning (it is allowed, but good drivers do better), fails, or cannot be \
 tested here. Verdicts come from bounds on what the specification allows, never from a picture.
 
-Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance,
-F framebuffers, E texture environments, M cube maps, L levels and filters of textures,
-U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q queries,
-K sequences of calls, and large numbers, X what is generated at random and held against models.
+Rules: C comparison, T coordinates, D depth, O polygon offset, S stencil, R raster, I invariance, \
+F framebuffers, E texture environments, M cube maps, L levels and filters of textures, \
+U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q queries, \
+K sequences of calls, and large numbers, X what is generated at random and held against models. \
 --list has all.
 
-The rules run in a child process. What ends it is a verdict of the rule that it was at, and the rest
+The rules run in a child process. What ends it is a verdict of the rule that it was at, and the rest \
 goes on in a new one:
   CRASH          a signal, such as SIGSEGV, or an exit of the driver's own
   HANG           no end within --timeout
@@ -123,36 +120,36 @@ goes on in a new one:
 Files are tried before the run and written as results come. A run that is ended leaves what it has:
 `unfinished` names the rules that are missing.
 
-The screen has what does not pass; its last line names the rules that fail. Colours: NO_COLOR turns
+The screen has what does not pass; its last line names the rules that fail. Colours: NO_COLOR turns \
 them off. With `--json -` or `--junit -` the screen's text goes to standard error.
 
 A waiver names a deviation that is known, by driver, versions, rule and check:
   [[waiver]]
   renderer = \"llvmpipe\"         # the beginning of GL_RENDERER
   version = \"Mesa \"            # a part of GL_VERSION
-  from = \"22.3\"               # the first such version, by the number behind it; may be absent
+  from = \"22.3\"               # the first such version; may be absent
   until = \"27\"                # the first that is sound again; may be absent
   rule = \"GL-O1\"
   finding = \"DEPTH_COMPONENT32: one unit\"  # absent: every check of the rule
   reason = \"f32 has 24 bits\"
 One that no longer applies is a failure. --write-waivers writes such a file.
 
---reduce writes a program for a driver's developers: the calls of GL that the failure needs, no more,
-and what the specification asks of the number that they read. It needs libEGL alone. Calls that by the
-specification cannot matter are left out if the driver errs without them, too; each trial draws the
-scene in a new context, 250 times at most. A failure that is no single number (two pictures that must be
-alike, a crash) is refused. cc FILE.c -o reduced -ldl; exit status of ./reduced: 1 the driver has the
+--reduce writes a program for a driver's developers: the calls of GL that the failure needs, no more, \
+and what the specification asks of the number that they read. It needs libEGL alone. Calls that by the \
+specification cannot matter are left out if the driver errs without them, too; each trial draws the \
+scene in a new context, 250 times at most. A failure that is no single number (two pictures that must be \
+alike, a crash) is refused. cc FILE.c -o reduced -ldl; exit status of ./reduced: 1 the driver has the \
 fault, 0 it has not, 2 nothing can be said.
 
-Exit status: 0 nothing fails, 1 a rule fails (with --baseline: one that did not fail before), 2 nothing
+Exit status: 0 nothing fails, 1 a rule fails (with --baseline: one that did not fail before), 2 nothing \
 could be run.
 
 Examples:
   glumbra check
   glumbra check --filter stencil --filter GL-O1 --verbose
   glumbra check --junit out/check.xml --json out/check.json
-  glumbra check --json out/now.json --baseline out/before.json    what have I broken, what mended?
-  glumbra check --filter GL-F3 --repeat 20                        does it always answer alike?
+  glumbra check --json now.json --baseline before.json  # broken, mended?
+  glumbra check --filter GL-F3 --repeat 20              # always alike?
   glumbra check --reduce GL-R1 -o r1.c && cc r1.c -o r1 -ldl && ./r1
   gdb --args glumbra check --here --filter GL-R1
   GALLIUM_DRIVER=softpipe glumbra check --context egl";
@@ -161,12 +158,12 @@ Examples:
 const WIDTH: usize = 80;
 
 /// Checks, prints, writes.
-pub fn run(arguments: &CheckArgs) -> ExitCode {
+pub fn run(arguments: &CheckArgs, screen: Screen) -> ExitCode {
     let result = match &arguments.reduce {
-        Some(rule) => reduce::run(arguments, rule).map(|()| None),
+        Some(rule) => reduce::run(arguments, rule, screen).map(|()| None),
         None if !arguments.child.is_empty() => child::run(arguments, &arguments.child).map(|()| None),
         None if arguments.list => list(arguments).map(|()| None),
-        None => check(arguments).map(Some),
+        None => check(arguments, screen).map(Some),
     };
     match result {
         Ok(None) => ExitCode::SUCCESS,
@@ -180,15 +177,12 @@ fn list(arguments: &CheckArgs) -> Result<(), Error> {
     super::print(&conformance::list(&conformance::choose(&arguments.filter)?))
 }
 
-fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
+fn check(arguments: &CheckArgs, screen: Screen) -> Result<Checked, Error> {
     let rules = conformance::choose(&arguments.filter)?;
     let known = waivers::load(arguments.waivers.as_deref())?;
     let before = arguments.baseline.as_deref().map(baseline::load).transpose()?;
     let files = Files::new(arguments)?;
-    let bar = ProgressBar::new(rules.len() as u64 * u64::from(arguments.repeat));
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rules  {msg}") {
-        bar.set_style(style);
-    }
+    let bar = screen.bar(rules.len() as u64 * u64::from(arguments.repeat), "{bar:40} {pos}/{len} rules  {msg}");
     let mut run =
         Run { context: None, repeats: Vec::new(), rules, known, before, files, bar, dirty: false, error: None };
     for _ in 0..arguments.repeat {
@@ -203,7 +197,7 @@ fn check(arguments: &CheckArgs) -> Result<Checked, Error> {
         return Err(ChildError::Ended("the process that checks has told no driver".to_owned()).into());
     };
     run.files.write_all(&checked, &run.known)?;
-    print(&checked, arguments.verbose, run.files.take_standard_output())?;
+    print(&checked, screen.is_verbose(), run.files.take_standard_output())?;
     Ok(checked)
 }
 

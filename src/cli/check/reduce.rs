@@ -3,11 +3,10 @@
 use std::path::Path;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::children::{self, Heard};
 use super::{CheckArgs, ChildError, child};
 use crate::cli::Error;
+use crate::cli::screen::Screen;
 use crate::conformance::reduce::{self, MOST_REPLAYS, ReduceError, Step};
 use crate::conformance::{self, Rule, RuleOutcome, RuleVerdict};
 use crate::output::atomic_write;
@@ -17,7 +16,7 @@ use crate::output::atomic_write;
 /// # Errors
 ///
 /// An unknown rule, one that does not fail, one whose failure cannot be reduced; a file that cannot be written.
-pub fn run(arguments: &CheckArgs, pattern: &str) -> Result<(), Error> {
+pub fn run(arguments: &CheckArgs, pattern: &str, screen: Screen) -> Result<(), Error> {
     let rules = conformance::choose(&[pattern.to_owned()])?;
     let [rule] = rules[..] else {
         return Err(Error::ReduceOne {
@@ -32,10 +31,7 @@ pub fn run(arguments: &CheckArgs, pattern: &str) -> Result<(), Error> {
         atomic_write::try_to_write(path).map_err(|error| Error::WriteFile { path: path.to_owned(), error })?;
     }
     must_fail(arguments, rule)?;
-    let bar = ProgressBar::new(MOST_REPLAYS as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos} of at most {len} replays  {msg}") {
-        bar.set_style(style);
-    }
+    let bar = screen.bar(MOST_REPLAYS as u64, "{bar:40} {pos} of at most {len} replays  {msg}");
     let mut asked = 0;
     let mut tick = |step| match step {
         Step::Asks => {

@@ -80,7 +80,7 @@ fn what_a_killed_process_leaves_is_removed() {
 #[test]
 fn two_writers_leave_one_whole_picture() {
     let folder = work();
-    let script = "for i in 1 2 3 4; do glumbra render scene.toml -o x.png --aov shade || exit 1; done";
+    let script = "for i in 1 2 3 4; do glumbra render scene.toml -o x.png --aov shade --quiet || exit 1; done";
     let children: Vec<_> =
         (0..2).map(|_| shell(folder.path(), script).stderr(Stdio::piped()).spawn().unwrap()).collect();
     for child in children {

@@ -13,11 +13,14 @@ fn a_path_that_is_no_utf_8_keeps_its_bytes_in_json() {
     fs::rename(folder.path().join("scene.toml"), folder.path().join(name)).unwrap();
     let output = Command::new(GLUMBRA)
         .current_dir(folder.path())
-        .args([OsStr::new("render"), name, OsStr::new("--json"), OsStr::new("--aov"), OsStr::new("shade")])
+        .arg("render")
+        .arg(name)
+        .args(["--quiet", "--json", "-", "--aov", "shade"])
         .output()
         .unwrap();
     assert_eq!((code(&output), text(&output.stderr)), (0, String::new()));
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let json = &json["scenes"][0];
     assert_eq!(json["scene"], "caf\u{fffd}.toml");
     assert_eq!(json["path_bytes"]["caf\u{fffd}.toml"], "636166e92e746f6d6c");
     assert_eq!(json["path_bytes"]["caf\u{fffd}.shade.png"], "636166e92e73686164652e706e67");
@@ -41,7 +44,9 @@ fn a_view_that_is_asked_for_twice_is_written_once() {
         let folder = work();
         let output = run(folder.path(), &format!("glumbra render scene.toml -o x.png {twice}"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-        assert_eq!(text(&output.stderr), "warning: --aov names PICTURE.shade twice; it is written once\n");
+        let warnings = text(&output.stderr);
+        assert_eq!(warnings.lines().next(), Some("warning: --aov names PICTURE.shade twice; it is written once"));
+        assert_eq!(warnings.lines().filter(|line| line.starts_with("wrote ")).count(), 2, "{warnings}");
         assert_eq!(names(folder.path()), ["scene.toml", "x.png", "x.shade.png"]);
     }
 }
@@ -50,7 +55,7 @@ fn a_view_that_is_asked_for_twice_is_written_once() {
 fn a_link_is_followed_and_a_pipe_is_written_to() {
     let folder = work();
     let script = "mkdir real; ln -s real/y.png x.png; mkfifo x.shade.png; cat x.shade.png > read & \
-                  glumbra render scene.toml -o x.png --aov shade && wait";
+                  glumbra render scene.toml -o x.png --aov shade --quiet && wait";
     let output = run(folder.path(), script);
     assert_eq!((code(&output), text(&output.stderr)), (0, String::new()));
     assert_eq!(names(folder.path()), ["read", "real", "scene.toml", "x.png", "x.shade.png"]);

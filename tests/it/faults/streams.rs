@@ -8,16 +8,16 @@ const COMMANDS: &[&str] = &[
     "render --help",
     "--version",
     "info",
-    "info --json",
+    "info --json -",
     "plan scene.toml",
-    "plan scene.toml --json",
+    "plan scene.toml --json -",
     "plan scene.toml --print-scene",
-    "render scene.toml -o x.png --json",
+    "render scene.toml -o x.png --json -",
     "check --filter D1 --verbose",
     "figures --list",
     "stress --list --case near",
     "tune scene.toml --sizes 64 --spare 100000",
-    "tune scene.toml --sizes 64 --spare 100000 --json",
+    "tune scene.toml --sizes 64 --spare 100000 --json -",
     "report scene.toml --grid grid.toml --runs 1 -o out",
 ];
 
@@ -47,8 +47,8 @@ fn a_reader_that_has_seen_enough_is_no_error() {
     try_all("| head -c 1 >/dev/null", |_, _| Ok(()));
     try_all("2>error >/dev/null; code=$?; cat error >&2; exit $code", succeeds);
     let folder = work();
-    for command in ["info --json", "plan scene.toml --json", "render scene.toml -o x.png --json"] {
-        let output = run(folder.path(), &format!("{{ glumbra {command}; echo $? >code; }} | true; cat code"));
+    for command in ["info --json -", "plan scene.toml --json -", "render scene.toml -o x.png --json -"] {
+        let output = run(folder.path(), &format!("{{ glumbra {command} --quiet; echo $? >code; }} | true; cat code"));
         assert_eq!((text(&output.stdout).trim(), text(&output.stderr).as_str()), ("0", ""), "{command}");
     }
 }

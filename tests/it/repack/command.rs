@@ -96,7 +96,7 @@ fn the_knight_keeps_its_codes_and_loses_its_mirrors() {
             assert!(out == "own" && same > compared / 2 || same == compared);
         }
     }
-    let json: serde_json::Value = serde_json::from_str(&repack("numbers", &["--unmirror", "--json"])).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&repack("numbers", &["--unmirror", "--json", "-"])).unwrap();
     assert_eq!((&json["islands"], &json["before"]["mirrored_triangles"]), (&20.into(), &410.into()));
     assert_eq!(json["before"]["across_edges"]["mean_degrees"].as_f64(), Some(before.mean_degrees));
     assert_eq!(json["after"]["across_edges"]["mirrored_pairs"], 0);
