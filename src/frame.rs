@@ -18,6 +18,7 @@ use crate::views::View;
 
 /// Reason why a frame could not be drawn.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The scene cannot be planned, or the driver's limits are too low for its plan.
     #[error(transparent)]
@@ -47,6 +48,7 @@ pub struct Renderer {
 /// # Errors
 ///
 /// A context that cannot be had.
+#[doc(hidden)]
 pub fn on_contexts<T: Send>(
     request: &ContextRequest,
     [count, jobs]: [usize; 2],
@@ -87,15 +89,19 @@ pub fn on_contexts<T: Send>(
 
 /// A planned scene's pictures.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Frame {
     /// The picture, 8 bits a channel or float as [`Request::float_picture`] says.
     pub picture: Pixels,
     /// Views in the request's order.
     pub views: Vec<Pixels>,
+    /// Errors that the picture shows, as the plan foresees them: [`Plan::warnings`].
+    pub warnings: Vec<String>,
 }
 
 /// Times of frames.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Times {
     /// Each frame from its first call to the return of glFinish, in milliseconds. The first one uploads and compiles.
     pub frames_ms: Vec<f64>,
@@ -110,6 +116,17 @@ impl Renderer {
         let device = Device::new(context);
         let (max_image_size, max_inputs) = device.limits();
         Self { device, limits: Limits { max_image_size, max_inputs }, derived: Derived::default() }
+    }
+
+    /// Plans `scene`, draws it and reads the pictures: what a test of pixels needs.
+    ///
+    /// # Errors
+    ///
+    /// See [`plan::make_with`] and [`Device::run`].
+    pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame, Error> {
+        let plan = self.plan(scene, request)?;
+        self.draw(&plan)?;
+        self.read(&plan)
     }
 
     /// Plans `scene` within the driver's limits.
@@ -185,7 +202,7 @@ impl Renderer {
             false => self.device.read(&plan.list, *image),
         });
         let views = views.collect::<Result<_, _>>()?;
-        Ok(Frame { picture, views })
+        Ok(Frame { picture, views, warnings: plan.warnings.clone() })
     }
 
     /// Copies the picture of the plan that was drawn last into the window that the context belongs to.

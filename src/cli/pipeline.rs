@@ -1,16 +1,13 @@
 //! `--pipeline`: shaders, or the driver's fixed functions.
 
 use std::rc::Rc;
-use std::time::Instant;
 
 use clap::ValueEnum;
 
 use super::{ContextArgs, Error};
 use crate::context::{self, Context, Profile};
-use crate::fixed_function::FixedFunction;
 use crate::frame::{Frame, Renderer, Times};
 use crate::plan::Plan;
-use crate::process;
 
 /// Pipeline that draws the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -32,6 +29,9 @@ impl Pipeline {
     pub fn open(self, arguments: &ContextArgs) -> Result<Rc<dyn Context>, Error> {
         match self {
             Self::Shaders => Ok(context::open(&arguments.request(Profile::Core33))?),
+            #[cfg(not(feature = "fixed-function"))]
+            Self::FixedFunction => Err(NOT_BUILT),
+            #[cfg(feature = "fixed-function")]
             Self::FixedFunction => {
                 context::open(&arguments.request(Profile::Compatibility)).map_err(Error::NoFixedFunction)
             }
@@ -51,24 +51,44 @@ impl Pipeline {
         plan: &Plan,
         count: u32,
         passes: bool,
-        mut tick: impl FnMut(),
+        tick: impl FnMut(),
     ) -> Result<(Times, Frame), Error> {
         if self == Self::Shaders {
             let times = renderer.draw_timed(plan, count, passes, tick)?;
             return Ok((times, renderer.read(plan)?));
         }
-        let _doing = process::doing("drawing by the fixed-function pipeline");
-        let mut fixed = FixedFunction::new(context)?;
-        let mut times = Times::default();
-        for _ in 0..count {
-            let start = Instant::now();
-            fixed.run(&plan.list)?;
-            fixed.finish();
-            times.frames_ms.push(start.elapsed().as_secs_f64() * 1e3);
-            tick();
-        }
-        let picture = fixed.read(&plan.list, plan.picture)?;
-        let views = plan.views.iter().map(|(_, image)| fixed.read(&plan.list, *image)).collect::<Result<_, _>>()?;
-        Ok((times, Frame { picture, views }))
+        draw_fixed(context, plan, count, tick)
     }
+}
+
+#[cfg(not(feature = "fixed-function"))]
+const NOT_BUILT: Error = Error::NotBuilt { what: "--pipeline fixed-function", feature: "fixed-function" };
+
+/// Refuses: the pipeline is not compiled in.
+#[cfg(not(feature = "fixed-function"))]
+fn draw_fixed(_: &Rc<dyn Context>, _: &Plan, _: u32, _: impl FnMut()) -> Result<(Times, Frame), Error> {
+    Err(NOT_BUILT)
+}
+
+/// Draws `count` frames of a plan by the driver's fixed functions, times each, and reads the last.
+#[cfg(feature = "fixed-function")]
+fn draw_fixed(
+    context: &Rc<dyn Context>,
+    plan: &Plan,
+    count: u32,
+    mut tick: impl FnMut(),
+) -> Result<(Times, Frame), Error> {
+    let _doing = crate::process::doing("drawing by the fixed-function pipeline");
+    let mut fixed = crate::fixed_function::FixedFunction::new(context)?;
+    let mut times = Times::default();
+    for _ in 0..count {
+        let start = std::time::Instant::now();
+        fixed.run(&plan.list)?;
+        fixed.finish();
+        times.frames_ms.push(start.elapsed().as_secs_f64() * 1e3);
+        tick();
+    }
+    let picture = fixed.read(&plan.list, plan.picture)?;
+    let views = plan.views.iter().map(|(_, image)| fixed.read(&plan.list, *image)).collect::<Result<_, _>>()?;
+    Ok((times, Frame { picture, views, warnings: plan.warnings.clone() }))
 }

@@ -4,44 +4,75 @@
 //! A verdict comes from a verifier ([`verify`]), which knows what the specification allows; never from another picture.
 //! To add a rule: one row in the table, one function in `rules/`.
 
+#[cfg(feature = "check")]
 pub mod baseline;
+#[cfg_attr(not(feature = "check"), allow(dead_code, reason = "the probe draws on a part of the bench"))]
 pub mod bench;
+#[cfg(feature = "check")]
 pub mod events;
 #[doc(hidden)]
+#[cfg(feature = "check")]
 pub mod faults;
+#[cfg(feature = "check")]
 mod filter;
+#[cfg(feature = "check")]
 mod findings;
+#[cfg(feature = "check")]
 mod layer;
+#[cfg(feature = "check")]
 mod print;
 pub mod probe;
+#[cfg(feature = "check")]
 mod random;
+#[cfg(feature = "check")]
 pub mod reduce;
+#[cfg(feature = "check")]
 mod repeats;
+#[cfg(feature = "check")]
 mod reset;
+#[cfg(feature = "check")]
 mod rules;
+#[cfg(feature = "check")]
 mod screen;
+#[cfg(feature = "check")]
 mod table;
+#[cfg(feature = "check")]
 pub mod verify;
+#[cfg(feature = "check")]
 pub mod waivers;
+#[cfg(feature = "check")]
 mod write;
 
+#[cfg(feature = "check")]
 use serde::Serialize;
 
+#[cfg(feature = "check")]
 pub use filter::{UnknownFilter, choose};
+#[cfg(feature = "check")]
 pub use findings::{Fact, Finding, Findings, RuleVerdict};
+#[cfg(feature = "check")]
 pub use print::print;
+#[cfg(feature = "check")]
 pub use repeats::{Flake, join};
+#[cfg(feature = "check")]
 pub use reset::ResetStatus;
+#[cfg(feature = "check")]
 pub use screen::{list, screen};
+#[cfg(feature = "check")]
 pub use table::TABLE;
+#[cfg(feature = "check")]
 pub use write::junit;
 
+#[cfg(feature = "check")]
 use self::bench::fixed_function::FixedBench;
+#[cfg(feature = "check")]
 use self::bench::{Bench, Mutation};
+#[cfg(feature = "check")]
 use crate::context::{Context, ContextInfo};
 
 /// One rule of GL, and how it is checked.
 #[derive(Clone, Copy, Debug)]
+#[cfg(feature = "check")]
 pub struct Rule {
     /// Id like `GL-C1`: a letter for the kind.
     pub id: &'static str,
@@ -56,6 +87,7 @@ pub struct Rule {
 }
 
 /// A driver, checked by way of one context.
+#[cfg(feature = "check")]
 pub struct DriverUnderTest {
     pub bench: Bench,
     /// The fixed-function pipeline, or why there is none.
@@ -63,6 +95,7 @@ pub struct DriverUnderTest {
     pub info: ContextInfo,
 }
 
+#[cfg(feature = "check")]
 impl DriverUnderTest {
     /// The driver of `context`, which is current and outlives the subject.
     ///
@@ -78,6 +111,7 @@ impl DriverUnderTest {
 
 /// Result of one rule.
 #[derive(Clone, Debug, Serialize)]
+#[cfg(feature = "check")]
 pub struct RuleOutcome {
     pub id: &'static str,
     pub title: &'static str,
@@ -91,6 +125,7 @@ pub struct RuleOutcome {
     pub seconds: f64,
 }
 
+#[cfg(feature = "check")]
 impl RuleOutcome {
     /// The outcome of a rule with these findings.
     pub fn new(rule: &Rule, findings: Vec<Finding>, facts: Vec<Fact>, seconds: f64) -> Self {
@@ -110,6 +145,7 @@ impl RuleOutcome {
 
 /// Results of a run.
 #[derive(Clone, Debug, Serialize)]
+#[cfg(feature = "check")]
 pub struct Checked {
     pub context: ContextInfo,
     pub outcomes: Vec<RuleOutcome>,
@@ -123,6 +159,7 @@ pub struct Checked {
     pub since: Option<baseline::Changes>,
 }
 
+#[cfg(feature = "check")]
 impl Checked {
     /// Number of rules with this verdict.
     pub fn count(&self, verdict: RuleVerdict) -> usize {
@@ -150,12 +187,14 @@ impl Checked {
 }
 
 /// Runs `rules` and gives `seen` each outcome.
+#[cfg(feature = "check")]
 pub fn run(subject: &DriverUnderTest, rules: &[&'static Rule], mut seen: impl FnMut(&RuleOutcome)) -> Vec<RuleOutcome> {
     let outcomes = rules.iter().map(|rule| run_rule(subject, rule));
     outcomes.inspect(|outcome| seen(outcome)).collect()
 }
 
 /// Runs one rule.
+#[cfg(feature = "check")]
 pub fn run_rule(subject: &DriverUnderTest, rule: &Rule) -> RuleOutcome {
     let start = std::time::Instant::now();
     let _doing = crate::process::doing(format!("checking {}, {}", rule.id, rule.title));

@@ -18,6 +18,7 @@ pub struct Attempt {
 /// Reason why there is no context, or why it cannot be used.
 #[derive(Clone, Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// Every backend failed; each with its reason, in the order of the tries.
     #[error("{}", Report(.0))]
@@ -81,6 +82,7 @@ fn variables() -> Vec<String> {
 
 /// Stage that a backend reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Reached {
     /// The library cannot be loaded.
     Nothing,

@@ -7,6 +7,7 @@ use super::load::LoadedContext;
 
 /// The driver of a context, and its limits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ContextInfo {
     /// The way the context was made, e.g. `EGL surfaceless`.
     pub backend: String,
@@ -32,6 +33,7 @@ pub struct ContextInfo {
 
 /// Limits of a context, as its GL_MAX_* queries answer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ContextLimits {
     /// GL_MAX_TEXTURE_SIZE, in texels.
     pub texture_size: i32,

@@ -6,8 +6,11 @@
 //! The backends are tried in the order of [`Backend`]. Each that fails says why; the first that works is taken.
 
 mod child;
+#[doc(hidden)]
+#[cfg(feature = "fixed-function")]
 pub mod compatibility;
 mod debug_log;
+#[doc(hidden)]
 pub mod egl;
 mod error;
 mod gl_names;
@@ -15,6 +18,8 @@ mod heap;
 mod info;
 mod load;
 mod osmesa;
+#[doc(hidden)]
+#[cfg(feature = "window")]
 pub mod window;
 
 use std::ffi::{CStr, c_void};
@@ -25,6 +30,7 @@ pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
 pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};
 pub use info::{ContextInfo, ContextLimits};
+#[doc(hidden)]
 pub use load::LoadedContext;
 
 use crate::process;
@@ -45,6 +51,7 @@ pub struct ContextRequest {
 
 /// Maker of the context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Choice {
     /// EGL, then OSMesa, then a hidden window where there is a display.
     #[default]
@@ -59,6 +66,7 @@ pub enum Choice {
 
 /// OpenGL profile that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Profile {
     /// OpenGL 3.3 core or later: for rendering.
     #[default]
@@ -69,6 +77,7 @@ pub enum Profile {
 
 /// One way to a context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Backend {
     /// EGL_MESA_platform_surfaceless: no display, no surface.
     EglSurfaceless,
@@ -105,7 +114,7 @@ impl ContextRequest {
             (None, Choice::OsMesa) => Ok(vec![Backend::OsMesa]),
             (None, Choice::Window) => Ok(vec![Backend::Window]),
             (None, Choice::Auto) => {
-                let window = window::display_is_named().then_some(Backend::Window);
+                let window = display_is_named().then_some(Backend::Window);
                 Ok(egl.into_iter().chain([Backend::OsMesa]).chain(window).collect())
             }
         }
@@ -163,6 +172,17 @@ pub trait Context {
     }
 }
 
+/// Answer of the window backend where it is not compiled in.
+#[cfg(not(feature = "window"))]
+const WITHOUT_WINDOWS: &str = "glumbra was built without the cargo feature `window`";
+
+/// Tests whether the environment names a display to open windows on.
+#[doc(hidden)]
+pub fn display_is_named() -> bool {
+    let named = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    cfg!(not(target_os = "linux")) || named("DISPLAY") || named("WAYLAND_DISPLAY") || named("WAYLAND_SOCKET")
+}
+
 /// Opens a context by the first backend that works, and makes it current.
 pub fn open(request: &ContextRequest) -> Result<Rc<dyn Context>, Error> {
     let mut attempts = Vec::new();
@@ -185,6 +205,7 @@ pub fn open(request: &ContextRequest) -> Result<Rc<dyn Context>, Error> {
 }
 
 /// Opens a context by this backend only; `request.choice` is ignored.
+#[doc(hidden)]
 pub fn open_backend(backend: Backend, request: &ContextRequest) -> Result<Rc<dyn Context>, Error> {
     let refused = |Refusal { reached, answer }| Error::NoContext(vec![Attempt { backend, reached, answer }]);
     try_backend(backend, request, &[]).map_err(refused)
@@ -197,6 +218,9 @@ fn try_backend(backend: Backend, request: &ContextRequest, before: &[Attempt]) -
     match backend {
         Backend::EglSurfaceless | Backend::EglDevice | Backend::EglPbuffer => egl::open(backend, request),
         Backend::OsMesa => osmesa::open(request),
+        #[cfg(feature = "window")]
         Backend::Window => window::open_hidden(request),
+        #[cfg(not(feature = "window"))]
+        Backend::Window => Err(Refusal::nothing(WITHOUT_WINDOWS.to_owned())),
     }
 }

@@ -25,7 +25,7 @@ use winit::window::{Window, WindowAttributes, WindowId};
 
 use super::error::Refusal;
 use super::load::{self, LoadedContext};
-use super::{Backend, Context, ContextRequest, Error, Profile};
+use super::{Backend, Context, ContextRequest, Error, Profile, display_is_named};
 
 /// A window and its context.
 ///
@@ -35,12 +35,6 @@ pub struct WindowContext {
     context: PossiblyCurrentContext,
     loaded: LoadedContext,
     window: Window,
-}
-
-/// Tests whether the environment names a display to open windows on.
-pub fn display_is_named() -> bool {
-    let named = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    cfg!(not(target_os = "linux")) || named("DISPLAY") || named("WAYLAND_DISPLAY") || named("WAYLAND_SOCKET")
 }
 
 /// An event loop for a visible window; one a process. Refuses, where winit would panic, a machine that lacks a library.

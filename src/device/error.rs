@@ -3,6 +3,7 @@
 /// A failure of the driver, or of a pass list against GL's rules.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// A GL call failed.
     #[error(transparent)]

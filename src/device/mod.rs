@@ -5,14 +5,17 @@
 //! ([`WhenChanged`](crate::pass::Redraw::WhenChanged)).
 
 mod compile_log;
+#[doc(hidden)]
 pub mod debug;
 mod error;
+#[cfg(feature = "fixed-function")]
 mod for_fixed_function;
 mod framebuffer;
 mod image;
 mod mesh;
 mod present;
 mod program;
+#[doc(hidden)]
 pub mod queries;
 mod readback;
 mod recent;
@@ -30,9 +33,11 @@ use crate::geometry::Mesh;
 use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
+#[cfg(feature = "fixed-function")]
 pub(crate) use image::{filter_codes, wrap_code};
 pub use readback::Pixels;
 pub use run::{Measure, PassTime};
+#[cfg(feature = "fixed-function")]
 pub(crate) use state::compare_code;
 
 /// Programs kept although the current list does not use them. A software driver holds some hundred kilobytes of machine code

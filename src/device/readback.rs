@@ -55,6 +55,24 @@ impl Pixels {
         }
     }
 
+    /// The texel in column `x` and row `y` from the upper left: red, green, blue and alpha, colours of 8 bits as [0, 1]. A
+    /// depth or a count stands in all of the first three. `None`: outside.
+    pub fn at(&self, [x, y]: [u32; 2]) -> Option<[f32; 4]> {
+        let [width, height] = self.size();
+        if x >= width || y >= height {
+            return None;
+        }
+        let index = y as usize * width as usize + x as usize;
+        match self {
+            Self::Rgba8 { data, .. } => {
+                data.as_chunks::<4>().0.get(index).map(|t| t.map(|code| f32::from(code) / 255.0))
+            }
+            Self::RgbaF32 { data, .. } => data.as_chunks::<4>().0.get(index).copied(),
+            Self::Depth { data, .. } => data.get(index).map(|depth| [*depth, *depth, *depth, 1.0]),
+            Self::Stencil { data, .. } => data.get(index).map(|count| f32::from(*count)).map(|c| [c, c, c, 1.0]),
+        }
+    }
+
     /// Width and height.
     pub fn size(&self) -> [u32; 2] {
         match self {

@@ -18,6 +18,7 @@ mod primitives;
 pub mod rays;
 pub mod sampled;
 mod simplify;
+#[cfg(feature = "repack")]
 pub mod skin;
 mod tally;
 pub mod tangents;

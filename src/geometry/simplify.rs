@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use meshopt::{SimplifyOptions, VertexDataAdapter};
-
 use super::topology::weld;
 use super::{Mesh, Part};
 
@@ -19,11 +17,7 @@ impl Mesh {
             .iter()
             .map(|index| places[*index as usize])
             .collect();
-        // An adapter fails for strides and offsets that do not fit; three floats do. Without it nothing is left out.
-        let fewer = match VertexDataAdapter::new(bytemuck::cast_slice(&positions), 12, 0) {
-            Ok(vertices) => meshopt::simplify(&welded, &vertices, 3, error, SimplifyOptions::ErrorAbsolute, None),
-            Err(_) => welded,
-        };
+        let fewer = fewer(&positions, welded, error);
         let (positions, indices) = compact(&positions, &fewer);
         let part =
             Part { name: self.name.clone(), indices: 0..indices.len() as u32, material: None, bounds: self.bounds };
@@ -39,6 +33,23 @@ impl Mesh {
         mesh.update_bounds();
         mesh
     }
+}
+
+/// Fewer of the triangles of `indices`, within `error`.
+#[cfg(feature = "meshopt")]
+fn fewer(positions: &[[f32; 3]], indices: Vec<u32>, error: f32) -> Vec<u32> {
+    use meshopt::{SimplifyOptions, VertexDataAdapter};
+    // An adapter fails for strides and offsets that do not fit; three floats do. Without it nothing is left out.
+    match VertexDataAdapter::new(bytemuck::cast_slice(positions), 12, 0) {
+        Ok(vertices) => meshopt::simplify(&indices, &vertices, 3, error, SimplifyOptions::ErrorAbsolute, None),
+        Err(_) => indices,
+    }
+}
+
+/// All triangles, where meshoptimizer is not compiled in.
+#[cfg(not(feature = "meshopt"))]
+fn fewer(_: &[[f32; 3]], indices: Vec<u32>, _: f32) -> Vec<u32> {
+    indices
 }
 
 /// The vertices that are used, in the order of their first use, and indices into them.

@@ -37,7 +37,7 @@ impl Mesh {
             let first = indices.iter().copied().min().unwrap_or(0);
             let end = indices.iter().copied().max().map_or(0, |last| last + 1);
             indices.iter_mut().for_each(|index| *index -= first);
-            meshopt::optimize_vertex_cache_in_place(indices, (end - first) as usize);
+            reorder(indices, (end - first) as usize);
             indices.iter_mut().for_each(|index| *index += first);
         }
         ordered
@@ -76,6 +76,13 @@ impl Mesh {
         }
     }
 }
+
+#[cfg(feature = "meshopt")]
+use meshopt::optimize_vertex_cache_in_place as reorder;
+
+/// Leaves the triangles as they are, where meshoptimizer is not compiled in; a plan then says that it asks for no order.
+#[cfg(not(feature = "meshopt"))]
+fn reorder(_: &mut [u32], _: usize) {}
 
 #[cfg(test)]
 mod tests {

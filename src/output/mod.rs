@@ -2,9 +2,12 @@
 //! renamed when it is whole (`atomic_write.rs`).
 
 pub(crate) mod atomic_write;
+#[doc(hidden)]
 pub mod canvas;
 mod counts;
 mod density;
+#[cfg(any(feature = "exr", feature = "npy"))]
+mod exact;
 #[doc(hidden)]
 pub mod json;
 
@@ -21,6 +24,7 @@ use crate::views::View;
 /// Reason why a file could not be written.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// The file could not be written.
     #[error("{path}: cannot be written: {reason}", path = .path.display())]
@@ -34,10 +38,17 @@ pub enum Error {
     /// The name has none of the known endings.
     #[error("{path}: cannot tell the format: end it in .png, .exr or .npy", path = .path.display())]
     UnknownFormat { path: PathBuf },
+    /// The format is not compiled in.
+    #[error(
+        "{path}: this build has no .{feature} files: enable glumbra's cargo feature `{feature}`, or write a .png",
+        path = .path.display()
+    )]
+    NotBuilt { path: PathBuf, feature: &'static str },
 }
 
 /// A file format, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FileFormat {
     /// 8 bits a channel, 16 for depths and distances, which are stretched to be visible.
     Png,
@@ -58,7 +69,7 @@ impl FileFormat {
 ///
 /// # Errors
 ///
-/// Another extension, a folder of that name, or no folder to put it in.
+/// Another extension, a format that is not compiled in, a folder of that name, or no folder to put it in.
 pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     if path.is_dir() {
         return Err(Error::Folder { path: path.to_owned() });
@@ -66,6 +77,8 @@ pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     let format = match extension.as_deref() {
         Some("png") => FileFormat::Png,
+        Some("exr") if cfg!(not(feature = "exr")) => return not_built(path, "exr"),
+        Some("npy") if cfg!(not(feature = "npy")) => return not_built(path, "npy"),
         Some("exr") => FileFormat::Exr,
         Some("npy") => FileFormat::Npy,
         _ => return Err(Error::UnknownFormat { path: path.to_owned() }),
@@ -78,13 +91,19 @@ pub fn check_path(path: &Path) -> Result<FileFormat, Error> {
     }
 }
 
+fn not_built(path: &Path, feature: &'static str) -> Result<FileFormat, Error> {
+    Err(Error::NotBuilt { path: path.to_owned(), feature })
+}
+
 /// Tests whether both lead to one file that exists.
+#[doc(hidden)]
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| fs::canonicalize(path).ok();
     one == other || place(one).is_some_and(|one| place(other).is_some_and(|other| one == other))
 }
 
 /// `a/x.png` and `shade` make `a/x.shade.png`.
+#[doc(hidden)]
 pub fn beside(path: &Path, name: &str) -> PathBuf {
     let mut file = path.file_stem().unwrap_or_default().to_owned();
     file.push(".");
@@ -126,8 +145,12 @@ fn write(output: &Output<'_>, path: &Path) -> io::Result<()> {
     let mut file = BufWriter::new(fs::File::create(path)?);
     match check_path(output.path).map_err(io::Error::other)? {
         FileFormat::Png => write_png(output, &mut file)?,
-        FileFormat::Exr => write_exr(output, &mut file)?,
-        FileFormat::Npy => write_npy(output, &mut file)?,
+        #[cfg(feature = "exr")]
+        FileFormat::Exr => exact::write_exr(output, &mut file)?,
+        #[cfg(feature = "npy")]
+        FileFormat::Npy => exact::write_npy(output, &mut file)?,
+        #[allow(unreachable_patterns, reason = "the check has refused what is not compiled in")]
+        FileFormat::Exr | FileFormat::Npy => {}
     }
     file.flush()
 }
@@ -176,6 +199,7 @@ fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
 }
 
 /// The picture as its PNG has it; transparent parts are on dark blue.
+#[doc(hidden)]
 pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
     const BEHIND: [f32; 3] = [44.0, 50.0, 64.0];
     let (bytes, kind) = png_bytes(&Output { path: Path::new(""), pixels, view });
@@ -194,6 +218,7 @@ pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
 }
 
 /// A picture without its legend, and the legend.
+#[doc(hidden)]
 #[derive(Clone, Debug)]
 pub struct Keyed {
     /// The picture.
@@ -203,6 +228,7 @@ pub struct Keyed {
 }
 
 /// The picture as [`to_canvas`] has it, with its legend apart. `one` is what a density of 1 is called; `None`: a texel a pixel.
+#[doc(hidden)]
 pub fn to_keyed(pixels: &Pixels, view: Option<View>, one: Option<&str>) -> Keyed {
     match (pixels, view) {
         (Pixels::RgbaF32 { size, data }, Some(View::TexelsPerPixel)) => {
@@ -222,6 +248,7 @@ pub fn to_keyed(pixels: &Pixels, view: Option<View>, one: Option<&str>) -> Keyed
 /// # Errors
 ///
 /// As [`write_all`].
+#[doc(hidden)]
 pub fn write_sheets(sheets: &[(PathBuf, canvas::Canvas)], texts: &[(PathBuf, String)]) -> Result<(), Error> {
     let paths: Vec<&Path> =
         sheets.iter().map(|(path, _)| path.as_path()).chain(texts.iter().map(|(path, _)| path.as_path())).collect();
@@ -266,59 +293,4 @@ impl Stretch {
         }
         0.1 + 0.8 * (value - self.least) / self.span
     }
-}
-
-/// The channels that a view has, by EXR's names, and the number of floats between pixels.
-fn channels(output: &Output<'_>) -> (&'static [(&'static str, usize)], usize) {
-    match (output.pixels, output.view) {
-        (Pixels::Depth { .. }, _) => (&[("Z", 0)], 1),
-        (Pixels::Stencil { .. }, _) => (&[("Y", 0)], 1),
-        (_, Some(View::Shade | View::TexelsPerPixel)) => (&[("Y", 0), ("A", 3)], 4),
-        (_, Some(View::LightDistance | View::ProjectedMap)) => (&[("Z", 0), ("A", 3)], 4),
-        _ => (&[("R", 0), ("G", 1), ("B", 2)], 4),
-    }
-}
-
-/// One plane of floats a channel.
-fn planes(output: &Output<'_>) -> Vec<(&'static str, Vec<f32>)> {
-    let (channels, stride) = channels(output);
-    let plane = |offset: usize| match output.pixels {
-        Pixels::Rgba8 { data, .. } => data[offset..].iter().step_by(stride).map(|v| f32::from(*v) / 255.0).collect(),
-        Pixels::RgbaF32 { data, .. } | Pixels::Depth { data, .. } => {
-            data[offset..].iter().step_by(stride).copied().collect()
-        }
-        Pixels::Stencil { data, .. } => data.iter().map(|value| f32::from(*value)).collect(),
-    };
-    channels.iter().map(|(name, offset)| (*name, plane(*offset))).collect()
-}
-
-fn write_exr(output: &Output<'_>, file: &mut (impl Write + io::Seek)) -> io::Result<()> {
-    use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage};
-    let [width, height] = output.pixels.size();
-    let channels = planes(output).into_iter().map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane)));
-    let layer = Layer::new(
-        (width as usize, height as usize),
-        LayerAttributes::named(output.view.map_or("picture", View::name)),
-        Encoding::SMALL_FAST_LOSSLESS,
-        AnyChannels::sort(channels.collect()),
-    );
-    Image::from_layer(layer).write().non_parallel().to_buffered(file).map_err(io::Error::other)
-}
-
-/// Shape (height, width), or (height, width, channels) for several.
-fn write_npy(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
-    use npyz::WriterBuilder;
-    let [width, height] = output.pixels.size().map(u64::from);
-    let planes = planes(output);
-    let mut shape = vec![height, width];
-    if planes.len() > 1 {
-        shape.push(planes.len() as u64);
-    }
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
-    for pixel in 0..(width * height) as usize {
-        for (_, plane) in &planes {
-            writer.push(&plane[pixel])?;
-        }
-    }
-    writer.finish()
 }

@@ -3,6 +3,7 @@
 mod after_pass;
 mod compose;
 mod lens;
+#[doc(hidden)]
 pub mod matrices;
 mod photos;
 mod pictures;
@@ -98,6 +99,7 @@ pub struct ViewRequest {
 
 /// A frame's passes, its pictures' images, and what was left out.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Plan {
     /// Images and passes.
     pub list: PassList,
@@ -120,6 +122,7 @@ pub struct Plan {
 /// Reason why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// A light's shadow settings are raw: the scene was loaded without techniques.
     #[error(
@@ -179,6 +182,7 @@ pub fn make(scene: &Scene, request: &Request) -> Result<Plan, Error> {
 /// # Errors
 ///
 /// As [`make`].
+#[doc(hidden)]
 pub fn make_with(scene: &Scene, request: &Request, derived: &Derived) -> Result<Plan, Error> {
     derived.forget_dropped();
     let near = scene.brought_near();
@@ -211,6 +215,7 @@ impl Plan {
 }
 
 /// A plan as `--json` prints it.
+#[doc(hidden)]
 #[derive(Debug, Serialize)]
 pub struct Summary {
     /// Passes in their order.
@@ -230,6 +235,7 @@ pub struct Summary {
 }
 
 /// A pass in words and numbers.
+#[doc(hidden)]
 #[derive(Debug, Serialize)]
 pub struct PassSummary {
     /// Label, unique in the plan.
@@ -255,6 +261,7 @@ pub struct PassSummary {
 }
 
 /// An image in words and numbers.
+#[doc(hidden)]
 #[derive(Debug, Serialize)]
 pub struct ImageSummary {
     /// Label, unique in the plan.

@@ -1,11 +1,11 @@
 //! Leaves out of a pass list what its pictures do not show: draws outside a pass's clip volume, passes that nothing
 //! reads, images that no pass uses. Then chooses the index order that pays.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::{Plan, Request};
 use crate::compositions::focus;
-use crate::lights::LeftOut;
+use crate::lights::{Chosen, LeftOut};
 use crate::math::frustum::{self, Overlap};
 use crate::pass::{Channels, Format, ImageDesc, ImageId, IndexOrder, Pass, PassList, Primitive, Redraw, Storage, Work};
 
@@ -125,10 +125,14 @@ pub(super) fn drop_unused_images(plan: &mut Plan) {
 /// about a quarter (`ci/bench --model` prints both). A mesh whose file has it well ordered gains nothing.
 const DRAWS_THAT_PAY: u64 = 4;
 
+/// True if meshoptimizer is compiled in.
+const HAS_ORDER: bool = cfg!(feature = "meshopt");
+
 /// Draws each mesh in cache order where it is drawn often enough to pay for the sorting.
 fn choose_index_order(plan: &mut Plan, frames: u32) {
     let mut draws: HashMap<*const crate::geometry::Mesh, u64> = HashMap::new();
     let mut sorted: HashMap<*const crate::geometry::Mesh, bool> = HashMap::new();
+    let mut unsorted = BTreeSet::new();
     for_each_draw(
         plan,
         |pass_frames, draw| {
@@ -143,10 +147,18 @@ fn choose_index_order(plan: &mut Plan, frames: u32) {
             let count = draws.get(&mesh).copied().unwrap_or(0);
             let pays = || count >= DRAWS_THAT_PAY && draw.mesh.triangle_count() >= 256 && draw.mesh.is_scattered();
             let sorted = draw.primitive == Primitive::Triangles && *sorted.entry(mesh).or_insert_with(pays);
-            draw.order = if sorted { IndexOrder::VertexCache } else { IndexOrder::File };
+            draw.order = if sorted && HAS_ORDER { IndexOrder::VertexCache } else { IndexOrder::File };
+            if sorted && !HAS_ORDER {
+                unsorted.insert(draw.mesh.name.clone());
+            }
         },
         frames,
     );
+    plan.chosen.extend(unsorted.into_iter().map(|mesh| Chosen {
+        of: format!("triangles of {mesh}"),
+        choice: String::from("the file's order"),
+        why: String::from("an order for the vertex cache would be faster, and needs glumbra's cargo feature `meshopt`"),
+    }));
 }
 
 /// Calls `visit` with the number of frames in which a draw is drawn.

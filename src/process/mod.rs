@@ -52,7 +52,7 @@ pub(crate) fn patience() -> u32 {
 }
 
 /// Ends the process at once, without what the driver has registered for a regular end: it might wait for ever.
-pub(crate) fn leave(status: i32) -> ! {
+pub fn leave(status: i32) -> ! {
     unfinished::remove_all();
     #[cfg(unix)]
     // SAFETY: ends the process.
@@ -65,7 +65,7 @@ pub(crate) fn leave(status: i32) -> ! {
 
 /// Name of a signal that ended another process.
 #[cfg(unix)]
-pub(crate) fn signal_name(signal: i32) -> String {
+pub fn signal_name(signal: i32) -> String {
     let ends =
         [(libc::SIGKILL, "SIGKILL"), (libc::SIGTERM, "SIGTERM"), (libc::SIGINT, "SIGINT"), (libc::SIGSYS, "SIGSYS")];
     let known = signals::CRASHES.iter().chain(&ends).find(|(known, _)| *known == signal);

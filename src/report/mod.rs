@@ -2,8 +2,11 @@
 //! costs. Drives frames and the ray tracer; names no technique and makes no GL call of its own.
 
 pub mod measure;
-mod numbers;
-#[cfg(test)]
+#[doc(hidden)]
+pub mod numbers;
+#[cfg(all(test, feature = "report"))]
 mod samples;
+#[cfg(feature = "report")]
 pub mod show;
+#[cfg(feature = "report")]
 pub mod store;

@@ -1,7 +1,7 @@
 //! Formats numbers for people: plain decimals, no exponents. Knows no unit.
 
 /// Three significant digits, no trailing zeros: 0.0123, 12.3, 1230.
-pub(super) fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
@@ -12,7 +12,7 @@ pub(super) fn plain(value: f64) -> String {
 }
 
 /// A fixed number of decimals for a column; a non-zero value that would round to zero is shown as below the least.
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
+pub fn fixed(value: f64, decimals: usize) -> String {
     let least = 0.1_f64.powi(decimals as i32);
     if value > 0.0 && value < 0.5 * least {
         return format!("<{least:.decimals$}");
@@ -21,7 +21,7 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// Bytes in the largest binary unit that leaves at least one.
-pub(super) fn bytes(bytes: u64) -> String {
+pub fn bytes(bytes: u64) -> String {
     let units = [(1_u64 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];
     match units.iter().find(|(size, _)| bytes >= *size) {
         Some((size, unit)) => format!("{} {unit}", plain(bytes as f64 / *size as f64)),
@@ -30,7 +30,7 @@ pub(super) fn bytes(bytes: u64) -> String {
 }
 
 /// Digits in groups of three.
-pub(super) fn grouped(value: u64) -> String {
+pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

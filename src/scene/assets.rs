@@ -151,6 +151,12 @@ impl Assets {
         self.models.insert(canonical(Path::new(name)), model.clone());
     }
 
+    /// Adds a mesh in memory, which objects call `name`.
+    pub fn give(&mut self, name: &str, mesh: Mesh, warnings: &[geometry::Warning]) {
+        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        self.models.insert(PathBuf::from(name), Model::Still(Arc::new(mesh)));
+    }
+
     /// A picture file named from `origin`.
     pub fn texture(&mut self, name: &str, origin: &Origin) -> Result<Arc<Texture>, Error> {
         let path = file(name, origin);
@@ -218,11 +224,11 @@ fn embedded(files: Files, name: &str, origin: &Origin) -> Option<&'static [u8]> 
     files.iter().find(|(known, _)| by_the_file && *known == name).map(|(_, bytes)| *bytes)
 }
 
-/// A file's name is relative to the scene file that names it; on the command line, to the current folder.
+/// A file's name is relative to the scene file that names it; on the command line and in code, to the current folder.
 pub(super) fn file(name: &str, origin: &Origin) -> PathBuf {
     match origin {
         Origin::File { path, .. } => path.parent().unwrap_or(Path::new("")).join(name),
-        Origin::CommandLine(_) | Origin::BuiltIn => PathBuf::from(name),
+        Origin::CommandLine(_) | Origin::Code { .. } | Origin::BuiltIn => PathBuf::from(name),
     }
 }
 

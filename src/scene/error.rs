@@ -10,6 +10,7 @@ use crate::geometry;
 /// Reason why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// The system refused to read the file.
     #[error("{path}: cannot be read: {reason}", path = .path.display())]

@@ -2,6 +2,7 @@
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
+mod builder;
 mod bumps;
 mod camera_framing;
 mod default_scene;
@@ -11,6 +12,7 @@ mod model;
 mod overrides;
 mod parse;
 mod photo;
+mod pixels;
 mod print;
 mod projected;
 mod ranges;
@@ -24,22 +26,30 @@ mod views;
 use std::fs;
 use std::path::Path;
 
+pub use builder::{LightBuilder, ObjectBuilder, SceneBuilder};
 pub use bumps::{BumpMethod, BumpShading, Normalize};
+#[doc(hidden)]
 pub use default_scene::{Floor, framing};
 pub use error::Error;
 pub use model::{
     Background, Camera, Dust, DustBlend, Focus, Frustum, Hidden, Image, Law, Light, LightKind, LightShape, ModelSkin,
     Object, Photo, PicturePasses, Point, Scene, Shading, Spot,
 };
+#[doc(hidden)]
 pub use photo::photos_of;
 pub use projected::{
     BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
 };
+#[doc(hidden)]
 pub use ranges::{LARGEST, SMALLEST};
 pub use read_shadow::ReadShadow;
+#[doc(hidden)]
 pub use resolve::MAX_IMAGE_SIDE;
-pub use settings::{Entry, Origin, Place, Reader, Settings, SettingsError, Value, suggest};
+pub use settings::{Entry, Origin, Settings, SettingsError, Value};
+#[doc(hidden)]
+pub use settings::{Place, Reader, suggest};
 pub use shadow::Shadow;
+#[doc(hidden)]
 pub use views::with_shadow;
 
 use crate::math::Aabb;
@@ -51,6 +61,7 @@ const LONGEST_FILE: u64 = 4 << 20;
 
 /// A scene and its warnings.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Loaded {
     /// The resolved scene.
     pub scene: Scene,
@@ -98,7 +109,22 @@ pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Resu
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
+/// Loads a scene from the `text` of a scene file; the files that it names are relative to `folder`. Otherwise as [`load`].
+/// Messages call it `<text>`.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_str(text: &str, folder: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
+    let mut assets = Assets::default();
+    let mut root = parse::document(&folder.join("<text>"), text)?;
+    overrides::apply(&mut root, overrides)?;
+    let scene = resolve::scene(&root, &mut assets, shadows)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
 /// The scene as [`load`] reads it, before it is resolved: for [`Settings::to_toml`].
+#[doc(hidden)]
 pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
 }
@@ -108,11 +134,13 @@ pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
 /// # Errors
 ///
 /// A file that cannot be read, is too long, or is no TOML.
+#[doc(hidden)]
 pub fn table(path: &Path) -> Result<Settings, Error> {
     parse::document(path, &read_text(path)?)
 }
 
 /// The scene as [`settings`] has it, but with absolute paths to its files: to be saved in any folder.
+#[doc(hidden)]
 pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     let mut root = settings(path, overrides)?;
     files::make_absolute(&mut root, is_model(path).then_some(path))?;
@@ -120,6 +148,7 @@ pub fn portable_settings(path: &Path, overrides: &[String]) -> Result<Settings, 
 }
 
 /// Reads a `[light.shadow]` from the inside of an inline table: `technique = "shadow-map", size = 512`.
+#[doc(hidden)]
 pub fn shadow_settings(inside: &str) -> Result<Settings, Error> {
     let origin = Origin::CommandLine(format!("[light.shadow] with {inside}").into());
     let text = format!("{{ {inside} }}");

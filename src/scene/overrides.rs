@@ -21,6 +21,14 @@ pub(super) fn apply(root: &mut Settings, overrides: &[String]) -> Result<()> {
     overrides.iter().try_for_each(|text| Override::parse(text)?.apply(root))
 }
 
+/// Sets one key by its dotted name.
+pub(super) fn set(table: &mut Settings, key: &str, entry: Entry) -> Result<()> {
+    match segments(key) {
+        Some(segments) => Override { segments, entry }.apply(table),
+        None => Err(SettingsError::new(&entry.origin, format!("`{key}`: a key is names joined by dots"))),
+    }
+}
+
 struct Override {
     segments: Vec<String>,
     entry: Entry,

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 /// Place of a value in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Origin {
     /// A line of a file.
     File {
@@ -18,6 +19,13 @@ pub enum Origin {
     },
     /// The command line, e.g. `--set light.shadow.size=2048`.
     CommandLine(Arc<str>),
+    /// A line of the program's own code.
+    Code {
+        /// Source file, as the compiler was given it.
+        file: &'static str,
+        /// From 1.
+        line: u32,
+    },
     /// Supplied by glumbra.
     BuiltIn,
 }
@@ -27,6 +35,7 @@ impl fmt::Display for Origin {
         match self {
             Self::File { path, line } => write!(f, "{}:{line}", path.display()),
             Self::CommandLine(text) => write!(f, "{text}"),
+            Self::Code { file, line } => write!(f, "{file}:{line}"),
             Self::BuiltIn => write!(f, "built-in scene"),
         }
     }

@@ -74,6 +74,26 @@ pub fn load(path: &Path, overrides: &[String]) -> Result<Loaded, scene::Error> {
     scene::load(path, overrides, &Techniques)
 }
 
+/// Loads a scene from the `text` of a scene file; the files that it names are relative to `folder`.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_str(text: &str, folder: &Path, overrides: &[String]) -> Result<Loaded, scene::Error> {
+    scene::load_str(text, folder, overrides, &Techniques)
+}
+
+impl scene::SceneBuilder {
+    /// The scene and its warnings, with its lights' shadow settings: all checks of a scene file are made.
+    ///
+    /// # Errors
+    ///
+    /// A key or value that is wrong, with the line of code that set it; a mesh or picture that cannot be read.
+    pub fn build(self) -> Result<Loaded, scene::Error> {
+        self.build_with(&Techniques)
+    }
+}
+
 /// Loads a scene that is part of the program; otherwise as [`load`].
 ///
 /// # Errors

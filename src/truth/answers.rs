@@ -4,6 +4,7 @@ use glam::DVec3;
 
 /// The answers for one light. Row 0 is the top of the picture, as in a PNG.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Truth {
     /// In pixels.
     pub width: u32,
@@ -42,6 +43,7 @@ pub enum Answer {
 
 /// Reason why a small move of the sample would change the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Reason {
     /// The primary ray passes a silhouette or an open edge.
     Silhouette,

@@ -50,16 +50,22 @@ use rayon::prelude::*;
 
 use crate::scene::{Light, Scene};
 pub use answers::{Answer, Hit, Pixel, Reason, Truth};
+#[doc(hidden)]
 pub use around::{Around, Blocker, Nearer, Surroundings};
 use beam::Beam;
 use camera::Eye;
-pub use color::{Bounds, ColorPixel, ColorRequest, ColorTruth, color, color_as, has_combined_bumps, why_no_colors};
+pub use color::{Bounds, ColorPixel, ColorRequest, ColorTruth, color};
+#[doc(hidden)]
+pub use color::{color_as, has_combined_bumps, why_no_colors};
 use cutout::Alpha;
+#[doc(hidden)]
 pub use dust::{Air, dust, dust_at};
+#[doc(hidden)]
 pub use lens::{LensLight, lens, lens_points};
 use light::Lamp;
 use primary::SeenPoint;
 use slab::Segment;
+#[doc(hidden)]
 pub use volumes::{Count, CountPixel, VolumeCounts, volume_count, volume_count_at};
 use world::{PlacedObject, Triangle, World};
 
@@ -101,6 +107,7 @@ impl Default for Options {
 /// Reason why there is no truth.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the message of a variant names its fields")]
+#[non_exhaustive]
 pub enum Error {
     /// The scene does not have the light.
     #[error("there is no light {index}: the scene's number of lights is {count}")]

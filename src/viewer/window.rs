@@ -46,7 +46,7 @@ const LONGEST_STEP: f64 = 0.25;
 ///
 /// No display, no context, and every error of a frame.
 pub fn run(state: impl Show, shown: Shown) -> Result<Option<Pixels>, Error> {
-    if !window::display_is_named() {
+    if !context::display_is_named() {
         return Err(Error::NoDisplay);
     }
     let events = window::event_loop().map_err(cannot_open)?;

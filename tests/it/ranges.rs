@@ -156,7 +156,7 @@ fn automatic_ranges_hold_what_is_in_view_at_any_scale() {
         let scale = [1.0, 1e-12, 1e12, 1e-4, 1e4][round % 5];
         let kind = ["spot", "point"][round % 2];
         let text = random_scene(&mut random, scale, kind);
-        let Loaded { scene, warnings } = load(&text, &[]);
+        let Loaded { scene, warnings, .. } = load(&text, &[]);
         assert!(warnings.is_empty(), "{warnings:?}\n{text}");
         let camera = &scene.camera;
         let tan = (0.5 * camera.fov_y_radians).tan();

@@ -3,35 +3,56 @@
 //!
 //! [`Bench::draw`] sets everything it depends on, and leaves the context's bindings and state changed.
 
+#[cfg(feature = "check")]
 pub mod arrays;
 mod attach;
 mod blend;
+#[cfg(feature = "check")]
 mod changes;
+#[cfg(feature = "check")]
 mod clear;
+#[cfg(feature = "check")]
 pub mod commands;
 mod draw;
+#[cfg(feature = "check")]
 mod elements;
+#[cfg(feature = "check")]
 pub mod environment;
+#[cfg(feature = "check")]
 mod feed;
+#[cfg(feature = "check")]
 pub mod fixed_function;
 mod format;
 mod image;
+#[cfg(feature = "check")]
 mod instances;
+#[cfg(feature = "check")]
 pub mod lit;
 mod mutation;
+#[cfg(feature = "check")]
+mod mutation_units;
+#[cfg(feature = "check")]
 mod objects;
+#[cfg(feature = "check")]
 mod points;
 mod program;
 mod queries;
 mod sampling;
+#[cfg(feature = "check")]
 mod sequence;
 mod state;
+#[cfg(feature = "check")]
 mod stream;
 mod surface;
+#[cfg(feature = "check")]
 mod targets;
+#[cfg(feature = "check")]
 mod texgen;
+#[cfg(feature = "check")]
 mod textures;
+#[cfg(feature = "check")]
 mod transfer;
+#[cfg(feature = "check")]
 mod values;
 
 use std::cell::RefCell;
@@ -43,26 +64,38 @@ use glow::HasContext;
 
 pub use attach::{GlPart, GlPlace};
 pub use blend::{GlBlend, GlEquation, GlFactor};
+#[cfg(feature = "check")]
 pub use changes::GlChange;
+#[cfg(feature = "check")]
 pub use clear::GlClear;
 pub use draw::{GlDraw, GlUniform, Vertex, full, rectangle, triangle};
+#[cfg(feature = "check")]
 pub use elements::{GlAttribute, GlElements, GlIndices, GlPrimitive};
+#[cfg(feature = "check")]
 pub use feed::{GlArray, GlBuffer, GlCapture, GlCaptured, GlCurrent, GlPointer, GlRange, GlWrite};
 pub use format::{Encoding, GlFormat};
 pub use image::{GlImage, GlImageDesc, GlShape, GlUpload, level_size};
+#[cfg(feature = "check")]
 pub use instances::GlInstances;
 #[doc(hidden)]
 pub use mutation::Mutation;
+#[cfg(feature = "check")]
 pub use points::GlPoints;
 pub use program::Shader;
+#[cfg(feature = "check")]
 pub(crate) use program::{GlProgram, build};
 pub use sampling::{GlMipmap, GlSampledBy, GlSwizzle, GlWrap, Sampling};
 pub use state::{GlCompare, GlFace, GlOffset, GlPolygonMode, GlState, GlStencil, GlStencilOp};
+#[cfg(feature = "check")]
 pub use stream::{GlStream, GlWhole};
 pub use surface::Surface;
+#[cfg(feature = "check")]
 pub use texgen::GlTexgen;
+#[cfg(feature = "check")]
 pub use textures::{GlTexelPlace, GlTexels, GlTextureBench, GlTextureStep};
+#[cfg(feature = "check")]
 pub use transfer::{GlBlit, GlCopyTo, GlReading};
+#[cfg(feature = "check")]
 pub use values::GlValues;
 
 use crate::context::{Context, Profile, error_name};

@@ -3,14 +3,27 @@
 //!
 //! The entry points are what OpenGL 2.1 has and the 3.3 core profile has not; for the rest there is glow.
 
-use std::io::Write;
-use std::path::Path;
-use std::{env, fs, io};
-
-use gl_generator::{Api, Fallbacks, Profile, Registry, StructGenerator};
+use std::io;
 
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=src/context/compatibility/build.rs");
+    write()
+}
+
+/// Nothing: the feature that needs the binding is off.
+#[cfg(not(feature = "fixed-function"))]
+fn write() -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(feature = "fixed-function")]
+fn write() -> io::Result<()> {
+    use std::io::Write;
+    use std::path::Path;
+    use std::{env, fs};
+
+    use gl_generator::{Api, Fallbacks, Profile, Registry, StructGenerator};
+
     let mut registry = Registry::new(Api::Gl, (2, 1), Profile::Compatibility, Fallbacks::None, []);
     let core = Registry::new(Api::Gl, (3, 3), Profile::Core, Fallbacks::None, []);
     registry.cmds.retain(|command| !core.cmds.iter().any(|kept| kept.proto.ident == command.proto.ident));

@@ -22,7 +22,7 @@ pub struct ColorErrors {
     /// Pixels further than two codes outside of what the error of a sample explains, in percent.
     pub beyond_percent: f64,
     /// Mean of FLIP over the picture, in [0, 1]; pixels that are not compared count as equal. `None`: the picture has more
-    /// than [`super::flip::MOST_PIXELS`].
+    /// than [`super::flip::MOST_PIXELS`], or FLIP is not compiled in ([`super::flip::HAS_FLIP`]).
     pub flip: Option<f64>,
 }
 

@@ -20,18 +20,29 @@ pub const MOST_PIXELS: u64 = 1 << 24;
 /// Value from which a picture of a map has the brightest colour. Most differences lie far below 1.
 pub const BRIGHTEST: f32 = 0.25;
 
+/// True if FLIP is compiled in: cargo feature `flip`.
+pub const HAS_FLIP: bool = cfg!(feature = "flip");
+
 /// Compares a picture with its reference, seen from 0.7 m on a screen of 0.7 m and 3840 pixels width. `None`: the pictures
-/// differ in size, are empty, or have more than [`MOST_PIXELS`].
+/// differ in size, are empty, have more than [`MOST_PIXELS`], or FLIP is not compiled in ([`HAS_FLIP`]).
 pub fn flip(reference: &RgbImage, picture: &RgbImage) -> Option<FlipMap> {
     let (width, height) = picture.dimensions();
     let pixels = u64::from(width) * u64::from(height);
     if reference.dimensions() != (width, height) || pixels == 0 || pixels > MOST_PIXELS {
         return None;
     }
-    let [reference, picture] =
-        [reference, picture].map(|image| nv_flip::FlipImageRgb8::with_data(width, height, image.as_raw()));
-    let map = nv_flip::flip(reference, picture, nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    Some(FlipMap { width, height, values: map.to_vec() })
+    Some(FlipMap { width, height, values: values(reference, picture)? })
+}
+
+#[cfg(feature = "flip")]
+fn values(reference: &RgbImage, picture: &RgbImage) -> Option<Vec<f32>> {
+    let image = |image: &RgbImage| nv_flip::FlipImageRgb8::with_data(image.width(), image.height(), image.as_raw());
+    Some(nv_flip::flip(image(reference), image(picture), nv_flip::DEFAULT_PIXELS_PER_DEGREE).to_vec())
+}
+
+#[cfg(not(feature = "flip"))]
+fn values(_: &RgbImage, _: &RgbImage) -> Option<Vec<f32>> {
+    None
 }
 
 impl FlipMap {
@@ -63,8 +74,15 @@ pub fn legend() -> Vec<([u8; 3], String)> {
 }
 
 /// The colour map "magma", from black to a light yellow.
+#[cfg(feature = "flip")]
 fn colors() -> Vec<[u8; 3]> {
     nv_flip::magma_lut().to_vec().as_chunks::<3>().0.to_vec()
+}
+
+/// Black to white, for maps that were made elsewhere.
+#[cfg(not(feature = "flip"))]
+fn colors() -> Vec<[u8; 3]> {
+    (0..=255).map(|code| [code; 3]).collect()
 }
 
 fn color_of(colors: &[[u8; 3]], value: f32) -> [u8; 3] {
@@ -72,7 +90,7 @@ fn color_of(colors: &[[u8; 3]], value: f32) -> [u8; 3] {
     colors.get(place.round() as usize).copied().unwrap_or_default()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "flip"))]
 mod tests {
     use super::*;
 

@@ -12,13 +12,21 @@ use crate::pass::MeshRef;
 /// Fewest triangles that are worth simplifying.
 const FEWEST: u32 = 200;
 
-/// `casters` with fewer triangles, if that moves their surface by less than half a texel.
+/// `casters` with fewer triangles, if that moves their surface by less than half a texel; all, and a warning, where
+/// meshoptimizer is not compiled in.
 pub fn simplified(
     view: &FrustumView<'_>,
     casters: &[&Drawable],
     settings: &Settings,
     notes: &mut Notes,
 ) -> Vec<Drawable> {
+    if cfg!(not(feature = "meshopt")) {
+        notes.warnings.push(format!(
+            "casters = \"texel\": the map of {} is drawn from all triangles; fewer need glumbra's cargo feature `meshopt`",
+            view.name()
+        ));
+        return casters.iter().map(|item| (*item).clone()).collect();
+    }
     let of = |item: &&Drawable| {
         let mut item = (*item).clone();
         let before = (item.indices.end - item.indices.start) / 3;

@@ -13,6 +13,8 @@ use code::{Arrow, Code, File, Module};
 /// Each module, and those that it may use directly; it may use what these may use, too.
 const ARROWS: &[(&str, &[&str])] = &[
     ("cli", &["viewer", "figures", "stress", "report", "fixed_function", "conformance"]),
+    // Names of other modules.
+    ("prelude", &["frame", "truth", "output"]),
     ("viewer", &["frame", "output"]),
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
