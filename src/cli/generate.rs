@@ -65,6 +65,6 @@ fn add_pages(command: &clap::Command, folder: &Path, pages: &mut Vec<(PathBuf, V
     let mut text = Vec::new();
     page.render(&mut text)?;
     pages.push((folder.join(page.get_filename()), text));
-    let shown = command.get_subcommands().filter(|command| !command.is_hide_set());
-    shown.map(|command| add_pages(command, folder, pages)).collect()
+    let mut shown = command.get_subcommands().filter(|command| !command.is_hide_set());
+    shown.try_for_each(|command| add_pages(command, folder, pages))
 }

@@ -44,9 +44,12 @@ pub use context_args::ContextArgs;
 use crate::conformance::probe;
 use crate::context;
 
+/// The version, and in a release build the commit and its date.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), env!("GLUMBRA_COMMIT"));
+
 /// A headless OpenGL reference renderer of shadows and projected light.
 #[derive(Debug, Parser)]
-#[command(name = "glumbra", version)]
+#[command(name = "glumbra", version = VERSION)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
