@@ -77,6 +77,7 @@
 
 // Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
 mod c_text;
+pub mod cases;
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]

@@ -12,11 +12,12 @@ use code::{Arrow, Code, File, Module};
 
 /// Each module, and those that it may use directly; it may use what these may use, too.
 const ARROWS: &[(&str, &[&str])] = &[
-    ("cli", &["viewer", "figures", "stress", "report", "fixed_function", "conformance"]),
+    ("cli", &["viewer", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
     ("viewer", &["frame", "output"]),
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
+    ("cases", &["frame", "truth", "output"]),
     ("report", &["frame", "truth", "output"]),
     // A view decides the channels of its file.
     ("output", &["device", "views"]),

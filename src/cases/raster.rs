@@ -2,22 +2,28 @@
 
 use std::path::Path;
 
-use glumbra::device::Pixels;
+use crate::device::Pixels;
+use crate::output::atomic_write;
 
 /// Channels side by side, rows from the top down. Colours and shade in [0, 1].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct Raster {
+    /// Width and height in pixels.
     pub size: [u32; 2],
+    /// 3 of a colour, 2 of a shade (its value, and 1 where the light reaches or 0), 1 of a depth.
     pub channels: usize,
+    /// The values, `channels` for each pixel.
     pub data: Vec<f32>,
 }
 
-impl Picture {
+impl Raster {
+    /// The channels of the pixel in column `x`, row `y`, from the top left; nothing outside the picture.
     pub fn pixel(&self, [x, y]: [u32; 2]) -> &[f32] {
         let first = (y as usize * self.size[0] as usize + x as usize) * self.channels;
-        &self.data[first..first + self.channels]
+        self.data.get(first..first + self.channels).unwrap_or_default()
     }
 
+    /// The channels of each pixel, row by row.
     pub fn pixels(&self) -> impl Iterator<Item = &[f32]> {
         self.data.chunks_exact(self.channels)
     }
@@ -37,15 +43,24 @@ impl Picture {
         Self { size: pixels.size(), channels, data }
     }
 
-    /// Reads an RGB file.
+    /// Reads an RGB file of 8 bits a channel.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, or is no picture.
     pub fn read_png(path: &Path) -> Result<Self, String> {
         let image = image::open(path).map_err(|error| format!("{}: {error}", path.display()))?.to_rgb8();
         let size = [image.width(), image.height()];
         Ok(Self { size, channels: 3, data: image.into_raw().iter().map(|v| f32::from(*v) / 255.0).collect() })
     }
 
-    /// Writes 8 bits a channel: gray for one or two channels (what the light does not reach is blue), RGB for three.
-    pub fn write_png(&self, path: &Path) -> Result<(), String> {
+    /// The picture as a PNG file of 8 bits a channel: gray for one or two channels (what the light does not reach is
+    /// blue), RGB for three.
+    ///
+    /// # Errors
+    ///
+    /// A size that a PNG file cannot have.
+    pub fn to_png(&self) -> Result<Vec<u8>, String> {
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let rgb = self.pixels().flat_map(|p| match *p {
             [gray] => [byte(gray); 3],
@@ -55,7 +70,20 @@ impl Picture {
             _ => [255, 0, 255],
         });
         let image = image::RgbImage::from_raw(self.size[0], self.size[1], rgb.collect()).ok_or("odd size")?;
-        image.save(path).map_err(|error| format!("{}: {error}", path.display()))
+        let mut file = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut file, image::ImageFormat::Png).map_err(|error| error.to_string())?;
+        Ok(file.into_inner())
+    }
+
+    /// Writes [`Raster::to_png`]'s file.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written.
+    pub fn write_png(&self, path: &Path) -> Result<(), String> {
+        let file = self.to_png()?;
+        let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &file));
+        written.map_err(|(_, error)| format!("{}: {error}", path.display()))
     }
 
     /// Difference of each pixel from `other`'s, from black to white at 16/255 and beyond. `None`: the shapes differ.
@@ -72,7 +100,7 @@ impl Picture {
         if self.channels != 2 {
             return self;
         }
-        let data = self.pixels().map(|p| p[0].max(p[1])).collect();
+        let data = self.pixels().map(|p| p.iter().copied().fold(0.0, f32::max)).collect();
         Self { channels: 1, data, ..self }
     }
 }

@@ -1,6 +1,6 @@
 //! The comparator: two pictures against a maximum, a mean, a share of pixels and a largest spot.
 
-use super::picture::Picture;
+use super::raster::Raster;
 
 /// Limits of a difference. Every limit counts; [`Tolerance::EXACT`] lets no bit differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,22 +18,26 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
+    /// No bit may differ.
     pub const EXACT: Self = Self { max: 0.0, mean: 0.0, share: 0.0, slight: 0.0, spot: None };
 }
 
-/// Difference of two pictures of one shape.
+/// PixelDifference of two pictures of one shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Difference {
+pub struct PixelDifference {
+    /// The largest of any channel.
     pub max: f64,
+    /// The mean over all channels of all pixels.
     pub mean: f64,
     /// Pixels that differ in any bit of any channel.
     pub count: usize,
+    /// Pixels that were compared.
     pub of: usize,
     /// The pixel of the largest difference.
     pub at: [u32; 2],
 }
 
-impl std::fmt::Display for Difference {
+impl std::fmt::Display for PixelDifference {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let share = 100.0 * self.count as f64 / self.of.max(1) as f64;
         write!(
@@ -48,8 +52,8 @@ impl std::fmt::Display for Difference {
 ///
 /// # Errors
 ///
-/// Pictures of different sizes or kinds, and pictures without pixels.
-pub fn measure(actual: &Picture, expected: &Picture) -> Result<Difference, String> {
+/// Rasters of different sizes or kinds, and pictures without pixels.
+pub fn measure(actual: &Raster, expected: &Raster) -> Result<PixelDifference, String> {
     if actual.size != expected.size || actual.channels != expected.channels {
         return Err(format!(
             "wrong size: {}x{} with {} channels, expected {}x{} with {}",
@@ -59,7 +63,7 @@ pub fn measure(actual: &Picture, expected: &Picture) -> Result<Difference, Strin
     if actual.data.is_empty() {
         return Err(String::from("nothing to compare: the pictures are empty"));
     }
-    let mut found = Difference { of: actual.pixels().count(), ..Difference::default() };
+    let mut found = PixelDifference { of: actual.pixels().count(), ..PixelDifference::default() };
     let mut sum = 0.0;
     for (index, (a, b)) in actual.pixels().zip(expected.pixels()).enumerate() {
         if a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits()) {
@@ -84,8 +88,8 @@ pub fn measure(actual: &Picture, expected: &Picture) -> Result<Difference, Strin
 ///
 /// # Errors
 ///
-/// Pictures that [`measure`] refuses, and a difference beyond the tolerance, in words.
-pub fn compare(actual: &Picture, expected: &Picture, tolerance: &Tolerance) -> Result<Difference, String> {
+/// Rasters that [`measure`] refuses, and a difference beyond the tolerance, in words.
+pub fn compare(actual: &Raster, expected: &Raster, tolerance: &Tolerance) -> Result<PixelDifference, String> {
     let found = measure(actual, expected)?;
     let differing = differing(actual, expected, tolerance.slight);
     let share = differing.iter().filter(|differs| **differs).count() as f64 / found.of as f64;
@@ -110,7 +114,7 @@ pub fn compare(actual: &Picture, expected: &Picture, tolerance: &Tolerance) -> R
 }
 
 /// The pixels that differ by more than `slight`, or in any bit where that is 0.
-fn differing(actual: &Picture, expected: &Picture, slight: f64) -> Vec<bool> {
+fn differing(actual: &Raster, expected: &Raster, slight: f64) -> Vec<bool> {
     let differs = |(a, b): (&f32, &f32)| {
         let is_slight = f64::from((a - b).abs()) <= slight;
         a.to_bits() != b.to_bits() && (slight == 0.0 || !is_slight)
@@ -120,7 +124,7 @@ fn differing(actual: &Picture, expected: &Picture, slight: f64) -> Vec<bool> {
 
 /// The corner of the first square of `side` pixels that differs as a whole.
 fn spot(differing: &[bool], [width, height]: [u32; 2], side: u32) -> Option<[u32; 2]> {
-    let at = |x: u32, y: u32| differing[(y * width + x) as usize];
+    let at = |x: u32, y: u32| differing.get((y * width + x) as usize) == Some(&true);
     let corners =
         (0..(height + 1).saturating_sub(side)).flat_map(|y| (0..(width + 1).saturating_sub(side)).map(move |x| [x, y]));
     let whole = |[left, top]: &[u32; 2]| (0..side).all(|y| (0..side).all(|x| at(left + x, top + y)));

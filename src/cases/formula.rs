@@ -1,8 +1,8 @@
 //! Expected pixels, in f64 and by other means than the renderer's: similar triangles and angles instead of light matrices,
 //! a ray through a pixel's centre instead of a raster. Reads the resolved scene only.
 
+use crate::scene::{Camera, Frustum, Light, LightKind, LightShape, Scene};
 use glam::{DVec2, DVec3};
-use glumbra::scene::{Camera, Frustum, Light, LightKind, LightShape, Scene};
 
 use super::file::{Formula, Sphere};
 
@@ -59,6 +59,10 @@ pub fn point_under(scene: &Scene, pixel: [u32; 2], point: DVec3, normal: DVec3) 
 }
 
 /// The length on a surface at `point`, along `direction`, that one pixel shows.
+///
+/// # Errors
+///
+/// A point that is not before the camera.
 pub fn pixel_length(scene: &Scene, point: DVec3, direction: DVec3) -> Result<f64, String> {
     let step = 1e-3;
     let ends = [point - step * direction, point + step * direction].map(|end| pixel_position(scene, end));
@@ -128,6 +132,10 @@ pub fn reach(light: &Light, point: DVec3) -> f64 {
 }
 
 /// End of the reach from `start` along `direction`, by bisection.
+///
+/// # Errors
+///
+/// A reach that does not end there.
 pub fn reach_end(light: &Light, start: DVec3, direction: DVec3) -> Result<f64, String> {
     let (mut inside, mut outside) = (0.0, 1e3);
     let at = |along: f64| reach(light, start + along * direction);
@@ -143,6 +151,10 @@ pub fn reach_end(light: &Light, start: DVec3, direction: DVec3) -> Result<f64, S
 
 /// The illumination formula [LEC, "Advice for Shadowed Illumination Model"] at `point`, by Lambert and Blinn with a viewer at
 /// the eye: `(ambient + Σ (dimming + (1 - dimming) shade) beam diffuse) decal + Σ shade beam specular`.
+///
+/// # Errors
+///
+/// An object, a material or a shade that is not there.
 pub fn illumination(scene: &Scene, point: DVec3, known: &Formula) -> Result<DVec3, String> {
     let color = |rgb: [f32; 3]| DVec3::from_array(rgb.map(f64::from));
     let object = scene.objects.get(known.object).ok_or("the formula's object is not in the scene")?;

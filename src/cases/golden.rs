@@ -5,9 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use super::compare::{self, Tolerance};
-use super::draw;
 use super::file::Golden;
-use super::picture::Picture;
+use super::raster::Raster;
 
 /// The driver that drew the golden beside it, one line.
 const DRIVER_FILE: &str = "golden.driver";
@@ -18,40 +17,56 @@ const DRIVER_FILE: &str = "golden.driver";
 /// square, however small a share of the picture that is.
 const OTHER: Tolerance = Tolerance { max: 1.0, mean: 0.75 / 255.0, share: 0.006, slight: 16.0 / 255.0, spot: Some(3) };
 
-/// Tests whether `ci/bless` runs, which writes goldens.
-pub fn blessing() -> bool {
-    std::env::var_os("GLUMBRA_BLESS").is_some_and(|value| value == "1")
+/// Result of a comparison with a golden.
+#[derive(Clone, Debug)]
+pub enum GoldenResult {
+    /// It is like the golden: how it was compared, and by how much it differs.
+    Same(String),
+    /// It is not, or there is none.
+    Wrong {
+        /// Words for it.
+        why: String,
+        /// The golden, where it could be read.
+        expected: Option<Raster>,
+    },
+    /// The golden was written.
+    Written(String),
 }
 
-/// Compares `actual` with `golden.png` in `folder`. Returns the comparison and its result.
+/// Compares `actual`, drawn by `driver`, with `golden.png` in `folder`. With `bless` it is written instead.
 ///
 /// # Errors
 ///
-/// A golden that is missing, unreadable, of another size or too different, and with `bless` every golden, after it is
-/// written.
+/// A golden that cannot be written.
 pub fn check(
-    actual: &Picture,
+    actual: &Raster,
     folder: &Path,
     golden: &Golden,
+    driver: &str,
     bless: bool,
-) -> Result<String, (String, Option<Picture>)> {
+) -> Result<GoldenResult, String> {
     let path = folder.join("golden.png");
     if bless {
-        return Err((write(actual, folder, &path), None));
+        return write(actual, folder, &path, driver).map(GoldenResult::Written);
     }
     if !path.is_file() {
         let name = path.display();
-        return Err((
-            format!("{name}: there is no golden (ci/bless makes it, once the picture is known to be right)"),
-            None,
-        ));
+        let why = format!("{name}: there is no golden (--bless writes it, once the picture is known to be right)");
+        return Ok(GoldenResult::Wrong { why, expected: None });
     }
-    let expected = Picture::read_png(&path).map_err(|error| (error, None))?;
+    let expected = match Raster::read_png(&path) {
+        Ok(expected) => expected,
+        Err(why) => return Ok(GoldenResult::Wrong { why, expected: None }),
+    };
     let recorded = fs::read_to_string(folder.join(DRIVER_FILE)).unwrap_or_default();
-    let (tolerance, how) = tolerance(recorded.trim(), &draw::driver(), golden);
-    compare::compare(actual, &expected, &tolerance)
-        .map(|found| format!("{how}: {found}"))
-        .map_err(|error| (format!("{}: {how}: {error} ({})", path.display(), golden.why), Some(expected)))
+    let (tolerance, how) = tolerance(recorded.trim(), driver, golden);
+    Ok(match compare::compare(actual, &expected, &tolerance) {
+        Ok(found) => GoldenResult::Same(format!("{how}: {found}")),
+        Err(error) => {
+            let why = format!("{}: {how}: {error} ({})", path.display(), golden.why);
+            GoldenResult::Wrong { why, expected: Some(expected) }
+        }
+    })
 }
 
 /// On the driver of the golden, the case's own tolerance; on another one [`OTHER`]. With it, what the golden was compared
@@ -72,13 +87,9 @@ fn tolerance(recorded: &str, here: &str, golden: &Golden) -> (Tolerance, String)
     (OTHER, how)
 }
 
-fn write(actual: &Picture, folder: &Path, path: &Path) -> String {
-    let written = actual.write_png(path).and_then(|()| {
-        let file = folder.join(DRIVER_FILE);
-        fs::write(&file, draw::driver() + "\n").map_err(|error| format!("{}: {error}", file.display()))
-    });
-    match written {
-        Ok(()) => format!("{}: written; look at it, then run the test again", path.display()),
-        Err(error) => error,
-    }
+fn write(actual: &Raster, folder: &Path, path: &Path, driver: &str) -> Result<String, String> {
+    actual.write_png(path)?;
+    let file = folder.join(DRIVER_FILE);
+    fs::write(&file, format!("{driver}\n")).map_err(|error| format!("{}: {error}", file.display()))?;
+    Ok(format!("{}: written; look at the picture, then run again", path.display()))
 }

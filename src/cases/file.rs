@@ -1,65 +1,21 @@
-//! `case.toml`: what must be seen of a scene. Unknown keys are refused; every check says why.
+//! `case.toml`: the keys of a pixel test. Unknown keys are refused; every check says why it must hold.
 //!
-//! `for_each` repeats a check, or in the head of the file the whole case, with each of several sets of overrides:
-//!
-//! ```toml
-//! for_each = [["light.shadow.bias=adaptive"], ["light.shadow.bias=normal-offset", "light.shadow.size=1024"]]
-//! ```
-//!
-//! Overrides are applied in this order: `set` of the case, a set of the case's `for_each`, a set of the check's
-//! `for_each`, `set` of the check. An error names the sets with which it came.
+//! These comments are the reference: the table of `data/cases/README.md` is written from them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Deserialize;
-
-/// A case folder, read.
-#[derive(Clone, Debug)]
-pub struct Case {
-    pub folder: PathBuf,
-    /// `technique/case`, or a name of a test's own.
-    pub name: String,
-    pub checks: Checks,
-    /// The set of the case's `for_each` that is part of `checks.set`.
-    pub variant: Option<Vec<String>>,
-}
-
-impl Case {
-    /// Reads `folder/case.toml`.
-    pub fn read(folder: &Path, name: &str) -> Result<Self, String> {
-        let path = folder.join("case.toml");
-        let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let checks = toml::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(Self { folder: folder.to_owned(), name: name.to_owned(), checks, variant: None })
-    }
-
-    /// The case once for each set of its `for_each`; itself where it has none.
-    pub fn variants(&self) -> Vec<Self> {
-        let Some(sets) = &self.checks.for_each else { return vec![self.clone()] };
-        let with = |set: &Vec<String>| {
-            let mut case = Self { variant: Some(set.clone()), ..self.clone() };
-            case.checks.set.extend_from_slice(set);
-            case
-        };
-        sets.iter().map(with).collect()
-    }
-
-    /// The scene's file.
-    pub fn scene(&self) -> PathBuf {
-        self.folder.join(&self.checks.scene)
-    }
-}
 
 /// Sets of overrides.
 pub type Sets = Vec<Vec<String>>;
 
-/// The file. Checks are made in this order.
+/// The whole file. Checks are made in this order.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checks {
     /// The one question that the case asks.
     pub asks: String,
-    /// Relative to the case's folder.
+    /// The scene's file, relative to the case's folder.
     #[serde(default = "own_scene")]
     pub scene: PathBuf,
     /// Overrides, as `--set` takes them, before those of each check.
@@ -67,26 +23,39 @@ pub struct Checks {
     pub set: Vec<String>,
     /// Every check is made with each of these, after `set`.
     pub for_each: Option<Sets>,
+    /// A command that draws in place of glumbra: its program and arguments, with placeholders in braces.
+    pub render: Option<Vec<String>>,
     /// The scene is refused with an error that has this text. No other check can stand beside it: nothing is drawn.
     pub fails_with: Option<String>,
     /// A warning that has this text is given.
     pub warns: Option<String>,
     /// Something is left out, in words that have this text.
     pub leaves_out: Option<String>,
+    /// Pixels with a known answer.
     #[serde(default)]
     pub pick: Vec<Pick>,
+    /// Points of a shadow's outline, by central projection.
     #[serde(default)]
     pub edge: Vec<Edge>,
+    /// Ends of the light's reach.
     #[serde(default)]
     pub cone: Vec<Cone>,
+    /// Shares of the pixels that are of one class.
     #[serde(default)]
-    pub count: Vec<Count>,
+    pub count: Vec<ClassCount>,
+    /// Set-ups that must show the same.
     #[serde(default)]
     pub same: Vec<Same>,
+    /// Nothing of what was drawn before may show.
     #[serde(default)]
     pub after: Vec<After>,
+    /// Pictures that add up.
     #[serde(default)]
     pub sum: Vec<Sum>,
+    /// Shadows against exact visibility, pixel by pixel.
+    #[serde(default)]
+    pub truth: Vec<TruthCheck>,
+    /// A picture that was found right before.
     pub golden: Option<Golden>,
 }
 
@@ -94,13 +63,17 @@ fn own_scene() -> PathBuf {
     PathBuf::from("scene.toml")
 }
 
-/// Value of the shade view at a pixel.
+/// How much of a light arrives at a pixel, in words.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Class {
+    /// All of the light arrives.
     Lit,
+    /// None of the light arrives.
     Shadowed,
+    /// Some of the light arrives: a filtered edge.
     Partial,
+    /// No surface, or one that lies outside the light's cone or frustum.
     Outside,
 }
 
@@ -112,20 +85,26 @@ pub struct Pick {
     pub at: Option<[f64; 3]>,
     /// Or the pixel itself, from the top left.
     pub pixel: Option<[u32; 2]>,
+    /// The light of `class` and `shade`, from 0.
     #[serde(default)]
     pub light: usize,
+    /// Overrides, after the case's.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Once with each of these sets of overrides.
     pub for_each: Option<Sets>,
+    /// How much of the light arrives, in words.
     pub class: Option<Class>,
+    /// How much of the light arrives: 1 lit, 0 shadowed.
     pub shade: Option<f64>,
-    /// RGB in 255ths.
+    /// The picture's colour, RGB in 255ths.
     pub color: Option<[f64; 3]>,
-    /// The illumination formula at the pixel's centre on the plane through `at`.
+    /// The picture's colour by the illumination formula, at the pixel's centre on the plane through `at`.
     pub formula: Option<Formula>,
-    /// In 255ths.
+    /// The largest difference of `shade`, `color` and `formula`, in 255ths.
     #[serde(default = "one")]
     pub within: f64,
+    /// The reason why it must be so.
     pub why: String,
 }
 
@@ -137,6 +116,7 @@ fn one() -> f64 {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Formula {
+    /// Normal of the surface at the point.
     pub normal: [f64; 3],
     /// Index of the object whose material it is.
     pub object: usize,
@@ -145,6 +125,7 @@ pub struct Formula {
     /// Value of each light's image, where it has one.
     #[serde(default)]
     pub beam: Vec<[f64; 3]>,
+    /// Value of the surface's own image.
     #[serde(default = "white")]
     pub decal: [f64; 3],
 }
@@ -164,18 +145,25 @@ pub struct Edge {
     pub sphere: Option<Sphere>,
     /// Away from the shadow, in the floor.
     pub outward: [f64; 3],
+    /// The floor's height, y.
     #[serde(default)]
     pub floor: f64,
+    /// Overrides, after the case's.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Once with each of these sets of overrides.
     pub for_each: Option<Sets>,
+    /// The reason why it must be so.
     pub why: String,
 }
 
+/// A sphere of the world.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
+    /// Its middle in the world.
     pub center: [f64; 3],
+    /// Its radius.
     pub radius: f64,
 }
 
@@ -183,40 +171,57 @@ pub struct Sphere {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
+    /// Direction of the ray, in the floor.
     pub towards: [f64; 3],
+    /// The floor's height, y.
     #[serde(default)]
     pub floor: f64,
+    /// Overrides, after the case's.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Once with each of these sets of overrides.
     pub for_each: Option<Sets>,
+    /// The reason why it must be so.
     pub why: String,
 }
 
 /// The share of the drawn and reached pixels that are of one class. `least` or `most` must exclude something.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Count {
+pub struct ClassCount {
+    /// The light, from 0.
     #[serde(default)]
     pub light: usize,
+    /// The class that is counted.
     pub class: Class,
+    /// The least share, from 0 to 1.
     #[serde(default)]
     pub least: f64,
+    /// The greatest share, from 0 to 1.
     #[serde(default = "one")]
     pub most: f64,
+    /// Overrides, after the case's.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Once with each of these sets of overrides.
     pub for_each: Option<Sets>,
+    /// The reason why it must be so.
     pub why: String,
 }
 
-/// A picture that set-ups share.
+/// A picture that set-ups share: the picture, or a view as `--aov` has it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Of {
+    /// The picture.
     Picture,
+    /// How much of the light arrives.
     Shade,
+    /// Depth from the camera.
     Depth,
+    /// The light's depth map.
     LightDepth,
+    /// Distance from the light.
     LightDistance,
 }
 
@@ -224,17 +229,21 @@ pub enum Of {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Same {
+    /// The pictures that are compared.
     pub of: Vec<Of>,
     /// Reference of the others: the case's scene with these overrides, and `frames` frames of it.
     #[serde(default)]
     pub with: Vec<String>,
+    /// Overrides of the others.
     pub sets: Sets,
     /// Before `with` and before each of `sets`.
     pub for_each: Option<Sets>,
+    /// The light of a view, from 0.
     #[serde(default)]
     pub light: usize,
     /// Another scene than the case's own for the others.
     pub scene: Option<PathBuf>,
+    /// Frames that are drawn; the last is compared.
     #[serde(default = "one_frame")]
     pub frames: u32,
     /// To the bit.
@@ -243,7 +252,9 @@ pub struct Same {
     /// Or by at most `max`, in at most this share of the pixels: a small difference anywhere, or any difference in a few
     /// pixels.
     pub max: Option<f64>,
+    /// The share of the pixels, from 0 to 1.
     pub share: Option<f64>,
+    /// The reason why it must be so.
     pub why: String,
 }
 
@@ -255,9 +266,11 @@ fn one_frame() -> u32 {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct After {
+    /// The pictures that are compared.
     pub of: Vec<Of>,
     /// Frames that are drawn before.
     pub firsts: Sets,
+    /// The reason why it must be so.
     pub why: String,
 }
 
@@ -265,18 +278,66 @@ pub struct After {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sum {
+    /// Overrides of each picture that is added.
     pub plus: Sets,
+    /// Overrides of each picture that is taken away.
     #[serde(default)]
     pub minus: Sets,
+    /// The largest difference of any channel, where 1 is white.
     pub max: f64,
+    /// The reason why it must be so.
     pub why: String,
+}
+
+/// The shade of a light against exact visibility, which rays find from the scene alone. Percentages are of the pixels that
+/// both show and of which the truth is certain.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TruthCheck {
+    /// The light, from 0.
+    #[serde(default)]
+    pub light: usize,
+    /// The greatest percentage that is lit and drawn dark: acne, and light lost at edges.
+    #[serde(default)]
+    pub false_shadow: f64,
+    /// The greatest percentage that is in shadow and drawn lit.
+    #[serde(default)]
+    pub leak: f64,
+    /// The greatest percentage that is wrong outside `bound` or `band`.
+    #[serde(default)]
+    pub outside_band: f64,
+    /// Wrong pixels that count as inside: by default those that the technique's own map explains, and of a command those
+    /// of `band` = 3.
+    pub bound: Option<MayBeWrong>,
+    /// Or those so many pixels from a true shadow edge.
+    pub band: Option<f64>,
+    /// Overrides, after the case's.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// Once with each of these sets of overrides.
+    pub for_each: Option<Sets>,
+    /// The reason why it must be so.
+    pub why: String,
+}
+
+/// Renderers by where they may be wrong.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum MayBeWrong {
+    /// Within the texels of the scene's map, the reach of its filter, and the reach of its bias.
+    Technique,
+    /// Nowhere: every wrong pixel counts as outside.
+    Exact,
 }
 
 /// `golden.png`, in 255ths, on the driver that drew it. On another one a tolerance of all goldens holds: `golden.rs`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Golden {
+    /// The largest difference of any channel, in 255ths.
     pub max: f64,
+    /// The mean difference of all channels, in 255ths.
     pub mean: f64,
+    /// The reason why it must be so.
     pub why: String,
 }

@@ -1,0 +1,233 @@
+//! A command that draws in place of glumbra: `render` of a case. It reads the scene's file, and writes a picture of a kind.
+//!
+//! | placeholder | becomes |
+//! |---|---|
+//! | `{scene}` | the scene's file, an absolute path |
+//! | `{out}` | the picture's file, a PNG; with `{out.exr}` an EXR file, with `{out.npy}` a NumPy array |
+//! | `{kind}` | `picture`: the colours; or `shade`: how much of `{light}` arrives, gray: 1 lit, 0 shadowed |
+//! | `{light}` | the light of a shade, from 0; 0 for a picture |
+//! | `{width}`, `{height}` | the picture's size in pixels, by the scene |
+//!
+//! It runs in the case's folder. A shade may have an alpha: 0 where no surface is, or the light's cone ends.
+
+use std::fs::File;
+use std::path::Path;
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::Instant;
+
+use super::draw::{DrawnScene, Wanted};
+use super::file::Checks;
+use super::outcome::{CaseVerdict, Failure};
+use super::picture_file;
+use super::read::PixelCase;
+use crate::process;
+use crate::scene::Scene;
+use crate::views::View;
+
+/// Kinds of files that a command may write, by the placeholder.
+const OUTPUTS: [(&str, &str); 4] = [("out", "png"), ("out.png", "png"), ("out.exr", "exr"), ("out.npy", "npy")];
+/// Other placeholders.
+const INPUTS: [&str; 5] = ["scene", "light", "width", "height", "kind"];
+
+/// Refuses words that are no command which can draw what `checks` need.
+///
+/// # Errors
+///
+/// No program, an unknown placeholder, no file to write, no kind where the checks need both.
+pub(super) fn check(words: &[String], checks: &Checks) -> Result<(), String> {
+    if words.first().is_none_or(String::is_empty) {
+        return Err(String::from("`render` names no program"));
+    }
+    let names: Vec<&str> = words.iter().flat_map(|word| placeholders(word)).collect();
+    let known = || OUTPUTS.iter().map(|(name, _)| *name).chain(INPUTS);
+    if let Some(name) = names.iter().find(|name| !known().any(|known| known == **name)) {
+        let all = known().map(|name| format!("{{{name}}}")).collect::<Vec<_>>().join(", ");
+        return Err(format!("`render` has {{{name}}}, which stands for nothing; there are {all}"));
+    }
+    if !names.iter().any(|name| extension(name).is_some()) {
+        return Err(String::from("`render` has no {out}: the command must be told which file to write"));
+    }
+    let colours =
+        checks.golden.is_some() || checks.pick.iter().any(|pick| pick.color.is_some() || pick.formula.is_some());
+    let shades = checks.edge.len() + checks.cone.len() + checks.count.len() + checks.truth.len() > 0
+        || checks.pick.iter().any(|pick| pick.class.is_some() || pick.shade.is_some());
+    if colours && shades && !names.contains(&"kind") {
+        return Err(String::from(
+            "`render` has no {kind}: some checks need the picture, others the shade, and the command must be told which",
+        ));
+    }
+    Ok(())
+}
+
+/// Names in braces.
+fn placeholders(word: &str) -> impl Iterator<Item = &str> {
+    let parts = word.split('{').skip(1);
+    parts.filter_map(|part| part.split_once('}')).map(|(name, _)| name).filter(|name| is_name(name))
+}
+
+/// Tests whether text in braces is meant as a placeholder: shells and JSON have braces, too.
+fn is_name(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'.')
+}
+
+fn extension(name: &str) -> Option<&'static str> {
+    OUTPUTS.iter().find(|(known, _)| *known == name).map(|(_, extension)| *extension)
+}
+
+/// Runs the command for what is wanted, and reads its picture.
+///
+/// # Errors
+///
+/// A scene that does not load; a command that cannot be started, crashes, fails, or does not end until `deadline`; no
+/// picture, or one of another size or kind.
+pub(super) fn draw(
+    words: &[String],
+    case: &PixelCase,
+    wanted: Wanted,
+    deadline: Instant,
+) -> Result<DrawnScene, Failure> {
+    let loaded = crate::load(&case.scene(), &[]).map_err(|error| error.to_string())?;
+    let (kind, light) = match wanted {
+        Wanted::View(View::Shade, light) => ("shade", light),
+        Wanted::Picture => ("picture", 0),
+        _ => return Err("a command draws pictures and shades only".into()),
+    };
+    let folder = tempfile::tempdir().map_err(|error| format!("a folder for the command's picture: {error}"))?;
+    let output = words.iter().flat_map(|word| placeholders(word)).find_map(extension).unwrap_or("png");
+    let output = folder.path().join(format!("{kind}.{output}"));
+    let words = fill(words, case, &loaded.scene, (kind, light), &output)?;
+    let said = run(&words, &case.folder, folder.path(), deadline)?;
+    let after = |message: String| format!("{message}{}", tail(&said));
+    if !output.is_file() {
+        return Err(after(format!("{} ended well and wrote no picture", quote(&words))).into());
+    }
+    let picture = picture_file::read(&output, kind == "shade")
+        .map_err(|error| after(format!("the command's picture: {error}")))?;
+    let [width, height] = loaded.scene.image.size;
+    if picture.size != [width, height] {
+        let [found_width, found_height] = picture.size;
+        let message =
+            format!("the command's picture is {found_width}x{found_height}, and the scene's {width}x{height}");
+        return Err(after(message).into());
+    }
+    Ok(DrawnScene { scene: loaded.scene, picture, left_out: Vec::new(), warnings: loaded.warnings, plan: None })
+}
+
+fn fill(
+    words: &[String],
+    case: &PixelCase,
+    scene: &Scene,
+    (kind, light): (&str, usize),
+    output: &Path,
+) -> Result<Vec<String>, Failure> {
+    let path = case.scene();
+    let absolute = path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?;
+    let text = |path: &Path| path.to_str().map(str::to_owned).ok_or(format!("{}: is not UTF-8", path.display()));
+    let [width, height] = scene.image.size;
+    let output = text(output)?;
+    let mut values = vec![
+        ("scene", text(&absolute)?),
+        ("light", light.to_string()),
+        ("width", width.to_string()),
+        ("height", height.to_string()),
+        ("kind", kind.to_owned()),
+    ];
+    values.extend(OUTPUTS.iter().map(|(name, _)| (*name, output.clone())));
+    Ok(words.iter().map(|word| fill_word(word, &values)).collect())
+}
+
+/// Fills placeholders from left to right; what is filled in is not read again.
+fn fill_word(word: &str, values: &[(&str, String)]) -> String {
+    let mut filled = String::new();
+    let mut rest = word;
+    while let Some(at) = rest.find('{') {
+        filled += &rest[..at];
+        rest = &rest[at..];
+        let found = values.iter().find_map(|(name, value)| {
+            let length = name.len() + 2;
+            (rest.get(..length) == Some(&format!("{{{name}}}"))).then_some((length, value))
+        });
+        let (length, value) = found.map_or((1, "{"), |(length, value)| (length, value.as_str()));
+        filled += value;
+        rest = &rest[length..];
+    }
+    filled + rest
+}
+
+/// Runs a command to its end, and returns what it wrote on standard output and standard error.
+fn run(words: &[String], folder: &Path, scratch: &Path, deadline: Instant) -> Result<String, Failure> {
+    let log = scratch.join("said");
+    let file = File::create(&log).and_then(|file| Ok((file.try_clone()?, file)));
+    let (out, err) = file.map_err(|error| format!("{}: {error}", log.display()))?;
+    let (program, arguments) = words.split_first().ok_or("`render` names no program")?;
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(out).stderr(err);
+    let begin = Instant::now();
+    let failed = |error: std::io::Error| {
+        format!("{program}: cannot be started in {}: {error}; is it installed, and in PATH?", folder.display())
+    };
+    let mut running = process::start(&mut command).map_err(failed)?;
+    let ended = running.wait(deadline).map_err(|error| format!("{program}: cannot be waited for: {error}"))?;
+    drop(running);
+    let said = std::fs::read(&log).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
+    match ended.map(|status| (status.success(), status)) {
+        Some((true, _)) => Ok(said),
+        Some((false, status)) => Err(how_it_failed(words, status, &said)),
+        None => {
+            let time = begin.elapsed().as_secs_f64();
+            let message = format!("{} did not end in {time:.1} s, and was killed{}", quote(words), tail(&said));
+            Err(Failure::new(CaseVerdict::Hang, message))
+        }
+    }
+}
+
+fn how_it_failed(words: &[String], status: ExitStatus, said: &str) -> Failure {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        let name = process::signal_name(signal);
+        let message = format!("{} crashed ({name}){}", quote(words), tail(said));
+        return Failure::new(CaseVerdict::Crash, message);
+    }
+    format!("{} failed ({status}){}", quote(words), tail(said)).into()
+}
+
+/// The command as one would type it.
+fn quote(words: &[String]) -> String {
+    let is_plain = |word: &str| {
+        !word.is_empty() && word.chars().all(|letter| letter.is_alphanumeric() || "-_./=:,+@%".contains(letter))
+    };
+    let quoted = words.iter().map(|word| match is_plain(word) {
+        true => word.clone(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    });
+    quoted.collect::<Vec<_>>().join(" ")
+}
+
+/// The last lines that a command wrote, indented; nothing where it wrote none.
+fn tail(said: &str) -> String {
+    const LINES: usize = 20;
+    let lines: Vec<&str> = said.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
+    let last = &lines[lines.len().saturating_sub(LINES)..];
+    last.iter().map(|line| format!("\n    | {line}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &[&str]) -> Vec<String> {
+        text.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn placeholders_are_filled_once() {
+        let values = [("scene", "{out}".to_owned()), ("out", "a b".to_owned())];
+        assert_eq!(fill_word("x{scene}{out}-{kind}{", &values), "x{out}a b-{kind}{");
+        assert_eq!(placeholders("{out.exr} ${HOME} {} {a").collect::<Vec<_>>(), ["out.exr"]);
+    }
+
+    #[test]
+    fn a_command_is_shown_as_it_is_typed() {
+        assert_eq!(quote(&words(&["sh", "-c", "kill -9 $$; echo 'x'"])), r#"sh -c 'kill -9 $$; echo '\''x'\'''"#);
+    }
+}
