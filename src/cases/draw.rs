@@ -44,7 +44,11 @@ pub struct DrawnScene {
 pub struct Drawer {
     request: ContextRequest,
     gl: Option<Result<Gl, String>>,
+    between: Option<BetweenFrames>,
 }
+
+/// Work of another user of the context.
+pub type BetweenFrames = Box<dyn FnMut(&mut Renderer)>;
 
 struct Gl {
     renderer: Renderer,
@@ -55,7 +59,7 @@ struct Gl {
 impl Drawer {
     /// A renderer on a context of this kind, with GL's debug messages.
     pub fn new(request: ContextRequest) -> Self {
-        Self { request: ContextRequest { debug: true, ..request }, gl: None }
+        Self { request: ContextRequest { debug: true, ..request }, gl: None, between: None }
     }
 
     fn gl(&mut self) -> Result<&mut Gl, Failure> {
@@ -97,6 +101,11 @@ impl Drawer {
         Ok(&mut self.gl()?.renderer)
     }
 
+    /// Has `act` called between the two frames of [`Drawer::draw_after`], as another user of the context might act there.
+    pub fn between_frames(&mut self, act: Option<BetweenFrames>) {
+        self.between = act;
+    }
+
     /// Draws `frames` frames of `scene` with `set` applied, and reads what is wanted from the last. Nothing of an earlier
     /// picture is left to be met again: every image is overwritten and every pass drawn again.
     ///
@@ -119,9 +128,13 @@ impl Drawer {
         set: &[String],
         wanted: Wanted,
     ) -> Result<DrawnScene, Failure> {
+        draw_planned(self.gl()?, scene, first, 1, wanted, true)?;
+        let mut between = self.between.take();
         let gl = self.gl()?;
-        draw_planned(gl, scene, first, 1, wanted, true)?;
-        draw_planned(gl, scene, set, 1, wanted, false)
+        between.iter_mut().for_each(|act| act(&mut gl.renderer));
+        let drawn = draw_planned(gl, scene, set, 1, wanted, false);
+        self.between = between;
+        drawn
     }
 }
 

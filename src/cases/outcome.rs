@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use super::read::PixelCase;
+
 /// Result of a case, or of its first check that failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -138,6 +140,27 @@ pub struct CaseOutcome {
 }
 
 impl CaseOutcome {
+    /// A case whose process ended before it did.
+    pub fn ended(case: &PixelCase, verdict: CaseVerdict, seconds: f64, message: String) -> Self {
+        let refused = Self::refused(&case.name, message);
+        Self { asks: case.checks.asks.clone(), verdict, seconds, ..refused }
+    }
+
+    /// A case that could not be run.
+    pub fn refused(name: &str, message: String) -> Self {
+        Self {
+            name: name.to_owned(),
+            asks: String::new(),
+            verdict: CaseVerdict::Fail,
+            seconds: 0.0,
+            message: Some(message),
+            check: None,
+            at: None,
+            files: FailureFiles::default(),
+            measured: Vec::new(),
+        }
+    }
+
     /// The failure in lines: the question, the place with what was found, the pictures. `None`: the case passes.
     pub fn failure(&self) -> Option<String> {
         let message = self.message.as_ref()?;

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand; arguments in, calls out, no logic.
 
 mod check;
+mod child_process;
 mod context_args;
 mod figures;
 mod info;
@@ -16,6 +17,7 @@ pub mod sample;
 pub mod sample_model;
 mod scene_args;
 mod stress;
+mod test;
 mod truth_views;
 mod tune;
 
@@ -47,6 +49,7 @@ enum Command {
     Repack(repack::RepackArgs),
     Report(report::ReportArgs),
     Stress(stress::StressArgs),
+    Test(test::TestArgs),
     Tune(tune::TuneArgs),
 }
 
@@ -97,6 +100,11 @@ pub enum Error {
     ReportFiles(#[from] crate::report::store::write::Error),
     #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
     NoSuchCase { name: String },
+    #[error(transparent)]
+    Cases(#[from] crate::cases::Error),
+    /// The words of the process that runs cases.
+    #[error("{0}")]
+    NoCaseRun(String),
     #[error(transparent)]
     Stress(#[from] crate::stress::Error),
     #[error(transparent)]
@@ -153,6 +161,7 @@ pub fn run() -> ExitCode {
         Command::Repack(arguments) => repack::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Stress(arguments) => return stress::run(&arguments),
+        Command::Test(arguments) => return test::run(&arguments),
         Command::Tune(arguments) => tune::run(&arguments),
     };
     exit_code(result)

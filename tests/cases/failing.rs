@@ -7,6 +7,7 @@ use std::path::Path;
 
 use glow::HasContext;
 use glumbra::cases::{CaseOutcome, CaseVerdict, KINDS, PixelCase};
+use glumbra::frame::Renderer;
 
 use crate::comparator::{Folder, draw, scene, tests};
 use crate::with_runner;
@@ -15,6 +16,7 @@ pub const TESTS: &[(&str, fn())] = tests![
     every_kind_of_check_has_a_case_that_fails,
     each_check_fails_where_it_must,
     a_picks_color_fails_by_one_code,
+    a_renderer_that_keeps_what_it_must_not_fails,
     a_gl_error_fails_a_case_before_its_checks,
     a_message_of_high_severity_fails_a_case,
     commands_that_fail_say_how,
@@ -28,15 +30,15 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
     ("fails_with", "set = [\"light.cone=0\"]\nfails_with = \"cone\"\n", "fails_with = \"cone\"\n", "the scene draws"),
     (
         "warns",
-        "set = [\"light.shadow.size=16\"]\nwarns = \"light 0\"\n",
-        "set = [\"light.shadow.size=16\"]\nwarns = \"a herring\"\n",
+        "set = [\"light.shadow.format=depth32\"]\nwarns = \"DEPTH_COMPONENT32\"\n",
+        "set = [\"light.shadow.format=depth32\"]\nwarns = \"a herring\"\n",
         "nothing says \"a herring\"",
     ),
     (
         "leaves_out",
-        "set = [\"light.color=[0, 0, 0]\"]\nleaves_out = \"light 0\"\n",
-        "leaves_out = \"light 0\"\n",
-        "nothing says \"light 0\"",
+        "set = [\"light.position=[0, 5, 30]\", \"light.target=[0, 0, 60]\"]\nleaves_out = \"light 0: its cone\"\n",
+        "leaves_out = \"light 0: its cone\"\n",
+        "nothing says \"light 0: its cone\"",
     ),
     (
         "pick.class",
@@ -62,12 +64,7 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
         "[[edge]]\ncaster = [0.6, 1, 0]\noutward = [1, 0, 0]\n",
         "not Shadowed",
     ),
-    (
-        "cone",
-        "[[cone]]\ntowards = [0, 0, 1]\n",
-        "[[cone]]\ntowards = [0, 0, 1]\nset = [\"light.shadow.technique=none\", \"light.power=1\"]\n",
-        "",
-    ),
+    ("cone", "[[cone]]\ntowards = [0, 0, 1]\n", "[[cone]]\ntowards = [0, 0, 1]\nfloor = 0.3\n", " at pixel "),
     (
         "count",
         "[[count]]\nclass = \"shadowed\"\nleast = 0.01\n",
@@ -86,10 +83,16 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
         "[[sum]]\nplus = [[\"light.color=[0.5, 0.5, 0.5]\"]]\nmax = 1e-5\n",
         "the sum: ",
     ),
+    (
+        "golden",
+        "[golden]\nmax = 2\nmean = 0.05\n",
+        "set = [\"light.shadow.technique=none\"]\n[golden]\nmax = 2\nmean = 0.05\n",
+        "differ, by",
+    ),
 ];
 
 /// Kinds with a test of their own in this file or in `comparator.rs`.
-const APART: [&str; 3] = ["gl", "pick.color", "render"];
+const APART: [&str; 4] = ["gl", "pick.color", "after", "render"];
 
 /// Keys of a file, a pick and a check against truth that are no checks.
 const NO_CHECKS: [&str; 4] = ["asks", "scene", "set", "for_each"];
@@ -158,6 +161,28 @@ fn a_picks_color_fails_by_one_code() {
     assert_eq!(outcome(&Folder::new(), "color", &pick(red)).failure(), None);
     let fails = outcome(&Folder::new(), "color", &pick(red + 1.0));
     assert!(fails.message.unwrap().contains("within 0.5"));
+}
+
+/// Between the two frames another program asks for outlines.
+fn a_renderer_that_keeps_what_it_must_not_fails() {
+    let after = "[[after]]\nof = [\"picture\"]\nfirsts = [[\"light.far=11\"]]\n";
+    assert_eq!(outcome(&Folder::new(), "after", after).failure(), None);
+    let wire = |is_on: bool| {
+        move |renderer: &mut Renderer| {
+            let gl = renderer.device().raw_gl();
+            // SAFETY: state that the device does not know; it is taken back below.
+            unsafe { gl.polygon_mode(glow::FRONT_AND_BACK, if is_on { glow::LINE } else { glow::FILL }) };
+        }
+    };
+    with_runner(|runner| runner.drawer().between_frames(Some(Box::new(wire(true)))));
+    let fails = outcome(&Folder::new(), "after", after);
+    with_runner(|runner| {
+        runner.drawer().between_frames(None);
+        wire(false)(runner.drawer().renderer().unwrap());
+    });
+    assert_eq!(fails.check.as_deref(), Some("after"), "{fails:?}");
+    assert!(fails.message.as_ref().unwrap().contains("Picture after [\"light.far=11\"]: "), "{fails:?}");
+    assert_eq!(outcome(&Folder::new(), "after", after).failure(), None);
 }
 
 const LIT: &str = "[[pick]]\nat = [0, 1, 0]\nclass = \"lit\"\n";
