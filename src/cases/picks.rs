@@ -29,7 +29,9 @@ pub(super) fn pick(on: &CaseBench, pick: &Pick, set: &[String]) -> Result<(), Fa
                 .shade
                 .is_none_or(|shade| found[1] > 0.0 && (f64::from(found[0]) - shade).abs() <= pick.within / 255.0);
         if !right {
-            let wanted = pick.class.map_or_else(|| format!("{:?}", pick.shade), |class| format!("{class:?}"));
+            let shade = |shade: f64| format!("a shade of {shade} within {}/255", pick.within);
+            let wanted =
+                pick.class.map_or_else(|| pick.shade.map_or_else(String::new, shade), |class| format!("{class:?}"));
             let message = format!("pixel {pixel:?} is {}, not {wanted}: {}", in_words(found), pick.why);
             return Err(on.failure(message, &drawn.picture, None));
         }

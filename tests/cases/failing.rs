@@ -50,7 +50,7 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
         "pick.shade",
         "[[pick]]\nat = [0.8, 0, -0.4]\nshade = 0.0\n",
         "[[pick]]\nat = [0.8, 0, -0.4]\nshade = 0.01\n",
-        "not Some(0.01)",
+        "not a shade of 0.01",
     ),
     (
         "pick.formula",
