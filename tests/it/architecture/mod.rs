@@ -17,7 +17,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
-    ("report", &["frame", "truth", "output"]),
+    ("report", &["judge", "output"]),
+    // The bound between right and wrong is that of a technique's map.
+    ("judge", &["frame", "truth"]),
     // A view decides the channels of its file.
     ("output", &["device", "views"]),
     // A renderer warns of depth formats that are not what they are called: it has them measured.
