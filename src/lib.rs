@@ -12,8 +12,9 @@
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY.
 //! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone, [`fixed_function`] draws
-//!    the same passes by the driver's own fixed-function pipeline, and
-//! 10. [`report`] says how far apart they are, and what that cost; [`stress`] does so for scenes made to break them.
+//!    the same passes by the driver's own fixed-function pipeline.
+//! 10. [`judge`] says how wrong a picture's shadow is, by whichever renderer; [`report`] says what that cost over many
+//!     settings; [`stress`] judges scenes made to break techniques.
 //!
 //! Draws a scene and writes the picture:
 //!
@@ -99,6 +100,7 @@ pub mod fixed_function;
 pub mod frame;
 #[doc(hidden)]
 pub mod geometry;
+pub mod judge;
 #[doc(hidden)]
 pub mod lights;
 #[doc(hidden)]

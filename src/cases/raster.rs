@@ -43,6 +43,12 @@ impl Raster {
         Self { size: pixels.size(), channels, data }
     }
 
+    /// A picture of 8 bits a channel.
+    pub fn of_rgb(picture: &image::RgbImage) -> Self {
+        let data = picture.as_raw().iter().map(|value| f32::from(*value) / 255.0).collect();
+        Self { size: [picture.width(), picture.height()], channels: 3, data }
+    }
+
     /// Reads an RGB file of 8 bits a channel.
     ///
     /// # Errors
@@ -50,8 +56,7 @@ impl Raster {
     /// A file that cannot be read, or is no picture.
     pub fn read_png(path: &Path) -> Result<Self, String> {
         let image = image::open(path).map_err(|error| format!("{}: {error}", path.display()))?.to_rgb8();
-        let size = [image.width(), image.height()];
-        Ok(Self { size, channels: 3, data: image.into_raw().iter().map(|v| f32::from(*v) / 255.0).collect() })
+        Ok(Self::of_rgb(&image))
     }
 
     /// The picture as a PNG file of 8 bits a channel: gray for one or two channels (what the light does not reach is

@@ -73,7 +73,7 @@ pub enum Error {
     #[error(transparent)]
     Truth(#[from] crate::truth::Error),
     #[error(transparent)]
-    Difference(#[from] crate::report::measure::metrics::Error),
+    Difference(#[from] crate::judge::metrics::Error),
     #[error(transparent)]
     Viewer(#[from] crate::viewer::Error),
     #[error(transparent)]

@@ -84,6 +84,24 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
         "the sum: ",
     ),
     (
+        "truth.false_shadow",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\n",
+        "[[truth]]\nfalse_shadow = 0.0\nleak = 1.0\n",
+        "; false_shadow may be 0 %",
+    ),
+    (
+        "truth.leak",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\n",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 0.0\n",
+        "; leak may be 0 %",
+    ),
+    (
+        "truth.outside_band",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\n",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\nbound = \"exact\"\n",
+        "; outside_band may be 0 %",
+    ),
+    (
         "golden",
         "[golden]\nmax = 2\nmean = 0.05\n",
         "set = [\"light.shadow.technique=none\"]\n[golden]\nmax = 2\nmean = 0.05\n",

@@ -43,6 +43,9 @@ pub fn to_junit(results: &TestResults) -> Result<String, SerializeError> {
         case.set_classname(folder.replace('/', "."));
         add(folder, case);
     }
+    for suite in &mut suites {
+        suite.set_time(suite.test_cases.iter().filter_map(|case| case.time).sum());
+    }
     report.add_test_suites(suites);
     report.to_string()
 }

@@ -17,8 +17,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
-    ("cases", &["frame", "truth", "output"]),
-    ("report", &["frame", "truth", "output"]),
+    ("cases", &["judge", "output"]),
+    ("report", &["judge", "output"]),
+    // The bound between right and wrong is that of a technique's map.
+    ("judge", &["frame", "truth"]),
     // A view decides the channels of its file.
     ("output", &["device", "views"]),
     // A renderer warns of depth formats that are not what they are called: it has them measured.

@@ -112,11 +112,7 @@ impl Metrics {
 pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics, Error> {
     check(truth, shade, band)?;
     let pairs = connected_pairs(truth);
-    let differs = |pair: &&Pair| {
-        let [a, b] = [pair.first, pair.second].map(|index| truth.pixels[index].lit_at_center);
-        a.is_some() && b.is_some() && a != b
-    };
-    let true_edges: Vec<Pair> = pairs.iter().filter(differs).copied().collect();
+    let true_edges: Vec<Pair> = pairs.iter().filter(|pair| pair.changes_light(truth)).copied().collect();
     let drawn_pairs = pairs.iter().filter(|pair| shade.covered[pair.first] && shade.covered[pair.second]);
     let changes = |pair: &&Pair| is_lit(shade.shade[pair.first]) != is_lit(shade.shade[pair.second]);
     let rendered_edges: Vec<Pair> = drawn_pairs.filter(changes).copied().collect();
@@ -146,7 +142,8 @@ pub(super) fn is_lit(shade: f32) -> bool {
     shade >= 0.5
 }
 
-fn check(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<(), Error> {
+/// Tests that a picture has the size of the truth, and a value for each pixel.
+pub(super) fn check_size(truth: &Truth, shade: &ShadeImage) -> Result<(), Error> {
     let (found, expected) = ([shade.width, shade.height], [truth.width, truth.height]);
     if found != expected {
         return Err(Error::Size { found, expected });
@@ -156,6 +153,11 @@ fn check(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<(), Error> {
     if let Some(&(what, found)) = lengths.iter().find(|(_, length)| *length != pixels) {
         return Err(Error::Length { what, found, expected: pixels });
     }
+    Ok(())
+}
+
+fn check(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<(), Error> {
+    check_size(truth, shade)?;
     let covered = shade.shade.iter().zip(&shade.covered);
     let wrong = covered.enumerate().find(|(_, (value, covered))| **covered && !(0.0..=1.0).contains(*value));
     if let Some((index, (&value, _))) = wrong {

@@ -28,6 +28,18 @@ pub struct EdgeDistance {
 /// Neighbouring pixels that see one surface inside the light's shape: their points are no farther apart than a pixel's step
 /// on either surface. Across a silhouette a change of light is no shadow's edge.
 pub(super) fn connected_pairs(truth: &Truth) -> Vec<Pair> {
+    pairs_that(truth, is_connected)
+}
+
+/// Neighbouring pixels that see different surfaces, or of which one sees none.
+pub(super) fn silhouette_pairs(truth: &Truth) -> Vec<Pair> {
+    pairs_that(truth, |a, b| match (a.hit, b.hit) {
+        (Some(a), Some(b)) => !is_near(&a, &b),
+        (a, b) => a.is_some() != b.is_some(),
+    })
+}
+
+fn pairs_that(truth: &Truth, is_wanted: impl Fn(&Pixel, &Pixel) -> bool) -> Vec<Pair> {
     let (width, height) = (truth.width as usize, truth.height as usize);
     let mut pairs = Vec::new();
     for y in 0..height {
@@ -36,7 +48,7 @@ pub(super) fn connected_pairs(truth: &Truth) -> Vec<Pair> {
             let (right, below) = ([2 * x + 2, 2 * y + 1], [2 * x + 1, 2 * y + 2]);
             for (second, middle, exists) in [(first + 1, right, x + 1 < width), (first + width, below, y + 1 < height)]
             {
-                if exists && is_connected(&truth.pixels[first], &truth.pixels[second]) {
+                if exists && is_wanted(&truth.pixels[first], &truth.pixels[second]) {
                     pairs.push(Pair { first, second, middle });
                 }
             }
@@ -47,8 +59,38 @@ pub(super) fn connected_pairs(truth: &Truth) -> Vec<Pair> {
 
 fn is_connected(a: &Pixel, b: &Pixel) -> bool {
     let in_light = a.lit_at_center.is_some() && b.lit_at_center.is_some();
-    let near = |a: &Hit, b: &Hit| a.position.distance(b.position) <= a.pixel_size + b.pixel_size;
-    in_light && a.hit.zip(b.hit).is_some_and(|(a, b)| near(&a, &b))
+    in_light && a.hit.zip(b.hit).is_some_and(|(a, b)| is_near(&a, &b))
+}
+
+fn is_near(a: &Hit, b: &Hit) -> bool {
+    a.position.distance(b.position) <= a.pixel_size + b.pixel_size
+}
+
+impl Pair {
+    /// Tests whether a true shadow edge lies between the two.
+    pub(super) fn changes_light(&self, truth: &Truth) -> bool {
+        let [a, b] = [self.first, self.second].map(|index| truth.pixels[index].lit_at_center);
+        a.is_some() && b.is_some() && a != b
+    }
+}
+
+/// Distance in pixels from each pixel's centre to the nearest of `to`, row by row; infinite where there is none.
+pub(super) fn distances_of_pixels(size: [u32; 2], to: &[Pair]) -> Vec<f32> {
+    let columns = 2 * size[0] as usize + 1;
+    let squares = squares_to(size, to);
+    let at = |x: usize, y: usize| 0.5 * squares[(2 * y + 1) * columns + 2 * x + 1].sqrt();
+    (0..size[1] as usize).flat_map(|y| (0..size[0] as usize).map(move |x| [x, y])).map(|[x, y]| at(x, y)).collect()
+}
+
+/// Squared distances in half pixels to the nearest of `to`, at every half pixel; infinite where there is none.
+fn squares_to(size: [u32; 2], to: &[Pair]) -> Vec<f32> {
+    let (columns, rows) = (2 * size[0] as usize + 1, 2 * size[1] as usize + 1);
+    let mut squares = vec![f32::INFINITY; columns * rows];
+    for pair in to {
+        squares[pair.middle[1] * columns + pair.middle[0]] = 0.0;
+    }
+    spread_squares(&mut squares, columns, rows);
+    squares
 }
 
 /// Distances from each of `from` to the nearest of `to`; `None` where either is empty.
@@ -56,12 +98,8 @@ pub(super) fn distances(size: [u32; 2], from: &[Pair], to: &[Pair]) -> Option<Ed
     if from.is_empty() || to.is_empty() {
         return None;
     }
-    let (columns, rows) = (2 * size[0] as usize + 1, 2 * size[1] as usize + 1);
-    let mut squares = vec![f32::INFINITY; columns * rows];
-    for pair in to {
-        squares[pair.middle[1] * columns + pair.middle[0]] = 0.0;
-    }
-    spread_squares(&mut squares, columns, rows);
+    let columns = 2 * size[0] as usize + 1;
+    let squares = squares_to(size, to);
     let halves = from.iter().map(|pair| squares[pair.middle[1] * columns + pair.middle[0]]);
     let mut pixels: Vec<f64> = halves.map(|square| 0.5 * f64::from(square).sqrt()).collect();
     pixels.sort_by(f64::total_cmp);

@@ -50,16 +50,12 @@ impl FlipMap {
     }
 }
 
-/// Colours of some values, for a legend: from none to [`BRIGHTEST`].
-pub fn legend() -> Vec<([u8; 3], String)> {
+/// Colours of some values of FLIP, for a legend: from none to [`BRIGHTEST`], which stands for more, too.
+pub fn legend() -> Vec<([u8; 3], f32)> {
     let colors = colors();
-    let steps = 5;
-    let entry = |step: u16| {
-        let value = BRIGHTEST * f32::from(step) / f32::from(steps);
-        let more = if step == steps { " and more" } else { "" };
-        (color_of(&colors, value), format!("FLIP {}{more}", crate::report::numbers::plain(f64::from(value))))
-    };
-    (0..=steps).map(entry).collect()
+    let steps = 5_u8;
+    let values = (0..=steps).map(|step| BRIGHTEST * f32::from(step) / f32::from(steps));
+    values.map(|value| (color_of(&colors, value), value)).collect()
 }
 
 /// The colour map "magma", from black to a light yellow.

@@ -6,7 +6,7 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
 
-use super::metrics::{Error, is_lit};
+use super::metrics::{Error, check_size, is_lit};
 use crate::frame::ShadeImage;
 use crate::truth::{Answer, Pixel, Truth};
 
@@ -59,15 +59,7 @@ pub fn shade_picture(shade: &ShadeImage) -> RgbImage {
 ///
 /// A picture of another size.
 pub fn difference_picture(truth: &Truth, shade: &ShadeImage) -> Result<RgbImage, Error> {
-    let (found, expected) = ([shade.width, shade.height], [truth.width, truth.height]);
-    if found != expected {
-        return Err(Error::Size { found, expected });
-    }
-    let pixels = truth.pixels.len();
-    let lengths = [("shade", shade.shade.len()), ("coverage", shade.covered.len())];
-    if let Some(&(what, found)) = lengths.iter().find(|(_, length)| *length != pixels) {
-        return Err(Error::Length { what, found, expected: pixels });
-    }
+    check_size(truth, shade)?;
     Ok(paint(truth, |index, pixel| match (pixel.answer, shade.covered[index]) {
         (Answer::Ambiguous(_), _) => AMBIGUOUS,
         (Answer::Background, true) | (Answer::Lit | Answer::Shadowed, false) => NOT_COMPARED,

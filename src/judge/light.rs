@@ -1,0 +1,177 @@
+//! Judges one light's shade pixel by pixel: who counts, what is wrong, and what explains it.
+
+use std::collections::HashMap;
+
+use super::bound::{Bound, explains, reach};
+use super::metrics::{self, is_lit};
+use super::near::NearEdges;
+use super::verdicts::{Judgement, PixelClass, Place};
+use crate::frame::ShadeImage;
+use crate::lights::MapInfo;
+use crate::scene::{LightKind, LightShape, Scene};
+use crate::truth::{self, Answer, Around, Hit, Surroundings, Truth};
+
+/// One light's truths, with which any number of pictures of its scene are judged.
+pub struct Judge<'a> {
+    scene: &'a Scene,
+    light: usize,
+    surroundings: Surroundings<'a>,
+    truth: Truth,
+    /// With the depth buffer's doubt, for [`Bound::Exact`]; `None`: not traced yet.
+    exact_truth: Option<Truth>,
+    /// Shadow edges and silhouettes in the picture, for [`Bound::Band`]; `None`: not found yet.
+    near: Option<NearEdges>,
+    /// Known surroundings, by pixel and reach.
+    known: HashMap<(usize, u64), Option<Around>>,
+}
+
+impl<'a> Judge<'a> {
+    /// Traces the truth of light number `light`.
+    ///
+    /// # Errors
+    ///
+    /// A scene that the ray tracer cannot read.
+    pub fn new(scene: &'a Scene, light: usize) -> Result<Self, truth::Error> {
+        let surroundings = Surroundings::new(scene, light, &options())?;
+        let truth = surroundings.truth()?;
+        Ok(Self { scene, light, surroundings, truth, exact_truth: None, near: None, known: HashMap::new() })
+    }
+
+    /// The truth that pictures under `bound` are compared with. That of [`Bound::Exact`] is traced at its first use.
+    pub fn truth(&mut self, bound: &Bound) -> &Truth {
+        if *bound != Bound::Exact {
+            return &self.truth;
+        }
+        if self.exact_truth.is_none() {
+            // What could be traced once can be traced again.
+            let doubtful = truth::Options { depth_buffer_bits: Some(24), ..options() };
+            self.exact_truth = truth::trace(self.scene, self.light, &doubtful).ok();
+        }
+        self.exact_truth.as_ref().unwrap_or(&self.truth)
+    }
+
+    /// Judges a shade. A value of NaN: the picture does not show the shade there.
+    ///
+    /// # Errors
+    ///
+    /// A picture of another size.
+    pub fn shade(&mut self, image: &ShadeImage, bound: &Bound) -> Result<Judgement, metrics::Error> {
+        self.judge(image, bound, false)
+    }
+
+    /// Judges a shade that was found from pictures in the light of one lamp, as [`super::shade_of_pictures`] finds it: light
+    /// beside a spotlight's cone or frustum is wrong, too.
+    ///
+    /// # Errors
+    ///
+    /// A picture of another size.
+    pub fn pictured_shade(&mut self, image: &ShadeImage, bound: &Bound) -> Result<Judgement, metrics::Error> {
+        self.judge(image, bound, true)
+    }
+
+    fn judge(&mut self, image: &ShadeImage, bound: &Bound, pictured: bool) -> Result<Judgement, metrics::Error> {
+        metrics::check_size(&self.truth, image)?;
+        self.truth(bound);
+        if matches!(bound, Bound::Band { .. }) && self.near.is_none() {
+            self.near = Some(NearEdges::of(&self.truth));
+        }
+        let classes = (0..self.truth.pixels.len()).map(|index| self.class(image, bound, pictured, index)).collect();
+        Ok(Judgement::of([image.width, image.height], classes))
+    }
+
+    fn class(&mut self, image: &ShadeImage, bound: &Bound, pictured: bool, index: usize) -> PixelClass {
+        let truth = if *bound == Bound::Exact { self.exact_truth.as_ref() } else { None };
+        let pixel = truth.unwrap_or(&self.truth).pixels[index];
+        let value = image.shade[index];
+        let should_be_lit = match (pixel.answer, image.covered[index]) {
+            (Answer::Lit, true) => true,
+            (Answer::Shadowed, true) => false,
+            (Answer::OutsideCone, true) if pictured && pixel.hit.is_some_and(|hit| self.is_beside(&hit)) => {
+                return if value > 0.0 { PixelClass::LightOutside } else { PixelClass::Right };
+            }
+            (Answer::Lit | Answer::Shadowed, false) | (Answer::Background, true) => {
+                return PixelClass::Surface(self.place_of_surface(bound, index));
+            }
+            (Answer::Background, false) => return PixelClass::Background,
+            (Answer::Ambiguous(_), _) => return PixelClass::Unknown,
+            (Answer::OutsideCone, _) => return PixelClass::OutsideLight,
+        };
+        let faces = pixel.hit.is_some_and(|hit| hit.faces_light());
+        match (faces || bound.counts_turned_away(), value.is_nan()) {
+            (false, _) => PixelClass::TurnedAway,
+            (true, true) => PixelClass::NoShade,
+            (true, false) if is_lit(value) == should_be_lit => PixelClass::Right,
+            (true, false) => {
+                let place =
+                    if self.accounts_for(bound, index, should_be_lit) { Place::Explained } else { Place::Beyond };
+                if should_be_lit { PixelClass::FalseShadow(place) } else { PixelClass::Leak(place) }
+            }
+        }
+    }
+
+    /// Column and row of a pixel.
+    fn place(&self, index: usize) -> [u32; 2] {
+        let width = self.truth.width as usize;
+        [(index % width) as u32, (index / width) as u32]
+    }
+
+    /// Tests whether a point lies outside the sides of a spotlight, or behind it: before the near and beyond the far plane
+    /// of its map a picture has light that the truth leaves out.
+    fn is_beside(&self, hit: &Hit) -> bool {
+        match &self.scene.lights[self.light].kind {
+            LightKind::Spot(spot) => match spot.shape {
+                LightShape::Cone => hit.in_map.length() > 1.0,
+                LightShape::Frustum => hit.in_map.abs().max_element() > 1.0,
+            },
+            LightKind::Point(_) | LightKind::Directional { .. } => false,
+        }
+    }
+
+    /// Surfaces in only one of the two are explained by a band alone, along silhouettes.
+    fn place_of_surface(&self, bound: &Bound, index: usize) -> Place {
+        let is_near = self.near.as_ref().is_some_and(|near| near.is_by_silhouette(index));
+        if matches!(bound, Bound::Band { .. }) && is_near { Place::Explained } else { Place::Beyond }
+    }
+
+    /// Tests whether the bound explains a wrong pixel.
+    fn accounts_for(&mut self, bound: &Bound, index: usize, should_be_lit: bool) -> bool {
+        match bound {
+            Bound::Exact | Bound::NoMap => false,
+            Bound::Map(map) => self.map_accounts_for(map, index, should_be_lit),
+            Bound::Band { pixels } => self.band_accounts_for(*pixels, index),
+        }
+    }
+
+    fn map_accounts_for(&mut self, map: &MapInfo, index: usize, should_be_lit: bool) -> bool {
+        let reach = reach(map);
+        let [x, y] = self.place(index);
+        let surroundings = &self.surroundings;
+        let around =
+            self.known.entry((index, reach.to_bits())).or_insert_with(|| surroundings.around(x, y, reach)).as_ref();
+        around
+            .is_some_and(|around| explains(map, around, should_be_lit, |codes| surroundings.middle(x, y, reach, codes)))
+    }
+
+    /// A shadow edge that is seen explains a pixel by its distance in the picture; one that a silhouette hides, by that of the
+    /// silhouette, if the edge lies as near on the surface.
+    fn band_accounts_for(&self, pixels: f64, index: usize) -> bool {
+        let Some(near) = &self.near else { return false };
+        if near.to_shadow_edge(index) <= pixels {
+            return true;
+        }
+        if near.to_silhouette(index) > pixels {
+            return false;
+        }
+        let [x, y] = self.place(index);
+        let on_surface = self.truth.pixels[index].hit.map(|hit| pixels * hit.pixel_size);
+        let scale = self.surroundings.around(x, y, 0.0).map(|around| around.scale);
+        let around =
+            on_surface.zip(scale).and_then(|(on_surface, scale)| self.surroundings.around(x, y, on_surface / scale));
+        around.is_some_and(|around| around.edge)
+    }
+}
+
+/// Every pixel is of use where most are certain: one that is not is only left out.
+fn options() -> truth::Options {
+    truth::Options { most_ambiguous: 1.0, ..truth::Options::default() }
+}
