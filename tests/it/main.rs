@@ -10,6 +10,7 @@ mod bad_scenes;
 mod broken_drivers;
 mod bump;
 mod bump_sheets;
+mod cases_command;
 mod check;
 mod claims;
 mod cli;

@@ -225,15 +225,13 @@ fn run_all(
         TestNews::Begins(index) => screen.begins(&cases[index].name),
         TestNews::Ended { outcome, driver } => {
             results.driver = results.driver.take().or(driver);
-            screen.ended(&outcome)?;
+            screen.ended(&outcome);
             results.cases.push(*outcome);
-            Ok(())
         }
         TestNews::Died { index, verdict, seconds, message } => {
             let outcome = CaseOutcome::ended(&cases[index], verdict, seconds, message);
-            screen.ended(&outcome)?;
+            screen.ended(&outcome);
             results.cases.push(outcome);
-            Ok(())
         }
         TestNews::Said(text) => screen.said(&text),
         TestNews::Tick => screen.tick(),

@@ -16,6 +16,8 @@ pub struct Screen {
     verbose: bool,
     /// Standard output is for a file's text.
     to_error: bool,
+    /// The first error of standard output: the cases are run nevertheless, and the files are written.
+    lost: Option<std::io::Error>,
 }
 
 impl Screen {
@@ -25,21 +27,20 @@ impl Screen {
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases  {msg}") {
             bar.set_style(style);
         }
-        Self { bar, verbose, to_error }
+        Self { bar, verbose, to_error, lost: None }
     }
 
     /// Notes that a case begins.
-    pub fn begins(&mut self, name: &str) -> Result<(), Error> {
+    pub fn begins(&mut self, name: &str) {
         self.bar.set_message(name.to_owned());
-        Ok(())
     }
 
     /// Prints a case that has ended. With a bar, one that passes has no line.
-    pub fn ended(&mut self, outcome: &CaseOutcome) -> Result<(), Error> {
+    pub fn ended(&mut self, outcome: &CaseOutcome) {
         self.bar.inc(1);
         let passes = outcome.verdict == CaseVerdict::Pass;
         if passes && !self.verbose && !self.bar.is_hidden() {
-            return Ok(());
+            return;
         }
         let style = style(outcome.verdict);
         let mut text =
@@ -47,19 +48,18 @@ impl Screen {
         if self.verbose {
             outcome.measured.iter().for_each(|measured| text += &format!("    {measured}\n"));
         }
-        self.bar.suspend(|| self.print(&text))
+        let bar = self.bar.clone();
+        bar.suspend(|| self.print(&text));
     }
 
     /// Passes on what a child said on standard error.
-    pub fn said(&mut self, text: &str) -> Result<(), Error> {
+    pub fn said(&mut self, text: &str) {
         self.bar.suspend(|| crate::cli::say(text.trim_end()));
-        Ok(())
     }
 
     /// Shows that there is work.
-    pub fn tick(&mut self) -> Result<(), Error> {
+    pub fn tick(&mut self) {
         self.bar.tick();
-        Ok(())
     }
 
     /// Takes the bar away.
@@ -68,6 +68,10 @@ impl Screen {
     }
 
     /// Prints each failure with its question, place and pictures, and the counts. The last line names what fails.
+    ///
+    /// # Errors
+    ///
+    /// Standard output that is full. A reader that has seen enough is no error.
     pub fn end(&mut self, results: &TestResults, bless: bool) -> Result<(), Error> {
         let mut text = String::new();
         let fails = || results.cases.iter().filter(|case| case.verdict != CaseVerdict::Pass);
@@ -94,18 +98,21 @@ impl Screen {
             true => text += &format!("{style}No case fails.{style:#}\n"),
             false => text += &format!("{style}FAIL:{style:#} {}\n", names.join(", ")),
         }
-        self.print(&text)
+        self.print(&text);
+        match self.lost.take() {
+            Some(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+            _ => Ok(()),
+        }
     }
 
-    fn print(&self, text: &str) -> Result<(), Error> {
+    fn print(&mut self, text: &str) {
         if self.to_error {
             // If standard error is closed, the text is lost; the results are in the files.
             let _ = anstream::stderr().write_all(text.as_bytes());
-            return Ok(());
+        } else if self.lost.is_none() {
+            let mut out = anstream::stdout().lock();
+            self.lost = out.write_all(text.as_bytes()).and_then(|()| out.flush()).err();
         }
-        let mut out = anstream::stdout().lock();
-        out.write_all(text.as_bytes())?;
-        Ok(out.flush()?)
     }
 }
 

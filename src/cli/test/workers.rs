@@ -61,8 +61,8 @@ impl Workers {
     ///
     /// # Errors
     ///
-    /// A child that cannot be started, no context, and those of `hear`.
-    pub fn run(&self, mut hear: impl FnMut(TestNews) -> Result<(), Error>) -> Result<(), Error> {
+    /// A child that cannot be started, and no context.
+    pub fn run(&self, mut hear: impl FnMut(TestNews)) -> Result<(), Error> {
         let next = AtomicUsize::new(0);
         let (send, words) = channel();
         std::thread::scope(|scope| {
@@ -74,7 +74,7 @@ impl Workers {
             let mut result = Ok(());
             let mut heard = HashSet::new();
             loop {
-                let news = match words.recv_timeout(TICK) {
+                hear(match words.recv_timeout(TICK) {
                     Ok(Word::News(TestNews::Said(text))) if !heard.insert(text.clone()) => continue,
                     Ok(Word::News(news)) => news,
                     Ok(Word::Refused(error)) => {
@@ -84,11 +84,7 @@ impl Workers {
                     }
                     Err(RecvTimeoutError::Timeout) => TestNews::Tick,
                     Err(RecvTimeoutError::Disconnected) => return result,
-                };
-                if let Err(error) = hear(news) {
-                    result = result.and(Err(error));
-                    self.stop.store(true, Ordering::Relaxed);
-                }
+                });
             }
         })
     }
