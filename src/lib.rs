@@ -107,6 +107,7 @@ pub mod lights;
 pub mod math;
 pub mod output;
 pub mod pass;
+pub mod pictures;
 pub mod plan;
 #[doc(hidden)]
 #[allow(unsafe_code)] // signal handlers, locks on files, the allocator

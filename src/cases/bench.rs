@@ -9,8 +9,8 @@ use std::time::Instant;
 use super::command;
 use super::draw::{Drawer, DrawnScene, Wanted};
 use super::outcome::{Failure, FailureFiles};
-use super::raster::Raster;
 use super::read::PixelCase;
+use crate::pictures::Raster;
 
 /// Inputs of a picture: the scene's file, its overrides, the number of frames, and what is read.
 type Key = (PathBuf, Vec<String>, u32, Wanted);

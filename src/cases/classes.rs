@@ -3,7 +3,7 @@
 use super::bench::CaseBench;
 use super::file::Class;
 use super::outcome::Failure;
-use super::raster::Raster;
+use crate::pictures::Raster;
 
 /// The class of a shade and its alpha; none where the shade is not in [0, 1].
 pub(super) fn class_of(shade: &[f32]) -> Option<Class> {

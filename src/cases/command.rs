@@ -18,8 +18,8 @@ use std::time::Instant;
 use super::draw::{DrawnScene, Wanted};
 use super::file::Checks;
 use super::outcome::{CaseVerdict, Failure};
-use super::picture_file;
 use super::read::PixelCase;
+use crate::pictures::{self, Raster};
 use crate::process;
 use crate::scene::Scene;
 use crate::views::View;
@@ -101,8 +101,9 @@ pub(super) fn draw(
     if !output.is_file() {
         return Err(after(format!("{} ended well and wrote no picture", quote(&words))).into());
     }
-    let picture = picture_file::read(&output, kind == "shade")
-        .map_err(|error| after(format!("the command's picture: {error}")))?;
+    let file = pictures::read(&output).map_err(|error| after(format!("the command's picture: {error}")))?;
+    let picture = if kind == "shade" { shade_of(&file.raster) } else { colors_of(&file.raster) };
+    let picture = picture.map_err(|error| after(format!("the command's picture: {error}")))?;
     let [width, height] = loaded.scene.image.size;
     if picture.size != [width, height] {
         let [found_width, found_height] = picture.size;
@@ -111,6 +112,29 @@ pub(super) fn draw(
         return Err(after(message).into());
     }
     Ok(DrawnScene { scene: loaded.scene, picture, left_out: Vec::new(), warnings: loaded.warnings, plan: None })
+}
+
+/// Red, green and blue of a picture.
+fn colors_of(picture: &Raster) -> Result<Raster, String> {
+    let rgb = picture.to_rgb().filter(|_| picture.channels > 2);
+    rgb.ok_or_else(|| format!("it has {} channels, and colours have 3, or 4 with an alpha", picture.channels))
+}
+
+/// Gray of a shade, and 1 where its alpha is not 0.
+fn shade_of(picture: &Raster) -> Result<Raster, String> {
+    let rgb = picture.to_rgb().ok_or_else(|| format!("it has {} channels, and a shade has one", picture.channels))?;
+    let has_alpha = picture.channels.is_multiple_of(2);
+    let mut data = Vec::with_capacity(2 * rgb.data.len() / 3);
+    for (index, (pixel, gray)) in picture.pixels().zip(rgb.pixels()).enumerate() {
+        let value = gray.first().copied().unwrap_or_default();
+        if gray.iter().any(|other| *other != value) || !(0.0..=1.0).contains(&value) {
+            let (x, y) = (index % picture.size[0] as usize, index / picture.size[0] as usize);
+            return Err(format!("a shade must be gray, 1 lit and 0 shadowed, and its pixel ({x}, {y}) is {gray:?}"));
+        }
+        let alpha = pixel.last().filter(|_| has_alpha).copied().unwrap_or(1.0);
+        data.extend([value, f32::from(alpha > 0.0)]);
+    }
+    Ok(Raster { size: picture.size, channels: 2, data })
 }
 
 fn fill(

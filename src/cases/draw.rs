@@ -5,11 +5,11 @@ use std::path::Path;
 use std::rc::Rc;
 
 use super::outcome::Failure;
-use super::raster::Raster;
 use crate::context::{self, Context, ContextRequest};
 use crate::device::{self, Measure};
 use crate::frame::{self, Renderer};
 use crate::pass::{Clear, DrawPass, DrawState, ImageId, Pass, PassList, Redraw, Storage, Target, Work};
+use crate::pictures::Raster;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::scene::Scene;
 use crate::views::View;

@@ -4,9 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::compare::{self, Tolerance};
 use super::file::Golden;
-use super::raster::Raster;
+use crate::pictures::compare::{self, Tolerance};
+use crate::pictures::{self, Raster};
 
 /// The driver that drew the golden beside it, one line.
 const DRIVER_FILE: &str = "golden.driver";
@@ -54,7 +54,7 @@ pub fn check(
         let why = format!("{name}: there is no golden (--bless writes it, once the picture is known to be right)");
         return Ok(GoldenResult::Wrong { why, expected: None });
     }
-    let expected = match Raster::read_png(&path) {
+    let expected = match read(&path) {
         Ok(expected) => expected,
         Err(why) => return Ok(GoldenResult::Wrong { why, expected: None }),
     };
@@ -67,6 +67,16 @@ pub fn check(
             GoldenResult::Wrong { why, expected: Some(expected) }
         }
     })
+}
+
+/// Reads the red, green and blue of a picture.
+///
+/// # Errors
+///
+/// A file that cannot be read, or is no picture.
+pub fn read(path: &Path) -> Result<Raster, String> {
+    let raster = pictures::read(path).map_err(|error| error.to_string())?.raster;
+    raster.to_rgb().ok_or_else(|| format!("{}: has {} channels", path.display(), raster.channels))
 }
 
 /// On the driver of the golden, the case's own tolerance; on another one [`OTHER`]. With it, what the golden was compared

@@ -1,11 +1,11 @@
 //! Relations of pictures: set-ups that show the same, renderers that have drawn before, pictures that add up.
 
 use super::bench::CaseBench;
-use super::compare::{self, Tolerance};
 use super::draw::Wanted;
 use super::file::{After, Of, Same, Sum};
 use super::outcome::Failure;
-use super::raster::Raster;
+use crate::pictures::Raster;
+use crate::pictures::compare::{self, Tolerance};
 use crate::views::View;
 
 fn wanted_of(of: Of, light: usize) -> Wanted {

@@ -5,11 +5,11 @@ use super::classes::class_of;
 use super::draw::{DrawnScene, Wanted};
 use super::file::{Class, MayBeWrong, TruthCheck};
 use super::outcome::Failure;
-use super::raster::Raster;
 use crate::frame::ShadeImage;
+use crate::judge::colors::why_unshaded;
 use crate::judge::difference::{difference_picture, truth_picture};
 use crate::judge::{Bound, Judge, Judgement};
-use crate::truth::{Answer, Truth};
+use crate::pictures::Raster;
 use crate::views::View;
 
 /// Band beside a shadow's edge in which a command may be wrong where the file does not say, in pixels: a filter of two texels
@@ -27,9 +27,15 @@ pub(super) fn truth(on: &CaseBench, truth: &TruthCheck, set: &[String]) -> Resul
     if truth.light >= lights {
         return Err(format!("light {} is not in the scene: it has {lights}, numbered from 0", truth.light).into());
     }
+    if let Some(why) = why_unshaded(&drawn.scene, truth.light) {
+        return Err(format!("light {} has no shade that could be held against truth: {why}", truth.light).into());
+    }
     let bound = bound_of(truth, &drawn);
     let mut judge = Judge::new(&drawn.scene, truth.light).map_err(|error| error.to_string())?;
-    let shade = shade_image(&drawn.picture, judge.truth(&bound), on.case.checks.render.is_some());
+    let mut shade = shade_image(&drawn.picture);
+    if on.case.checks.render.is_some() && shade.covered.iter().all(|is_covered| *is_covered) {
+        judge.cover_surfaces(&mut shade);
+    }
     let found = judge.shade(&shade, &bound).map_err(|error| error.to_string())?;
     let words = in_words(truth, &found);
     match broken_limits(truth, &found) {
@@ -40,8 +46,8 @@ pub(super) fn truth(on: &CaseBench, truth: &TruthCheck, set: &[String]) -> Resul
         Some(limits) => {
             let message = format!("{words}; {limits} ({})", truth.why);
             let known = judge.truth(&bound);
-            let expected = Raster::of_rgb(&truth_picture(known));
-            let difference = difference_picture(known, &shade).ok().map(|picture| Raster::of_rgb(&picture));
+            let expected = of_rgb(&truth_picture(known));
+            let difference = difference_picture(known, &shade).ok().map(|picture| of_rgb(&picture));
             Err(on.failure_with(message, &drawn.picture, Some(&expected), difference.as_ref()))
         }
     }
@@ -57,16 +63,18 @@ fn bound_of(truth: &TruthCheck, drawn: &DrawnScene) -> Bound {
     }
 }
 
-/// A shade view for the judge. A command's opaque picture is taken to show a surface wherever the truth does.
-fn shade_image(shade: &Raster, truth: &Truth, is_commands: bool) -> ShadeImage {
-    let outside = |pixel: &[f32]| class_of(pixel) == Some(Class::Outside);
-    let covered = match is_commands && !shade.pixels().any(outside) {
-        true => truth.pixels.iter().map(|pixel| pixel.answer != Answer::Background).collect(),
-        false => shade.pixels().map(|pixel| !outside(pixel)).collect(),
-    };
+/// A shade view for the judge.
+fn shade_image(shade: &Raster) -> ShadeImage {
     let [width, height] = shade.size;
+    let covered = shade.pixels().map(|pixel| class_of(pixel) != Some(Class::Outside)).collect();
     let values = shade.pixels().map(|pixel| pixel.first().copied().unwrap_or_default().clamp(0.0, 1.0));
     ShadeImage { width, height, shade: values.collect(), covered }
+}
+
+/// A picture of 8 bits a channel.
+fn of_rgb(picture: &image::RgbImage) -> Raster {
+    let data = picture.as_raw().iter().map(|value| f32::from(*value) / 255.0).collect();
+    Raster { size: [picture.width(), picture.height()], channels: 3, data }
 }
 
 fn percent(found: &Judgement, count: usize) -> f64 {

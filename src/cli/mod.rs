@@ -1,10 +1,14 @@
 //! The command line: one file a subcommand; arguments in, calls out, no logic.
 
+mod answers;
 mod check;
 mod child_process;
+mod compare;
 mod context_args;
 mod figures;
 mod info;
+mod judge;
+mod judge_report;
 mod path_text;
 mod pipeline;
 mod plan;
@@ -18,6 +22,7 @@ pub mod sample_model;
 mod scene_args;
 mod stress;
 mod test;
+mod text_keys;
 mod truth_views;
 mod tune;
 
@@ -41,9 +46,11 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::CheckArgs),
+    Compare(compare::CompareArgs),
     Figures(figures::FiguresArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
+    Judge(judge::JudgeArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
     Repack(repack::RepackArgs),
@@ -139,6 +146,18 @@ pub enum Error {
     Overwrites { path: std::path::PathBuf, what: &'static str },
     #[error("{path}: {first} and {second} name the same file", path = .path.display())]
     SameFile { path: std::path::PathBuf, first: &'static str, second: &'static str },
+    #[error(transparent)]
+    Picture(#[from] crate::pictures::Error),
+    #[error("{actual} and {expected} cannot be compared: {what}", actual = .actual.display(), expected = .expected.display())]
+    NotCompared { actual: std::path::PathBuf, expected: std::path::PathBuf, what: String },
+    #[error("{picture} cannot be judged: {what}", picture = .picture.display())]
+    NotJudged { picture: std::path::PathBuf, what: String },
+    #[error("the picture of the differences: {0}")]
+    DifferencePicture(String),
+    #[error("{path}: a picture of differences is a PNG: end its name in .png", path = .path.display())]
+    NotPng { path: std::path::PathBuf },
+    #[error("{path}: this file is read; name another for the picture of differences", path = .path.display())]
+    IsRead { path: std::path::PathBuf },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
@@ -154,8 +173,10 @@ pub fn run() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Check(arguments) => return check::run(&arguments),
+        Command::Compare(arguments) => return compare::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Judge(arguments) => return judge::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Repack(arguments) => repack::run(&arguments),

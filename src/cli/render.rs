@@ -3,20 +3,22 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
 use super::scene_args::SceneArgs;
+use super::text_keys;
 use super::truth_views::{Aov, parse_aov};
 use super::{ContextArgs, Error};
 use crate::device::Pixels;
 use crate::frame::{Frame, Renderer, Times};
 use crate::output::{self, Output};
 use crate::plan::{Request, Summary};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
+use crate::techniques::LightShadow;
 
 /// Renders a scene or a model to a picture.
 #[derive(Debug, Args)]
@@ -161,9 +163,10 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
     let pictures = [(&frame.picture, None)].into_iter().chain(views);
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
-    output::write_all(&outputs)?;
+    let info = context.describe();
+    let driver = format!("{}, OpenGL {}", info.renderer, info.version);
+    output::write_described(&outputs, &arguments.texts(&loaded.scene, driver))?;
     if arguments.json {
-        let info = context.describe();
         let mut path_bytes = PathBytes::new();
         let report = Report {
             scene: path_text(&arguments.scene.scene, &mut path_bytes),
@@ -177,6 +180,26 @@ pub fn run(arguments: &RenderArgs) -> Result<(), Error> {
         super::print_json(&report)?;
     }
     Ok(())
+}
+
+impl RenderArgs {
+    /// What a PNG says of itself: all that decides its pixels, and no time.
+    fn texts(&self, scene: &Scene, driver: String) -> Vec<(&'static str, String)> {
+        let technique = |light: &Light| LightShadow::of(&light.shadow).map_or("none", |shadow| shadow.technique.name());
+        let techniques: Vec<&str> = scene.lights.iter().map(technique).collect();
+        let mut texts = vec![
+            ("Software", concat!("glumbra ", env!("CARGO_PKG_VERSION")).to_owned()),
+            (text_keys::SCENE, self.scene.scene.display().to_string()),
+            (text_keys::OVERRIDES, self.scene.changes.overrides().join(" ")),
+            (text_keys::TECHNIQUE, techniques.join(", ")),
+            (text_keys::DRIVER, driver),
+        ];
+        let pipeline = self.pipeline.to_possible_value().filter(|_| self.pipeline != Pipeline::default());
+        texts.extend(pipeline.map(|pipeline| ("Pipeline", pipeline.get_name().to_owned())));
+        texts.extend(self.after_pass.clone().map(|pass| ("After pass", pass)));
+        texts.retain(|(_, text)| !text.is_empty());
+        texts
+    }
 }
 
 /// Pictures of the views that the ray tracer makes; `None`: of those that were drawn.

@@ -2,9 +2,9 @@
 
 use image::{Rgb, RgbImage};
 
-use super::flip::flip;
 use crate::device::Pixels;
 use crate::frame::{self, Renderer};
+use crate::pictures::flip::{FlipMap, flip};
 use crate::plan::Request;
 use crate::scene::{Law, Light, Object, PicturePasses, Scene, Shadow, Spot};
 use crate::techniques::{self, LightShadow};
@@ -22,7 +22,7 @@ pub struct ColorErrors {
     /// Pixels further than two codes outside of what the error of a sample explains, in percent.
     pub beyond_percent: f64,
     /// Mean of FLIP over the picture, in [0, 1]; pixels that are not compared count as equal. `None`: the picture has more
-    /// than [`super::flip::MOST_PIXELS`].
+    /// than [`crate::pictures::flip::MOST_PIXELS`].
     pub flip: Option<f64>,
 }
 
@@ -125,7 +125,7 @@ pub fn draw_colors(scene: &Scene, in_floats: bool, renderer: &mut Renderer) -> R
 
 /// Compares a picture, as it is stored in 8 bits or floats but never beyond 255; with the map of FLIP. `None`: no pixel's
 /// colour is known, or the sizes differ.
-pub fn errors_of(truth: &ColorTruth, drawn: &DrawnColors) -> Option<(ColorErrors, Option<super::flip::FlipMap>)> {
+pub fn errors_of(truth: &ColorTruth, drawn: &DrawnColors) -> Option<(ColorErrors, Option<FlipMap>)> {
     if drawn.size != [truth.width, truth.height] {
         return None;
     }
@@ -147,9 +147,21 @@ pub fn errors_of(truth: &ColorTruth, drawn: &DrawnColors) -> Option<(ColorErrors
         rmse_codes: (squares / (3.0 * count)).sqrt(),
         most_codes: most,
         beyond_percent: 100.0 * beyond as f64 / count,
-        flip: map.as_ref().map(super::flip::FlipMap::mean),
+        flip: map.as_ref().map(FlipMap::mean),
     };
     Some((errors, map))
+}
+
+/// Tests a pixel that is known against its bounds: `None` within them, and else whether it is too dark.
+pub(super) fn excess(truth: &ColorTruth, due: &ColorPixel, codes: [f64; 3]) -> Option<bool> {
+    let codes = codes.map(stored);
+    if due.excess_codes(codes) <= ALLOWED_CODES + truth.between_passes_codes {
+        return None;
+    }
+    let below = |k: usize| 255.0 * due.rgb[k].least - codes[k];
+    let above = |k: usize| codes[k] - 255.0 * due.rgb[k].most;
+    let most = |of: &dyn Fn(usize) -> f64| (0..3).map(of).fold(f64::NEG_INFINITY, f64::max);
+    Some(most(&below) >= most(&above))
 }
 
 /// A code as a picture stores it; no number counts as 0.

@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 
 use super::bound::{Bound, explains, reach};
-use super::metrics::{self, is_lit};
+use super::colors::{DrawnColors, excess};
+use super::metrics::{self, EdgeDistance, is_lit};
 use super::near::NearEdges;
 use super::verdicts::{Judgement, PixelClass, Place};
 use crate::frame::ShadeImage;
 use crate::lights::MapInfo;
 use crate::scene::{LightKind, LightShape, Scene};
-use crate::truth::{self, Answer, Around, Hit, Surroundings, Truth};
+use crate::truth::{self, Answer, Around, ColorPixel, ColorTruth, Hit, Surroundings, Truth};
 
 /// One light's truths, with which any number of pictures of its scene are judged.
 pub struct Judge<'a> {
@@ -72,11 +73,16 @@ impl<'a> Judge<'a> {
     fn judge(&mut self, image: &ShadeImage, bound: &Bound, pictured: bool) -> Result<Judgement, metrics::Error> {
         metrics::check_size(&self.truth, image)?;
         self.truth(bound);
+        self.find_edges(bound);
+        let classes = (0..self.truth.pixels.len()).map(|index| self.class(image, bound, pictured, index)).collect();
+        Ok(Judgement::of([image.width, image.height], classes))
+    }
+
+    /// Finds the edges that a band is along.
+    fn find_edges(&mut self, bound: &Bound) {
         if matches!(bound, Bound::Band { .. }) && self.near.is_none() {
             self.near = Some(NearEdges::of(&self.truth));
         }
-        let classes = (0..self.truth.pixels.len()).map(|index| self.class(image, bound, pictured, index)).collect();
-        Ok(Judgement::of([image.width, image.height], classes))
     }
 
     fn class(&mut self, image: &ShadeImage, bound: &Bound, pictured: bool, index: usize) -> PixelClass {
@@ -101,16 +107,105 @@ impl<'a> Judge<'a> {
             (false, _) => PixelClass::TurnedAway,
             (true, true) => PixelClass::NoShade,
             (true, false) if is_lit(value) == should_be_lit => PixelClass::Right,
-            (true, false) => {
-                let place =
-                    if self.accounts_for(bound, index, should_be_lit) { Place::Explained } else { Place::Beyond };
-                if should_be_lit { PixelClass::FalseShadow(place) } else { PixelClass::Leak(place) }
-            }
+            (true, false) => self.wrong_class(bound, index, should_be_lit),
         }
     }
 
+    fn wrong_class(&mut self, bound: &Bound, index: usize, should_be_lit: bool) -> PixelClass {
+        let place = if self.accounts_for(bound, index, should_be_lit) { Place::Explained } else { Place::Beyond };
+        if should_be_lit { PixelClass::FalseShadow(place) } else { PixelClass::Leak(place) }
+    }
+
+    /// The truth without a depth buffer's doubt.
+    pub(super) fn plain_truth(&self) -> &Truth {
+        &self.truth
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        self.scene
+    }
+
+    pub(super) fn light(&self) -> usize {
+        self.light
+    }
+
+    /// The object whose shadow lies on the point that a pixel shows: the one before it along the light's ray.
+    pub(super) fn caster(&self, pixel: usize) -> Option<usize> {
+        let [x, y] = self.place(pixel);
+        let around = self.surroundings.around(x, y, 0.0)?;
+        let nearest = around.blockers.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+        nearest.map(|blocker| blocker.object as usize)
+    }
+
+    /// Distances in pixels from the shadow edges that a picture shows on surfaces facing the light to the nearest true ones, and
+    /// from the true ones to the nearest shown. `None`: there are none to measure.
+    ///
+    /// # Errors
+    ///
+    /// A picture of another size.
+    pub fn edge_distances(&self, image: &ShadeImage) -> Result<[Option<EdgeDistance>; 2], metrics::Error> {
+        metrics::check_size(&self.truth, image)?;
+        let known = image.shade.iter().zip(&image.covered).map(|(value, covered)| *covered && !value.is_nan());
+        let shade = image.shade.iter().map(|value| value.clamp(0.0, 1.0)).collect();
+        let known = ShadeImage { covered: known.collect(), shade, ..*image };
+        // No band: the distances are of use alone.
+        let found = metrics::compare(&self.truth, &known, &metrics::Band { texels: 0.0, map_size: [1, 1] })?;
+        Ok([found.facing.rendered_to_true, found.facing.true_to_rendered])
+    }
+
+    /// Takes every pixel of a picture that does not know where surfaces are as covered where the truth has a surface.
+    pub fn cover_surfaces(&self, image: &mut ShadeImage) {
+        image.covered = self.truth.pixels.iter().map(|pixel| pixel.answer != Answer::Background).collect();
+    }
+
+    /// A shade that is wrong where a judgement of colours says so: for a picture of the differences.
+    pub fn shade_of(&self, judgement: &Judgement) -> ShadeImage {
+        let pixels = || self.truth.pixels.iter().zip(&judgement.classes);
+        let shade = pixels().map(|(pixel, class)| match class {
+            PixelClass::FalseShadow(_) => 0.0,
+            PixelClass::Leak(_) => 1.0,
+            _ => f32::from(u8::from(pixel.answer == Answer::Lit)),
+        });
+        let covered = pixels()
+            .map(|(pixel, class)| (pixel.answer != Answer::Background) != matches!(class, PixelClass::Surface(_)));
+        let [width, height] = judgement.size;
+        ShadeImage { width, height, shade: shade.collect(), covered: covered.collect() }
+    }
+
+    /// Judges colours against their bounds. Too dark a pixel is false shadow, too bright a one a leak, and one that differs
+    /// where the scene has no surface is a surface in only one of the two. Pixels whose colour is not known are
+    /// [`PixelClass::Unknown`].
+    ///
+    /// # Errors
+    ///
+    /// A picture of another size.
+    pub fn colors(
+        &mut self,
+        truth: &ColorTruth,
+        drawn: &DrawnColors,
+        bound: &Bound,
+    ) -> Result<Judgement, metrics::Error> {
+        let expected = [self.truth.width, self.truth.height];
+        if drawn.size != expected || drawn.codes.len() != self.truth.pixels.len() {
+            return Err(metrics::Error::Size { found: drawn.size, expected });
+        }
+        self.find_edges(bound);
+        let pixels = truth.pixels.iter().zip(&drawn.codes).enumerate();
+        let class = |(index, (due, codes)): (usize, (&ColorPixel, &[f64; 3]))| {
+            let is_seen = self.truth.pixels[index].hit.is_some();
+            match (due.is_known, excess(truth, due, *codes), is_seen) {
+                (false, ..) => PixelClass::Unknown,
+                (true, None, false) => PixelClass::Background,
+                (true, None, true) => PixelClass::Right,
+                (true, Some(_), false) => PixelClass::Surface(self.place_of_surface(bound, index)),
+                (true, Some(too_dark), true) => self.wrong_class(bound, index, too_dark),
+            }
+        };
+        Ok(Judgement::of(expected, pixels.map(class).collect()))
+    }
+
     /// Column and row of a pixel.
-    fn place(&self, index: usize) -> [u32; 2] {
+    pub(super) fn place(&self, index: usize) -> [u32; 2] {
         let width = self.truth.width as usize;
         [(index % width) as u32, (index / width) as u32]
     }
@@ -172,6 +267,6 @@ impl<'a> Judge<'a> {
 }
 
 /// Every pixel is of use where most are certain: one that is not is only left out.
-fn options() -> truth::Options {
+pub(super) fn options() -> truth::Options {
     truth::Options { most_ambiguous: 1.0, ..truth::Options::default() }
 }

@@ -24,7 +24,8 @@
 //! along silhouettes.
 //!
 //! # Files
-//! `light.rs` judges a picture, `bound.rs` explains a map's wrong pixels, `band.rs` and `edges.rs` know true shadow edges.
+//! `light.rs` judges a picture, `bound.rs` explains a map's wrong pixels, `near.rs`, `band.rs` and `edges.rs` know true shadow
+//! edges. `places.rs` says where a picture is wrong, `mistakes.rs` whether it only lies wrong.
 //! `metrics.rs` has a report's shares and distances of edges, `difference.rs` draws them. `colors.rs` compares colours.
 //!
 //! ```
@@ -50,16 +51,19 @@ mod bound;
 pub mod colors;
 pub mod difference;
 mod edges;
-pub mod flip;
 mod light;
 pub mod metrics;
+mod mistakes;
 mod near;
 mod pictured;
+mod places;
 mod verdicts;
 
 pub use bound::{Bound, MOST_WRONG};
 pub use light::Judge;
+pub use mistakes::{FoundMistake, Mistake};
 pub use pictured::shade_of_pictures;
+pub use places::WrongRegion;
 pub use verdicts::{Judgement, PixelClass, Place};
 
 #[cfg(doc)]

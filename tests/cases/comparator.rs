@@ -4,10 +4,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use glumbra::cases::PixelCase;
 use glumbra::cases::draw::{DrawnScene, Wanted};
 use glumbra::cases::file::Golden;
 use glumbra::cases::golden::{self, GoldenResult};
-use glumbra::cases::{PixelCase, Raster, Tolerance, compare};
+use glumbra::pictures::Raster;
+use glumbra::pictures::compare::{Tolerance, compare};
 
 use crate::with_runner;
 
@@ -108,7 +110,7 @@ fn an_honest_golden_passes() {
 
 fn one_changed_pixel_fails_and_its_pictures_are_kept() {
     let folder = Folder::with_golden(&[]);
-    let mut changed = Raster::read_png(&folder.path("golden.png")).unwrap();
+    let mut changed = golden::read(&folder.path("golden.png")).unwrap();
     changed.data[3 * (100 * 192 + 40) + 1] += 3.0 / 255.0;
     changed.write_png(&folder.path("golden.png")).unwrap();
     let error = fails(folder.run("one-pixel", &[], GOLDEN), "1 of 36864 pixels (0.003 %) differ");
@@ -165,7 +167,7 @@ fn blessing_writes_and_fails() {
 
 fn a_golden_of_another_driver_says_so() {
     let folder = Folder::with_golden(&[]);
-    let mut other = Raster::read_png(&folder.path("golden.png")).unwrap();
+    let mut other = golden::read(&folder.path("golden.png")).unwrap();
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
     let said = against_golden(&other, folder.folder.path(), &wanted).unwrap();
     assert!(
@@ -187,7 +189,7 @@ fn a_golden_of_another_driver_says_so() {
 fn a_shadow_that_vanishes_fails_against_the_golden_of_another_driver() {
     let folder = Folder::with_golden(&[]);
     fs::write(folder.path("golden.driver"), "llvmpipe of another day\n").unwrap();
-    let golden = Raster::read_png(&folder.path("golden.png")).unwrap();
+    let golden = golden::read(&folder.path("golden.png")).unwrap();
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
     let check = |picture: &Raster| against_golden(picture, folder.folder.path(), &wanted);
     let dotted = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {

@@ -19,8 +19,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("stress", &["report"]),
     ("cases", &["judge", "output"]),
     ("report", &["judge", "output"]),
+    // What a device reads back is a picture, too.
+    ("pictures", &["output"]),
     // The bound between right and wrong is that of a technique's map.
-    ("judge", &["frame", "truth"]),
+    ("judge", &["frame", "truth", "pictures"]),
     // A view decides the channels of its file.
     ("output", &["device", "views"]),
     // A renderer warns of depth formats that are not what they are called: it has them measured.

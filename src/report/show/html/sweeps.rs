@@ -3,7 +3,7 @@
 use super::ScenePictures;
 use super::svg::plot;
 use super::tags::{escape, figure};
-use crate::judge::flip;
+use crate::pictures::flip;
 use crate::report::numbers::{fixed, plain};
 use crate::report::show::plots::{self, Measure};
 use crate::report::store::light_pictures::{self, LightPictureName};

@@ -1,6 +1,8 @@
-//! A picture as floats, whatever it was read from; PNG files of it.
+//! A picture as floats, whatever it was read from, and PNG files of it.
 
 use std::path::Path;
+
+use image::RgbImage;
 
 use crate::device::Pixels;
 use crate::output::atomic_write;
@@ -10,7 +12,8 @@ use crate::output::atomic_write;
 pub struct Raster {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// 3 of a colour, 2 of a shade (its value, and 1 where the light reaches or 0), 1 of a depth.
+    /// 3 of a colour, 4 with its alpha; 2 of a shade (its value, and 1 where the light reaches or 0); 1 of a grey picture or
+    /// a depth. Files may have more.
     pub channels: usize,
     /// The values, `channels` for each pixel.
     pub data: Vec<f32>,
@@ -43,22 +46,6 @@ impl Raster {
         Self { size: pixels.size(), channels, data }
     }
 
-    /// A picture of 8 bits a channel.
-    pub fn of_rgb(picture: &image::RgbImage) -> Self {
-        let data = picture.as_raw().iter().map(|value| f32::from(*value) / 255.0).collect();
-        Self { size: [picture.width(), picture.height()], channels: 3, data }
-    }
-
-    /// Reads an RGB file of 8 bits a channel.
-    ///
-    /// # Errors
-    ///
-    /// A file that cannot be read, or is no picture.
-    pub fn read_png(path: &Path) -> Result<Self, String> {
-        let image = image::open(path).map_err(|error| format!("{}: {error}", path.display()))?.to_rgb8();
-        Ok(Self::of_rgb(&image))
-    }
-
     /// The picture as a PNG file of 8 bits a channel: gray for one or two channels (what the light does not reach is
     /// blue), RGB for three.
     ///
@@ -71,7 +58,7 @@ impl Raster {
             [gray] => [byte(gray); 3],
             [_, 0.0] => [60, 60, 160],
             [gray, _] => [byte(gray); 3],
-            [r, g, b] => [byte(r), byte(g), byte(b)],
+            [r, g, b] | [r, g, b, _] => [byte(r), byte(g), byte(b)],
             _ => [255, 0, 255],
         });
         let image = image::RgbImage::from_raw(self.size[0], self.size[1], rgb.collect()).ok_or("odd size")?;
@@ -98,6 +85,27 @@ impl Raster {
         }
         let data = self.data.iter().zip(&other.data).map(|(a, b)| (a - b).abs() * 255.0 / 16.0);
         Some(Self { data: data.collect(), ..self.clone() }.opaque())
+    }
+
+    /// Red, green and blue: of a grey picture its grey thrice, without alpha. `None`: it has more than four channels.
+    pub fn to_rgb(&self) -> Option<Self> {
+        let rgb = |p: &[f32]| match *p {
+            [gray] | [gray, _] => [gray; 3],
+            [r, g, b] | [r, g, b, _] => [r, g, b],
+            _ => [0.0; 3],
+        };
+        (1..=4).contains(&self.channels).then(|| Self {
+            size: self.size,
+            channels: 3,
+            data: self.pixels().flat_map(rgb).collect(),
+        })
+    }
+
+    /// The picture in 8 bits, as [`Raster::to_rgb`]. `None`: it has more than four channels.
+    pub fn to_image(&self) -> Option<RgbImage> {
+        let byte = |value: &f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let rgb = self.to_rgb()?;
+        RgbImage::from_raw(self.size[0], self.size[1], rgb.data.iter().map(byte).collect())
     }
 
     /// A shade view without its alpha, so that differences of either are seen.

@@ -5,11 +5,11 @@ use super::raster::Raster;
 /// Limits of a difference. Every limit counts; [`Tolerance::EXACT`] lets no bit differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// The largest difference of any channel.
+    /// The largest difference of any channel; colours and shades are in [0, 1].
     pub max: f64,
     /// The mean difference over all channels of all pixels.
     pub mean: f64,
-    /// The share of pixels that may differ by more than `slight`.
+    /// The share of pixels, in [0, 1], that may differ by more than `slight`.
     pub share: f64,
     /// A difference that is not counted.
     pub slight: f64,
@@ -22,7 +22,7 @@ impl Tolerance {
     pub const EXACT: Self = Self { max: 0.0, mean: 0.0, share: 0.0, slight: 0.0, spot: None };
 }
 
-/// PixelDifference of two pictures of one shape.
+/// Difference of two pictures of one shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelDifference {
     /// The largest of any channel.
@@ -122,9 +122,15 @@ fn differing(actual: &Raster, expected: &Raster, slight: f64) -> Vec<bool> {
     actual.pixels().zip(expected.pixels()).map(|(a, b)| a.iter().zip(b).any(differs)).collect()
 }
 
+/// Tests whether a square of `side` pixels differs by more than `slight` in each of them.
+pub fn has_spot(actual: &Raster, expected: &Raster, slight: f64, side: u32) -> bool {
+    let is_alike = actual.size == expected.size && actual.channels == expected.channels;
+    is_alike && spot(&differing(actual, expected, slight), actual.size, side).is_some()
+}
+
 /// The corner of the first square of `side` pixels that differs as a whole.
 fn spot(differing: &[bool], [width, height]: [u32; 2], side: u32) -> Option<[u32; 2]> {
-    let at = |x: u32, y: u32| differing.get((y * width + x) as usize) == Some(&true);
+    let at = |x: u32, y: u32| differing.get(y as usize * width as usize + x as usize) == Some(&true);
     let corners =
         (0..(height + 1).saturating_sub(side)).flat_map(|y| (0..(width + 1).saturating_sub(side)).map(move |x| [x, y]));
     let whole = |[left, top]: &[u32; 2]| (0..side).all(|y| (0..side).all(|x| at(left + x, top + y)));
