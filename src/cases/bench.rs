@@ -15,7 +15,17 @@ use crate::pictures::Raster;
 /// Inputs of a picture: the scene's file, its overrides, the number of frames, and what is read.
 type Key = (PathBuf, Vec<String>, u32, Wanted);
 
-/// What all variants of a case share.
+/// Names of a failure's pictures.
+const PICTURES: [&str; 3] = ["actual.png", "expected.png", "difference.png"];
+
+/// Removes the pictures that an earlier run has left of a case, where it has.
+pub(super) fn remove_pictures(failures: &Path, case: &PixelCase) {
+    for name in PICTURES {
+        let _ = std::fs::remove_file(failures.join(&case.name).join(name));
+    }
+}
+
+/// Inputs that all variants of a case share, and what they measure.
 pub(super) struct Shared<'a> {
     pub drawer: RefCell<&'a mut Drawer>,
     /// Measurements of checks that hold.
@@ -106,10 +116,7 @@ impl<'a> CaseBench<'a> {
     ) -> Failure {
         let folder = self.shared.failures.join(&self.case.name);
         let mut files = FailureFiles::default();
-        // Pictures of an earlier failure. Without the folder, writing the first picture says so.
-        for name in ["actual.png", "expected.png", "difference.png"] {
-            let _ = std::fs::remove_file(folder.join(name));
-        }
+        // Without the folder, writing the first picture says so.
         let _ = std::fs::create_dir_all(&folder);
         let mut write = |name: &str, picture: Option<&Raster>| {
             let path = folder.join(name);
@@ -122,7 +129,7 @@ impl<'a> CaseBench<'a> {
             }
         };
         let [actual, expected, difference] =
-            [("actual.png", Some(actual)), ("expected.png", expected), ("difference.png", difference)]
+            [(PICTURES[0], Some(actual)), (PICTURES[1], expected), (PICTURES[2], difference)]
                 .map(|(name, picture)| write(name, picture));
         Failure { files: FailureFiles { actual, expected, difference, ..files }, ..message.into() }
     }

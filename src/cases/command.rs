@@ -3,7 +3,7 @@
 //! | placeholder | becomes |
 //! |---|---|
 //! | `{scene}` | the scene's file, an absolute path |
-//! | `{out}` | the picture's file, a PNG; with `{out.exr}` an EXR file, with `{out.npy}` a NumPy array |
+//! | `{out}` | the picture's file to write, a PNG; with `{out.exr}` an EXR file, with `{out.npy}` a NumPy array |
 //! | `{kind}` | `picture`: the colours; or `shade`: how much of `{light}` arrives, gray: 1 lit, 0 shadowed |
 //! | `{light}` | the light of a shade, from 0; 0 for a picture |
 //! | `{width}`, `{height}` | the picture's size in pixels, by the scene |

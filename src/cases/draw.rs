@@ -147,6 +147,8 @@ fn draw_planned(
     fresh: bool,
 ) -> Result<DrawnScene, Failure> {
     let loaded = crate::load(scene, set).map_err(|error| error.to_string())?;
+    // An error that another user of the context has left would be some call's of ours.
+    gl.renderer.device().check("what was done before").map_err(of_device)?;
     let views = match wanted {
         Wanted::View(view, light) => vec![ViewRequest { view, light }],
         Wanted::Picture | Wanted::FloatPicture => Vec::new(),

@@ -81,7 +81,9 @@ impl Lines {
         let lines = table.get_ref().iter().map(|(key, value)| {
             let own = line_of(text, key.span().start);
             let lines = match value.get_ref() {
-                DeValue::Array(items) if items.iter().all(|item| matches!(item.get_ref(), DeValue::Table(_))) => {
+                DeValue::Array(items)
+                    if !items.is_empty() && items.iter().all(|item| matches!(item.get_ref(), DeValue::Table(_))) =>
+                {
                     items.iter().map(|item| line_of(text, item.span().start)).collect()
                 }
                 _ => vec![own],

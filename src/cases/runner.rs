@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::bench::{CaseBench, Shared};
+use super::bench::{CaseBench, Shared, remove_pictures};
 use super::check;
 use super::draw::Drawer;
 use super::outcome::{CaseOutcome, CaseVerdict, Failure, FailureFiles};
@@ -57,6 +57,7 @@ impl CaseRunner {
     /// Makes every check of `case`, up to the first that fails.
     pub fn run(&mut self, case: &PixelCase) -> CaseOutcome {
         let begin = Instant::now();
+        remove_pictures(&self.settings.failures, case);
         let shared = Shared {
             drawer: RefCell::new(&mut self.drawer),
             measured: RefCell::default(),

@@ -38,8 +38,8 @@ pub struct TestArgs {
     #[arg(long, requires = "filter", help_heading = "Which cases")]
     exact: bool,
 
-    /// Only the K-th of N parts of the cases, for N machines
-    #[arg(long, value_name = "K/N", default_value = "1/1", value_parser = parse_shard, help_heading = "Which cases")]
+    /// Only the I-th of N parts of the cases, for N machines
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = parse_shard, help_heading = "Which cases")]
     shard: (usize, usize),
 
     /// Lists the names of the cases, a line each, and draws nothing
@@ -114,7 +114,7 @@ Checks, in this order: GL errors, fails_with, warns, leaves_out, [[pick]], [[edg
 Another renderer can draw in glumbra's place:
   render = [\"my-engine\", \"--scene\", \"{scene}\", \"--what\", \"{kind}\", \"-o\", \"{out}\"]
 It runs in the case's folder. {kind} is picture, or shade: a gray picture of how much of light number {light} arrives, 1 lit,
-0 shadowed. {width} and {height} are the scene's. {out} is a PNG file.
+0 shadowed. {width} and {height} are the scene's. {out} is a PNG file; {out.exr} and {out.npy} have floats.
 
 Verdicts: pass, FAIL, BLESSED (a golden was written); CRASH, HANG and OUT OF MEMORY of the process that ran the case, which
 the others survive.

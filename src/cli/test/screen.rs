@@ -133,5 +133,10 @@ fn summary(results: &TestResults) -> String {
     });
     let count = results.cases.len();
     let plural = if count == 1 { "" } else { "s" };
-    format!("{count} case{plural}: {}; {:.1} s", counts.collect::<Vec<_>>().join(", "), results.seconds)
+    let counts = match count {
+        // A shard may have none.
+        0 => String::new(),
+        _ => format!(": {}", counts.collect::<Vec<_>>().join(", ")),
+    };
+    format!("{count} case{plural}{counts}; {:.1} s", results.seconds)
 }
