@@ -74,7 +74,10 @@ impl<'a> CaseBench<'a> {
             return Ok(known.clone());
         }
         let drawn = Rc::new(match &self.case.checks.render {
-            Some(words) => command::draw(words, self.case, wanted, self.shared.deadline)?,
+            Some(words) => {
+                let show = |failure: Failure, picture: &Raster| self.failure(failure, picture, None);
+                command::draw(words, self.case, wanted, self.shared.deadline, show)?
+            }
             None => self.shared.drawer.borrow_mut().draw(&key.0, &key.1, frames, wanted)?,
         });
         self.drawn.borrow_mut().insert(key, drawn.clone());

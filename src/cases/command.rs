@@ -74,7 +74,7 @@ fn extension(name: &str) -> Option<&'static str> {
     OUTPUTS.iter().find(|(known, _)| *known == name).map(|(_, extension)| *extension)
 }
 
-/// Runs the command for what is wanted, and reads its picture.
+/// Runs the command for what is wanted, and reads its picture. `show` adds a wrong picture to its failure.
 ///
 /// # Errors
 ///
@@ -85,6 +85,7 @@ pub(super) fn draw(
     case: &PixelCase,
     wanted: Wanted,
     deadline: Instant,
+    show: impl Fn(Failure, &Raster) -> Failure,
 ) -> Result<DrawnScene, Failure> {
     let loaded = crate::load(&case.scene(), &[]).map_err(|error| error.to_string())?;
     let (kind, light) = match wanted {
@@ -103,13 +104,12 @@ pub(super) fn draw(
     }
     let file = pictures::read(&output).map_err(|error| after(format!("the command's picture: {error}")))?;
     let picture = if kind == "shade" { shade_of(&file.raster) } else { colors_of(&file.raster) };
-    let picture = picture.map_err(|error| after(format!("the command's picture: {error}")))?;
+    let wrong = |what: String| show(after(format!("the command's picture: {what}")).into(), &file.raster);
+    let picture = picture.map_err(wrong)?;
     let [width, height] = loaded.scene.image.size;
     if picture.size != [width, height] {
         let [found_width, found_height] = picture.size;
-        let message =
-            format!("the command's picture is {found_width}x{found_height}, and the scene's {width}x{height}");
-        return Err(after(message).into());
+        return Err(wrong(format!("it is {found_width}x{found_height}, and the scene's {width}x{height}")));
     }
     Ok(DrawnScene { scene: loaded.scene, picture, left_out: Vec::new(), warnings: loaded.warnings, plan: None })
 }

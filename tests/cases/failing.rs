@@ -273,9 +273,10 @@ fn a_commands_picture_is_checked() {
     let copy = "cp golden.png $0; : {kind}";
     assert_eq!(shell(copy, GOLDEN).failure(), None);
     assert!(shell(copy, LIT).message.unwrap().contains("a shade must be gray"));
+    assert!(shell(copy, LIT).files.actual.unwrap().is_file(), "the wrong picture can be seen");
     let folder = Folder::with_golden(&["image.size=[192, 191]"]);
     let small = outcome(&folder, "size", &format!("render = [\"cp\", \"golden.png\", \"{{out}}\"]\n{GOLDEN}"));
-    assert!(small.message.as_ref().unwrap().contains("is 192x191, and the scene's 192x192"), "{small:?}");
+    assert!(small.message.as_ref().unwrap().contains("it is 192x191, and the scene's 192x192"), "{small:?}");
     let folder = Folder::new();
     let mut white = draw(&[]);
     white.data.fill(1.0);
