@@ -27,7 +27,8 @@ fn drawn() -> tempfile::TempDir {
 }
 
 fn json(output: &Output) -> serde_json::Value {
-    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}{}", text(&output.stdout), text(&output.stderr)))
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|_| panic!("{}{}", text(&output.stdout), text(&output.stderr)))
 }
 
 #[test]
@@ -88,7 +89,11 @@ fn mistakes_are_named() {
     let over = judge(&["over.png"]);
     assert!(text(&over.stdout).contains("mistake: the picture is upside down"), "{}", text(&over.stdout));
     let other = judge(&["a.shade.png", "--light", "1"]);
-    assert!(text(&other.stdout).contains("mistake: the picture shows light 0: try --light 0"), "{}", text(&other.stdout));
+    assert!(
+        text(&other.stdout).contains("mistake: the picture shows light 0: try --light 0"),
+        "{}",
+        text(&other.stdout)
+    );
     for (arguments, error) in [
         (&["a.png"][..], "it is no shade, for the pixel"),
         (&["a.shade.png", "--light", "7"], "there is no light 7"),
@@ -122,7 +127,8 @@ fn colored_pictures_are_judged() {
     render("shown.png", &[]);
     render("open.png", &["light.0.shadow.technique=none"]);
     render("off.png", &["light.0.color=[0.0, 0.0, 0.0]"]);
-    let judge = |more: &[&str]| glumbra(folder.path(), &[&["judge", &scene(), "shown.png", "--json", "-"], more].concat());
+    let judge =
+        |more: &[&str]| glumbra(folder.path(), &[&["judge", &scene(), "shown.png", "--json", "-"], more].concat());
     let ratio = json(&judge(&["--unshadowed", "open.png", "--light-off", "off.png"]));
     let shade = json(&glumbra(folder.path(), &["judge", &scene(), "a.shade.png", "--json", "-"]));
     let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap();
