@@ -1,7 +1,7 @@
 //! `glumbra compare`: two pictures, how they differ, and whether that is too much.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
@@ -67,7 +67,7 @@ Examples:
   glumbra compare actual.png golden.png --flip 0.02
   glumbra compare actual.png golden.png --json - | jq .passing";
 
-/// Values of a text chunk or a number of either picture are rounded to f32: a difference of codes is off by less than this.
+/// Codes are stored as f32, parts of the greatest: a difference of two is off by less than this.
 const ROUNDED_CODES: f64 = 1e-4;
 
 /// Limits in codes of the table of tolerances that would pass.
@@ -195,7 +195,9 @@ fn passing(found: &Comparison) -> Vec<Passing> {
     let beyond = |codes: f64| 100.0 * found.share_beyond((codes + ROUNDED_CODES) / 255.0);
     let most = 255.0 * found.difference.max;
     let below = LIMITS.into_iter().filter(|limit| limit + ROUNDED_CODES < most);
-    let all = below.chain(most.is_finite().then(|| rounded_up(most - ROUNDED_CODES, 4)));
+    let is_code = (most - most.round()).abs() < ROUNDED_CODES;
+    let whole = if is_code { most.round() } else { rounded_up(most, 4) };
+    let all = below.chain(most.is_finite().then_some(whole));
     all.map(|limit| Passing { max_codes: limit, share_percent: rounded_up(beyond(limit), 4) }).collect()
 }
 

@@ -101,7 +101,7 @@ enum Band {
 const HELP: &str = "\
 Values are taken as they stand: codes of 8 or 16 bits over their greatest, no gamma. Pixels count where the ray tracer is
 certain, and but for --band exact where the surface faces the light: on the others shading leaves no light. A picture without
-alpha is compared on every surface of the scene.
+alpha is compared on every surface of the scene. Of colours, too dark is false shadow, and too bright is a leak.
 `glumbra render --aov truth` draws what a shade should be, `--aov difference` how far glumbra's own picture is from it.
 
 Exit status: 0 within the limits, or no limit is given; 1 beyond one, or nothing could be compared, or more than half of the

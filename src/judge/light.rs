@@ -247,22 +247,17 @@ impl<'a> Judge<'a> {
             .is_some_and(|around| explains(map, around, should_be_lit, |codes| surroundings.middle(x, y, reach, codes)))
     }
 
-    /// A shadow edge that is seen explains a pixel by its distance in the picture; one that a silhouette hides, by that of the
-    /// silhouette, if the edge lies as near on the surface.
+    /// A shadow edge explains a pixel by its distance in the picture; one that is hidden or casts on no surface that is seen, by a
+    /// silhouette that the light sees as near, on the surface.
     fn band_accounts_for(&self, pixels: f64, index: usize) -> bool {
-        let Some(near) = &self.near else { return false };
-        if near.to_shadow_edge(index) <= pixels {
+        if self.near.as_ref().is_some_and(|near| near.to_shadow_edge(index) <= pixels) {
             return true;
-        }
-        if near.to_silhouette(index) > pixels {
-            return false;
         }
         let [x, y] = self.place(index);
         let on_surface = self.truth.pixels[index].hit.map(|hit| pixels * hit.pixel_size);
         let scale = self.surroundings.around(x, y, 0.0).map(|around| around.scale);
-        let around =
-            on_surface.zip(scale).and_then(|(on_surface, scale)| self.surroundings.around(x, y, on_surface / scale));
-        around.is_some_and(|around| around.edge)
+        let reach = on_surface.zip(scale).map(|(on_surface, scale)| on_surface / scale);
+        reach.and_then(|reach| self.surroundings.around(x, y, reach)).is_some_and(|around| around.edge)
     }
 }
 

@@ -27,10 +27,6 @@ impl NearEdges {
         self.to_shadow_edge.get(index).map_or(f64::INFINITY, |distance| f64::from(*distance))
     }
 
-    pub(super) fn to_silhouette(&self, index: usize) -> f64 {
-        self.to_silhouette.get(index).map_or(f64::INFINITY, |distance| f64::from(*distance))
-    }
-
     /// The pixel in shadow beside the shadow edge that is nearest to a pixel.
     pub(super) fn dark_side_of_nearest(&self, truth: &Truth, index: usize) -> Option<usize> {
         let width = truth.width as usize;

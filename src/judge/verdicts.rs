@@ -105,6 +105,20 @@ impl Judgement {
         Self { classes, ..found }
     }
 
+    /// The same, in which a wrong pixel that `other` explains is explained: of a picture that shows two lights, each with its
+    /// own shadow edges. Both are of one picture.
+    #[must_use]
+    pub fn explained_by(self, other: &Self) -> Self {
+        let is_explained = |class: &PixelClass| class.is_wrong() && !class.is_beyond();
+        let classes = self.classes.iter().zip(&other.classes).map(|(class, other)| match class {
+            PixelClass::FalseShadow(_) if is_explained(other) => PixelClass::FalseShadow(Place::Explained),
+            PixelClass::Leak(_) if is_explained(other) => PixelClass::Leak(Place::Explained),
+            PixelClass::Surface(_) if is_explained(other) => PixelClass::Surface(Place::Explained),
+            same => *same,
+        });
+        Self::of(self.size, classes.collect())
+    }
+
     /// Pixels that are wrong in any way.
     pub fn wrong(&self) -> usize {
         self.false_shadow + self.leak + self.surface + self.light_outside
