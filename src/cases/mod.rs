@@ -22,7 +22,7 @@
 //!
 //! `find.rs` finds folders, `read.rs` reads one: `file.rs` has the keys, `refused.rs` what a file may not ask. `runner.rs`
 //! runs a case: `check.rs` makes its checks (`picks.rs`, `floors.rs`, `relations.rs`, `truths.rs`, `golden.rs`) on
-//! `bench.rs`, whose pictures `draw.rs` or `command.rs` draws. `outcome.rs` has what comes of it.
+//! `bench.rs`, whose pictures `draw.rs` or `command.rs` draws (`placeholders.rs`: its words). `outcome.rs` has what comes of it.
 
 mod bench;
 mod check;
@@ -37,6 +37,7 @@ pub mod formula;
 pub mod golden;
 mod outcome;
 mod picks;
+mod placeholders;
 mod read;
 mod refused;
 mod relations;

@@ -1,7 +1,7 @@
 //! Errors of a case file: checks that could not fail, and checks that would not be made. Found before anything is drawn.
 
-use super::command;
 use super::file::{Checks, ClassCount, Golden, MayBeWrong, Pick, Same, Sets, Sum, TruthCheck};
+use super::placeholders;
 
 /// The widest band beside a shadow's edge, in pixels: an edge that is further off is another one.
 const WIDEST: f64 = 16.0;
@@ -79,7 +79,7 @@ fn each<T>(kind: &'static str, checks: &[T], refuse: impl Fn(&T) -> Result<(), S
 /// Refuses what only glumbra's own plan can answer where a command draws, and a command that cannot draw.
 fn beside_command(checks: &Checks) -> Result<(), Refusal> {
     let Some(words) = &checks.render else { return Ok(()) };
-    command::check(words, checks).map_err(|why| (Some(("render", 0)), why))?;
+    placeholders::check(words, checks).map_err(|why| (Some(("render", 0)), why))?;
     let overrides = "changes the scene for glumbra only, and the command reads the scene's file: write another scene";
     let words = "is a word of glumbra's own plan, and a command has none";
     let drawn = "draws again by glumbra with other settings, which a command does not take";

@@ -112,7 +112,7 @@ fn tables() -> String {
             _ => {}
         }
     }
-    let command = read("src/cases/command.rs");
+    let command = read("src/cases/placeholders.rs");
     page += "\n### Placeholders of `render`\n\n";
     command.lines().filter_map(|line| line.strip_prefix("//! |")).for_each(|row| page += &format!("|{row}\n"));
     page + "\n"
