@@ -1,5 +1,6 @@
 //! A command that draws in place of glumbra: `render` of a case. It reads the scene's file, and writes a picture of a kind.
-//! `placeholders.rs` has its words. It runs in the case's folder. A shade may have an alpha: 0 where no surface is, or the light's cone ends.
+//! `placeholders.rs` has its words. It runs in the case's folder. A shade may have an alpha: 0 where no surface is, or the
+//! light's cone ends.
 
 use std::fs::File;
 use std::path::Path;

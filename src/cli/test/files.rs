@@ -2,50 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
+use super::results::TestResults;
 use super::{junit, page};
-use crate::cases::CaseOutcome;
 use crate::cli::Error;
 use crate::output::{self, atomic_write};
 
-/// Version of the JSON: it changes where a key changes its meaning or goes.
-const SCHEMA: u32 = 1;
 /// The name that stands for standard output.
 const STANDARD_OUTPUT: &str = "-";
 /// The page in the folder of --html.
 const PAGE: &str = "index.html";
-
-/// Results of a run, as --json writes them.
-#[derive(Debug, Serialize)]
-pub struct TestResults {
-    schema: u32,
-    glumbra: &'static str,
-    /// GL_RENDERER and GL_VERSION; none where glumbra has drawn nothing.
-    pub driver: Option<String>,
-    folders: Vec<PathBuf>,
-    /// Time of the whole run.
-    pub seconds: f64,
-    /// By name.
-    pub cases: Vec<CaseOutcome>,
-    /// Names of cases that an interrupt has left.
-    pub not_run: Vec<String>,
-}
-
-impl TestResults {
-    /// Results of no case yet.
-    pub fn new(folders: &[PathBuf]) -> Self {
-        Self {
-            schema: SCHEMA,
-            glumbra: env!("CARGO_PKG_VERSION"),
-            driver: None,
-            folders: folders.to_vec(),
-            seconds: 0.0,
-            cases: Vec::new(),
-            not_run: Vec::new(),
-        }
-    }
-}
 
 /// Files to write.
 pub struct ResultFiles {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 
-use super::files::TestResults;
+use super::results::TestResults;
 use crate::cases::{CaseOutcome, CaseVerdict};
 
 /// The report.

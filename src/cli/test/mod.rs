@@ -4,6 +4,7 @@ mod child;
 mod files;
 mod junit;
 mod page;
+mod results;
 mod screen;
 mod workers;
 
@@ -14,12 +15,13 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use self::child::Job;
-use self::files::{ResultFiles, TestResults};
+use self::files::ResultFiles;
+use self::results::TestResults;
 use self::screen::Screen;
 use self::workers::{TestNews, Workers};
 use super::report::{parse_shard, stop_on_interrupt};
 use super::{ContextArgs, Error};
-use crate::cases::{self, CaseOutcome, CaseVerdict, PixelCase, Settings};
+use crate::cases::{self, CaseOutcome, PixelCase, Settings};
 use crate::context::Profile;
 
 /// Runs pixel tests: draws each case's scene, and checks what must be seen of it.
@@ -246,11 +248,4 @@ fn for_child(arguments: &TestArgs) -> Vec<String> {
     words.extend(arguments.bless.then(|| "--bless".to_owned()));
     words.extend(arguments.context.to_words());
     words
-}
-
-impl TestResults {
-    /// Tests whether a case does not pass, or did not run.
-    fn fails(&self) -> bool {
-        !self.not_run.is_empty() || self.cases.iter().any(|case| case.verdict != CaseVerdict::Pass)
-    }
 }

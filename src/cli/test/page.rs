@@ -1,7 +1,7 @@
 //! A run as one page that needs no other file: failing cases first, each with its pictures side by side. The script adds a
 //! slider and a blink between actual and expected.
 
-use super::files::TestResults;
+use super::results::TestResults;
 use crate::cases::{CaseOutcome, CaseVerdict};
 use crate::report::show::html::STYLE;
 use crate::report::show::html::tags::{escape, figure, list};

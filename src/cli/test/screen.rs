@@ -6,7 +6,7 @@ use std::io::Write as _;
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::files::TestResults;
+use super::results::TestResults;
 use crate::cases::{CaseOutcome, CaseVerdict};
 use crate::cli::Error;
 
