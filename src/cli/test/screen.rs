@@ -86,17 +86,18 @@ impl Screen {
             let _ = writeln!(text, "{driver}");
         }
         let _ = writeln!(text, "{}", summary(results));
-        if !results.not_run.is_empty() {
-            let _ = writeln!(text, "interrupted; not run: {}", results.not_run.join(", "));
-        }
         if bless && results.cases.iter().any(|case| case.verdict == CaseVerdict::Blessed) {
             text += "Goldens were written. Look at each picture, then run again without --bless.\n";
         }
         let names: Vec<&str> = fails().map(|case| case.name.as_str()).collect();
         let style = style(if names.is_empty() { CaseVerdict::Pass } else { CaseVerdict::Fail });
-        match names.is_empty() {
-            true => text += &format!("{style}No case fails.{style:#}\n"),
-            false => text += &format!("{style}FAIL:{style:#} {}\n", names.join(", ")),
+        match (names.is_empty(), results.not_run.len()) {
+            (true, 0) => text += &format!("{style}No case fails.{style:#}\n"),
+            (true, count) => text += &format!("Interrupted: {count} not run.\n"),
+            (false, 0) => text += &format!("{style}FAIL:{style:#} {}\n", names.join(", ")),
+            (false, count) => {
+                text += &format!("Interrupted: {count} not run. {style}FAIL:{style:#} {}\n", names.join(", "))
+            }
         }
         self.print(&text);
         match self.lost.take() {

@@ -2,6 +2,7 @@
 //! the page of keys.
 
 mod format;
+mod other_renderer;
 
 use std::collections::BTreeSet;
 use std::fs;
