@@ -30,7 +30,7 @@ pub enum Wanted {
 pub struct DrawnScene {
     /// The scene, resolved.
     pub scene: Scene,
-    /// What was wanted.
+    /// The picture that was wanted.
     pub picture: Raster,
     /// `what: why` of all that was left out.
     pub left_out: Vec<String>,

@@ -15,7 +15,7 @@ pub type Sets = Vec<Vec<String>>;
 pub struct Checks {
     /// The one question that the case asks.
     pub asks: String,
-    /// The scene's file, relative to the case's folder.
+    /// The scene's file, relative to the case's folder; `scene.toml` where absent.
     #[serde(default = "own_scene")]
     pub scene: PathBuf,
     /// Overrides, as `--set` takes them, before those of each check.
@@ -101,7 +101,7 @@ pub struct Pick {
     pub color: Option<[f64; 3]>,
     /// The picture's colour by the illumination formula, at the pixel's centre on the plane through `at`.
     pub formula: Option<Formula>,
-    /// The largest difference of `shade`, `color` and `formula`, in 255ths.
+    /// The largest difference of `shade`, `color` and `formula`, in 255ths; 1 where absent.
     #[serde(default = "one")]
     pub within: f64,
     /// The reason why it must be so.
@@ -145,7 +145,7 @@ pub struct Edge {
     pub sphere: Option<Sphere>,
     /// Away from the shadow, in the floor.
     pub outward: [f64; 3],
-    /// The floor's height, y.
+    /// The floor's height, y; 0 where absent.
     #[serde(default)]
     pub floor: f64,
     /// Overrides, after the case's.
@@ -173,7 +173,7 @@ pub struct Sphere {
 pub struct Cone {
     /// Direction of the ray, in the floor.
     pub towards: [f64; 3],
-    /// The floor's height, y.
+    /// The floor's height, y; 0 where absent.
     #[serde(default)]
     pub floor: f64,
     /// Overrides, after the case's.
@@ -189,15 +189,15 @@ pub struct Cone {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClassCount {
-    /// The light, from 0.
+    /// The light, from 0; 0 where absent.
     #[serde(default)]
     pub light: usize,
     /// The class that is counted.
     pub class: Class,
-    /// The least share, from 0 to 1.
+    /// The least share, from 0 to 1; 0 where absent.
     #[serde(default)]
     pub least: f64,
-    /// The greatest share, from 0 to 1.
+    /// The greatest share, from 0 to 1; 1 where absent.
     #[serde(default = "one")]
     pub most: f64,
     /// Overrides, after the case's.
@@ -243,7 +243,7 @@ pub struct Same {
     pub light: usize,
     /// Another scene than the case's own for the others.
     pub scene: Option<PathBuf>,
-    /// Frames that are drawn; the last is compared.
+    /// Frames that are drawn, 1 where absent; the last is compared.
     #[serde(default = "one_frame")]
     pub frames: u32,
     /// To the bit.
@@ -294,16 +294,16 @@ pub struct Sum {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TruthCheck {
-    /// The light, from 0.
+    /// The light, from 0; 0 where absent.
     #[serde(default)]
     pub light: usize,
-    /// The greatest percentage that is lit and drawn dark: acne, and light lost at edges.
+    /// The greatest percentage that is lit and drawn dark: acne, and light lost at edges. 0 where absent.
     #[serde(default)]
     pub false_shadow: f64,
-    /// The greatest percentage that is in shadow and drawn lit.
+    /// The greatest percentage that is in shadow and drawn lit; 0 where absent.
     #[serde(default)]
     pub leak: f64,
-    /// The greatest percentage that is wrong outside `bound` or `band`.
+    /// The greatest percentage that is wrong outside `bound` or `band`; 0 where absent.
     #[serde(default)]
     pub outside_band: f64,
     /// Wrong pixels that count as inside: by default those that the technique's own map explains, and of a command those

@@ -1,4 +1,4 @@
-//! What a case came to: its verdict, the check that failed, and the pictures that show it.
+//! Outcome of a case: its verdict, the check that failed, and the pictures that show it.
 
 use std::path::PathBuf;
 

@@ -7,7 +7,7 @@ use super::placeholders;
 const WIDEST: f64 = 16.0;
 
 /// The check that is refused, by its key and its number from 0 (none: the whole file), and why.
-pub type Refusal = (Option<(&'static str, usize)>, String);
+pub type RefusedCheck = (Option<(&'static str, usize)>, String);
 
 /// The largest difference, in 255ths, that may lie in every pixel: what roundings add up to. The picture would be another
 /// with more.
@@ -40,7 +40,7 @@ impl ClassCount {
 /// # Errors
 ///
 /// The first such check, with its `why`.
-pub fn check(checks: &Checks) -> Result<(), Refusal> {
+pub fn check(checks: &Checks) -> Result<(), RefusedCheck> {
     whole(checks)?;
     each("pick", &checks.pick, pick)?;
     each("edge", &checks.edge, |edge| sets(edge.for_each.as_ref(), &edge.why))?;
@@ -57,7 +57,7 @@ pub fn check(checks: &Checks) -> Result<(), Refusal> {
     beside_command(checks)
 }
 
-fn whole(checks: &Checks) -> Result<(), Refusal> {
+fn whole(checks: &Checks) -> Result<(), RefusedCheck> {
     let at = |key: &'static str| move |message: String| (Some((key, 0)), message);
     refuse(checks.is_empty(), || String::from("the case has no checks that could fail")).map_err(|why| (None, why))?;
     if checks.fails_with.is_some() {
@@ -71,13 +71,13 @@ fn whole(checks: &Checks) -> Result<(), Refusal> {
     refuse(several, || String::from("a golden cannot be the picture of each set of `for_each`")).map_err(at("golden"))
 }
 
-fn each<T>(kind: &'static str, checks: &[T], refuse: impl Fn(&T) -> Result<(), String>) -> Result<(), Refusal> {
+fn each<T>(kind: &'static str, checks: &[T], refuse: impl Fn(&T) -> Result<(), String>) -> Result<(), RefusedCheck> {
     let mut numbered = checks.iter().enumerate();
     numbered.try_for_each(|(index, check)| refuse(check).map_err(|why| (Some((kind, index)), why)))
 }
 
 /// Refuses what only glumbra's own plan can answer where a command draws, and a command that cannot draw.
-fn beside_command(checks: &Checks) -> Result<(), Refusal> {
+fn beside_command(checks: &Checks) -> Result<(), RefusedCheck> {
     let Some(words) = &checks.render else { return Ok(()) };
     placeholders::check(words, checks).map_err(|why| (Some(("render", 0)), why))?;
     let overrides = "changes the scene for glumbra only, and the command reads the scene's file: write another scene";

@@ -43,7 +43,8 @@ fn type_name(kind: &syn::Type) -> String {
             if let syn::PathArguments::AngleBracketed(arguments) = &last.arguments {
                 let Some(syn::GenericArgument::Type(inner)) = arguments.args.first() else { panic!("a type") };
                 let inner = type_name(inner);
-                return if last.ident == "Vec" { format!("list of {inner}") } else { inner };
+                let plural = if inner.ends_with("number") { "s" } else { "" };
+                return if last.ident == "Vec" { format!("list of {inner}{plural}") } else { inner };
             }
             match last.ident.to_string().as_str() {
                 "String" => "text".to_owned(),

@@ -133,12 +133,12 @@ fn a_child_that_dies_is_a_verdict() {
     write(
         folder.path(),
         "all/a-kills",
-        &format!("render = [\"sh\", \"-c\", \"kill -SEGV $PPID; sleep 9\", \"{{out}}\"]\n{PASSES}"),
+        &format!("render = [\"sh\", \"-c\", \"kill -ABRT $PPID; sleep 9\", \"{{out}}\"]\n{PASSES}"),
     );
     write(folder.path(), "all/b-passes", PASSES);
     let output = glumbra(folder.path(), &["all", "--jobs", "1"]);
     let screen = text(&output.stdout);
-    assert!(screen.contains("CRASH a-kills (") && screen.contains("the case crashed (SIGSEGV)"), "{screen}");
+    assert!(screen.contains("CRASH a-kills (") && screen.contains("the case crashed (SIGABRT)"), "{screen}");
     assert!(screen.contains("pass b-passes ("), "{screen}");
 }
 
