@@ -10,7 +10,7 @@
 //! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.
 //! 6. [`device::Device`] turns the pass list into GL with shaders,
 //! 7. which [`frame::Renderer`] drives and reads back;
-//! 8. [`output`] writes PNG, EXR or NPY.
+//! 8. [`output`] writes PNG, EXR or NPY, which [`pictures`] reads and compares.
 //! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone, [`fixed_function`] draws
 //!    the same passes by the driver's own fixed-function pipeline.
 //! 10. [`judge`] says how wrong a picture's shadow is, by whichever renderer; [`report`] says what that cost over many

@@ -205,7 +205,8 @@ fn passing(found: &Comparison) -> Vec<Passing> {
 fn rounded_up(value: f64, decimals: i32) -> f64 {
     let scale = 10_f64.powi(decimals);
     // A number that was rounded already stays.
-    ((value * scale - 1e-9).ceil() / scale).max(0.0)
+    let rounded = (value * scale - 1e-9).ceil() / scale;
+    if rounded > 0.0 { rounded } else { 0.0 }
 }
 
 fn to_text(report: &Report, found: &Comparison) -> String {

@@ -11,7 +11,7 @@ use super::judge_report::{self, Limits, Report};
 use super::scene_args::SceneArgs;
 use super::{Error, text_keys};
 use crate::frame::ShadeImage;
-use crate::judge::colors::{DrawnColors, true_colors, why_unshaded};
+use crate::judge::colors::{DrawnColors, shadow_of, true_colors, why_unshaded};
 use crate::judge::difference::{difference_picture, to_png};
 use crate::judge::{Bound, FoundMistake, Judge, Judgement, shade_of_pictures};
 use crate::output::atomic_write;
@@ -67,6 +67,11 @@ pub struct JudgeArgs {
     #[arg(long, value_name = "N")]
     max_outside: Option<usize>,
 
+    /// Greatest mean distance, in pixels, from the true shadow edges to the nearest that a shade shows: shadows that lie
+    /// aside
+    #[arg(long, value_name = "PIXELS", value_parser = parse_pixels)]
+    max_edge: Option<f64>,
+
     /// Places that are listed, the worst first
     #[arg(long, value_name = "N", default_value_t = 5)]
     worst: usize,
@@ -109,7 +114,7 @@ picture is undecided; 2 wrong usage, or a file that cannot be read or compared.
 
 Examples:
   my-engine --scene room.gltf --shadow-term shade.png && glumbra judge room.toml shade.png
-  glumbra judge room.toml shade.png --light 1 --max-false-shadow 0.1 --max-leak 0.2 --max-outside 0
+  glumbra judge room.toml shade.png --light 1 --max-false-shadow 0.1 --max-leak 0.2 --max-outside 0 --max-edge 0.5
   glumbra judge room.toml lit.png --unshadowed no-shadow.png --light-off ambient.png -o wrong.png
   glumbra judge room.toml picture.exr --kind color --band 2 --json -
   glumbra render room.toml -o a.png --aov shade && glumbra judge room.toml a.shade.png --band technique";
@@ -118,11 +123,13 @@ fn parse_band(text: &str) -> Result<Band, String> {
     match text {
         "technique" => Ok(Band::Technique),
         "exact" => Ok(Band::Exact),
-        _ => {
-            let pixels = text.parse().ok().filter(|pixels: &f64| pixels.is_finite() && *pixels >= 0.0);
-            pixels.map(Band::Pixels).ok_or_else(|| format!("'{text}' is no number of pixels, `technique` or `exact`"))
-        }
+        _ => parse_pixels(text).map(Band::Pixels).map_err(|error| format!("{error}, `technique` or `exact`")),
     }
+}
+
+fn parse_pixels(text: &str) -> Result<f64, String> {
+    let pixels = text.parse().ok().filter(|pixels: &f64| pixels.is_finite() && *pixels >= 0.0);
+    pixels.ok_or_else(|| format!("'{text}' is no number of pixels"))
 }
 
 /// Judges: 0 within the limits, 1 beyond, 2 for an error.
@@ -167,8 +174,12 @@ fn judge(arguments: &JudgeArgs) -> Result<bool, Error> {
         let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &png));
         written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
     }
-    let limits =
-        Limits { false_shadow: arguments.max_false_shadow, leak: arguments.max_leak, outside: arguments.max_outside };
+    let limits = Limits {
+        false_shadow: arguments.max_false_shadow,
+        leak: arguments.max_leak,
+        outside: arguments.max_outside,
+        edge: arguments.max_edge,
+    };
     let places = judge.regions(&judgement, arguments.worst);
     let report = Report {
         scene: arguments.scene.scene.display().to_string(),
@@ -204,7 +215,14 @@ impl<'a> Judged<'a> {
         match picture {
             Picture::Colors(drawn) => {
                 let truth = true_colors(scene, arguments.light)?;
-                let judgement = judge.colors(&truth, &drawn, bound)?;
+                let mut judgement = judge.colors(&truth, &drawn, bound)?;
+                // Colours show the shadow edges of every light.
+                for light in (0..scene.lights.len()).filter(|light| *light != arguments.light) {
+                    if shadow_of(&scene.lights[light].shadow, false).is_some() && judgement.outside_band > 0 {
+                        let other = Judge::new(scene, light)?.colors(&truth, &drawn, bound)?;
+                        judgement = judgement.explained_by(&other);
+                    }
+                }
                 let shade = judge.shade_of(&judgement);
                 Ok(Self { judge, judgement, shade, mistake: None, edges: [None; 2] })
             }

@@ -15,6 +15,8 @@ pub struct Limits {
     pub false_shadow: Option<f64>,
     pub leak: Option<f64>,
     pub outside: Option<usize>,
+    /// Pixels.
+    pub edge: Option<f64>,
 }
 
 /// Figures of one picture.
@@ -151,7 +153,7 @@ impl Report {
             mistake: None,
             notes: Vec::new(),
             places: Vec::new(),
-            limits: Limits { false_shadow: None, leak: None, outside: None },
+            limits: Limits { false_shadow: None, leak: None, outside: None, edge: None },
         }
     }
 
@@ -167,6 +169,14 @@ impl Report {
         hold(self.limits.leak, self.leak_percent, "--max-leak");
         if let Some(limit) = self.limits.outside.filter(|limit| self.outside_band > *limit) {
             failures.push(format!("{} pixels outside the band are beyond --max-outside {limit}", self.outside_band));
+        }
+        match (self.limits.edge, &self.edges[1]) {
+            (Some(limit), Some(edges)) if edges.mean_pixels > limit => failures.push(format!(
+                "true shadow edges lie {:.3} pixels from those shown in the mean: beyond --max-edge {limit}",
+                edges.mean_pixels
+            )),
+            (Some(_), None) => failures.push(String::from("there are no shadow edges to hold against --max-edge")),
+            _ => {}
         }
         if self.compared == 0 {
             failures.push(String::from("no pixel could be compared"));
@@ -212,11 +222,12 @@ impl Report {
         for failure in &failures {
             let _ = writeln!(text, "fails: {failure}");
         }
-        let Limits { false_shadow, leak, outside } = self.limits;
+        let Limits { false_shadow, leak, outside, edge } = self.limits;
+        let has_limit = false_shadow.is_some() || leak.is_some() || outside.is_some() || edge.is_some();
         if failures.is_empty() {
-            text += match (false_shadow, leak, outside) {
-                (None, None, None) => "no limits are given: --max-false-shadow, --max-leak, --max-outside\n",
-                _ => "within the limits\n",
+            text += match has_limit {
+                true => "within the limits\n",
+                false => "no limits are given: --max-false-shadow, --max-leak, --max-outside, --max-edge\n",
             };
         }
         text

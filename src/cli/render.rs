@@ -74,6 +74,9 @@ Views for --aov:
   difference      the picture's error against the truth; that of colours 16 times as large in a PNG; black where the
                   bounds of a colour at an edge allow it; grey where the truth is not certain
   (PNG stretches depths and distances for the eye; EXR and NPY have them as they are)
+  `glumbra judge` holds any program's picture against the truth.
+
+A PNG says in text chunks which scene, overrides, technique, driver and version made it; `glumbra compare` shows where two differ.
 
 Examples:
   glumbra render data/scenes/main.toml -o statue.png

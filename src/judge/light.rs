@@ -254,7 +254,8 @@ impl<'a> Judge<'a> {
             return true;
         }
         let [x, y] = self.place(index);
-        let on_surface = self.truth.pixels[index].hit.map(|hit| pixels * hit.pixel_size);
+        // The light sees lengths on a surface shortened by the cosine.
+        let on_surface = self.truth.pixels[index].hit.map(|hit| pixels * hit.pixel_size * hit.cos_light.abs());
         let scale = self.surroundings.around(x, y, 0.0).map(|around| around.scale);
         let reach = on_surface.zip(scale).map(|(on_surface, scale)| on_surface / scale);
         reach.and_then(|reach| self.surroundings.around(x, y, reach)).is_some_and(|around| around.edge)
