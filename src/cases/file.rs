@@ -306,6 +306,9 @@ pub struct TruthCheck {
     /// The greatest percentage that is wrong outside `bound` or `band`; 0 where absent.
     #[serde(default)]
     pub outside_band: f64,
+    /// The greatest mean distance, in pixels, from true shadow edges to the nearest that are drawn: it finds shadows that lie
+    /// slightly aside.
+    pub edge: Option<f64>,
     /// Wrong pixels that count as inside: by default those that the technique's own map explains, and of a command those
     /// of `band` = 3.
     pub bound: Option<MayBeWrong>,

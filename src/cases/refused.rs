@@ -169,9 +169,11 @@ fn truth(truth: &TruthCheck) -> Result<(), String> {
     refuse(truth.bound.is_some() && truth.band.is_some(), || {
         format!("a check against truth has `bound` or `band`, not both ({})", truth.why)
     })?;
-    refuse(truth.band.is_some_and(|pixels| !(0.0..=WIDEST).contains(&pixels)), || {
-        format!("`band` must be from 0 to {WIDEST} pixels ({})", truth.why)
-    })?;
+    for (key, pixels) in [("band", truth.band), ("edge", truth.edge)] {
+        refuse(pixels.is_some_and(|pixels| !(0.0..=WIDEST).contains(&pixels)), || {
+            format!("`{key}` must be from 0 to {WIDEST} pixels ({})", truth.why)
+        })?;
+    }
     let limits = [("false_shadow", truth.false_shadow), ("leak", truth.leak), ("outside_band", truth.outside_band)];
     limits.into_iter().try_for_each(|(key, percent)| {
         refuse(!(0.0..=100.0 * ANYTHING).contains(&percent), || {

@@ -37,8 +37,9 @@ pub(super) fn truth(on: &CaseBench, truth: &TruthCheck, set: &[String]) -> Resul
         judge.cover_surfaces(&mut shade);
     }
     let found = judge.shade(&shade, &bound).map_err(|error| error.to_string())?;
-    let words = in_words(truth, &found);
-    match broken_limits(truth, &found) {
+    let edge = judge.edge_distances(&shade).map_err(|error| error.to_string())?[1].map(|edge| edge.mean_pixels);
+    let words = in_words(truth, &found, edge);
+    match broken_limits(truth, &found, edge) {
         None => {
             on.note(format!("truth: {words}"));
             Ok(())
@@ -81,11 +82,12 @@ fn percent(found: &Judgement, count: usize) -> f64 {
     100.0 * found.share(count)
 }
 
-fn in_words(truth: &TruthCheck, found: &Judgement) -> String {
+fn in_words(truth: &TruthCheck, found: &Judgement, edge: Option<f64>) -> String {
     let Judgement { compared, false_shadow, leak, outside_band, .. } = *found;
     let share = |count: usize| format!("{count} ({:.3} %)", percent(found, count));
+    let edge = edge.map_or_else(String::new, |edge| format!("; shadow edges lie {edge:.3} pixels aside in the mean"));
     format!(
-        "light {}: of {compared} pixels {} have a false shadow, {} a leak, and {} are wrong outside the bound",
+        "light {}: of {compared} pixels {} have a false shadow, {} a leak, and {} are wrong outside the bound{edge}",
         truth.light,
         share(false_shadow),
         share(leak),
@@ -94,7 +96,7 @@ fn in_words(truth: &TruthCheck, found: &Judgement) -> String {
 }
 
 /// The limits that are broken, in words; none where all hold.
-fn broken_limits(truth: &TruthCheck, found: &Judgement) -> Option<String> {
+fn broken_limits(truth: &TruthCheck, found: &Judgement, edge: Option<f64>) -> Option<String> {
     if found.compared == 0 {
         return Some(String::from("nothing could be compared"));
     }
@@ -104,6 +106,11 @@ fn broken_limits(truth: &TruthCheck, found: &Judgement) -> Option<String> {
         ("outside_band", found.outside_band, truth.outside_band),
     ];
     let broken = limits.into_iter().filter(|(_, count, limit)| percent(found, *count) > *limit);
-    let words: Vec<String> = broken.map(|(key, _, limit)| format!("{key} may be {limit} %")).collect();
+    let mut words: Vec<String> = broken.map(|(key, _, limit)| format!("{key} may be {limit} %")).collect();
+    match (truth.edge, edge) {
+        (Some(limit), Some(edge)) if edge > limit => words.push(format!("edge may be {limit} pixels")),
+        (Some(_), None) => words.push(String::from("there is no shadow edge whose distance `edge` could limit")),
+        _ => {}
+    }
     (!words.is_empty()).then(|| words.join(", "))
 }

@@ -102,6 +102,12 @@ const PAIRS: &[(&str, &str, &str, &str)] = &[
         "; outside_band may be 0 %",
     ),
     (
+        "truth.edge",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\nedge = 1.0\n",
+        "[[truth]]\nfalse_shadow = 1.0\nleak = 1.0\nedge = 0.0\n",
+        "; edge may be 0 pixels",
+    ),
+    (
         "golden",
         "[golden]\nmax = 2\nmean = 0.05\n",
         "set = [\"light.shadow.technique=none\"]\n[golden]\nmax = 2\nmean = 0.05\n",

@@ -103,6 +103,7 @@ A case is a folder with a case.toml: a scene, and what must be seen of it. For e
   [[truth]]
   false_shadow = 0.1            # % of the pixels, by rays cast against the scene
   leak = 0.2
+  edge = 0.5                    # pixels that shadow edges may lie aside, in the mean
   why = \"a map of 1024 texels\"
 
   [golden]                      # golden.png, written by --bless
