@@ -10,8 +10,9 @@
 //! 5. [`context::open`] makes a GL context: EGL, OSMesa or a hidden window.
 //! 6. [`device::Device`] turns the pass list into GL with shaders,
 //! 7. which [`frame::Renderer`] drives and reads back;
-//! 8. [`output`] writes PNG, EXR or NPY.
+//! 8. [`output`] writes PNG, EXR or NPY, which [`pictures`] reads and compares.
 //! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone.
+//! 10. [`judge`] says how wrong a picture's shadow is, by whichever renderer. [`cases`] are pixel tests.
 //!
 //! Draws a scene that is made in code, and writes the picture:
 //!
@@ -105,6 +106,7 @@
 // Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
 #[cfg(feature = "fixed-function")]
 mod c_text;
+pub mod cases;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
@@ -129,6 +131,7 @@ pub mod fixed_function;
 pub mod frame;
 #[doc(hidden)]
 pub mod geometry;
+pub mod judge;
 #[doc(hidden)]
 pub mod lights;
 #[doc(hidden)]
@@ -136,11 +139,13 @@ pub mod math;
 pub mod output;
 #[doc(hidden)]
 pub mod pass;
+pub mod pictures;
 pub mod plan;
 pub mod prelude;
 #[doc(hidden)]
 #[allow(unsafe_code)] // signal handlers, locks on files, the allocator
 pub mod process;
+#[cfg(feature = "report")]
 #[doc(hidden)]
 pub mod report;
 pub mod scene;

@@ -1,24 +1,23 @@
 //! The command line: one file a subcommand; arguments in, calls out, no logic.
 
-#[cfg(not(all(feature = "check", feature = "report")))]
-mod absent;
-#[cfg(feature = "check")]
+mod answers;
 mod check;
+mod child_process;
+mod compare;
 mod context_args;
-#[cfg(feature = "report")]
 mod figures;
 mod generate;
 mod info;
 mod json;
+mod judge;
+mod judge_report;
 mod path_text;
 mod pipeline;
 mod plan;
 mod render;
 mod repack;
 mod repack_report;
-#[cfg(feature = "report")]
 mod report;
-#[cfg(feature = "report")]
 mod report_light;
 #[cfg(feature = "window")]
 pub mod sample;
@@ -26,10 +25,10 @@ pub mod sample;
 pub mod sample_model;
 mod scene_args;
 mod screen;
-#[cfg(feature = "report")]
 mod stress;
+mod test;
+mod text_keys;
 mod truth_views;
-#[cfg(feature = "report")]
 mod tune;
 
 #[cfg(test)]
@@ -60,31 +59,19 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    #[cfg(feature = "check")]
     Check(check::CheckArgs),
-    #[cfg(not(feature = "check"))]
-    Check(absent::AbsentArgs),
-    #[cfg(feature = "report")]
+    Compare(compare::CompareArgs),
     Figures(figures::FiguresArgs),
-    #[cfg(not(feature = "report"))]
-    Figures(absent::AbsentArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
+    Judge(judge::JudgeArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
     Repack(repack::RepackArgs),
-    #[cfg(feature = "report")]
     Report(report::ReportArgs),
-    #[cfg(not(feature = "report"))]
-    Report(absent::AbsentArgs),
-    #[cfg(feature = "report")]
     Stress(stress::StressArgs),
-    #[cfg(not(feature = "report"))]
-    Stress(absent::AbsentArgs),
-    #[cfg(feature = "report")]
+    Test(test::TestArgs),
     Tune(tune::TuneArgs),
-    #[cfg(not(feature = "report"))]
-    Tune(absent::AbsentArgs),
     #[command(hide = true)]
     Generate(generate::GenerateArgs),
 }
@@ -94,10 +81,8 @@ enum Command {
 pub enum Error {
     #[error(transparent)]
     Context(#[from] context::Error),
-    #[cfg(feature = "fixed-function")]
     #[error("--pipeline fixed-function needs OpenGL's compatibility profile. {0}")]
     NoFixedFunction(context::Error),
-    #[cfg(feature = "fixed-function")]
     #[error(transparent)]
     FixedFunction(#[from] crate::fixed_function::Error),
     #[error(transparent)]
@@ -111,79 +96,63 @@ pub enum Error {
     #[error(transparent)]
     Truth(#[from] crate::truth::Error),
     #[error(transparent)]
-    Difference(#[from] crate::report::measure::metrics::Error),
+    Difference(#[from] crate::judge::metrics::Error),
     #[cfg(feature = "window")]
     #[error(transparent)]
     Viewer(#[from] crate::viewer::Error),
     #[error(transparent)]
     File(#[from] crate::output::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Figures(#[from] crate::figures::Error),
     #[error(transparent)]
     Repack(#[from] repack::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Tune(#[from] crate::report::measure::tune::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Grid(#[from] crate::report::measure::grid::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Report(#[from] crate::report::measure::run::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Journal(#[from] crate::report::store::journal::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Pictures(#[from] crate::report::store::pictures::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     KeptPictures(#[from] crate::report::store::picture_files::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     Merge(#[from] crate::report::store::merge::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     ReportFiles(#[from] crate::report::store::write::Error),
-    #[cfg(feature = "report")]
     #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
     NoSuchCase { name: String },
-    #[cfg(feature = "report")]
+    #[error(transparent)]
+    Cases(#[from] crate::cases::Error),
+    /// The words of the process that runs cases.
+    #[error("{0}")]
+    NoCaseRun(String),
     #[error(transparent)]
     Stress(#[from] crate::stress::Error),
-    #[cfg(feature = "report")]
     #[error(transparent)]
     StressCases(#[from] crate::stress::named::Error),
-    #[cfg(feature = "report")]
     #[error("interrupted: {folder} holds a report of the rows so far; continue with --resume", folder = .folder.display())]
     Interrupted { folder: std::path::PathBuf },
-    #[cfg(feature = "report")]
     #[error("{failed} of {rows} settings could not be measured, row {row} for example: {why}; {folder} holds the others", folder = .folder.display())]
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
     #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
     NoFloor { scene: std::path::PathBuf },
     #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
-    #[cfg(feature = "check")]
     #[error(transparent)]
     Filter(#[from] crate::conformance::UnknownFilter),
-    #[cfg(feature = "check")]
     #[error(transparent)]
     Waivers(#[from] crate::conformance::waivers::Error),
-    #[cfg(feature = "check")]
     #[error(transparent)]
     Baseline(#[from] crate::conformance::baseline::Error),
-    #[cfg(feature = "check")]
     #[error("the waivers: {0}")]
     WriteWaivers(#[from] toml::ser::Error),
-    #[cfg(feature = "check")]
     #[error(transparent)]
     Child(#[from] check::ChildError),
-    #[cfg(feature = "check")]
     #[error(transparent)]
     Reduce(#[from] crate::conformance::reduce::ReduceError),
-    #[cfg(feature = "check")]
     #[error("--reduce {pattern}: one rule is wanted, and that is {}", rules.join(", "))]
     ReduceOne { pattern: String, rules: Vec<&'static str> },
     #[error("JUnit: {0}")]
@@ -194,8 +163,18 @@ pub enum Error {
     Overwrites { path: std::path::PathBuf, what: &'static str },
     #[error("{path}: {first} and {second} name the same file", path = .path.display())]
     SameFile { path: std::path::PathBuf, first: &'static str, second: &'static str },
-    #[error("{what} is not compiled in: build glumbra with the cargo feature `{feature}`")]
-    NotBuilt { what: &'static str, feature: &'static str },
+    #[error(transparent)]
+    Picture(#[from] crate::pictures::Error),
+    #[error("{actual} and {expected} cannot be compared: {what}", actual = .actual.display(), expected = .expected.display())]
+    NotCompared { actual: std::path::PathBuf, expected: std::path::PathBuf, what: String },
+    #[error("{picture} cannot be judged: {what}", picture = .picture.display())]
+    NotJudged { picture: std::path::PathBuf, what: String },
+    #[error("the picture of the differences: {0}")]
+    DifferencePicture(String),
+    #[error("{path}: a picture of differences is a PNG: end its name in .png", path = .path.display())]
+    NotPng { path: std::path::PathBuf },
+    #[error("{path}: this file is read; name another for the picture of differences", path = .path.display())]
+    IsRead { path: std::path::PathBuf },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
     #[error("{folder}: the folder cannot be made: {error}", folder = .folder.display())]
@@ -220,30 +199,18 @@ pub fn run() -> ExitCode {
     let screen = arguments.screen;
     screen.apply();
     let result = match arguments.command {
-        #[cfg(feature = "check")]
         Command::Check(arguments) => return check::run(&arguments, screen),
-        #[cfg(not(feature = "check"))]
-        Command::Check(_) => absent::refuse("check", "check"),
-        #[cfg(feature = "report")]
+        Command::Compare(arguments) => return compare::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments, screen),
-        #[cfg(not(feature = "report"))]
-        Command::Figures(_) => absent::refuse("figures", "report"),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Judge(arguments) => return judge::run(&arguments, screen),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments, screen),
         Command::Repack(arguments) => repack::run(&arguments),
-        #[cfg(feature = "report")]
         Command::Report(arguments) => report::run(&arguments, screen),
-        #[cfg(not(feature = "report"))]
-        Command::Report(_) => absent::refuse("report", "report"),
-        #[cfg(feature = "report")]
         Command::Stress(arguments) => return stress::run(&arguments, screen),
-        #[cfg(not(feature = "report"))]
-        Command::Stress(_) => absent::refuse("stress", "report"),
-        #[cfg(feature = "report")]
+        Command::Test(arguments) => return test::run(&arguments, screen),
         Command::Tune(arguments) => tune::run(&arguments, screen),
-        #[cfg(not(feature = "report"))]
-        Command::Tune(_) => absent::refuse("tune", "report"),
         Command::Generate(arguments) => generate::run(&arguments, screen),
     };
     exit_code(result)

@@ -29,9 +29,6 @@ impl Pipeline {
     pub fn open(self, arguments: &ContextArgs) -> Result<Rc<dyn Context>, Error> {
         match self {
             Self::Shaders => Ok(context::open(&arguments.request(Profile::Core33))?),
-            #[cfg(not(feature = "fixed-function"))]
-            Self::FixedFunction => Err(NOT_BUILT),
-            #[cfg(feature = "fixed-function")]
             Self::FixedFunction => {
                 context::open(&arguments.request(Profile::Compatibility)).map_err(Error::NoFixedFunction)
             }
@@ -61,17 +58,7 @@ impl Pipeline {
     }
 }
 
-#[cfg(not(feature = "fixed-function"))]
-const NOT_BUILT: Error = Error::NotBuilt { what: "--pipeline fixed-function", feature: "fixed-function" };
-
-/// Refuses: the pipeline is not compiled in.
-#[cfg(not(feature = "fixed-function"))]
-fn draw_fixed(_: &Rc<dyn Context>, _: &Plan, _: u32, _: impl FnMut()) -> Result<(Times, Frame), Error> {
-    Err(NOT_BUILT)
-}
-
 /// Draws `count` frames of a plan by the driver's fixed functions, times each, and reads the last.
-#[cfg(feature = "fixed-function")]
 fn draw_fixed(
     context: &Rc<dyn Context>,
     plan: &Plan,

@@ -64,7 +64,7 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
         return super::print(&plan.matrices_text());
     }
     if arguments.gl {
-        return print_gl(&plan);
+        return super::print(&crate::fixed_function::listing::c_source(&plan.list));
     }
     let summary = plan.summary();
     if arguments.print_scene {
@@ -73,14 +73,4 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
     }
     arguments.json.write("plan", &summary)?;
     if arguments.json.takes_standard_output() { Ok(()) } else { super::print(&summary.to_string()) }
-}
-
-#[cfg(feature = "fixed-function")]
-fn print_gl(plan: &plan::Plan) -> Result<(), Error> {
-    super::print(&crate::fixed_function::listing::c_source(&plan.list))
-}
-
-#[cfg(not(feature = "fixed-function"))]
-fn print_gl(_: &plan::Plan) -> Result<(), Error> {
-    Err(Error::NotBuilt { what: "--gl", feature: "fixed-function" })
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 use serde::Serialize;
 
@@ -13,6 +13,7 @@ use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
 use super::scene_args::SceneChanges;
 use super::screen::Screen;
+use super::text_keys;
 use super::truth_views::{Aov, parse_aov};
 use super::{ContextArgs, Error};
 use crate::context::Context;
@@ -20,7 +21,8 @@ use crate::device::Pixels;
 use crate::frame::{Frame, Renderer, Times};
 use crate::output::{self, FileFormat, Output};
 use crate::plan::{Plan, Request, Summary};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
+use crate::techniques::LightShadow;
 
 /// Renders a scene or a model to a picture.
 #[derive(Debug, Args)]
@@ -81,6 +83,10 @@ Views for --aov:
                     bounds of a colour at an edge allow it, grey where the truth
                     is not certain. A PNG has errors of colours 16 times as large
 A PNG stretches depths and distances for the eye. EXR and NPY have them as they are.
+`glumbra judge` holds any program's picture against the truth.
+
+A PNG says in text chunks which scene, overrides, technique, driver and version made it; \
+`glumbra compare` shows where two differ.
 
 Examples:
   glumbra render data/scenes/main.toml -o statue.png
@@ -255,7 +261,9 @@ fn draw(
     let pictures = [(&frame.picture, None)].into_iter().chain(shown);
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
-    output::write_all(&outputs)?;
+    let info = context.describe();
+    let driver = format!("{}, OpenGL {}", info.renderer, info.version);
+    output::write_described(&outputs, &arguments.texts(&path, &scene, driver))?;
     for (index, output) in outputs.iter().enumerate() {
         let [width, height] = output.pixels.size();
         let what = index.checked_sub(1).map_or("picture".to_owned(), |view| views[view].file_name());
@@ -273,6 +281,26 @@ fn draw(
         plan: plan.summary(),
         times,
     })
+}
+
+impl RenderArgs {
+    /// What a PNG says of itself: all that decides its pixels, and no time.
+    fn texts(&self, path: &Path, scene: &Scene, driver: String) -> Vec<(&'static str, String)> {
+        let technique = |light: &Light| LightShadow::of(&light.shadow).map_or("none", |shadow| shadow.technique.name());
+        let techniques: Vec<&str> = scene.lights.iter().map(technique).collect();
+        let mut texts = vec![
+            ("Software", concat!("glumbra ", env!("CARGO_PKG_VERSION")).to_owned()),
+            (text_keys::SCENE, path.display().to_string()),
+            (text_keys::OVERRIDES, self.changes.overrides().join(" ")),
+            (text_keys::TECHNIQUE, techniques.join(", ")),
+            (text_keys::DRIVER, driver),
+        ];
+        let pipeline = self.pipeline.to_possible_value().filter(|_| self.pipeline != Pipeline::default());
+        texts.extend(pipeline.map(|pipeline| ("Pipeline", pipeline.get_name().to_owned())));
+        texts.extend(self.after_pass.clone().map(|pass| ("After pass", pass)));
+        texts.retain(|(_, text)| !text.is_empty());
+        texts
+    }
 }
 
 /// Pictures of the views that the ray tracer makes; `None`: of those that were drawn.

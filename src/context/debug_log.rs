@@ -35,11 +35,20 @@ impl DebugLog {
         std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
+    /// Takes the mistakes that have come since the last call, oldest first, and leaves other messages.
+    pub fn take_errors(&self) -> Vec<DebugMessage> {
+        let mut messages = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        messages.extract_if(.., |message| message.is_error()).collect()
+    }
+
     fn push(&self, message: DebugMessage) {
         let mut messages = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if messages.len() < MOST_MESSAGES {
-            messages.push(message);
+        if messages.len() >= MOST_MESSAGES {
+            // A mistake takes the place of another message.
+            let Some(other) = messages.iter().position(|known| message.is_error() && !known.is_error()) else { return };
+            messages.remove(other);
         }
+        messages.push(message);
     }
 }
 

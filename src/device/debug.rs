@@ -41,9 +41,8 @@ impl Debug {
     /// Fails if a GL call since the last check was in error, and names `label` as where. The context must be current.
     pub fn check(&self, label: &str) -> Result<(), GlError> {
         let flags = self.take_flags();
-        let reported = self.log.as_ref().map(DebugLog::take).unwrap_or_default();
-        let mut messages: Vec<String> =
-            reported.into_iter().filter(|message| message.is_error()).map(|message| message.text).collect();
+        let reported = self.log.as_ref().map(DebugLog::take_errors).unwrap_or_default();
+        let mut messages: Vec<String> = reported.into_iter().map(|message| message.text).collect();
         if messages.is_empty() {
             messages = flags;
         }

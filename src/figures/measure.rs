@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::frame::ShadeImage;
+use crate::judge::metrics::{self, Band, compare};
 use crate::output::canvas::{Canvas, Color};
-use crate::report::measure::metrics::{self, Band, compare};
 use crate::truth::{Answer, Truth};
 
 /// Marks of wrong pixels: shadow where light belongs, and light where none belongs.

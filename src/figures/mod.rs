@@ -27,8 +27,8 @@ mod turns;
 
 use crate::frame::{self, Renderer};
 use crate::geometry::skin;
+use crate::judge::metrics;
 use crate::output::{self, canvas::Canvas};
-use crate::report::measure::metrics;
 use crate::scene::{self, Embedded, Scene};
 use crate::truth;
 use crate::views::View;

@@ -132,8 +132,17 @@ pub struct Output<'a> {
 ///
 /// The first file that could not be written; what was written beside is removed.
 pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
+    write_described(outputs, &[])
+}
+
+/// The same with texts in each PNG: keywords, of at most 79 letters of Latin-1, and what they say.
+///
+/// # Errors
+///
+/// As [`write_all`]; a keyword that a PNG cannot have.
+pub fn write_described(outputs: &[Output<'_>], texts: &[(&str, String)]) -> Result<(), Error> {
     let paths: Vec<&Path> = outputs.iter().map(|output| output.path).collect();
-    atomic_write::write_all(&paths, |index, temporary| write(&outputs[index], temporary))
+    atomic_write::write_all(&paths, |index, temporary| write(&outputs[index], texts, temporary))
         .map_err(|(index, error)| failed(paths[index], &error))
 }
 
@@ -141,10 +150,10 @@ fn failed(path: &Path, error: &io::Error) -> Error {
     Error::Write { path: path.to_owned(), reason: error.to_string() }
 }
 
-fn write(output: &Output<'_>, path: &Path) -> io::Result<()> {
+fn write(output: &Output<'_>, texts: &[(&str, String)], path: &Path) -> io::Result<()> {
     let mut file = BufWriter::new(fs::File::create(path)?);
     match check_path(output.path).map_err(io::Error::other)? {
-        FileFormat::Png => write_png(output, &mut file)?,
+        FileFormat::Png => write_png(output, texts, &mut file)?,
         #[cfg(feature = "exr")]
         FileFormat::Exr => exact::write_exr(output, &mut file)?,
         #[cfg(feature = "npy")]
@@ -155,12 +164,37 @@ fn write(output: &Output<'_>, path: &Path) -> io::Result<()> {
     file.flush()
 }
 
-fn write_png(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
+fn write_png(output: &Output<'_>, texts: &[(&str, String)], file: &mut impl Write) -> io::Result<()> {
     let [width, height] = output.pixels.size();
-    let (bytes, color) = png_bytes(output);
-    PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Up)
-        .write_image(&bytes, width, height, color)
-        .map_err(io::Error::other)
+    let (mut bytes, color) = png_bytes(output);
+    let mut encoder = png::Encoder::new(file, width, height);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Up);
+    let (color, depth) = match color {
+        ExtendedColorType::L8 => (png::ColorType::Grayscale, png::BitDepth::Eight),
+        ExtendedColorType::L16 => (png::ColorType::Grayscale, png::BitDepth::Sixteen),
+        ExtendedColorType::La8 => (png::ColorType::GrayscaleAlpha, png::BitDepth::Eight),
+        ExtendedColorType::La16 => (png::ColorType::GrayscaleAlpha, png::BitDepth::Sixteen),
+        _ => (png::ColorType::Rgb, png::BitDepth::Eight),
+    };
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    for (keyword, text) in texts {
+        // Plain chunks hold Latin-1 only.
+        match text.is_ascii() {
+            true => encoder.add_text_chunk((*keyword).to_owned(), text.clone())?,
+            false => encoder.add_itxt_chunk((*keyword).to_owned(), text.clone())?,
+        }
+    }
+    if depth == png::BitDepth::Sixteen {
+        for code in bytes.as_chunks_mut::<2>().0 {
+            *code = u16::from_ne_bytes(*code).to_be_bytes();
+        }
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&bytes)?;
+    writer.finish()?;
+    Ok(())
 }
 
 /// The picture as RGB; shade as grey and alpha; distances and depths as grey, stretched from their least to their greatest

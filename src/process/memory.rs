@@ -2,7 +2,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
-use super::{digits, doing, say, unfinished};
+use super::{commands, digits, doing, say, unfinished};
 
 /// The system's allocator. A failed allocation ends the process with an error and exit status 1, and its unfinished files
 /// are removed.
@@ -47,6 +47,7 @@ fn run_out(bytes: usize) -> ! {
     say(&[b"error: out of memory: ", digits(bytes, &mut buffer), b" bytes more cannot be had"]);
     doing::steps(|what| say(&[b"; while ", what.lines().next().unwrap_or_default().as_bytes()]));
     say(&[b". Smaller pictures (--size) and shadow maps (light.shadow.size) take less.\n"]);
+    commands::end_all();
     unfinished::remove_all();
     leave()
 }

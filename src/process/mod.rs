@@ -1,15 +1,18 @@
 //! Last messages and clean-up when a process cannot go on: a driver that crashes or stops, memory that runs out, a signal
 //! that ends it.
 //!
-//! The library notes the driver's current work (`doing`) and its unfinished files (`unfinished`). A command turns this on:
+//! The library notes the driver's current work (`doing`), its unfinished files (`unfinished`), and the commands that it runs
+//! (`commands`). A command turns this on:
 //! by [`guard`] for signals, and by [`Memory`] as its allocator.
 
+mod commands;
 mod doing;
 mod memory;
 #[cfg(unix)]
 mod signals;
 mod unfinished;
 
+pub(crate) use commands::start;
 pub(crate) use doing::doing;
 pub use memory::Memory;
 #[cfg(unix)]
@@ -53,6 +56,7 @@ pub(crate) fn patience() -> u32 {
 
 /// Ends the process at once, without what the driver has registered for a regular end: it might wait for ever.
 pub fn leave(status: i32) -> ! {
+    commands::end_all();
     unfinished::remove_all();
     #[cfg(unix)]
     // SAFETY: ends the process.

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicI64, AtomicU32, Ordering};
 
 use libc::{c_int, c_void, siginfo_t};
 
-use super::{digits, doing, patience, say, unfinished};
+use super::{commands, digits, doing, patience, say, unfinished};
 
 /// Faults of the process itself, with their names.
 pub(super) const CRASHES: [(c_int, &str); 5] = [
@@ -107,6 +107,7 @@ extern "C" fn on_end(signal: c_int, info: *mut siginfo_t, _: *mut c_void) {
             });
         }
     }
+    commands::end_all();
     unfinished::remove_all();
     // SAFETY: BEFORE was filled for every signal that comes here. A fault comes again when its instruction is repeated; a
     // signal that was sent has to be sent again, and waits until this handler has returned.
@@ -137,6 +138,7 @@ extern "C" fn on_alarm(_: c_int, _: *mut siginfo_t, _: *mut c_void) {
             say(&[stopped, seconds, b" s while ", what.as_bytes(), b"\n"]);
         });
         say(&[b"Too little memory or too few threads (ulimit -v, ulimit -u) may be why. GLUMBRA_PATIENCE=SECONDS waits longer.\n"]);
+        commands::end_all();
         unfinished::remove_all();
         // SAFETY: ends the process; a regular exit would wait for the driver's threads.
         unsafe { libc::_exit(1) };

@@ -4,9 +4,7 @@
 pub mod measure;
 #[doc(hidden)]
 pub mod numbers;
-#[cfg(all(test, feature = "report"))]
+#[cfg(test)]
 mod samples;
-#[cfg(feature = "report")]
 pub mod show;
-#[cfg(feature = "report")]
 pub mod store;

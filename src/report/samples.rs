@@ -1,13 +1,13 @@
 //! A made-up report for tests: times grow with the map, errors shrink with it.
 
-use super::measure::colors::ColorErrors;
 use super::measure::fit::PowerFit;
-use super::measure::metrics::{Band, EdgeDistance, ErrorSplit, Errors, Metrics, NotCompared};
 use super::store::claimed::{ClaimVerdict, Claimed, Measurement};
 use super::store::results::{
     Machine, Measured, Outcome, PassCost, Report, Row, SceneReport, Spread, TruthSummary, VERSION,
 };
 use super::store::swept::{LightSweep, PointErrors, PointOutcome, SweepPoint, SweepSeries};
+use crate::judge::colors::ColorErrors;
+use crate::judge::metrics::{Band, EdgeDistance, ErrorSplit, Errors, Metrics, NotCompared};
 
 /// One scene; row 0 as written, three techniques, one row that failed and one without an error.
 pub fn report() -> Report {

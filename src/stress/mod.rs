@@ -1,8 +1,8 @@
 //! Scenes against truth: named extreme cases and random scenes, each drawn by every technique and each of its settings
 //! that matters, each picture judged by the ray caster.
 //!
-//! Every error must be reported: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]). `judge.rs`
-//! derives the bound between right and wrong.
+//! Every error must be reported: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]).
+//! [`crate::judge`] has the bound between right and wrong.
 
 mod bumps;
 mod case;
@@ -24,7 +24,7 @@ mod write;
 
 pub use case::Case;
 pub use colors::{rows as color_rows, rows_of as color_rows_of};
-pub use judge::{Judge, Judged, MOST_WRONG};
+pub use judge::{Judged, RowJudge};
 pub use reduce::reduce;
 pub use results::{CaseResult, CaseRow, Verdict, tally};
 pub use rows::{RowSettings, rows};

@@ -1,10 +1,10 @@
 //! A run's outcome as one page that needs no other file.
 
-use super::judge::MOST_WRONG;
 use super::plot::SweepPlot;
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict, tally};
 use super::table::{shares, techniques_of};
-use crate::report::measure::difference::LEGEND;
+use crate::judge::MOST_WRONG;
+use crate::judge::difference::LEGEND;
 use crate::report::show::html::STYLE;
 use crate::report::show::html::tags::{escape, figure};
 

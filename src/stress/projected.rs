@@ -307,7 +307,7 @@ mod tests {
         for index in 0..240 {
             let case = case(3, index);
             let loaded = case.load(folder.path()).unwrap_or_else(|error| panic!("{error}\n{}", case.toml));
-            let is_projected = crate::report::measure::colors::has_projected_light(&loaded.scene);
+            let is_projected = crate::judge::colors::has_projected_light(&loaded.scene);
             projected[(index % 6) as usize] += usize::from(is_projected);
         }
         // Of 40 each; beams, and lights with alpha shadows, may be plain.

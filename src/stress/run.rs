@@ -7,13 +7,13 @@ use std::time::Instant;
 
 use super::case::Case;
 use super::colors;
-use super::judge::{Judge, Judged};
+use super::judge::{Judged, RowJudge};
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
 use super::rows::{RowSettings, row_of, rows};
 use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
 use crate::geometry::Material;
-use crate::report::measure::difference;
+use crate::judge::{Bound, difference};
 use crate::scene::BumpShading;
 use crate::truth::Truth;
 
@@ -91,8 +91,8 @@ fn draw_rows(
     }
     let mut shares = Vec::new();
     for (light, source) in scene.lights.iter().enumerate().filter(|_| case.shades) {
-        let mut judge = Judge::new(&scene, light).map_err(|error| error.to_string())?;
-        shares.push(decided(&judge.truth));
+        let mut judge = RowJudge::new(&scene, light).map_err(|error| error.to_string())?;
+        shares.push(decided(judge.judge().truth(&Bound::NoMap)));
         // All settings of one light; of the others each technique's own.
         let rows = match case.rows.is_empty() {
             true => rows(&scene, &source.kind, light > 0),
@@ -103,7 +103,7 @@ fn draw_rows(
             let mut judged = judge.row(settings, renderer);
             judged.row.add_warnings(&loaded.warnings);
             if options.pictures {
-                keep_pictures(&judge, &judged, result);
+                keep_pictures(&mut judge, &judged, result);
             }
             result.rows.push(judged.row);
         }
@@ -135,7 +135,7 @@ fn chosen<'r>(rows: &'r [RowSettings], case: &str, one_in: usize, technique: Opt
 }
 
 /// Keeps the pictures of a row that will be `result`'s next, if it is the technique's worst so far.
-fn keep_pictures(judge: &Judge<'_>, judged: &Judged, result: &mut CaseResult) {
+fn keep_pictures(judge: &mut RowJudge<'_>, judged: &Judged, result: &mut CaseResult) {
     let row = &judged.row;
     let Some(shade) = judged.shade.as_ref().filter(|_| row.verdict != Verdict::Right) else { return };
     let known = result.pictures.iter().position(|pictures| {
@@ -146,7 +146,7 @@ fn keep_pictures(judge: &Judge<'_>, judged: &Judged, result: &mut CaseResult) {
     if known.is_some_and(|known| !is_worse(&result.rows[result.pictures[known].row])) {
         return;
     }
-    let truth = judge.truth_of(&row.settings);
+    let truth = judge.judge().truth(&judged.bound);
     let drawn = difference::shade_picture(shade);
     let Ok(differs) = difference::difference_picture(truth, shade) else { return };
     let pngs = [drawn, difference::truth_picture(truth), differs].map(|picture| difference::to_png(&picture));

@@ -60,6 +60,8 @@ pub struct Nearer {
 /// A surface between the light and a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocker {
+    /// Into [`crate::scene::Scene::objects`].
+    pub object: u32,
     /// Distance from the surface to the point along the ray, in world units.
     pub gap: f64,
     /// The steepest slope of the surface within the reach, as [`Around::slope`].
@@ -126,7 +128,12 @@ impl<'a> Surroundings<'a> {
                 let same = beside.filter(|other| other.is(&blocker) || other.touches(&blocker));
                 let steepest = same.map(|other| self.slope(&seen, other.normal())).fold(0.0, f64::max);
                 let looks_away = blocker.normal().dot(beam.axis()) > 0.0;
-                Blocker { gap: *gap, slope: steepest, is_far_side: looks_away != blocker.placed.mirrors() }
+                Blocker {
+                    object: place.0,
+                    gap: *gap,
+                    slope: steepest,
+                    is_far_side: looks_away != blocker.placed.mirrors(),
+                }
             })
             .collect();
         Some(around)

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::truth::{self, Truth};
 
 use super::rounds::Bench;

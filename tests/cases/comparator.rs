@@ -4,12 +4,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::check;
-use crate::compare::{Tolerance, compare};
-use crate::draw::{self, Wanted};
-use crate::file::{Case, Golden};
-use crate::golden;
-use crate::picture::Picture;
+use glumbra::cases::PixelCase;
+use glumbra::cases::draw::{DrawnScene, Wanted};
+use glumbra::cases::file::Golden;
+use glumbra::cases::golden::{self, GoldenResult};
+use glumbra::pictures::Raster;
+use glumbra::pictures::compare::{Tolerance, compare};
+
+use crate::with_runner;
 
 /// A list of tests by name.
 macro_rules! tests {
@@ -55,8 +57,8 @@ impl Folder {
     pub fn with_golden(set: &[&str]) -> Self {
         let folder = Self::new();
         let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-        draw::draw(&scene(), &set, 1, Wanted::Picture).unwrap().picture.write_png(&folder.path("golden.png")).unwrap();
-        fs::write(folder.path("golden.driver"), draw::driver()).unwrap();
+        draw(&set).write_png(&folder.path("golden.png")).unwrap();
+        fs::write(folder.path("golden.driver"), driver()).unwrap();
         folder
     }
 
@@ -64,11 +66,34 @@ impl Folder {
     pub fn run(&self, title: &str, set: &[&str], toml: &str) -> Result<(), String> {
         let head = format!("asks = \"{title}\"\nscene = {:?}\nset = {set:?}\n", scene());
         fs::write(self.path("case.toml"), head + toml).unwrap();
-        check::run(&Case::read(self.folder.path(), &format!("comparator/{title}")).unwrap())
+        let case =
+            PixelCase::read(self.folder.path(), &format!("comparator/{title}")).map_err(|error| error.to_string())?;
+        crate::run(&case)
     }
 }
 
-fn scene() -> PathBuf {
+/// The box scene with `set`.
+pub fn draw(set: &[String]) -> Raster {
+    let drawn: DrawnScene =
+        with_runner(|runner| runner.drawer().draw(&scene(), set, 1, Wanted::Picture)).expect("the scene draws");
+    drawn.picture
+}
+
+fn driver() -> String {
+    with_runner(|runner| runner.drawer().driver()).unwrap()
+}
+
+/// Compares with the golden in `folder`: how, or why it fails.
+fn against_golden(actual: &Raster, folder: &Path, wanted: &Golden) -> Result<String, String> {
+    match golden::check(actual, folder, wanted, &driver(), false)? {
+        GoldenResult::Same(how) => Ok(how),
+        GoldenResult::Wrong { why, .. } => Err(why),
+        GoldenResult::Written(how) => panic!("{how}"),
+    }
+}
+
+/// The scene of the tests' cases.
+pub fn scene() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data/cases/scenes/box.toml")
 }
 
@@ -85,7 +110,7 @@ fn an_honest_golden_passes() {
 
 fn one_changed_pixel_fails_and_its_pictures_are_kept() {
     let folder = Folder::with_golden(&[]);
-    let mut changed = Picture::read_png(&folder.path("golden.png")).unwrap();
+    let mut changed = golden::read(&folder.path("golden.png")).unwrap();
     changed.data[3 * (100 * 192 + 40) + 1] += 3.0 / 255.0;
     changed.write_png(&folder.path("golden.png")).unwrap();
     let error = fails(folder.run("one-pixel", &[], GOLDEN), "1 of 36864 pixels (0.003 %) differ");
@@ -100,18 +125,18 @@ fn one_changed_pixel_fails_and_its_pictures_are_kept() {
 }
 
 fn one_changed_bit_fails_where_exact() {
-    let one = Picture { size: [2, 1], channels: 1, data: vec![0.5, 0.25] };
+    let one = Raster { size: [2, 1], channels: 1, data: vec![0.5, 0.25] };
     let mut other = one.clone();
     compare(&one, &other, &Tolerance::EXACT).unwrap();
     other.data[1] = f32::from_bits(other.data[1].to_bits() + 1);
     compare(&one, &other, &Tolerance::EXACT).unwrap_err();
-    let nan = Picture { data: vec![0.5, f32::NAN], ..one.clone() };
+    let nan = Raster { data: vec![0.5, f32::NAN], ..one.clone() };
     compare(&nan, &one, &Tolerance { max: 1.0, mean: 1.0, share: 1.0, ..Tolerance::EXACT }).unwrap_err();
 }
 
 fn each_limit_counts_alone() {
-    let one = Picture { size: [4, 1], channels: 1, data: vec![0.0; 4] };
-    let other = Picture { data: vec![0.0, 0.0, 0.5, 0.5], ..one.clone() };
+    let one = Raster { size: [4, 1], channels: 1, data: vec![0.0; 4] };
+    let other = Raster { data: vec![0.0, 0.0, 0.5, 0.5], ..one.clone() };
     let all = Tolerance { max: 0.5, mean: 0.25, share: 0.5, ..Tolerance::EXACT };
     compare(&other, &one, &all).unwrap();
     for tolerance in [Tolerance { max: 0.49, ..all }, Tolerance { mean: 0.24, ..all }, Tolerance { share: 0.49, ..all }]
@@ -133,29 +158,30 @@ fn a_missing_golden_fails_and_is_not_written() {
 
 fn blessing_writes_and_fails() {
     let folder = Folder::new();
-    let actual = draw::draw(&scene(), &[], 1, Wanted::Picture).unwrap().picture;
+    let actual = draw(&[]);
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
-    golden::check(&actual, folder.folder.path(), &wanted, true).unwrap_err();
-    golden::check(&actual, folder.folder.path(), &wanted, false).unwrap();
+    let written = golden::check(&actual, folder.folder.path(), &wanted, &driver(), true).unwrap();
+    assert!(matches!(written, GoldenResult::Written(_)), "{written:?}");
+    against_golden(&actual, folder.folder.path(), &wanted).unwrap();
 }
 
 fn a_golden_of_another_driver_says_so() {
     let folder = Folder::with_golden(&[]);
-    let mut other = Picture::read_png(&folder.path("golden.png")).unwrap();
+    let mut other = golden::read(&folder.path("golden.png")).unwrap();
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
-    let said = golden::check(&other, folder.folder.path(), &wanted, false).unwrap();
+    let said = against_golden(&other, folder.folder.path(), &wanted).unwrap();
     assert!(
         said.starts_with("compared with the golden of this driver, by 2/255 at most and 0.05/255 in the mean: 0 of"),
         "{said}"
     );
     fs::write(folder.path("golden.driver"), "llvmpipe of another day\n").unwrap();
     other.data[0] = 1.0 - other.data[0].round();
-    let said = golden::check(&other, folder.folder.path(), &wanted, false).unwrap();
+    let said = against_golden(&other, folder.folder.path(), &wanted).unwrap();
     let how = "compared with the golden of another driver, llvmpipe of another day, by 0.75/255 in the mean and 0.6 % of \
                the pixels beyond 16/255: 1 of";
     assert!(said.starts_with(how), "{said}");
     other.data.fill(1.0);
-    let (error, _) = golden::check(&other, folder.folder.path(), &wanted, false).unwrap_err();
+    let error = against_golden(&other, folder.folder.path(), &wanted).unwrap_err();
     assert!(error.contains("of another driver, llvmpipe of another day"), "{error}");
 }
 
@@ -163,9 +189,9 @@ fn a_golden_of_another_driver_says_so() {
 fn a_shadow_that_vanishes_fails_against_the_golden_of_another_driver() {
     let folder = Folder::with_golden(&[]);
     fs::write(folder.path("golden.driver"), "llvmpipe of another day\n").unwrap();
-    let golden = Picture::read_png(&folder.path("golden.png")).unwrap();
+    let golden = golden::read(&folder.path("golden.png")).unwrap();
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
-    let check = |picture: &Picture| golden::check(picture, folder.folder.path(), &wanted, false);
+    let check = |picture: &Raster| against_golden(picture, folder.folder.path(), &wanted);
     let dotted = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
         let mut picture = golden.clone();
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
@@ -175,16 +201,16 @@ fn a_shadow_that_vanishes_fails_against_the_golden_of_another_driver() {
         picture
     };
     check(&dotted(0..192, 100..101)).unwrap();
-    let (error, _) = check(&dotted(90..93, 100..103)).unwrap_err();
+    let error = check(&dotted(90..93, 100..103)).unwrap_err();
     assert!(error.contains("a spot at (90, 100) differs as a whole"), "{error}");
-    let (error, _) = check(&dotted(0..192, 100..102)).unwrap_err();
+    let error = check(&dotted(0..192, 100..102)).unwrap_err();
     assert!(error.contains("at most 0.600 % may"), "{error}");
     let small = ["object.1.scale=0.12", "object.1.translate=[0, 0.06, 0]"].map(String::from);
-    let with = draw::draw(&scene(), &small, 1, Wanted::Picture).unwrap().picture;
+    let with = draw(&small);
     with.write_png(&folder.path("golden.png")).unwrap();
     let set = [&small[..], &[NO_SHADOW.to_owned()]].concat();
-    let without = draw::draw(&scene(), &set, 1, Wanted::Picture).unwrap().picture;
-    let (error, _) = check(&without).unwrap_err();
+    let without = draw(&set);
+    let error = check(&without).unwrap_err();
     assert!(error.contains("differs as a whole"), "{error}");
     let mean = compare(&without, &with, &Tolerance { max: 1.0, mean: 0.75 / 255.0, share: 1.0, ..Tolerance::EXACT });
     mean.expect("small enough that the mean does not show it");

@@ -1,38 +1,66 @@
-//! Pixel cases, one test a folder: `data/cases/<row>/<case>/`, the row of a technique or a composition, with a `case.toml` that says what must be seen. How it
-//! is written: `tests/cases/file.rs`. Everything here judges pictures from outside: it reads the resolved scene, never
-//! matrices, planes or pass lists. What judges is itself tested to fail, on the same context.
+//! Our own pixel cases, one test a folder: `data/cases/ROW/CASE/`, the row of a technique or a composition. They run through
+//! `glumbra::cases`, as `glumbra test data/cases` runs them; what judges is itself tested to fail, on the same context.
 //!
 //! `cargo test --test cases [FILTER]`; `ci/bless [FILTER]` regenerates golden images.
 
+use std::cell::RefCell;
 use std::fs;
+use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
+use glumbra::cases::{self, CaseRunner, PixelCase, Settings};
 use libtest_mimic::{Arguments, Trial};
 
-mod bench;
-mod check;
 mod comparator;
-mod compare;
-mod draw;
-mod file;
-mod formula;
-mod golden;
-mod picture;
+mod failing;
 mod refusals;
-mod refused;
-
-use file::Case;
 
 /// Scenes that several cases share; no technique's folder.
 const SHARED: &str = "scenes";
+
+thread_local! {
+    /// One thread's runner, kept until the process ends: drivers differ in what they bear when a thread ends.
+    static RUNNER: RefCell<ManuallyDrop<CaseRunner>> = RefCell::new(ManuallyDrop::new(CaseRunner::new(settings())));
+}
+
+fn settings() -> Settings {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let target = target.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
+    let limit = Duration::from_secs(5);
+    Settings { failures: target.join("case-failures"), bless: blessing(), limit, ..Settings::default() }
+}
+
+/// Tests whether `ci/bless` runs, which writes goldens.
+fn blessing() -> bool {
+    std::env::var_os("GLUMBRA_BLESS").is_some_and(|value| value == "1")
+}
+
+/// Does something with this thread's runner.
+pub fn with_runner<T>(act: impl FnOnce(&mut CaseRunner) -> T) -> T {
+    RUNNER.with_borrow_mut(|runner| act(runner))
+}
+
+/// Makes the checks of a case. The error has the question, what was found, and the pictures.
+pub fn run(case: &PixelCase) -> Result<(), String> {
+    let outcome = with_runner(|runner| runner.run(case));
+    match outcome.failure() {
+        Some(failure) => Err(failure),
+        None => {
+            outcome.measured.iter().for_each(|measured| println!("{}: {measured}", case.name));
+            Ok(())
+        }
+    }
+}
 
 fn main() -> ExitCode {
     let mut arguments = Arguments::from_args();
     // llvmpipe has threads of its own, and one context serves all.
     arguments.test_threads.get_or_insert(1);
     if !arguments.list {
-        println!("{}", draw::driver());
+        let driver = with_runner(|runner| runner.drawer().driver());
+        println!("{}", driver.unwrap_or_else(|error| error.to_string()));
     }
     libtest_mimic::run(&arguments, trials()).exit_code()
 }
@@ -44,8 +72,8 @@ fn trials() -> Vec<Trial> {
         move || every_row_has_a_case(&root).map_err(Into::into)
     })];
     // They draw goldens of their own, which blessing would refuse.
-    if !golden::blessing() {
-        let tests = comparator::TESTS.iter().chain(refusals::TESTS);
+    if !blessing() {
+        let tests = comparator::TESTS.iter().chain(refusals::TESTS).chain(failing::TESTS);
         trials.extend(tests.map(|(name, test)| {
             Trial::test(*name, || {
                 test();
@@ -53,14 +81,14 @@ fn trials() -> Vec<Trial> {
             })
         }));
     }
-    for technique in folders(&root).into_iter().filter(|folder| name(folder) != SHARED) {
-        for folder in folders(&technique) {
-            let title = format!("{}/{}", name(&technique), name(&folder));
-            trials.push(Trial::test(title.clone(), move || {
-                check::run(&Case::read(&folder, &title)?)?;
-                Ok(())
-            }));
-        }
+    match cases::find(&[root]) {
+        Ok(found) => trials.extend(found.into_iter().map(|case| {
+            Trial::test(case.name.clone(), move || {
+                let case = PixelCase::read(&case.folder, &case.name).map_err(|error| error.to_string())?;
+                Ok(run(&case)?)
+            })
+        })),
+        Err(error) => trials.push(Trial::test("cases_are_found", move || Err(error.into()))),
     }
     trials
 }
@@ -72,6 +100,9 @@ fn every_row_has_a_case(root: &Path) -> Result<(), String> {
     for row in &known {
         if folders(&root.join(row)).is_empty() {
             return Err(format!("the row \"{row}\" has no case in {}/{row}", root.display()));
+        }
+        if let Some(empty) = folders(&root.join(row)).iter().find(|folder| !folder.join(cases::FILE).is_file()) {
+            return Err(format!("{} has no {}", empty.display(), cases::FILE));
         }
     }
     match folders(root).iter().map(|folder| name(folder)).find(|name| name != SHARED && !known.contains(&&**name)) {

@@ -2,8 +2,9 @@
 
 use std::fs;
 
+use glumbra::cases::PixelCase;
+
 use crate::comparator::{Folder, fails, tests};
-use crate::file::Case;
 
 pub const TESTS: &[(&str, fn())] = tests![
     an_empty_case_is_refused,
@@ -35,7 +36,12 @@ fn an_empty_case_is_refused() {
 fn an_unknown_key_is_refused() {
     let folder = Folder::new();
     fs::write(folder.path("case.toml"), "asks = \"\"\npicks = []\n").unwrap();
-    assert!(Case::read(&folder.path(""), "unknown").unwrap_err().contains("unknown field `picks`"));
+    assert!(
+        PixelCase::read(&folder.path(""), "unknown")
+            .unwrap_err()
+            .to_string()
+            .contains("case.toml:2: unknown field `picks`")
+    );
 }
 
 const LIT: &str = "[[pick]]\nat = [0.0, 1.0, 0.0]\nclass = \"lit\"\nwhy = \"the box's top\"\n";

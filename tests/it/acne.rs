@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, ShadeImage, draw_shade};
-use glumbra::report::measure::metrics::{Band, Errors, compare};
+use glumbra::judge::metrics::{Band, Errors, compare};
 use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth::{self, Hit, Truth};

@@ -2,10 +2,10 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
+use glumbra::judge::metrics::{Band, compare};
 use glumbra::plan::{self, Request};
-use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::scene::Scene;
-use glumbra::stress::{Judge, RowSettings, random};
+use glumbra::stress::{RowJudge, RowSettings, random};
 use glumbra::truth;
 
 /// README's camera, and what else a scene has.
@@ -72,7 +72,7 @@ fn the_share_that_is_foretold_is_the_share_that_is_wrong() {
     let (mut told, mut untold) = (0, 0);
     for index in 0..40 {
         let scene = random::case(1992, index).load(folder.path()).unwrap().scene;
-        let mut judge = Judge::new(&scene, 0).unwrap();
+        let mut judge = RowJudge::new(&scene, 0).unwrap();
         for keys in ["size = 32", "size = 64, kernel = \"3x3\"", "size = 256, bias = \"normal-offset\""] {
             let settings = RowSettings { technique: "shadow-map".into(), keys: keys.into(), pictured: false };
             let row = judge.row(&settings, &mut renderer).row;

@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth;

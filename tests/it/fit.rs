@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::plan::{Plan, Request};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
 use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth;

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::pass::Work;
 use glumbra::plan::{Plan, Request};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
 use glumbra::scene::Scene;
 use glumbra::stress;
 use glumbra::techniques;

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::{Renderer, draw_shade};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::pass::Work;
 use glumbra::plan::{Request, ViewRequest};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
 use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth::{self, Truth};
@@ -199,7 +199,7 @@ fn second_depth_moves_the_error_to_faces_turned_away() {
     assert!(second.facing.leak_percent <= tuned.facing.leak_percent + 0.01);
     // Half of what looks away is lit by its own acne.
     let away = |found: &Metrics| {
-        let count = |split: glumbra::report::measure::metrics::ErrorSplit| split.inside + split.outside;
+        let count = |split: glumbra::judge::metrics::ErrorSplit| split.inside + split.outside;
         let (all, facing) = (count(found.all.leak), count(found.facing.leak));
         (all - facing) as f64 / (found.all.compared - found.facing.compared) as f64
     };

@@ -3,9 +3,9 @@
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::{Measure, Pixels};
 use glumbra::frame::{Renderer, ShadeImage};
+use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::pass::{UniformValue, Work};
 use glumbra::plan::{Plan, Request, ViewRequest};
-use glumbra::report::measure::metrics::{Band, Metrics, compare};
 use glumbra::scene::Scene;
 use glumbra::truth::{self, Truth};
 use glumbra::views::View;

@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::report::measure::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
+use glumbra::judge::difference::{NOT_COMPARED, OUTSIDE_CONE, difference_picture};
+use glumbra::judge::metrics::{Band, compare};
 use glumbra::report::measure::grid::{self, Grid};
-use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::report::measure::run::{self, MeasureOptions};
 use glumbra::report::store::fingerprint;
 use glumbra::report::store::merge::{self, equal_but_for_times};

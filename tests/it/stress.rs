@@ -9,7 +9,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::scene::{LightKind, Scene};
 use glumbra::stress::{
-    self, Case, CaseResult, CaseRow, Judge, RowSettings, StressOptions, Verdict, named, random, tally,
+    self, Case, CaseResult, CaseRow, RowJudge, RowSettings, StressOptions, Verdict, named, random, tally,
 };
 
 /// A seed that no development went by.
@@ -103,7 +103,7 @@ fn judged(name: &str, inside: [&str; 2], broken: impl Fn(&mut Scene)) -> Verdict
     broken(&mut drawn);
     let [technique, keys] = inside.map(str::to_owned);
     let settings = RowSettings { technique, keys, pictured: false };
-    Judge::new(&scene, 0).unwrap().row_of(&drawn, &settings, &mut renderer).row.verdict
+    RowJudge::new(&scene, 0).unwrap().row_of(&drawn, &settings, &mut renderer).row.verdict
 }
 
 /// A case that is right as it is.
@@ -145,7 +145,7 @@ fn assert_right(seed: u64, index: u64, technique: &str, keys: &[&str]) {
     let mut renderer = Renderer::new(&context);
     let folder = tempfile::tempdir().unwrap();
     let scene = random::case(seed, index).load(folder.path()).unwrap().scene;
-    let mut judge = Judge::new(&scene, 0).unwrap();
+    let mut judge = RowJudge::new(&scene, 0).unwrap();
     for &keys in keys {
         let settings = RowSettings { technique: technique.to_owned(), keys: keys.to_owned(), pictured: false };
         let row = judge.row(&settings, &mut renderer).row;
@@ -179,7 +179,7 @@ fn the_rounding_of_steep_interpolation_is_told() {
     let scene = random::case(1, 304).load(folder.path()).unwrap().scene;
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
-    let row = Judge::new(&scene, 1).unwrap().row(&settings, &mut renderer).row;
+    let row = RowJudge::new(&scene, 1).unwrap().row(&settings, &mut renderer).row;
     // Another driver may interpolate otherwise, and have no wrong pixel.
     assert!(matches!(row.verdict, Verdict::Warned | Verdict::FalseAlarm), "{row:?}");
 }
@@ -219,7 +219,7 @@ fn rows_that_were_silently_wrong_are_not() {
         let folder = tempfile::tempdir().unwrap();
         let scene = random::case(seed, index).load(folder.path()).unwrap().scene;
         let settings = RowSettings { technique: technique.into(), keys: keys.into(), pictured };
-        let row = Judge::new(&scene, light).unwrap().row(&settings, &mut renderer).row;
+        let row = RowJudge::new(&scene, light).unwrap().row(&settings, &mut renderer).row;
         assert_ne!(row.verdict, Verdict::SilentlyWrong, "random-{seed}-{index}: {row:?}");
     }
 }

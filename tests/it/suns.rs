@@ -2,7 +2,7 @@
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::report::measure::metrics::{Band, Errors, compare};
+use glumbra::judge::metrics::{Band, Errors, compare};
 use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth::{self, Truth};

@@ -9,8 +9,8 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::geometry::{Derived, Wave, primitive};
+use glumbra::judge::metrics::{Band, compare};
 use glumbra::plan::{self, Request};
-use glumbra::report::measure::metrics::{Band, compare};
 use glumbra::scene::{self, Scene};
 use glumbra::truth;
 

@@ -1,10 +1,9 @@
 //! The process that checks: it opens the context, runs rules, and tells how far it is by a line each step.
 
-use std::io::Read;
 use std::rc::Rc;
 
 use super::CheckArgs;
-use crate::cli::Error;
+use crate::cli::{Error, child_process};
 use crate::conformance::events::{Event, rule};
 use crate::conformance::{self, DriverUnderTest, ResetStatus, Rule, RuleVerdict};
 use crate::context::{self, Context, Profile};
@@ -15,27 +14,17 @@ use crate::context::{self, Context, Profile};
 ///
 /// Standard output that is closed: whoever started this process is no more.
 pub fn run(arguments: &CheckArgs, ids: &[String]) -> Result<(), Error> {
-    end_with_parent();
+    child_process::end_with_parent(drop);
     let rules: Vec<&Rule> = ids.iter().filter_map(|id| rule(id)).collect();
     steps(arguments, &rules, |event| {
         let is_lost = matches!(event, Event::Ends { lost: true, .. });
-        // A driver may have written on standard output, and left a line open.
-        super::super::print(&format!("\n{}\n", serde_json::to_string(&event)?))?;
+        child_process::tell(&event)?;
         if is_lost {
             // Objects of a lost context are not deleted.
             crate::process::leave(0);
         }
         Ok(())
     })
-}
-
-/// Ends this process when standard input ends, which the parent holds: also a parent that is killed leaves no child.
-fn end_with_parent() {
-    std::thread::spawn(|| {
-        let mut nothing = Vec::new();
-        let _ = std::io::stdin().read_to_end(&mut nothing);
-        crate::process::leave(1);
-    });
 }
 
 /// Runs `rules` in this process and gives each step to `tell`.

@@ -4,9 +4,9 @@
 use glam::{DMat4, DVec3, DVec4};
 
 use super::grid::to_inline;
-use super::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
 use super::tune::{self, Search, TunedPoint};
 use crate::frame::{Renderer, draw_shade};
+use crate::judge::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
 use crate::pass::DepthFormat;
 use crate::report::numbers::plain;
 use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::metrics::FEWEST_COMPARED;
+use crate::judge::metrics::FEWEST_COMPARED;
 use crate::report::numbers::{grouped, plain};
 use crate::report::store::results::{Measured, Row, SceneReport, Spread};
 

@@ -1,8 +1,8 @@
 //! Colours that a picture should have: the ray tracer's, or those of a picture of so many samples that it has next to no
 //! error of its own.
 
-use super::colors::{self, DrawnColors, draw_colors};
 use crate::frame::{self, Renderer};
+use crate::judge::colors::{self, DrawnColors, draw_colors};
 use crate::plan::Limits;
 use crate::scene::{Light, LightKind, PicturePasses, Scene, Spot};
 use crate::truth::{self, ColorTruth, Truth};

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::colors::{self, compare_colors};
 use super::costs::{costs, work_of};
 use super::grid::{self, Grid};
-use super::metrics::{self, Band, Metrics};
 pub use super::options::MeasureOptions;
 use super::reference::{self, Reference};
 use crate::context;
 use crate::frame::{self, Renderer, draw_shade};
+use crate::judge::colors::{self, compare_colors};
+use crate::judge::metrics::{self, Band, Metrics};
 use crate::plan::{self, Request, ViewRequest};
 use crate::report::store::fingerprint;
 use crate::report::store::results::{

@@ -4,8 +4,8 @@
 //! units without false shadow, found by bisection over powers of two; of all factors the pair with the least leak wins.
 
 use super::grid;
-use super::metrics::{self, Band, FEWEST_COMPARED, Metrics};
 use crate::frame::{self, Renderer, draw_shade};
+use crate::judge::metrics::{self, Band, FEWEST_COMPARED, Metrics};
 use crate::scene::{self, Light, Scene, Settings, SettingsError, Shadow, with_shadow};
 use crate::techniques::{self, vary};
 use crate::truth::{self, Answer, Pixel, Truth};

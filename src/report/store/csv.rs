@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 use super::results::{Measured, Outcome, PassCost, Report, Row, SceneReport, Spread};
 use super::swept::PointOutcome;
-use crate::report::measure::colors::ColorErrors;
-use crate::report::measure::metrics::{EdgeDistance, Errors};
+use crate::judge::colors::ColorErrors;
+use crate::judge::metrics::{EdgeDistance, Errors};
 
 /// A header line, then the rows of each scene by index. Lines end in CR LF.
 pub fn to_csv(report: &Report) -> String {
@@ -187,7 +187,7 @@ fn error_columns(errors: Option<&Errors>) -> Vec<(String, Option<String>)> {
 }
 
 fn left_out_columns(measured: Option<&Measured>) -> [(&'static str, Option<String>); 5] {
-    let column = |name, of: fn(&crate::report::measure::metrics::NotCompared) -> usize| {
+    let column = |name, of: fn(&crate::judge::metrics::NotCompared) -> usize| {
         (name, measured.map(|measured| of(&measured.metrics.left_out).to_string()))
     };
     [

@@ -128,7 +128,7 @@ fn check(png: &[u8], scene: &SceneReport) -> Result<(), String> {
 mod tests {
     use super::super::{merge, write};
     use super::*;
-    use crate::report::measure::difference::to_png;
+    use crate::judge::difference::to_png;
     use crate::report::samples;
 
     fn png(size: [u32; 2]) -> Vec<u8> {

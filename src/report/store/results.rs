@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::claimed::Claimed;
 pub use super::spread::Spread;
 use super::swept::LightSweep;
-use crate::report::measure::colors::ColorErrors;
-use crate::report::measure::metrics::{FEWEST_COMPARED, Metrics};
+use crate::judge::colors::ColorErrors;
+use crate::judge::metrics::{FEWEST_COMPARED, Metrics};
 
 /// A whole report, or a part of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::spread::Spread;
-use crate::report::measure::colors::ColorErrors;
+use crate::judge::colors::ColorErrors;
 use crate::report::measure::fit::PowerFit;
 use crate::report::numbers::plain;
 

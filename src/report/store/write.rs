@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn an_older_reports_plots_and_pictures_are_removed_and_nothing_else() {
-        use crate::report::measure::difference::to_png;
+        use crate::judge::difference::to_png;
         use crate::report::show::html::{DifferencePicture, ScenePictures};
         let folder = tempfile::tempdir().unwrap();
         let png = to_png(&image::RgbImage::new(2, 2)).unwrap();
@@ -255,7 +255,7 @@ mod tests {
     /// Leaves a page to look at: `GLUMBRA_SAMPLE=/tmp/x cargo test --lib pictures_are_written`.
     #[test]
     fn pictures_are_written_into_the_page() {
-        use crate::report::measure::difference::to_png;
+        use crate::judge::difference::to_png;
         use crate::report::show::html::{DifferencePicture, ScenePictures};
         let temporary = tempfile::tempdir().unwrap();
         let folder = std::env::var_os("GLUMBRA_SAMPLE").map_or(temporary.path().to_owned(), PathBuf::from);

@@ -12,14 +12,19 @@ use code::{Arrow, Code, File, Module};
 
 /// Each module, and those that it may use directly; it may use what these may use, too.
 const ARROWS: &[(&str, &[&str])] = &[
-    ("cli", &["viewer", "figures", "stress", "report", "fixed_function", "conformance"]),
+    ("cli", &["viewer", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
     // Names of other modules.
     ("prelude", &["frame", "truth", "output"]),
     ("viewer", &["frame", "output"]),
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
-    ("report", &["frame", "truth", "output"]),
+    ("cases", &["judge", "output"]),
+    ("report", &["judge", "output"]),
+    // What a device reads back is a picture, too.
+    ("pictures", &["output"]),
+    // The bound between right and wrong is that of a technique's map.
+    ("judge", &["frame", "truth", "pictures"]),
     // A view decides the channels of its file.
     ("output", &["device", "views"]),
     // A renderer warns of depth formats that are not what they are called: it has them measured.

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::{DVec2, DVec3};
 use glumbra::frame::Renderer;
-use glumbra::report::measure::colors::draw_colors;
+use glumbra::judge::colors::draw_colors;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma};
 
 use super::{load_text, renderer};

@@ -14,7 +14,7 @@ use std::rc::Rc;
 
 use glumbra::context::{self, Context, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::report::measure::colors::{color_options, draw_colors, shadow_of};
+use glumbra::judge::colors::{color_options, draw_colors, shadow_of};
 use glumbra::scene::Scene;
 use glumbra::truth::{self, ColorPixel, ColorTruth};
 

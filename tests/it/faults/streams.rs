@@ -16,6 +16,8 @@ const COMMANDS: &[&str] = &[
     "check --filter D1 --verbose",
     "figures --list",
     "stress --list --case near",
+    "test --list cases",
+    "test cases",
     "tune scene.toml --sizes 64 --spare 100000",
     "tune scene.toml --sizes 64 --spare 100000 --json -",
     "report scene.toml --grid grid.toml --runs 1 -o out",
@@ -26,6 +28,9 @@ fn try_all(redirection: &str, expected: impl Fn(&str, &Output) -> Result<(), Str
     for command in COMMANDS {
         let folder = work();
         std::fs::write(folder.path().join("grid.toml"), "[[sweep]]\ntechnique = \"none\"\n").unwrap();
+        std::fs::create_dir_all(folder.path().join("cases/drawn")).unwrap();
+        let case = "asks = \"\"\nscene = \"../../scene.toml\"\n[[count]]\nclass = \"lit\"\nleast = 0.001\nwhy = \"\"\n";
+        std::fs::write(folder.path().join("cases/drawn/case.toml"), case).unwrap();
         // A warning on standard error: the model has no material library.
         let output = run(folder.path(), &format!("glumbra {command} {redirection}"));
         let error = text(&output.stderr);
@@ -56,7 +61,8 @@ fn a_reader_that_has_seen_enough_is_no_error() {
 #[test]
 fn a_full_standard_output_is_told() {
     try_all(">/dev/full", |command, output| {
-        let code = if command.starts_with("check") || command.starts_with("stress") { 2 } else { 1 };
+        let is_two = ["check", "stress", "test"].iter().any(|name| command.starts_with(name));
+        let code = if is_two { 2 } else { 1 };
         match refusal(output, code, "error: standard output: No space left on device") {
             None => Ok(()),
             Some(how) => Err(how),

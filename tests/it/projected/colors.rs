@@ -219,7 +219,7 @@ fn random_scenes_of_projected_light_have_the_colours_of_f64() {
 /// Colour errors of a report: nearly none of the right picture, and large ones of a wrong one.
 #[test]
 fn a_reports_colour_errors_are_small_for_the_scene_itself_and_large_for_another() {
-    use glumbra::report::measure::colors::{compare_colors, has_projected_light, true_colors};
+    use glumbra::judge::colors::{compare_colors, has_projected_light, true_colors};
 
     let (_context, mut renderer) = renderer();
     let wave = |at: u32| (127.5 + 127.5 * (f64::from(at) / 10.0).sin()) as u8;

@@ -202,7 +202,7 @@ fn keys_of_images_and_frusta_are_checked() {
 /// Shadows under frusta that are not square, by every technique, against the ray tracer.
 #[test]
 fn shadows_fall_alike_in_frusta_of_any_aspect() {
-    use glumbra::report::measure::metrics::{Band, compare};
+    use glumbra::judge::metrics::{Band, compare};
     use glumbra::{frame::draw_shade, techniques, truth};
 
     const TECHNIQUES: [&str; 8] = [

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use glumbra::frame::ShadeImage;
-use glumbra::report::measure::metrics::{Band, compare};
+use glumbra::judge::metrics::{Band, compare};
 use glumbra::scene::{Camera, Image, LightKind, Scene};
 use glumbra::truth::{self, Answer, Hit, Truth};
 

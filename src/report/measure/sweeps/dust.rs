@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::super::colors::{DrawnColors, draw_colors};
 use super::super::reference::{Error, MANY, in_floats, many_in_words, with_light, with_samples};
 use super::{Experiment, SweepRequest, counted};
 use crate::frame::Renderer;
+use crate::judge::colors::{DrawnColors, draw_colors};
 use crate::report::store::swept::LightSweep;
 use crate::scene::Scene;
 use crate::truth::{self, ColorTruth};

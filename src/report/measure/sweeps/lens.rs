@@ -5,7 +5,7 @@
 use super::super::reference::{Error, Samples, in_floats, many_in_words, with_samples, with_spot};
 use super::{Experiment, SweepRequest, counted, series};
 use crate::frame::Renderer;
-use crate::report::measure::colors::draw_colors;
+use crate::judge::colors::draw_colors;
 use crate::report::store::swept::LightSweep;
 use crate::scene::{self, Scene, with_shadow};
 use crate::techniques::{self, LightShadow, vary};

@@ -9,11 +9,11 @@ pub use lens::{FILTERING, POINTS};
 
 use image::RgbImage;
 
-use super::colors::{draw_colors, errors_of, known_or_drawn};
 use super::costs;
 use super::fit::power_law;
 use super::reference::Error;
 use crate::frame::Renderer;
+use crate::judge::colors::{draw_colors, errors_of, known_or_drawn};
 use crate::plan::Request;
 use crate::report::store::swept::{LightSweep, PointErrors, PointOutcome, SweepPoint, SweepSeries};
 use crate::scene::Scene;

@@ -1,6 +1,6 @@
 //! The measures of the table: names, units, what they mean, and how to read each from a row.
 
-use crate::report::measure::metrics::{EdgeDistance, Errors};
+use crate::judge::metrics::{EdgeDistance, Errors};
 use crate::report::numbers::fixed;
 use crate::report::store::csv::total_fragments;
 use crate::report::store::results::Measured;

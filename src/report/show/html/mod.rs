@@ -27,7 +27,7 @@ pub struct ReportPictures {
 pub struct ScenePictures {
     /// Row 0 with all its lights.
     pub picture: Option<Vec<u8>>,
-    /// By [`crate::report::measure::difference::truth_picture`].
+    /// By [`crate::judge::difference::truth_picture`].
     pub truth: Option<Vec<u8>>,
     /// Differences of the rows that matter most.
     pub differences: Vec<DifferencePicture>,
@@ -35,7 +35,7 @@ pub struct ScenePictures {
     pub light: Vec<(String, Vec<u8>)>,
 }
 
-/// By [`crate::report::measure::difference::difference_picture`].
+/// By [`crate::judge::difference::difference_picture`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DifferencePicture {
     /// The row's index in the grid.

@@ -3,7 +3,7 @@
 use super::ScenePictures;
 use super::svg::plot;
 use super::tags::{escape, figure};
-use crate::report::measure::flip;
+use crate::pictures::flip;
 use crate::report::numbers::{fixed, plain};
 use crate::report::show::plots::{self, Measure};
 use crate::report::store::light_pictures::{self, LightPictureName};
@@ -123,7 +123,9 @@ fn figures(scene: &SceneReport, pictures: &ScenePictures, sweep: Option<usize>) 
 }
 
 fn flip_legend() -> String {
-    let item = |([r, g, b], name): ([u8; 3], String)| {
+    let item = |([r, g, b], value): ([u8; 3], f32)| {
+        let more = if value >= flip::BRIGHTEST { " and more" } else { "" };
+        let name = format!("FLIP {}{more}", plain(f64::from(value)));
         format!("<li><span class=\"color\" style=\"background:#{r:02x}{g:02x}{b:02x}\"></span>{}</li>", escape(&name))
     };
     let items: String = flip::legend().into_iter().map(item).collect();

@@ -1,0 +1,71 @@
+//! Judges pictures of a light's shadow: pixel by pixel against exact visibility, by whichever renderer they are.
+//!
+//! A pixel counts if the ray tracer is certain and the picture shows the same surface. A wrong pixel is *explained* if a
+//! stated [`Bound`] accounts for it, and otherwise *beyond the bound*.
+//!
+//! # Bounds
+//! - **No map** ([`Bound::Exact`]: shadow volumes, ray tracing): no pixel may be wrong. The ray tracer's certainty then grants
+//!   a depth buffer's rounding, too.
+//! - **A shadow map of glumbra's own plan** ([`Bound::Map`]): only surfaces that face the light count; on the others shading
+//!   leaves no light. A wrong pixel is explained in four ways, all by the map's own numbers ([`MapInfo`]) and the scene:
+//!   1. A silhouette or an open edge, as the light sees it, lies within a lookup's reach (the *band*). An edge of the
+//!      visible surface itself counts if a texel holds the middle of two layers: past it the second one lies far behind.
+//!   2. The pixel is dark, and a caster within that reach lies before the visible surface's plane (a crease).
+//!   3. The pixel is dark, and a less steep surface within that reach is nearer to the light than its own polygon offset
+//!      compensates: an offset uses the slope of the surface that is stored, not of the one that is compared.
+//!   4. The pixel is lit, and its caster in the map lies so close before it that the bias reaches across.
+//!
+//!   For a midpoint map, instead of 2 and 3: the pixel is dark, and somewhere within that reach the middle between two
+//!   layers lies before it. So thin a caster shades its own lit side, where it falls away from the light.
+//! - **Another renderer** ([`Bound::Band`]), whose map is unknown: only surfaces that face the light count. A wrong pixel is
+//!   explained if a true shadow edge passes near it in the picture, or a silhouette near it, as the light sees it: the edge may
+//!   be hidden.
+//!
+//! A surface where the truth has none, or the other way around, is beyond every bound but a band, which explains one pixel
+//! along silhouettes.
+//!
+//! # Files
+//! `light.rs` judges a picture, `bound.rs` explains a map's wrong pixels, `near.rs`, `band.rs` and `edges.rs` know true shadow
+//! edges. `places.rs` says where a picture is wrong, `mistakes.rs` whether it only lies wrong.
+//! `metrics.rs` has a report's shares and distances of edges, `difference.rs` draws them. `colors.rs` compares colours.
+//!
+//! ```
+//! use glumbra::judge::{Bound, Judge};
+//! use glumbra::{context, frame::Renderer, frame::draw_shade};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = glumbra::load("data/cases/scenes/box.toml".as_ref(), &[])?.scene;
+//! // The picture may come from any renderer: 0 shadowed, 1 lit.
+//! let mut renderer = Renderer::new(&context::open(&Default::default())?);
+//! let shade = draw_shade(&scene, 0, &mut renderer)?;
+//!
+//! let mut judge = Judge::new(&scene, 0)?;
+//! let found = judge.shade(&shade, &Bound::Band { pixels: 3.0 })?;
+//! assert!(found.compared > 10_000 && found.share(found.wrong()) < 0.01);
+//! assert_eq!(found.beyond().len(), 0);
+//! # Ok(())
+//! # }
+//! ```
+
+mod band;
+mod bound;
+pub mod colors;
+pub mod difference;
+mod edges;
+mod light;
+pub mod metrics;
+mod mistakes;
+mod near;
+mod pictured;
+mod places;
+mod verdicts;
+
+pub use bound::{Bound, MOST_WRONG};
+pub use light::Judge;
+pub use mistakes::{FoundMistake, Mistake};
+pub use pictured::shade_of_pictures;
+pub use places::WrongRegion;
+pub use verdicts::{Judgement, PixelClass, Place};
+
+#[cfg(doc)]
+use crate::lights::MapInfo;
