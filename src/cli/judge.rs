@@ -275,7 +275,7 @@ impl JudgeArgs {
             )));
         }
         if let Some(path) = &self.unshadowed {
-            return Ok(self.ratio(raster, path)?);
+            return self.ratio(raster, path);
         }
         if self.kind == Kind::Color {
             let rgb = raster.to_rgb().filter(|_| raster.channels > 2);
