@@ -134,6 +134,7 @@ impl<'a> CaseBench<'a> {
         let [actual, expected, difference] =
             [(PICTURES[0], Some(actual)), (PICTURES[1], expected), (PICTURES[2], difference)]
                 .map(|(name, picture)| write(name, picture));
-        Failure { files: FailureFiles { actual, expected, difference, ..files }, ..message.into() }
+        let files = Box::new(FailureFiles { actual, expected, difference, ..files });
+        Failure { files, ..message.into() }
     }
 }

@@ -9,7 +9,19 @@
 //! use glumbra::cases::{CaseRunner, CaseVerdict, PixelCase, Settings};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let case = PixelCase::read("data/cases/shadow-map/sphere".as_ref(), "sphere")?;
+//! let text = r#"
+//! asks = "Is the shadow right?"
+//! scene = "sphere.toml"
+//! [[pick]]
+//! at = [0.5, 0.0, -0.375]
+//! class = "shadowed"
+//! why = "the middle of the sphere, projected: light + (center - light) * 5/4"
+//! [[truth]]
+//! false_shadow = 0.1
+//! leak = 0.1
+//! why = "a map of 256 texels"
+//! "#;
+//! let case = PixelCase::parse(text, "data/cases/scenes".as_ref(), "sphere")?;
 //! # let folder = tempfile::tempdir()?;
 //! let settings = Settings { failures: folder.path().into(), ..Settings::default() };
 //! let outcome = CaseRunner::new(settings).run(&case);

@@ -52,13 +52,13 @@ pub struct Failure {
     /// The check's key in the file and its number from 0; `gl` for a GL error; none where no check was come to.
     pub check: Option<(&'static str, usize)>,
     /// Pictures that show it.
-    pub files: FailureFiles,
+    pub files: Box<FailureFiles>,
 }
 
 impl Failure {
     /// A failure of a kind, in words.
     pub fn new(verdict: CaseVerdict, message: impl Into<String>) -> Self {
-        Self { verdict, message: message.into(), check: None, files: FailureFiles::default() }
+        Self { verdict, message: message.into(), check: None, files: Box::default() }
     }
 
     /// A GL error, whichever check drew.

@@ -34,12 +34,22 @@ impl PixelCase {
     /// path and line.
     pub fn read(folder: &Path, name: &str) -> Result<Self, Error> {
         let path = folder.join(FILE);
-        let text = std::fs::read_to_string(&path).map_err(|reason| Error::Read { path: path.clone(), reason })?;
-        let checks = toml::from_str(&text).map_err(|error| {
-            let line = line_of(&text, error.span().map_or(0, |span| span.start));
+        let text = std::fs::read_to_string(&path).map_err(|reason| Error::Read { path, reason })?;
+        Self::parse(&text, folder, name)
+    }
+
+    /// As [`PixelCase::read`], from the text of a `case.toml` that stands, or could stand, in `folder`.
+    ///
+    /// # Errors
+    ///
+    /// Another key or value than a case has, or a check that is worth nothing: with the line.
+    pub fn parse(text: &str, folder: &Path, name: &str) -> Result<Self, Error> {
+        let path = folder.join(FILE);
+        let checks = toml::from_str(text).map_err(|error| {
+            let line = line_of(text, error.span().map_or(0, |span| span.start));
             Error::Format { path: path.clone(), line, message: error.message().to_owned() }
         })?;
-        let lines = Lines::of(&text);
+        let lines = Lines::of(text);
         let case = Self { folder: folder.to_owned(), name: name.to_owned(), checks, variant: None, lines };
         refused::check(&case.checks).map_err(|(place, message)| {
             let line = place.and_then(|(kind, index)| case.line(kind, index)).unwrap_or(1);

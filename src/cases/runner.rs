@@ -95,7 +95,7 @@ fn outcome(case: &PixelCase, failure: Option<Failure>, measured: Vec<String>, to
         outcome.check = failure.check.map(|(kind, _)| kind.to_owned());
         outcome.verdict = failure.verdict;
         outcome.message = Some(failure.message);
-        outcome.files = failure.files;
+        outcome.files = *failure.files;
     }
     outcome
 }

@@ -1,4 +1,4 @@
-//! What `compare` and `judge` share: an answer as text or JSON, and the texts of pictures.
+//! Parts that `compare` and `judge` share: an answer as text or JSON, and the texts of pictures.
 
 use std::path::Path;
 

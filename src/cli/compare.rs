@@ -21,7 +21,7 @@ pub struct CompareArgs {
     /// The picture
     actual: PathBuf,
 
-    /// What it should be
+    /// The picture that it should be
     expected: PathBuf,
 
     /// Greatest difference of a channel, in codes of 1/255
@@ -42,8 +42,8 @@ pub struct CompareArgs {
     spot: Option<u32>,
 
     /// Finds FLIP, the difference that a viewer sees, in 0 to 1; MAX: its greatest mean
-    #[arg(long, value_name = "MAX", num_args = 0..=1, default_missing_value = "1", value_parser = parse_flip)]
-    flip: Option<f64>,
+    #[arg(long, value_name = "MAX", num_args = 0..=1, value_parser = parse_flip)]
+    flip: Option<Option<f64>>,
 
     /// Writes a picture of the differences (.png): black where there are none, white from 16 codes on
     #[arg(short, long, value_name = "FILE")]
@@ -73,7 +73,7 @@ const ROUNDED_CODES: f64 = 1e-4;
 /// Limits in codes of the table of tolerances that would pass.
 const LIMITS: [f64; 6] = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0];
 
-/// What `--json` writes.
+/// Object that `--json` writes.
 #[derive(Serialize)]
 struct Report {
     actual: String,
@@ -173,7 +173,8 @@ fn is_within(
     flip: Option<&FlipMap>,
 ) -> bool {
     let limit = |codes: f64| (codes + ROUNDED_CODES) / 255.0;
-    let has_limit = arguments.max.is_some() || arguments.mean.is_some() || arguments.flip.is_some();
+    let most_flip = arguments.flip.flatten();
+    let has_limit = arguments.max.is_some() || arguments.mean.is_some() || most_flip.is_some();
     if !has_limit {
         return found.difference.count == 0;
     }
@@ -183,7 +184,7 @@ fn is_within(
         100.0 * found.share_beyond(slight) <= arguments.share.unwrap_or(0.0) && !arguments.spot.is_some_and(is_spot)
     });
     let by_mean = arguments.mean.is_none_or(|mean| found.difference.mean <= limit(mean));
-    let by_flip = arguments.flip.zip(flip).is_none_or(|(most, map)| map.mean() <= most);
+    let by_flip = most_flip.zip(flip).is_none_or(|(most, map)| map.mean() <= most);
     by_max && by_mean && by_flip
 }
 

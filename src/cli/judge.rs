@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use super::answers;
 use super::compare::parse_percent;
 use super::json::JsonArgs;
-use super::judge_report::{self, Limits, Report};
+use super::judge_report::{self, JudgeLimits, JudgeReport};
 use super::scene_args::SceneArgs;
 use super::screen::Screen;
 use super::{Error, text_keys};
@@ -52,7 +52,7 @@ pub struct JudgeArgs {
     #[arg(long, value_name = "VALUE")]
     nothing: Option<f32>,
 
-    /// What explains a wrong pixel: a true shadow edge within so many pixels of the picture; or `technique`, the bound of the
+    /// Explanation of wrong pixels: a true shadow edge within so many pixels of the picture; or `technique`, the bound of the
     /// scene's own shadow map, for glumbra's pictures; or `exact`, nothing
     #[arg(long, value_name = "PIXELS", default_value = "3", value_parser = parse_band)]
     band: Band,
@@ -96,7 +96,7 @@ enum Kind {
     Color,
 }
 
-/// What explains a wrong pixel.
+/// Explanation of wrong pixels.
 #[derive(Clone, Copy, Debug)]
 enum Band {
     Pixels(f64),
@@ -163,7 +163,7 @@ fn judge(arguments: &JudgeArgs, screen: Screen) -> Result<bool, Error> {
     }
     let file = pictures::read(&arguments.picture)?;
     let picture = arguments.picture_of(&file, scene)?;
-    let bound = arguments.bound(scene)?;
+    let bound = arguments.bound(scene, arguments.light)?;
     let spinner = screen.spinner("tracing rays");
     spinner.enable_steady_tick(std::time::Duration::from_millis(100));
     let judged = Judged::of(arguments, scene, &bound, picture);
@@ -175,14 +175,14 @@ fn judge(arguments: &JudgeArgs, screen: Screen) -> Result<bool, Error> {
         let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &png));
         written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
     }
-    let limits = Limits {
+    let limits = JudgeLimits {
         false_shadow: arguments.max_false_shadow,
         leak: arguments.max_leak,
         outside: arguments.max_outside,
         edge: arguments.max_edge,
     };
     let places = judge.regions(&judgement, arguments.worst);
-    let report = Report {
+    let report = JudgeReport {
         scene: arguments.scene.scene.display().to_string(),
         picture: arguments.picture.display().to_string(),
         light: arguments.light,
@@ -193,7 +193,7 @@ fn judge(arguments: &JudgeArgs, screen: Screen) -> Result<bool, Error> {
         edges,
         places: places.iter().map(|place| judge_report::PlaceReport::of(place, scene)).collect(),
         limits,
-        ..Report::of(&judgement)
+        ..JudgeReport::of(&judgement)
     };
     let within = report.is_within();
     answers::answer(&arguments.json, "judge", &report.to_json()?, || report.to_text())?;
@@ -220,7 +220,8 @@ impl<'a> Judged<'a> {
                 // Colours show the shadow edges of every light.
                 for light in (0..scene.lights.len()).filter(|light| *light != arguments.light) {
                     if shadow_of(&scene.lights[light].shadow, false).is_some() && judgement.outside_band > 0 {
-                        let other = Judge::new(scene, light)?.colors(&truth, &drawn, bound)?;
+                        let bound = arguments.bound(scene, light)?;
+                        let other = Judge::new(scene, light)?.colors(&truth, &drawn, &bound)?;
                         judgement = judgement.explained_by(&other);
                     }
                 }
@@ -244,13 +245,14 @@ impl<'a> Judged<'a> {
 }
 
 impl JudgeArgs {
-    fn bound(&self, scene: &Scene) -> Result<Bound, Error> {
+    /// The bound of light number `light`.
+    fn bound(&self, scene: &Scene, light: usize) -> Result<Bound, Error> {
         Ok(match self.band {
             Band::Pixels(pixels) => Bound::Band { pixels },
             Band::Exact => Bound::Exact,
             Band::Technique => {
                 let request = Request { sampled_warnings: false, ..Request::default() };
-                Bound::of_plan(scene, &plan::make(scene, &request)?, self.light)
+                Bound::of_plan(scene, &plan::make(scene, &request)?, light)
             }
         })
     }
@@ -274,7 +276,7 @@ impl JudgeArgs {
             )));
         }
         if let Some(path) = &self.unshadowed {
-            return Ok(self.ratio(raster, path)?);
+            return self.ratio(raster, path);
         }
         if self.kind == Kind::Color {
             let rgb = raster.to_rgb().filter(|_| raster.channels > 2);
@@ -343,7 +345,7 @@ impl JudgeArgs {
         Ok(Picture::Shade { image, knows_surfaces: false })
     }
 
-    /// What the picture says of itself, where that is another scene than the one that is given.
+    /// The picture's own words on its scene, where that is another scene than the one that is given.
     fn notes(&self, file: &PictureFile) -> Vec<String> {
         let given = [
             (text_keys::SCENE, self.scene.scene.display().to_string()),

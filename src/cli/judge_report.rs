@@ -6,12 +6,12 @@ use serde::Serialize;
 
 use super::Error;
 use crate::judge::metrics::EdgeDistance;
-use crate::judge::{Judgement, PixelClass, Place, WrongRegion};
+use crate::judge::{Explanation, Judgement, PixelClass, WrongRegion};
 use crate::scene::Scene;
 
-/// Limits; `None`: none.
+/// JudgeLimits; `None`: none.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Limits {
+pub struct JudgeLimits {
     pub false_shadow: Option<f64>,
     pub leak: Option<f64>,
     pub outside: Option<usize>,
@@ -21,13 +21,13 @@ pub struct Limits {
 
 /// Figures of one picture.
 #[derive(Serialize)]
-pub struct Report {
+pub struct JudgeReport {
     pub scene: String,
     pub picture: String,
     pub light: usize,
     pub light_name: String,
     pub size: [u32; 2],
-    /// What explains a wrong pixel.
+    /// Explanation of wrong pixels, in words.
     pub band: String,
     pub compared: usize,
     pub false_shadow: usize,
@@ -49,7 +49,7 @@ pub struct Report {
     pub mistake: Option<String>,
     pub notes: Vec<String>,
     pub places: Vec<PlaceReport>,
-    pub limits: Limits,
+    pub limits: JudgeLimits,
 }
 
 /// A place where the picture is wrong.
@@ -77,11 +77,11 @@ impl PlaceReport {
             PixelClass::FalseShadow(place) => ("false shadow", place),
             PixelClass::Leak(place) => ("leak", place),
             PixelClass::Surface(place) => ("surface in only one of the two", place),
-            _ => ("light beside the spotlight", Place::Beyond),
+            _ => ("light beside the spotlight", Explanation::Beyond),
         };
         Self {
             kind,
-            explained: place == Place::Explained,
+            explained: place == Explanation::Explained,
             pixels: region.pixels,
             outside_band: region.beyond,
             bounds: region.bounds,
@@ -121,7 +121,7 @@ impl PlaceReport {
     }
 }
 
-impl Report {
+impl JudgeReport {
     /// Counts of a judgement; the rest is empty.
     pub fn of(found: &Judgement) -> Self {
         let count = |class: PixelClass| found.classes.iter().filter(|known| **known == class).count();
@@ -150,7 +150,7 @@ impl Report {
             mistake: None,
             notes: Vec::new(),
             places: Vec::new(),
-            limits: Limits { false_shadow: None, leak: None, outside: None, edge: None },
+            limits: JudgeLimits { false_shadow: None, leak: None, outside: None, edge: None },
         }
     }
 
@@ -219,7 +219,7 @@ impl Report {
         for failure in &failures {
             let _ = writeln!(text, "fails: {failure}");
         }
-        let Limits { false_shadow, leak, outside, edge } = self.limits;
+        let JudgeLimits { false_shadow, leak, outside, edge } = self.limits;
         let has_limit = false_shadow.is_some() || leak.is_some() || outside.is_some() || edge.is_some();
         if failures.is_empty() {
             text += match has_limit {

@@ -284,7 +284,7 @@ fn draw(
 }
 
 impl RenderArgs {
-    /// What a PNG says of itself: all that decides its pixels, and no time.
+    /// Texts of a PNG: all that decides its pixels, and no time.
     fn texts(&self, path: &Path, scene: &Scene, driver: String) -> Vec<(&'static str, String)> {
         let technique = |light: &Light| LightShadow::of(&light.shadow).map_or("none", |shadow| shadow.technique.name());
         let techniques: Vec<&str> = scene.lights.iter().map(technique).collect();

@@ -3,7 +3,7 @@
 use glow::HasContext;
 
 use super::layer::{AlphaSource, Layer, LayerBlend, Primary, UnitCoordinates, UnitImage};
-use super::units::{self, Bound};
+use super::units::{self, BoundTexture};
 use super::{Error, FixedFunction, bounds, lighting, tangent_vectors};
 use crate::context::compatibility::raw;
 use crate::device::compare_code;
@@ -46,15 +46,15 @@ impl FixedFunction {
         for unit in &layer.units {
             textures.push(match unit.image {
                 UnitImage::Mask(mask) => {
-                    Some(Bound { texture: self.masks.get(mask)?, sampler: None, alpha: AlphaSource::Own })
+                    Some(BoundTexture { texture: self.masks.get(mask)?, sampler: None, alpha: AlphaSource::Own })
                 }
                 UnitImage::Cube(index) => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.cube_map(input.image)?;
-                    Some(Bound { texture, sampler: Some(input.sampler), alpha: AlphaSource::Own })
+                    Some(BoundTexture { texture, sampler: Some(input.sampler), alpha: AlphaSource::Own })
                 }),
                 UnitImage::Input { index, alpha } => batch.inputs.get(index).and_then(|input| {
                     let texture = self.device.texture(input.image)?;
-                    Some(Bound { texture, sampler: Some(input.sampler), alpha })
+                    Some(BoundTexture { texture, sampler: Some(input.sampler), alpha })
                 }),
             });
         }

@@ -20,7 +20,7 @@ const COORDINATES: [(u32, u32); 4] = [
 
 /// A texture with what it is sampled by.
 #[derive(Clone, Copy, Debug)]
-pub struct Bound {
+pub struct BoundTexture {
     pub texture: glow::Texture,
     /// `None`: as the texture's own parameters say.
     pub sampler: Option<Sampler>,
@@ -28,7 +28,7 @@ pub struct Bound {
 }
 
 /// Switches unit `index` on.
-pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, bound: Bound) {
+pub fn enable(gl: &glow::Context, fixed: &Binding, index: u32, unit: &Unit, bound: BoundTexture) {
     let target = if let UnitImage::Cube(_) = unit.image { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D };
     // SAFETY: the context is current and of the compatibility profile; every pointer is to values that outlive the
     // call.

@@ -1,5 +1,4 @@
-//! What may be wrong in a picture: the bound between right and wrong of each kind of renderer, and how a shadow map's own
-//! numbers explain a wrong pixel.
+//! The bound between right and wrong of each kind of renderer, and how a shadow map's own numbers explain a wrong pixel.
 
 use crate::lights::map::Bias;
 use crate::lights::{MapInfo, MapShape};

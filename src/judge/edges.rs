@@ -62,7 +62,7 @@ fn is_connected(a: &Pixel, b: &Pixel) -> bool {
     in_light && a.hit.zip(b.hit).is_some_and(|(a, b)| is_near(&a, &b))
 }
 
-fn is_near(a: &Hit, b: &Hit) -> bool {
+pub(super) fn is_near(a: &Hit, b: &Hit) -> bool {
     a.position.distance(b.position) <= a.pixel_size + b.pixel_size
 }
 

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 
 use super::bound::{Bound, explains, reach};
 use super::colors::{DrawnColors, excess};
+use super::edges::is_near;
 use super::metrics::{self, EdgeDistance, is_lit};
 use super::near::NearEdges;
-use super::verdicts::{Judgement, PixelClass, Place};
+use super::verdicts::{Explanation, Judgement, PixelClass};
 use crate::frame::ShadeImage;
 use crate::lights::MapInfo;
 use crate::scene::{LightKind, LightShape, Scene};
@@ -112,7 +113,8 @@ impl<'a> Judge<'a> {
     }
 
     fn wrong_class(&mut self, bound: &Bound, index: usize, should_be_lit: bool) -> PixelClass {
-        let place = if self.accounts_for(bound, index, should_be_lit) { Place::Explained } else { Place::Beyond };
+        let place =
+            if self.accounts_for(bound, index, should_be_lit) { Explanation::Explained } else { Explanation::Beyond };
         if should_be_lit { PixelClass::FalseShadow(place) } else { PixelClass::Leak(place) }
     }
 
@@ -223,9 +225,9 @@ impl<'a> Judge<'a> {
     }
 
     /// Surfaces in only one of the two are explained by a band alone, along silhouettes.
-    fn place_of_surface(&self, bound: &Bound, index: usize) -> Place {
+    fn place_of_surface(&self, bound: &Bound, index: usize) -> Explanation {
         let is_near = self.near.as_ref().is_some_and(|near| near.is_by_silhouette(index));
-        if matches!(bound, Bound::Band { .. }) && is_near { Place::Explained } else { Place::Beyond }
+        if matches!(bound, Bound::Band { .. }) && is_near { Explanation::Explained } else { Explanation::Beyond }
     }
 
     /// Tests whether the bound explains a wrong pixel.
@@ -254,11 +256,22 @@ impl<'a> Judge<'a> {
             return true;
         }
         let [x, y] = self.place(index);
-        // The light sees lengths on a surface shortened by the cosine.
-        let on_surface = self.truth.pixels[index].hit.map(|hit| pixels * hit.pixel_size * hit.cos_light.abs());
+        let cos = self.truth.pixels[index].hit.map(|hit| hit.cos_light.abs());
         let scale = self.surroundings.around(x, y, 0.0).map(|around| around.scale);
-        let reach = on_surface.zip(scale).map(|(on_surface, scale)| on_surface / scale);
+        // The light sees lengths on a surface shortened by the cosine; the corners of the square that is searched lie farther.
+        let on_surface = self.pixel_step(index) * pixels * std::f64::consts::FRAC_1_SQRT_2;
+        let reach = cos.zip(scale).map(|(cos, scale)| on_surface * cos / scale);
         reach.and_then(|reach| self.surroundings.around(x, y, reach)).is_some_and(|around| around.edge)
+    }
+
+    /// The shortest way on the surface to the point that a neighbour shows, in world units; 0: none shows this surface.
+    fn pixel_step(&self, index: usize) -> f64 {
+        let [x, y] = self.place(index);
+        let Some(here) = self.truth.pixels[index].hit else { return 0.0 };
+        let beside = [(x.wrapping_sub(1), y), (x + 1, y), (x, y.wrapping_sub(1)), (x, y + 1)];
+        let hits = beside.into_iter().filter_map(|(x, y)| self.truth.at(x, y)?.hit).filter(|hit| is_near(&here, hit));
+        let step = hits.map(|hit| here.position.distance(hit.position)).fold(f64::INFINITY, f64::min);
+        if step.is_finite() { step } else { 0.0 }
     }
 }
 

@@ -7,7 +7,7 @@ use super::metrics::is_lit;
 use crate::frame::ShadeImage;
 use crate::truth::{self, Answer, Truth};
 
-/// What would make a picture fit much better.
+/// Mistake without which a picture would fit much better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
     /// Its rows are in the order of OpenGL, from the bottom up.
@@ -27,7 +27,7 @@ pub enum Mistake {
 /// A mistake, and how far it explains what is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundMistake {
-    /// What would make the picture fit.
+    /// The mistake.
     pub mistake: Mistake,
     /// Wrong pixels over those compared, as the picture is, in [0, 1].
     pub wrong_share: f64,

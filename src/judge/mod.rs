@@ -18,8 +18,8 @@
 //!   For a midpoint map, instead of 2 and 3: the pixel is dark, and somewhere within that reach the middle between two
 //!   layers lies before it. So thin a caster shades its own lit side, where it falls away from the light.
 //! - **Another renderer** ([`Bound::Band`]), whose map is unknown: only surfaces that face the light count. A wrong pixel is
-//!   explained if a true shadow edge passes near it in the picture, or a silhouette near it, as the light sees it: the edge may
-//!   be hidden.
+//!   explained if a true shadow edge passes within so many pixels of it in the picture, or a silhouette, as the light sees it,
+//!   within as many on its surface: the edge may be hidden.
 //!
 //! A surface where the truth has none, or the other way around, is beyond every bound but a band, which explains one pixel
 //! along silhouettes.
@@ -65,7 +65,7 @@ pub use light::Judge;
 pub use mistakes::{FoundMistake, Mistake};
 pub use pictured::shade_of_pictures;
 pub use places::WrongRegion;
-pub use verdicts::{Judgement, PixelClass, Place};
+pub use verdicts::{Explanation, Judgement, PixelClass};
 
 #[cfg(doc)]
 use crate::lights::MapInfo;

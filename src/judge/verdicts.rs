@@ -1,11 +1,11 @@
-//! What a judge says of a picture: a class for each pixel, and their counts.
+//! A judge's answer on a picture: a class for each pixel, and their counts.
 
 use super::bound::MOST_WRONG;
 use super::metrics::FEWEST_COMPARED;
 
-/// Place of a wrong pixel.
+/// Tells whether a wrong pixel is explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Place {
+pub enum Explanation {
     /// The bound explains it.
     Explained,
     /// Nothing explains it.
@@ -28,11 +28,11 @@ pub enum PixelClass {
     /// Picture and truth agree.
     Right,
     /// Shadow where light belongs: acne, and light lost.
-    FalseShadow(Place),
+    FalseShadow(Explanation),
     /// Light where shadow belongs.
-    Leak(Place),
+    Leak(Explanation),
     /// Only the truth, or only the picture, shows a surface.
-    Surface(Place),
+    Surface(Explanation),
     /// Light beside a spotlight's cone or frustum, in a picture that shows light and not shade.
     LightOutside,
 }
@@ -52,9 +52,9 @@ impl PixelClass {
     pub fn is_beyond(self) -> bool {
         matches!(
             self,
-            Self::FalseShadow(Place::Beyond)
-                | Self::Leak(Place::Beyond)
-                | Self::Surface(Place::Beyond)
+            Self::FalseShadow(Explanation::Beyond)
+                | Self::Leak(Explanation::Beyond)
+                | Self::Surface(Explanation::Beyond)
                 | Self::LightOutside
         )
     }
@@ -111,9 +111,9 @@ impl Judgement {
     pub fn explained_by(self, other: &Self) -> Self {
         let is_explained = |class: &PixelClass| class.is_wrong() && !class.is_beyond();
         let classes = self.classes.iter().zip(&other.classes).map(|(class, other)| match class {
-            PixelClass::FalseShadow(_) if is_explained(other) => PixelClass::FalseShadow(Place::Explained),
-            PixelClass::Leak(_) if is_explained(other) => PixelClass::Leak(Place::Explained),
-            PixelClass::Surface(_) if is_explained(other) => PixelClass::Surface(Place::Explained),
+            PixelClass::FalseShadow(_) if is_explained(other) => PixelClass::FalseShadow(Explanation::Explained),
+            PixelClass::Leak(_) if is_explained(other) => PixelClass::Leak(Explanation::Explained),
+            PixelClass::Surface(_) if is_explained(other) => PixelClass::Surface(Explanation::Explained),
             same => *same,
         });
         Self::of(self.size, classes.collect())

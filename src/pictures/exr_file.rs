@@ -7,8 +7,8 @@ use exr::meta::MetaData;
 use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, read};
 
+use super::picture_file::check_size;
 use super::raster::Raster;
-use super::read::check_size;
 
 /// Names of colours' channels in their order.
 const ORDER: [&str; 5] = ["Y", "R", "G", "B", "A"];

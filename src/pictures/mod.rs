@@ -22,11 +22,13 @@ mod comparison;
 mod exr_file;
 pub mod flip;
 mod npy_file;
+mod picture_file;
 mod png_file;
 mod raster;
 mod read;
 
 pub use compare::{PixelDifference, Tolerance};
 pub use comparison::{Comparison, alike};
+pub use picture_file::{MOST_VALUES, PictureFile};
 pub use raster::Raster;
-pub use read::{Error, MOST_VALUES, PictureFile, read, read_bytes};
+pub use read::{Error, read, read_bytes};

@@ -1,7 +1,7 @@
 //! NPY files, NumPy's arrays, as floats: numpy.lib.format, versions 1 to 3.
 
+use super::picture_file::check_size;
 use super::raster::Raster;
-use super::read::check_size;
 
 /// A number in a file.
 #[derive(Clone, Copy)]

@@ -5,8 +5,8 @@ use std::io::Cursor;
 
 use png::{BitDepth, Transformations};
 
+use super::picture_file::{MOST_VALUES, PictureFile, check_size};
 use super::raster::Raster;
-use super::read::{MOST_VALUES, PictureFile, check_size};
 
 /// Reads a PNG file's content.
 pub(super) fn decode(bytes: &[u8]) -> Result<PictureFile, String> {

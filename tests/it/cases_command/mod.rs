@@ -13,7 +13,10 @@ use assert_cmd::cargo::CommandCargoExt;
 
 fn glumbra(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::cargo_bin("glumbra").unwrap();
-    command.current_dir(folder).arg("test").args(arguments).env_remove("CARGO_TARGET_DIR").output().unwrap()
+    for name in ["CARGO_TARGET_DIR", "DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(name);
+    }
+    command.current_dir(folder).arg("test").args(arguments).output().unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -189,6 +192,7 @@ fn wrong_use_is_refused() {
     refused(&["empty"], &["no case.toml at or below empty"]);
     refused(&["all", "--filter", "no such"], &["no case of 3 has \"no such\" in its name"]);
     refused(&["all", "--exact"], &["--filter"]);
+    refused(&["all/passes", "--context", "window"], &["no OpenGL context can be had"]);
     refused(&["all", "--shard", "3/2"], &["1 <= I <= N"]);
     refused(&["all", "--jobs", "0"], &["0 is not in 1..=256"]);
     refused(&["all", "bad", "--json", "x", "--junit", "x"], &["bad/key/case.toml:3: unknown field `picks`"]);

@@ -49,6 +49,7 @@ fn limits_decide_the_exit_status() {
         (&["--mean", &format!("{}", mean * 1.05)], 0),
         (&["--mean", &format!("{}", mean * 0.95)], 1),
         (&["--max", "40", "--mean", "0"], 1),
+        (&["--flip"], 1),
         (&["--flip", "0.1"], 0),
         (&["--flip", "0"], 1),
         (&["--max", "39", "--flip", "0.1"], 1),

@@ -17,7 +17,7 @@ fn rgb_of(codes: &[u8]) -> Vec<f32> {
     codes.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).map(|code| f32::from(code) / 255.0).collect()
 }
 
-/// What glumbra writes: a picture in 8 bits and in floats, and a depth.
+/// A file that glumbra writes.
 fn written(name: &str, pixels: &Pixels) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);

@@ -117,8 +117,22 @@ fn mistakes_are_named() {
 #[test]
 fn colored_pictures_are_judged() {
     let folder = drawn();
-    let own =
-        glumbra(folder.path(), &["judge", &scene(), "a.png", "--kind", "color", "--band", "6", "--max-outside", "5"]);
+    let own = glumbra(
+        folder.path(),
+        &[
+            "judge",
+            &scene(),
+            "a.png",
+            "--kind",
+            "color",
+            "--band",
+            "technique",
+            "--max-outside",
+            "0",
+            "--set",
+            "light.shadow.size=128",
+        ],
+    );
     assert_eq!(own.status.code(), Some(0), "{}{}", text(&own.stdout), text(&own.stderr));
     // Another lighting model for glumbra: half as bright, with another light and ambient light in it.
     let render = |name: &str, set: &[&str]| {

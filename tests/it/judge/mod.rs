@@ -9,7 +9,7 @@ use std::path::Path;
 use glumbra::context;
 use glumbra::frame::{Renderer, ShadeImage};
 use glumbra::judge::colors::{draw_colors, true_colors};
-use glumbra::judge::{Bound, Judge, Judgement, Mistake, PixelClass, Place};
+use glumbra::judge::{Bound, Explanation, Judge, Judgement, Mistake, PixelClass};
 use glumbra::plan::{Request, ViewRequest};
 use glumbra::scene::Scene;
 use glumbra::truth::Answer;
@@ -40,6 +40,9 @@ fn assert_counted_once(found: &Judgement) {
     assert_eq!(left_out + found.compared, found.classes.len());
     assert_eq!(count(PixelClass::Right) + found.wrong(), found.compared);
     assert_eq!(found.beyond().len(), found.outside_band);
+    let drawn = found.classes.len() - count(PixelClass::Background);
+    assert_eq!((found.drawn, found.unknown), (drawn, count(PixelClass::Unknown)));
+    assert!((found.unknown_share() - found.unknown as f64 / drawn as f64).abs() < 1e-15);
 }
 
 #[test]
@@ -54,6 +57,61 @@ fn a_perfect_shade_has_no_wrong_pixel_by_any_bound() {
         assert!(found.compared > 10_000 && found.unknown < 500, "{bound:?}");
     }
     assert_eq!(judge.mistake(&shade, true).unwrap(), None);
+    // Without a map, surfaces that are turned away from the light count, too.
+    let [exact, facing] = [Bound::Exact, Bound::NoMap].map(|bound| judge.shade(&shade, &bound).unwrap());
+    let turned_away = |found: &Judgement| found.classes.iter().filter(|c| **c == PixelClass::TurnedAway).count();
+    assert_eq!(turned_away(&exact), 0);
+    assert!(turned_away(&facing) > 100 && exact.compared > facing.compared + 100);
+}
+
+/// The outline of the box may lie a pixel aside in another renderer's picture, and its middle may not be missing.
+#[test]
+fn surfaces_are_explained_along_silhouettes_alone() {
+    let scene = scene("box.toml", &[]);
+    let mut judge = Judge::new(&scene, 0).unwrap();
+    let right = perfect(&mut judge);
+    let width = right.width as usize;
+    let objects: Vec<Option<u32>> =
+        judge.truth(&Bound::NoMap).pixels.iter().map(|pixel| pixel.hit.map(|hit| hit.object)).collect();
+    let known: Vec<bool> = {
+        let pixels = judge.truth(&Bound::NoMap).pixels.iter();
+        pixels.map(|pixel| matches!(pixel.answer, Answer::Lit | Answer::Shadowed)).collect()
+    };
+    // The box against the floor behind it; above its bottom, where it touches the floor.
+    let is_outline = |index: &usize| objects[*index] == Some(1) && objects[index - width] == Some(0) && known[*index];
+    let outline = (width..objects.len()).find(is_outline).unwrap();
+    let is_middle =
+        |index: &usize| (0..9).all(|k| objects[index + k] == Some(1) && objects[index + 4 * width] == Some(1));
+    let middle = 4 + (width..objects.len() - 9).find(is_middle).unwrap() + 2 * width;
+    for (pixel, explained) in [(outline, true), (middle, false)] {
+        let mut shade = right.clone();
+        shade.covered[pixel] = false;
+        for (bound, explained) in [(Bound::Band { pixels: 3.0 }, explained), (Bound::NoMap, false)] {
+            let found = judge.shade(&shade, &bound).unwrap();
+            assert_eq!((found.surface, found.outside_band), (1, usize::from(!explained)), "{pixel} {bound:?}");
+        }
+    }
+}
+
+/// Beside the spotlight a shade has no meaning, and a picture no light.
+#[test]
+fn light_beside_a_spotlight_is_wrong_in_a_picture_and_nothing_in_a_shade() {
+    let scene = scene("box.toml", &[]);
+    let mut judge = Judge::new(&scene, 0).unwrap();
+    let mut shade = perfect(&mut judge);
+    let beside: Vec<usize> = {
+        let pixels = judge.truth(&Bound::NoMap).pixels.iter().enumerate();
+        let outside = pixels.filter(|(_, pixel)| pixel.answer == Answer::OutsideCone);
+        outside.filter(|(_, p)| p.hit.unwrap().in_map.length() > 1.0).map(|(index, _)| index).collect()
+    };
+    assert!(beside.len() > 1000);
+    for index in &beside[..25] {
+        shade.shade[*index] = 0.01;
+    }
+    let picture = judge.pictured_shade(&shade, &Bound::NoMap).unwrap();
+    assert_eq!((picture.light_outside, picture.wrong(), picture.outside_band), (25, 25, 25));
+    let as_shade = judge.shade(&shade, &Bound::NoMap).unwrap();
+    assert_eq!((as_shade.wrong(), picture.compared), (0, as_shade.compared + beside.len()));
 }
 
 /// Any number of pixels anywhere, by a seed: each count is exact.
@@ -90,7 +148,7 @@ fn planted_pixels_are_counted_exactly() {
         assert_eq!([found.false_shadow, found.leak, found.surface], [lost, count - lost, 2]);
         assert_eq!((found.outside_band, found.light_outside), (count + 2, 0), "nothing explains a wrong pixel");
         assert_eq!(found.classes[unknown], PixelClass::NoShade);
-        assert_eq!(found.classes[missing], PixelClass::Surface(Place::Beyond));
+        assert_eq!(found.classes[missing], PixelClass::Surface(Explanation::Beyond));
         let mut expected: Vec<usize> = chosen.iter().map(|(index, _)| *index).chain([missing, background]).collect();
         expected.sort_unstable();
         assert_eq!(found.beyond(), expected);
@@ -263,6 +321,13 @@ fn shadows_that_are_moved_are_as_far_from_the_true_edges() {
     let right = perfect(&mut judge);
     let [shown, real] = judge.edge_distances(&right).unwrap().map(Option::unwrap);
     assert!(shown.mean_pixels < 0.2 && real.mean_pixels < 0.2, "{shown:?} {real:?}");
+    // Acne far from any edge: shown edges lie far from true ones, and true ones are all shown.
+    let mut acne = right.clone();
+    let bright = pixel_of(&mut judge, |pixel| pixel.answer == Answer::Lit && pixel.hit.unwrap().object == 0);
+    acne.shade[bright] = 0.0;
+    let distance = edge_distance(&mut judge, bright);
+    let [shown, real] = judge.edge_distances(&acne).unwrap().map(Option::unwrap);
+    assert!((shown.max_pixels - distance).abs() < 1.0 && real.max_pixels < 0.2, "{distance} {shown:?} {real:?}");
     let off = moved(&right, |x, y| [x, y - 5]);
     let [_, real] = judge.edge_distances(&ShadeImage { covered: right.covered.clone(), ..off }).unwrap();
     let real = real.unwrap();
@@ -308,7 +373,8 @@ fn colors_are_judged_by_their_bounds() {
     let bound = Bound::Band { pixels: 3.0 };
     let found = judge.colors(&truth, &right, &bound).unwrap();
     assert_counted_once(&found);
-    assert_eq!((found.outside_band, found.surface), (0, 0), "{found:?}");
+    // Under the box's upper edge the map's texels see its top.
+    assert!(found.outside_band <= 10 && found.surface == 0, "{} {}", found.outside_band, found.surface);
     assert!(found.compared > 10_000);
     // 16 pixels of lit floor 8 codes too dark, and then too bright.
     let start = pixel_of(&mut judge, |pixel| pixel.answer == Answer::Lit && pixel.hit.unwrap().object == 0);
@@ -320,7 +386,7 @@ fn colors_are_judged_by_their_bounds() {
         }
         let with = judge.colors(&truth, &wrong, &bound).unwrap();
         assert_eq!([with.false_shadow - found.false_shadow, with.leak - found.leak], counts);
-        assert_eq!(with.outside_band, 16);
+        assert_eq!(with.outside_band - found.outside_band, 16);
     }
 }
 

@@ -11,8 +11,8 @@ use renderer::Faults;
 mod renderer;
 
 /// Pixels on each side of a true shadow edge that a map of 2048 texels, sampled once, may move it: a texel is less than one
-/// pixel of this picture on the floor, and half of it is what the nearest one may be off.
-const BAND: Bound = Bound::Band { pixels: 1.0 };
+/// pixel of this picture on the floor, half of it is what the nearest one may be off, and surfaces that rise stretch it.
+const BAND: Bound = Bound::Band { pixels: 2.0 };
 
 /// Figures of a picture, and the mean distance of true shadow edges from those it shows, in pixels.
 fn judged(faults: Faults) -> (Judgement, f64) {
