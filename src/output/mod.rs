@@ -8,6 +8,8 @@ mod counts;
 mod density;
 #[cfg(any(feature = "exr", feature = "npy"))]
 mod exact;
+#[doc(hidden)]
+pub mod letters;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
