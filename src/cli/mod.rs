@@ -282,6 +282,7 @@ fn print(text: &str) -> Result<(), Error> {
 }
 
 /// A spinner with a message, for work without a known length.
+#[cfg_attr(not(feature = "report"), allow(dead_code, reason = "for commands that take long"))]
 fn spinner(template: &str) -> indicatif::ProgressBar {
     let bar = indicatif::ProgressBar::new_spinner();
     if let Ok(style) = indicatif::ProgressStyle::with_template(&format!("{{spinner}} {template}")) {

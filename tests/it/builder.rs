@@ -63,7 +63,7 @@ fn code_text_and_file_make_the_same_scene() {
         assert_eq!(planned(&code.scene), planned(&other.scene));
         assert_eq!(code.scene.camera, other.scene.camera);
     }
-    let changed = load_str(TEXT, Path::new(""), &["camera.fov_y=41".to_owned()]).unwrap();
+    let changed = load_str(TEXT, Path::new(""), &["light.0.shadow.size=128".to_owned()]).unwrap();
     assert_ne!(planned(&changed.scene), planned(&text.scene));
 }
 

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 /// Its test, which uses nothing else.
 const PIXELS: &str = include_str!("pixels.rs");
 
-/// What the core lacks.
+/// Its test of what the core lacks.
 const MISSING: &str = include_str!("missing.rs");
 
 fn root() -> &'static Path {
