@@ -69,6 +69,7 @@ pub fn boolean(on: bool) -> &'static str {
 }
 
 /// Text as string literals of C, a line of it each.
+#[cfg(feature = "check")]
 pub fn literals(text: &str, indent: &str) -> String {
     let quoted = |line: &str| {
         let mut quoted = String::new();

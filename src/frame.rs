@@ -233,6 +233,7 @@ impl Renderer {
     }
 
     /// The device, for its own functions.
+    #[doc(hidden)]
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }

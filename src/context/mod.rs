@@ -26,6 +26,7 @@ use std::ffi::{CStr, c_void};
 use std::fmt;
 use std::rc::Rc;
 
+#[doc(hidden)]
 pub use debug_log::{DebugLog, DebugMessage};
 pub use error::{Attempt, Error, Reached};
 pub(crate) use gl_names::{DEPTH_COMPONENT32, error_name};

@@ -36,7 +36,9 @@ pub use error::Error;
 #[cfg(feature = "fixed-function")]
 pub(crate) use image::{filter_codes, wrap_code};
 pub use readback::Pixels;
-pub use run::{Measure, PassTime};
+#[doc(hidden)]
+pub use run::Measure;
+pub use run::PassTime;
 #[cfg(feature = "fixed-function")]
 pub(crate) use state::compare_code;
 
@@ -45,6 +47,7 @@ pub(crate) use state::compare_code;
 const MOST_PROGRAMS: usize = 200;
 
 /// A GL context's objects, and the passes that they already hold.
+#[doc(hidden)]
 pub struct Device {
     gl: Rc<glow::Context>,
     meshes: HashMap<*const Mesh, mesh::GpuMesh>,

@@ -1,8 +1,8 @@
 //! Diagrams that no scene shows: a kernel's weights, and the frames that a projected texture is seen in.
 
-use super::letters::{FontWeight, TextStyle};
 use super::painter::{Align, Painter, Pen, UnitPoint};
 use crate::output::canvas::{Canvas, Color};
+use crate::output::letters::{FontWeight, TextStyle};
 
 const INK: Color = [40, 42, 50];
 const FAINT: Color = [120, 124, 134];

@@ -11,9 +11,9 @@ use plotters::style::{Color as _, FontTransform, IntoFont};
 use plotters_backend::text_anchor::VPos;
 use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind};
 
-use super::letters::{FontWeight, TextStyle};
 use super::painter::{Align, Painter, Pen, UnitPoint};
 use crate::output::canvas::Color;
+use crate::output::letters::{FontWeight, TextStyle};
 
 /// Steps of the library's whole numbers in a unit.
 const FINE: i32 = 8;

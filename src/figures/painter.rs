@@ -5,8 +5,8 @@ use tiny_skia::{
     Color as Paint8, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
 };
 
-use super::letters::{Letters, TextStyle};
 use crate::output::canvas::{Canvas, Color};
+use crate::output::letters::{Letters, TextStyle};
 
 /// A point, x to the right and y down, in units.
 pub type UnitPoint = [f32; 2];

@@ -1,9 +1,9 @@
 //! Lays a figure's panels out: title and source on top, a grid of pictures with their names, the caption below.
 
-use super::letters::{FontWeight, Letters, TextStyle};
 use super::painter::{Align, Painter, Pen};
 use super::{Figure, Panel, letter_of};
 use crate::output::canvas::{Canvas, Color};
+use crate::output::letters::{FontWeight, Letters, TextStyle};
 
 const PAPER: Color = [250, 250, 247];
 const INK: Color = [26, 28, 34];

@@ -1,10 +1,10 @@
 //! How far tangent bases turn across a model's edges, as bars: before its skin is packed again, and after.
 
-use super::letters::{FontWeight, TextStyle};
 use super::painter::{Align, Painter, Pen};
 use super::skins;
 use crate::geometry::skin::{self, CLASS_ENDS, Discontinuity, Skin};
 use crate::output::canvas::Color;
+use crate::output::letters::{FontWeight, TextStyle};
 use crate::scene::Scene;
 
 /// Colours of the skins.

@@ -49,7 +49,7 @@ pub(crate) fn write_all(
 /// # Errors
 ///
 /// The error that [`write_all`] would end with.
-#[cfg_attr(not(feature = "check"), allow(dead_code, reason = "for commands that write late"))]
+#[cfg_attr(not(all(feature = "check", feature = "cli")), allow(dead_code, reason = "for commands that write late"))]
 pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
     if path.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());

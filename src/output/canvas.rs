@@ -1,67 +1,31 @@
 //! A picture in 8-bit RGB on which legends and captions are drawn.
 
-use std::convert::Infallible;
-
-use embedded_graphics::mono_font::MonoFont;
-use embedded_graphics::mono_font::MonoTextStyle;
-use embedded_graphics::mono_font::ascii::{FONT_6X10, FONT_7X13, FONT_9X18_BOLD};
-use embedded_graphics::pixelcolor::Rgb888;
-use embedded_graphics::prelude::{Dimensions, DrawTarget, Drawable, OriginDimensions, Pixel, Point, RgbColor, Size};
-use embedded_graphics::text::{Baseline, Text};
 use image::RgbImage;
 use image::imageops::{FilterType, resize};
 
+use super::letters::{FontWeight, Letters, TextStyle};
 use crate::geometry::Texture;
 
-/// Width and height of a letter in pixels.
-pub const LETTER: [u32; 2] = [6, 10];
+/// Height of a line of text in pixels.
+pub const LINE: u32 = 14;
 
-/// A size of letters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Font {
-    /// 6 by 10 pixels a letter.
-    Small,
-    /// 7 by 13 pixels a letter.
-    Text,
-    /// 9 by 18 pixels a letter, bold.
-    Title,
+/// The em of a legend's letters, and their base line below a line's upper edge, in pixels.
+const EM: f32 = 11.0;
+const BASE: i32 = 10;
+
+/// Look of text; nothing, if the fonts that are compiled in were damaged.
+fn style(color: Color) -> Option<(Letters, TextStyle)> {
+    Some((Letters::load().ok()?, TextStyle { weight: FontWeight::Regular, size: EM, color }))
 }
 
-impl Font {
-    /// Width and height of a letter in pixels.
-    pub fn letter(self) -> [u32; 2] {
-        match self {
-            Self::Small => LETTER,
-            Self::Text => [7, 13],
-            Self::Title => [9, 18],
-        }
-    }
+/// Width of a line of text in pixels, rounded up.
+pub fn text_width(text: &str) -> u32 {
+    style([0; 3]).map_or(0, |(letters, style)| letters.width(&style, text).ceil() as u32)
+}
 
-    fn letters(self) -> &'static MonoFont<'static> {
-        match self {
-            Self::Small => &FONT_6X10,
-            Self::Text => &FONT_7X13,
-            Self::Title => &FONT_9X18_BOLD,
-        }
-    }
-
-    /// `text` in lines of at most `width` pixels, broken at spaces.
-    pub fn wrap(self, text: &str, width: u32) -> Vec<String> {
-        let most = (width / self.letter()[0]).max(1) as usize;
-        let mut lines = vec![String::new()];
-        for word in text.split_whitespace() {
-            let last = lines.last_mut();
-            match last {
-                Some(line) if line.is_empty() => line.push_str(word),
-                Some(line) if line.len() + 1 + word.len() <= most => {
-                    line.push(' ');
-                    line.push_str(word);
-                }
-                _ => lines.push(word.to_owned()),
-            }
-        }
-        lines
-    }
+/// `text` in lines of at most `width` pixels, broken at spaces.
+pub fn wrapped(text: &str, width: u32) -> Vec<String> {
+    style([0; 3]).map_or_else(Vec::new, |(letters, style)| letters.wrap(&style, text, width as f32))
 }
 
 /// RGB, eight bits each.
@@ -148,34 +112,46 @@ impl Canvas {
         }
     }
 
-    /// Writes a line of ASCII, its upper left corner at `place`.
+    /// Writes a line of text, its upper left corner at `place`.
     pub fn write(&mut self, place: [u32; 2], text: &str, color: Color) {
-        self.write_in(Font::Small, place, text, color);
+        let Some((letters, style)) = style(color) else { return };
+        let [left, top] = place.map(|side| i32::try_from(side).unwrap_or(i32::MAX / 2));
+        letters.cover(&style, text, [0.0; 2], |column, row, covered| {
+            let place = [left.saturating_add(column), top.saturating_add(BASE + row)].map(u32::try_from);
+            if let [Ok(x), Ok(y)] = place {
+                self.blend([x, y], color, covered);
+            }
+        });
     }
 
-    /// The same in another font.
-    pub fn write_in(&mut self, font: Font, place: [u32; 2], text: &str, color: Color) {
-        let style = MonoTextStyle::new(font.letters(), Rgb888::new(color[0], color[1], color[2]));
-        let at = Point::new(place[0] as i32, place[1] as i32);
-        let Ok(_) = Text::with_baseline(text, at, style, Baseline::Top).draw(self);
-    }
-}
-
-impl OriginDimensions for Canvas {
-    fn size(&self) -> Size {
-        Size::new(self.size[0], self.size[1])
-    }
-}
-
-impl DrawTarget for Canvas {
-    type Color = Rgb888;
-    type Error = Infallible;
-
-    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Infallible> {
-        let bounds = self.bounding_box();
-        for Pixel(point, color) in pixels.into_iter().filter(|Pixel(point, _)| bounds.contains(*point)) {
-            self.set([point.x as u32, point.y as u32], [color.r(), color.g(), color.b()]);
+    /// Covers a share of one pixel, in [0, 1]; outside of the picture nothing.
+    fn blend(&mut self, [x, y]: [u32; 2], color: Color, covered: f32) {
+        if x < self.size[0] && y < self.size[1] {
+            let first = 3 * (y as usize * self.size[0] as usize + x as usize);
+            for (old, new) in self.bytes[first..first + 3].iter_mut().zip(color) {
+                *old = (f32::from(*old) + covered * (f32::from(new) - f32::from(*old))).round() as u8;
+            }
         }
-        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_as_wide_as_it_says_and_stays_on_its_line() {
+        let (text, ink) = ("8 and more: 12345 px, Wgjqy", [230, 230, 230]);
+        let width = text_width(text);
+        let mut canvas = Canvas::new([width + 8, LINE + 8], [0; 3]);
+        canvas.write([4, 4], text, ink);
+        let inked = |x: u32, y: u32| canvas.bytes()[3 * (y * (width + 8) + x) as usize] > 0;
+        let places: Vec<[u32; 2]> =
+            (0..LINE + 8).flat_map(|y| (0..width + 8).map(move |x| [x, y])).filter(|[x, y]| inked(*x, *y)).collect();
+        assert!(places.len() > 200, "{} pixels", places.len());
+        // A letter may reach over its own advance by less than a pixel.
+        assert!(places.iter().all(|[x, y]| (3..width + 5).contains(x) && (4..4 + LINE).contains(y)), "{places:?}");
+        assert_eq!(Letters::load().map(|letters| letters.missing(text)).unwrap(), Vec::<char>::new());
+        assert_eq!(wrapped("one two three", text_width("one two")), ["one two", "three"]);
     }
 }

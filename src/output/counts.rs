@@ -1,7 +1,7 @@
 //! Stencil counts as colours with a legend [GDC, "Visualizing Stenciled Shadow Volume Tagging"]: green lit, red shadowed,
 //! the deeper the darker; violet below 0, likewise.
 
-use super::canvas::{Canvas, Color, LETTER};
+use super::canvas::{Canvas, Color, LINE, text_width};
 
 const LIT: Color = [66, 148, 82];
 const SHADOWED: [Color; 6] = [[240, 120, 96], [222, 78, 62], [196, 44, 42], [160, 26, 36], [120, 16, 32], [84, 10, 28]];
@@ -48,20 +48,19 @@ pub fn legend(data: &[u8]) -> Vec<(Color, String)> {
 /// The same with a legend, which counts pixels; small pictures go without.
 pub fn colored(size: [u32; 2], data: &[u8]) -> Canvas {
     const SWATCH: u32 = 10;
-    const STEP: u32 = LETTER[1] + 4;
     let mut canvas = plain(size, data);
     let rows = rows(data);
     let lines: Vec<String> = rows.iter().map(|(_, name, pixels)| format!("{name}: {pixels} px")).collect();
-    let longest = lines.iter().map(|line| line.len() as u32).max().unwrap_or(0);
-    let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * rows.len() as u32 + 8);
+    let longest = lines.iter().map(|line| text_width(line)).max().unwrap_or(0);
+    let (width, height) = (SWATCH + 18 + longest, LINE * rows.len() as u32 + 8);
     if width + 8 > size[0] || height + 8 > size[1] {
         return canvas;
     }
     canvas.fill([4, 4], [width, height], [24, 26, 30]);
     for (row, ((swatch, _, _), line)) in (0u32..).zip(rows.iter().zip(&lines)) {
-        let top = 10 + STEP * row;
+        let top = 10 + LINE * row;
         canvas.fill([10, top], [SWATCH, SWATCH], *swatch);
-        canvas.write([10 + SWATCH + 6, top], line, [230, 230, 230]);
+        canvas.write([10 + SWATCH + 6, top - 2], line, [230, 230, 230]);
     }
     canvas
 }

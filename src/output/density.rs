@@ -1,7 +1,7 @@
 //! Texels per pixel as colours with a legend [HSM, Figure 6]: green where a pixel shows one texel, warm where texels are
 //! larger than pixels, cold where they are smaller.
 
-use super::canvas::{Canvas, Color, LETTER};
+use super::canvas::{Canvas, Color, LINE, text_width};
 
 /// Colours from 1/8 to 8 texels, one a factor of 2.
 const SCALE: [Color; 7] =
@@ -36,20 +36,19 @@ pub fn legend(one: &str) -> [(Color, &str); 7] {
 /// The same with a legend; `one` is what the legend calls a density of 1. Small pictures go without.
 pub fn colored(size: [u32; 2], data: &[f32], one: &str) -> Canvas {
     const SWATCH: u32 = 10;
-    const STEP: u32 = LETTER[1] + 4;
     let mut canvas = plain(size, data);
     let names = legend(one);
-    let longest = names.iter().map(|(_, name)| name.len() as u32).max().unwrap_or(0);
-    let (width, height) = (SWATCH + 18 + longest * LETTER[0], STEP * names.len() as u32 + 8);
+    let longest = names.iter().map(|(_, name)| text_width(name)).max().unwrap_or(0);
+    let (width, height) = (SWATCH + 18 + longest, LINE * names.len() as u32 + 8);
     if width + 8 > size[0] || height + 8 > size[1] {
         return canvas;
     }
     let [left, top] = emptiest_corner(size, data, [width, height]);
     canvas.fill([left, top], [width, height], [24, 26, 30]);
     for (row, (swatch, name)) in (0u32..).zip(names) {
-        let top = top + 6 + STEP * row;
+        let top = top + 6 + LINE * row;
         canvas.fill([left + 6, top], [SWATCH, SWATCH], swatch);
-        canvas.write([left + 6 + SWATCH + 6, top], name, [230, 230, 230]);
+        canvas.write([left + 6 + SWATCH + 6, top - 2], name, [230, 230, 230]);
     }
     canvas
 }

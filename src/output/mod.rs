@@ -10,6 +10,8 @@ mod density;
 mod exact;
 #[doc(hidden)]
 pub mod json;
+#[doc(hidden)]
+pub mod letters;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};

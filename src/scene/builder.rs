@@ -172,6 +172,7 @@ impl SceneBuilder {
     /// # Errors
     ///
     /// As [`super::load`]; the place is the line of code that set the key.
+    #[doc(hidden)]
     pub fn build_with(self, shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
         if let Some(error) = self.wrong {
             return Err(error.into());

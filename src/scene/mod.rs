@@ -27,7 +27,9 @@ use std::fs;
 use std::path::Path;
 
 pub use builder::{LightBuilder, ObjectBuilder, SceneBuilder};
-pub use bumps::{BumpMethod, BumpShading, Normalize};
+#[doc(hidden)]
+pub use bumps::Normalize;
+pub use bumps::{BumpMethod, BumpShading};
 #[doc(hidden)]
 pub use default_scene::{Floor, framing};
 pub use error::Error;
@@ -37,17 +39,18 @@ pub use model::{
 };
 #[doc(hidden)]
 pub use photo::photos_of;
-pub use projected::{
-    BeamProfile, DistanceTable, Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam, TableSteps,
-};
+#[doc(hidden)]
+pub use projected::{BeamProfile, DistanceTable, TableSteps};
+pub use projected::{Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam};
 #[doc(hidden)]
 pub use ranges::{LARGEST, SMALLEST};
+#[doc(hidden)]
 pub use read_shadow::ReadShadow;
 #[doc(hidden)]
 pub use resolve::MAX_IMAGE_SIDE;
-pub use settings::{Entry, Origin, Settings, SettingsError, Value};
 #[doc(hidden)]
-pub use settings::{Place, Reader, suggest};
+pub use settings::{Entry, Place, Reader, Settings, suggest};
+pub use settings::{Origin, SettingsError, Value};
 pub use shadow::Shadow;
 #[doc(hidden)]
 pub use views::with_shadow;
@@ -87,6 +90,7 @@ pub struct Embedded {
 /// # Errors
 ///
 /// As [`load`].
+#[doc(hidden)]
 pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::with_files(embedded.pictures, embedded.meshes);
     let mut root = parse::document(Path::new(embedded.path), embedded.text)?;
@@ -102,6 +106,7 @@ pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn Re
 /// # Errors
 ///
 /// A file that cannot be read, or a key or value that is wrong, with file and line.
+#[doc(hidden)]
 pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::default();
     let root = settings_of(path, overrides, &mut assets)?;
@@ -115,6 +120,7 @@ pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Resu
 /// # Errors
 ///
 /// As [`load`].
+#[doc(hidden)]
 pub fn load_str(text: &str, folder: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::default();
     let mut root = parse::document(&folder.join("<text>"), text)?;

@@ -1,7 +1,7 @@
 //! Keys and their commands: one table for the window and for the help.
 
 use super::{Handle, Mode};
-use crate::output::canvas::{Canvas, Color, Font};
+use crate::output::canvas::{Canvas, Color, LINE, text_width, wrapped};
 
 /// Command of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,21 +88,24 @@ pub fn help_sheet(rows: Vec<(String, String)>, window_width: u32) -> Canvas {
     const INK: Color = [230, 230, 230];
     const STRONG: Color = [255, 214, 90];
     const MARGIN: u32 = 8;
-    let [letter, line] = [Font::Small.letter()[0], Font::Small.letter()[1] + 3];
-    let names = letter * (NAMES as u32 + 1);
-    let most = window_width.saturating_sub(2 * HELP_EDGE + 2 * MARGIN + names).max(20 * letter);
-    let rows = rows.into_iter().map(|(name, what)| (name, Font::Small.wrap(&what, most)));
+    /// Least width of what keys do, in pixels: a narrower window shows a part of the sheet.
+    const NARROWEST: u32 = 120;
+    let gap = 2 * MARGIN;
+    let names = rows.iter().map(|(name, _)| text_width(name)).max().unwrap_or(0) + gap;
+    let most = window_width.saturating_sub(2 * HELP_EDGE + 2 * MARGIN + names).max(NARROWEST);
+    let rows = rows.into_iter().map(|(name, what)| (name, wrapped(&what, most)));
     let rows: Vec<(String, Vec<String>)> = rows.collect();
-    let longest = rows.iter().flat_map(|(_, lines)| lines).map(String::len).max().unwrap_or(0) as u32;
+    let lines = rows.iter().flat_map(|(_, lines)| lines);
+    let longest = lines.map(|line| text_width(line)).max().unwrap_or(0).max(text_width(HEADING).saturating_sub(names));
     let count = 1 + rows.iter().map(|(_, lines)| lines.len() as u32).sum::<u32>();
-    let mut sheet = Canvas::new([2 * MARGIN + names + letter * longest, 2 * MARGIN + line * count], PAPER);
+    let mut sheet = Canvas::new([2 * MARGIN + names + longest, 2 * MARGIN + LINE * count], PAPER);
     sheet.write([MARGIN, MARGIN], HEADING, INK);
-    let mut top = MARGIN + line;
+    let mut top = MARGIN + LINE;
     for (name, lines) in rows {
         sheet.write([MARGIN, top], &name, STRONG);
         for text in lines {
             sheet.write([MARGIN + names, top], &text, INK);
-            top += line;
+            top += LINE;
         }
     }
     sheet

@@ -8,6 +8,7 @@ mod alpha_shadows;
 mod architecture;
 mod bad_scenes;
 mod broken_drivers;
+mod builder;
 mod bump;
 mod bump_sheets;
 mod cases_command;

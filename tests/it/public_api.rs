@@ -32,24 +32,33 @@ fn is_hidden(attributes: &[Attribute]) -> bool {
     attributes.iter().find(is_hidden).is_some()
 }
 
+fn is_for_tests(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        attribute.path().is_ident("cfg") && attribute.parse_args::<syn::Path>().is_ok_and(|word| word.is_ident("test"))
+    })
+}
+
 /// The file of module `name` in `folder`, and the folder of its own modules.
 fn file_of(folder: &Path, name: &str) -> (PathBuf, PathBuf) {
     let (flat, deep) = (folder.join(format!("{name}.rs")), folder.join(name).join("mod.rs"));
     (if flat.exists() { flat } else { deep }, folder.join(name))
 }
 
-/// Fields, variants, methods of a type by its name, wherever in a module its definition and its `impl` blocks stand.
+/// Fields, variants, methods of a type by its module and name, wherever in that module its definition and its `impl` blocks
+/// stand; an `impl` elsewhere names the module.
 #[derive(Default)]
 struct Members {
-    types: BTreeMap<String, BTreeSet<String>>,
+    module: String,
+    types: BTreeMap<[String; 2], BTreeSet<String>>,
 }
 
 impl Members {
     /// Reads a module's files, private ones too: what they define may be exported elsewhere.
     fn read(&mut self, folder: &Path, file: &Path) {
         for item in parse(file).items {
+            let key = |name: &syn::Ident| [self.module.clone(), name.to_string()];
             match &item {
-                Item::Mod(child) if child.content.is_none() => {
+                Item::Mod(child) if child.content.is_none() && !is_for_tests(&child.attrs) => {
                     let (file, folder) = file_of(folder, &child.ident.to_string());
                     self.read(&folder, &file);
                 }
@@ -58,18 +67,18 @@ impl Members {
                     let fields = fields.enumerate().map(|(index, field)| {
                         field.ident.as_ref().map_or_else(|| index.to_string(), ToString::to_string)
                     });
-                    self.types.entry(item.ident.to_string()).or_default().extend(fields);
+                    self.types.entry(key(&item.ident)).or_default().extend(fields);
                 }
                 Item::Enum(item) => {
                     let variants = item.variants.iter().map(|variant| variant.ident.to_string());
-                    self.types.entry(item.ident.to_string()).or_default().extend(variants);
+                    self.types.entry(key(&item.ident)).or_default().extend(variants);
                 }
                 Item::Trait(item) => {
                     let functions = item.items.iter().filter_map(|inner| match inner {
                         syn::TraitItem::Fn(function) => Some(format!("{}()", function.sig.ident)),
                         _ => None,
                     });
-                    self.types.entry(item.ident.to_string()).or_default().extend(functions);
+                    self.types.entry(key(&item.ident)).or_default().extend(functions);
                 }
                 Item::Impl(block) if block.trait_.is_none() => self.read_methods(block),
                 _ => {}
@@ -79,7 +88,12 @@ impl Members {
 
     fn read_methods(&mut self, block: &syn::ItemImpl) {
         let syn::Type::Path(path) = &*block.self_ty else { return };
-        let Some(name) = path.path.segments.last().map(|segment| segment.ident.to_string()) else { return };
+        let names: Vec<String> = path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+        let key = match names.as_slice() {
+            [name] => [self.module.clone(), name.clone()],
+            [.., module, name] => [module.clone(), name.clone()],
+            [] => return,
+        };
         let public = block.items.iter().filter_map(|item| match item {
             syn::ImplItem::Fn(item) if is_public(&item.vis) && !is_hidden(&item.attrs) => {
                 Some(format!("{}()", item.sig.ident))
@@ -87,23 +101,28 @@ impl Members {
             syn::ImplItem::Const(item) if is_public(&item.vis) => Some(item.ident.to_string()),
             _ => None,
         });
-        self.types.entry(name).or_default().extend(public);
+        self.types.entry(key).or_default().extend(public);
     }
 }
 
-/// Public names of the library, each with what it is.
+/// Public names of the library.
 #[derive(Default)]
 struct Front {
-    items: BTreeMap<String, &'static str>,
+    items: BTreeSet<String>,
+    /// Modules of the root that they and their methods are defined in, hidden ones too.
+    modules: BTreeSet<String>,
 }
 
 impl Front {
     fn read(&mut self, folder: &Path, file: &Path, module: &str) {
         for item in parse(file).items {
-            let (vis, attributes, name, kind) = match &item {
+            let (vis, attributes, name) = match &item {
                 Item::Mod(child) if child.content.is_none() => {
                     if is_public(&child.vis) && !is_hidden(&child.attrs) {
                         let name = child.ident.to_string();
+                        if module.is_empty() {
+                            self.modules.insert(name.clone());
+                        }
                         let (file, folder) = file_of(folder, &name);
                         self.read(&folder, &file, &format!("{module}{name}::"));
                     }
@@ -115,28 +134,33 @@ impl Front {
                     }
                     continue;
                 }
-                Item::Struct(item) => (&item.vis, &item.attrs, &item.ident, "struct"),
-                Item::Enum(item) => (&item.vis, &item.attrs, &item.ident, "enum"),
-                Item::Trait(item) => (&item.vis, &item.attrs, &item.ident, "trait"),
-                Item::Type(item) => (&item.vis, &item.attrs, &item.ident, "type"),
-                Item::Const(item) => (&item.vis, &item.attrs, &item.ident, "const"),
-                Item::Static(item) => (&item.vis, &item.attrs, &item.ident, "static"),
-                Item::Fn(item) => (&item.vis, &item.attrs, &item.sig.ident, "fn"),
+                Item::Struct(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Enum(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Trait(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Type(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Const(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Static(item) => (&item.vis, &item.attrs, &item.ident),
+                Item::Fn(item) => (&item.vis, &item.attrs, &item.sig.ident),
                 _ => continue,
             };
             if is_public(vis) && !is_hidden(attributes) {
-                self.items.insert(format!("{module}{name}"), kind);
+                self.items.insert(format!("{module}{name}"));
             }
         }
     }
 
     fn read_use(&mut self, tree: &syn::UseTree, module: &str) {
         match tree {
-            syn::UseTree::Path(path) => self.read_use(&path.tree, module),
+            syn::UseTree::Path(path) => {
+                if let (true, syn::UseTree::Path(next)) = (path.ident == "crate", &*path.tree) {
+                    self.modules.insert(next.ident.to_string());
+                }
+                self.read_use(&path.tree, module);
+            }
             syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.read_use(tree, module)),
             syn::UseTree::Name(name) if name.ident == "self" => {}
-            syn::UseTree::Name(name) => drop(self.items.insert(format!("{module}{}", name.ident), "use")),
-            syn::UseTree::Rename(name) => drop(self.items.insert(format!("{module}{}", name.rename), "use")),
+            syn::UseTree::Name(name) => drop(self.items.insert(format!("{module}{}", name.ident))),
+            syn::UseTree::Rename(name) => drop(self.items.insert(format!("{module}{}", name.rename))),
             syn::UseTree::Glob(_) => panic!("{module} exports with `*`: nobody sees what"),
         }
     }
@@ -148,10 +172,21 @@ fn listed() -> Vec<String> {
     let mut front = Front::default();
     front.read(&src, &src.join("lib.rs"), "");
     let mut members = Members::default();
-    members.read(&src, &src.join("lib.rs"));
-    let line = |(path, _): (&String, &&str)| {
+    // Builders are built where shadow settings are read.
+    front.modules.insert(String::from("techniques"));
+    for module in &front.modules {
+        let (file, folder) = file_of(&src, module);
+        members.module.clone_from(module);
+        members.read(&folder, &file);
+    }
+    let line = |path: &String| {
         let name = path.rsplit("::").next().unwrap_or(path);
-        let inner = members.types.get(name).filter(|inner| !inner.is_empty() && !path.starts_with("prelude::"));
+        let module = path.split("::").next().unwrap_or(path);
+        // What another module defines has a name of its own.
+        let mut found = members.types.iter().filter(|([_, type_name], _)| type_name == name);
+        let own = members.types.get(&[module.to_owned(), name.to_owned()]);
+        let inner = own.or_else(|| found.next().map(|(_, inner)| inner));
+        let inner = inner.filter(|inner| !inner.is_empty() && module != "prelude");
         inner.map_or_else(
             || path.clone(),
             |inner| format!("{path}: {}", inner.iter().cloned().collect::<Vec<_>>().join(" ")),

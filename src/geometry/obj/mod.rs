@@ -25,7 +25,8 @@ pub const CREASE_DEGREES: f64 = 60.0;
 ///
 /// A part for each run of faces with one object or group and one material. Normals that are missing, of no length or not
 /// finite are made from the triangles, smooth up to [`CREASE_DEGREES`]. Warnings are: a library that does not exist, a
-/// material that no library has, a texture that cannot be loaded, faces of fewer than three vertices, and what is not drawn
+/// material that no library has, a texture that cannot be loaded, faces of fewer than three vertices, concave
+/// ones too large to be cut well, and what is not drawn
 /// (lines, points, curves, colours of vertices, statements of MTL). Positions that are far away from the file's origin, for
 /// their size, are relative to [`Mesh::origin`].
 pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
@@ -48,7 +49,14 @@ pub fn decode_obj(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Warning>), Err
         // The scan has refused everything that tobj refuses; if not, the error still names the file.
         Error::malformed(path, 0, error.to_string())
     })?;
-    let mut mesh = join(models, path)?;
+    let (mut mesh, fanned) = join(models, path)?;
+    if fanned > 0 {
+        let (most, s) = (polygon::MOST_CORNERS_TO_CLIP, if fanned == 1 { "" } else { "s" });
+        let message = format!(
+            "{fanned} concave polygon{s} of more than {most} corners: cut as a fan, with triangles that overlap; write smaller ones"
+        );
+        warnings.push(Warning { path: path.to_owned(), line: 0, message });
+    }
     let repaired = normals::complete(&mut mesh, CREASE_DEGREES.to_radians());
     if repaired > 0 {
         let message = format!("{repaired} normals have no length or are not finite; made from the triangles");
@@ -103,8 +111,10 @@ fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>,
     tobj::load_obj_buf(&mut reader, &options, materials).map(|(models, _)| models)
 }
 
-/// One mesh of all models, each a part; its normals may be missing or wrong.
-fn join(models: Vec<tobj::Model>, path: &Path) -> Result<Mesh, Error> {
+/// One mesh of all models, each a part, whose normals may be missing or wrong; and the number of polygons that are too large to
+/// be cut well.
+fn join(models: Vec<tobj::Model>, path: &Path) -> Result<(Mesh, usize), Error> {
+    let mut fanned = 0;
     let mut mesh = Mesh { name: path.display().to_string(), ..Mesh::default() };
     let has_texcoords = models.iter().any(|model| !model.mesh.texcoords.is_empty());
     let mut texcoords = Vec::new();
@@ -122,31 +132,35 @@ fn join(models: Vec<tobj::Model>, path: &Path) -> Result<Mesh, Error> {
         }
         let offset = index_u32(first, path)?;
         let indices: Vec<u32> = indices.into_iter().map(|index| index + offset).collect();
-        append_triangles(&mut mesh, indices, &face_arities);
+        fanned += append_triangles(&mut mesh, indices, &face_arities);
         let stop = index_u32(mesh.indices.len(), path)?;
         let name = if model.name == "unnamed_object" { String::new() } else { model.name };
         mesh.parts.push(Part { name, indices: start..stop, material: material_id, bounds: Aabb::EMPTY });
     }
     mesh.texcoords = has_texcoords.then_some(texcoords);
-    Ok(mesh)
+    Ok((mesh, fanned))
 }
 
-/// Appends the faces `indices`, of `arities` corners each; none given: all have three.
-fn append_triangles(mesh: &mut Mesh, indices: Vec<u32>, arities: &[u32]) {
+/// Appends the faces `indices`, of `arities` corners each; none given: all have three. Counts those that are
+/// too large to be cut well.
+fn append_triangles(mesh: &mut Mesh, indices: Vec<u32>, arities: &[u32]) -> usize {
     if arities.is_empty() {
         if mesh.indices.is_empty() {
             mesh.indices = indices;
         } else {
             mesh.indices.extend_from_slice(&indices);
         }
-        return;
+        return 0;
     }
+    let mut fanned = 0;
     let mut rest = &indices[..];
     for arity in arities {
         let (face, after) = rest.split_at((*arity as usize).min(rest.len()));
-        polygon::triangulate(face, &mesh.positions, &mut |triangle| mesh.indices.extend_from_slice(&triangle));
+        let emit = &mut |triangle: [u32; 3]| mesh.indices.extend_from_slice(&triangle);
+        fanned += usize::from(!polygon::triangulate(face, &mesh.positions, emit));
         rest = after;
     }
+    fanned
 }
 
 fn index_u32(index: usize, path: &Path) -> Result<u32, Error> {

@@ -3,28 +3,32 @@
 use glam::{DVec2, DVec3};
 
 /// Larger concave polygons are fanned: cutting ears takes time with their square.
-const MOST_CORNERS_TO_CLIP: usize = 8192;
+pub(super) const MOST_CORNERS_TO_CLIP: usize = 8192;
 
 /// Cuts the polygon whose corners are `indices` into `positions`; calls `emit` with each triangle, all wound as it is.
 ///
 /// Right for planar simple polygons, concave ones too. Others give some `n - 2` triangles; fewer than three corners give none.
-pub(super) fn triangulate(indices: &[u32], positions: &[[f32; 3]], emit: &mut impl FnMut([u32; 3])) {
+/// False: the polygon is concave and too large to clip, so that it is fanned, and its triangles overlap.
+pub(super) fn triangulate(indices: &[u32], positions: &[[f32; 3]], emit: &mut impl FnMut([u32; 3])) -> bool {
     if indices.len() < 3 {
-        return;
+        return true;
     }
     if let &[a, b, c] = indices {
-        return emit([a, b, c]);
+        emit([a, b, c]);
+        return true;
     }
     let corners: Vec<DVec3> =
         indices.iter().map(|index| glam::Vec3::from_array(positions[*index as usize]).as_dvec3()).collect();
     let flat = flatten(&corners);
-    if is_fan_right(&flat) || flat.len() > MOST_CORNERS_TO_CLIP {
+    let is_fan_right = is_fan_right(&flat);
+    if is_fan_right || flat.len() > MOST_CORNERS_TO_CLIP {
         for k in 2..indices.len() {
             emit([indices[0], indices[k - 1], indices[k]]);
         }
-        return;
+        return is_fan_right;
     }
     clip_ears(&flat, &mut |triangle: [usize; 3]| emit(triangle.map(|k| indices[k])));
+    true
 }
 
 /// The corners in the plane of their polygon, wound counter-clockwise; scaled to keep products finite.

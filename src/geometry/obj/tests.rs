@@ -330,3 +330,25 @@ fn words_end_at_every_white_space() {
         assert_eq!(warnings.len(), 1, "{space:?}: {warnings:?}");
     }
 }
+
+#[test]
+fn concave_polygons_too_large_to_be_clipped_have_a_warning() {
+    // A star of 4100 rays: every second corner is nearer to the middle.
+    let star = |corners: u32| {
+        let place = |k: u32| {
+            let (angle, radius) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners), f64::from(1 + k % 2));
+            format!("v {} {} 0\n", radius * angle.cos(), radius * angle.sin())
+        };
+        let face: String = (1..=corners).map(|k| format!(" {k}")).collect();
+        (0..corners).map(place).collect::<String>() + "f" + &face + "\n"
+    };
+    let warned = |text: &str| {
+        let path = Path::new("star.obj");
+        decode_obj(path, text.as_bytes())
+            .unwrap()
+            .1
+            .iter()
+            .any(|warning| warning.message.contains("of more than 8192 corners"))
+    };
+    assert!(warned(&star(8200)) && !warned(&star(200)));
+}

@@ -8,6 +8,9 @@ use std::process::{Command, Output};
 /// Its test, which uses nothing else.
 const PIXELS: &str = include_str!("pixels.rs");
 
+/// Its test of what the core lacks.
+const MISSING: &str = include_str!("missing.rs");
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -31,6 +34,7 @@ fn write_crate(folder: &Path) {
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
     fs::write(folder.join("src/lib.rs"), "").unwrap();
     fs::write(folder.join("tests/pixels.rs"), PIXELS).unwrap();
+    fs::write(folder.join("tests/missing.rs"), MISSING).unwrap();
     fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
 }
 
@@ -40,10 +44,10 @@ fn target() -> PathBuf {
     target.join("outside")
 }
 
-fn test_in(folder: &Path, bless: bool) -> Output {
+fn test_in(folder: &Path, name: &str, bless: bool) -> Output {
     let mut cargo = cargo(folder);
     // Pictures of this run alone, beside the crate.
-    cargo.args(["test", "--test", "pixels", "--target-dir"]).arg(target()).env("TMPDIR", folder);
+    cargo.args(["test", "--test", name, "--target-dir"]).arg(target()).env("TMPDIR", folder);
     if bless {
         cargo.env("BLESS", "1");
     }
@@ -60,11 +64,13 @@ fn a_crate_outside_tests_pixels_in_forty_lines() {
     assert!(PIXELS.lines().count() <= 45 && code_lines(PIXELS) < 40, "{} lines", code_lines(PIXELS));
     let folder = tempfile::tempdir().unwrap();
     write_crate(folder.path());
-    let blessed = test_in(folder.path(), true);
+    let blessed = test_in(folder.path(), "pixels", true);
     assert!(blessed.status.success(), "{}", text(&blessed));
     assert!(!text(&blessed).contains("warning"), "{}", text(&blessed));
-    let passed = test_in(folder.path(), false);
+    let passed = test_in(folder.path(), "pixels", false);
     assert!(text(&passed).contains("1 passed"), "{}", text(&passed));
+    let missing = test_in(folder.path(), "missing", false);
+    assert!(text(&missing).contains("3 passed"), "{}", text(&missing));
     // Each of its checks can fail.
     for (from, to, expected) in [
         ("[0.5; 3]).color", "[0.4; 3]).color", "Some(0.0), Some(1.0)"),
@@ -74,7 +80,7 @@ fn a_crate_outside_tests_pixels_in_forty_lines() {
     ] {
         assert_eq!(PIXELS.matches(from).count(), 1, "{from}");
         fs::write(folder.path().join("tests/pixels.rs"), PIXELS.replace(from, to)).unwrap();
-        let failed = test_in(folder.path(), false);
+        let failed = test_in(folder.path(), "pixels", false);
         assert!(!failed.status.success() && text(&failed).contains(expected), "{from}:\n{}", text(&failed));
     }
 }

@@ -35,6 +35,6 @@ fn the_shadow_lies_where_it_must() -> Result<(), Box<dyn Error>> {
     let [golden, drawn] = ["golden.png", "drawn.png"].map(|name| env::temp_dir().join(name));
     let path = if env::var_os("BLESS").is_some() { &golden } else { &drawn };
     output::write_all(&[Output { path, pixels: &frame.picture, view: None }])?;
-    assert_eq!(fs::read(golden)?, fs::read(path)?, "the picture has changed: look at {}", path.display());
+    assert_eq!(fs::read(&golden)?, fs::read(path)?, "the picture has changed: look at {}", path.display());
     Ok(())
 }

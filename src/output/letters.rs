@@ -1,8 +1,6 @@
-//! Letters of the sheets: Inter (data/fonts/) in two weights, antialiased. Knows no sheet.
+//! Letters of legends and sheets: Inter (data/fonts/) in two weights, antialiased. Knows no picture.
 
 use ab_glyph::{Font, FontRef, InvalidFont, ScaleFont, point};
-
-use crate::output::canvas::Color;
 
 /// Thickness of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +14,8 @@ pub enum FontWeight {
 pub struct TextStyle {
     pub weight: FontWeight,
     pub size: f32,
-    pub color: Color,
+    /// RGB, eight bits each.
+    pub color: [u8; 3],
 }
 
 /// The fonts.
