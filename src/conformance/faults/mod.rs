@@ -30,6 +30,8 @@ mod apart;
 mod apart_again;
 mod apart_inputs;
 mod apart_shaders;
+mod apart_six;
+mod apart_six_inputs;
 mod beyond;
 mod blending;
 mod depth;
@@ -129,6 +131,8 @@ const KINDS: &[&[Fault]] = &[
     fifth::FAULTS,
     fifth_shaders::FAULTS,
     generated_inputs::FAULTS,
+    apart_six::FAULTS,
+    apart_six_inputs::FAULTS,
 ];
 
 /// Every fault.
