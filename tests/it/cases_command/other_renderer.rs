@@ -3,10 +3,7 @@
 use std::path::Path;
 
 use super::{glumbra, text};
-use renderer::Faults;
-
-#[path = "../../other_renderer/renderer.rs"]
-mod renderer;
+use crate::judge::other_renderer::renderer::{self, Faults};
 
 #[test]
 #[cfg(unix)]

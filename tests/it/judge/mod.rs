@@ -2,7 +2,7 @@
 //! pictures that are turned over, moved or of another light are named; and a picture by another renderer is judged.
 
 mod command;
-mod other_renderer;
+pub mod other_renderer;
 mod surfaces;
 
 use std::path::Path;

@@ -8,7 +8,7 @@ use glumbra::judge::{Bound, Judge, Judgement};
 use renderer::Faults;
 
 #[path = "../../other_renderer/renderer.rs"]
-mod renderer;
+pub mod renderer;
 
 /// Pixels on each side of a true shadow edge that a map of 2048 texels, sampled once, may move it: a texel is less than one
 /// pixel of this picture on the floor, half of it is what the nearest one may be off, and surfaces that rise stretch it.
