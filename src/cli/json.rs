@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::Error;
 use crate::output::{atomic_write, json};
 
-/// The name that stands for standard output.
-const STANDARD_OUTPUT: &str = "-";
+/// The name that stands for standard input or standard output.
+const STANDARD_STREAM: &str = "-";
 
 /// `--json` of a command that also prints text.
 #[derive(Clone, Debug, Args)]
@@ -27,7 +27,7 @@ impl JsonArgs {
 
     /// Tests whether standard output is for the JSON.
     pub fn takes_standard_output(&self) -> bool {
-        self.json.as_deref().is_some_and(is_standard_output)
+        self.json.as_deref().is_some_and(is_standard_stream)
     }
 
     /// Writes `value` as the results of `command`, if that is asked for.
@@ -43,9 +43,9 @@ impl JsonArgs {
     }
 }
 
-/// Tests whether `path` stands for standard output.
-pub fn is_standard_output(path: &Path) -> bool {
-    path == Path::new(STANDARD_OUTPUT)
+/// Tests whether `path` stands for standard input or standard output.
+pub fn is_standard_stream(path: &Path) -> bool {
+    path == Path::new(STANDARD_STREAM)
 }
 
 /// Writes a text to a file, whole or not at all, or on standard output.
@@ -54,7 +54,7 @@ pub fn is_standard_output(path: &Path) -> bool {
 ///
 /// A file that cannot be written.
 pub fn put(path: &Path, text: &str) -> Result<(), Error> {
-    if is_standard_output(path) {
+    if is_standard_stream(path) {
         return super::print(text);
     }
     let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, text));

@@ -139,7 +139,7 @@ pub enum Error {
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
     #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
     NoFloor { scene: std::path::PathBuf },
-    #[error("standard output: {0}")]
+    #[error("standard input or output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]
     Filter(#[from] crate::conformance::UnknownFilter),
@@ -183,8 +183,12 @@ pub enum Error {
     SamePicture { file: std::path::PathBuf, first: std::path::PathBuf, second: std::path::PathBuf },
     #[error("-o {file}: is a file; several scenes are drawn into a folder", file = .0.display())]
     NotAFolder(std::path::PathBuf),
-    #[error("-o -: standard output holds one picture; {0}")]
+    #[error("-o -: standard output holds one picture and nothing else; leave out {0}")]
     OnePicture(&'static str),
+    #[error(
+        "--print-scene: a scene on standard input has no folder from which its files could be named; save it first"
+    )]
+    PrintStandardInput,
 }
 
 /// Runs the command with the process's arguments: 0 for success, 1 for an error, 2 for wrong usage.

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::Error;
-use super::json::JsonArgs;
+use super::json::{JsonArgs, is_standard_stream};
 use super::scene_args::{SceneArgs, parse_view};
 use crate::plan::{self, Request, ViewRequest};
 use crate::scene;
@@ -67,6 +67,9 @@ pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
         return super::print(&crate::fixed_function::listing::c_source(&plan.list));
     }
     let summary = plan.summary();
+    if arguments.print_scene && is_standard_stream(&arguments.scene.scene) {
+        return Err(Error::PrintStandardInput);
+    }
     if arguments.print_scene {
         let settings = scene::portable_settings(&arguments.scene.scene, &arguments.scene.changes.overrides())?;
         return super::print(&settings.to_toml());

@@ -1,5 +1,6 @@
 //! `glumbra render`: a scene to a picture, and the views beside it.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
@@ -8,7 +9,7 @@ use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 use serde::Serialize;
 
-use super::json::JsonArgs;
+use super::json::{JsonArgs, is_standard_stream};
 use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
 use super::scene_args::SceneChanges;
@@ -28,7 +29,8 @@ use crate::techniques::LightShadow;
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct RenderArgs {
-    /// Scenes (.toml), or models (.obj, .md2) around which a floor, a spotlight and a camera are supplied
+    /// Scenes (.toml; - is one on standard input), or models (.obj, .md2) around which a floor, a spotlight and a camera are
+    /// supplied
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
 
@@ -36,7 +38,7 @@ pub struct RenderArgs {
     changes: SceneChanges,
 
     /// The picture's file: .png, or .exr or .npy with exact 32-bit values; by default the scene's name with .png, here.
-    /// Of several scenes the folder, made if it is not there
+    /// Of several scenes the folder, made if it is not there; - is a PNG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -96,7 +98,8 @@ Examples:
   glumbra render scene.toml --pipeline fixed-function -o by-the-driver.png
   glumbra render scene.toml --set shading.passes=shadow --after-pass 2
   glumbra render scene.toml --frames 100 --json -
-  glumbra render a.toml b.toml -o out --quiet";
+  glumbra render a.toml b.toml -o out --quiet
+  generate-scene | glumbra render - -o - --quiet | display -";
 
 /// Output of `--json`.
 #[derive(Serialize)]
@@ -185,6 +188,16 @@ pub fn run(arguments: &RenderArgs, screen: Screen) -> Result<(), Error> {
 
 /// Reads and plans all scenes, and finds a name for every file.
 fn jobs(arguments: &RenderArgs, views: &[Aov]) -> Result<Vec<Job>, Error> {
+    if arguments.output.as_deref().is_some_and(is_standard_stream) {
+        let others = [
+            (arguments.scenes.len() > 1, "the other scenes"),
+            (!views.is_empty(), "--aov"),
+            (arguments.json.takes_standard_output(), "--json -"),
+        ];
+        if let Some((_, what)) = others.into_iter().find(|(is_there, _)| *is_there) {
+            return Err(Error::OnePicture(what));
+        }
+    }
     let pictures = pictures(arguments)?;
     arguments.scenes.iter().zip(pictures).map(|(path, picture)| job(arguments, views, path, picture)).collect()
 }
@@ -208,7 +221,8 @@ fn pictures(arguments: &RenderArgs) -> Result<Vec<PathBuf>, Error> {
 }
 
 fn job(arguments: &RenderArgs, views: &[Aov], path: &Path, picture: PathBuf) -> Result<Job, Error> {
-    let format = if arguments.folder().is_some() { FileFormat::Png } else { output::check_path(&picture)? };
+    let is_png = arguments.folder().is_some() || is_standard_stream(&picture);
+    let format = if is_png { FileFormat::Png } else { output::check_path(&picture)? };
     let names = views.iter().map(|wanted| output::beside(&picture, &wanted.file_name()));
     let files: Vec<PathBuf> = [picture.clone()].into_iter().chain(names).collect();
     let start = Instant::now();
@@ -251,8 +265,8 @@ fn draw(
     if plan.ends_in_alpha() {
         frame.picture = frame.picture.alpha_as_gray();
     }
-    let format = output::check_path(&files[0])?;
-    let traced = trace(views, &scene, &frame, format.is_exact())?;
+    let is_exact = matches!(frame.picture, Pixels::RgbaF32 { .. });
+    let traced = trace(views, &scene, &frame, is_exact)?;
     let mut drawn = frame.views.iter();
     let shown = views.iter().zip(&traced).filter_map(|(wanted, traced)| {
         let view = wanted.drawn(&scene).and_then(|wanted| Some((drawn.next()?, Some(wanted.view))));
@@ -263,7 +277,14 @@ fn draw(
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
     let info = context.describe();
     let driver = format!("{}, OpenGL {}", info.renderer, info.version);
-    output::write_described(&outputs, &arguments.texts(&path, &scene, driver))?;
+    let texts = arguments.texts(&path, &scene, driver);
+    if is_standard_stream(&files[0]) {
+        let mut out = std::io::stdout().lock();
+        out.write_all(&output::to_png(&outputs[0], &texts)?)?;
+        out.flush()?;
+    } else {
+        output::write_described(&outputs, &texts)?;
+    }
     for (index, output) in outputs.iter().enumerate() {
         let [width, height] = output.pixels.size();
         let what = index.checked_sub(1).map_or("picture".to_owned(), |view| views[view].file_name());
@@ -341,6 +362,9 @@ fn refuse_to_overwrite(files: &[PathBuf], path: &Path, scene: &Scene) -> Result<
 }
 
 fn default_output(scene: &Path) -> PathBuf {
+    if is_standard_stream(scene) {
+        return PathBuf::from("scene.png");
+    }
     Path::new(scene.file_stem().unwrap_or(scene.as_os_str())).with_extension("png")
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Error;
+use super::json::is_standard_stream;
 use crate::plan::ViewRequest;
 use crate::scene::{self, Loaded};
 use crate::views::VIEWS;
@@ -40,7 +41,10 @@ impl SceneChanges {
     /// Those of the file, and of options that do not apply to it.
     pub fn load(&self, scene: &Path) -> Result<Loaded, Error> {
         self.check(scene)?;
-        let loaded = crate::load(scene, &self.overrides())?;
+        let loaded = match is_standard_stream(scene) {
+            true => crate::load_str(&std::io::read_to_string(std::io::stdin())?, Path::new(""), &self.overrides())?,
+            false => crate::load(scene, &self.overrides())?,
+        };
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));
         }
@@ -57,7 +61,8 @@ impl SceneChanges {
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
-    /// A scene (.toml), or a model (.obj, .md2) around which a floor, a spotlight and a camera are supplied
+    /// A scene (.toml; - is one on standard input), or a model (.obj, .md2) around which a floor, a spotlight and a camera
+    /// are supplied
     pub scene: PathBuf,
 
     #[command(flatten)]

@@ -130,7 +130,7 @@ fn stress(arguments: &StressArgs, screen: Screen) -> Result<bool, Error> {
     if let Some(path) = &arguments.json {
         json::put(path, &stress::to_json(arguments.seed, &results)?)?;
     }
-    if !arguments.json.as_deref().is_some_and(json::is_standard_output) {
+    if !arguments.json.as_deref().is_some_and(json::is_standard_stream) {
         print(arguments, &results)?;
     }
     Ok(results.iter().any(CaseResult::fails))

@@ -149,6 +149,8 @@ impl RuleOutcome {
 pub struct Checked {
     pub context: ContextInfo,
     pub outcomes: Vec<RuleOutcome>,
+    /// Time of the run. Rules that ran at once took longer together.
+    pub seconds: f64,
     /// Waivers for this driver that nothing needed: each is a failure.
     pub stale_waivers: Vec<String>,
     /// Rules that have not been run yet: the run goes on, or was ended.

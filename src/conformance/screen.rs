@@ -175,7 +175,7 @@ fn summary(checked: &Checked) -> String {
     let counts = verdicts.map(|(verdict, name)| (checked.count(verdict), name));
     let parts: Vec<String> =
         counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
-    let seconds: f64 = checked.outcomes.iter().map(|outcome| outcome.seconds).sum();
+    let seconds = checked.seconds;
     let findings: usize = checked.outcomes.iter().map(|outcome| outcome.findings.len()).sum();
     format!(
         "{} rule{}, {findings} checks: {}; {seconds:.1} s",

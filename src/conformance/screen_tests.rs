@@ -23,6 +23,7 @@ fn checked(outcomes: Vec<RuleOutcome>) -> Checked {
     });
     Checked {
         context: serde_json::from_value(context).unwrap(),
+        seconds: outcomes.iter().map(|outcome| outcome.seconds).sum(),
         outcomes,
         stale_waivers: Vec::new(),
         unfinished: Vec::new(),

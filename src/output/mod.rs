@@ -148,6 +148,18 @@ pub fn write_described(outputs: &[Output<'_>], texts: &[(&str, String)]) -> Resu
         .map_err(|(index, error)| failed(paths[index], &error))
 }
 
+/// The bytes of a PNG, with texts as by [`write_described`].
+///
+/// # Errors
+///
+/// A keyword that a PNG cannot have.
+#[doc(hidden)]
+pub fn to_png(output: &Output<'_>, texts: &[(&str, String)]) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write_png(output, texts, &mut bytes)?;
+    Ok(bytes)
+}
+
 fn failed(path: &Path, error: &io::Error) -> Error {
     Error::Write { path: path.to_owned(), reason: error.to_string() }
 }

@@ -55,6 +55,7 @@ fn refusal(output: &Output, code: i32, expected: &str) -> Result<(), String> {
 
 const LIGHT: &str = "[[light]]\nposition = [2, 4, 3]\ntarget = [0, 0, 0]\ncone = 60\nnear = 0.5\nfar = 20\n";
 const QUAD: &str = "[[object]]\nmesh = \"quad\"\n";
+const SMALL_SCENE: &str = "image = { size = [32, 24] }\n{LIGHT}{QUAD}";
 
 /// Name, scene (`{LIGHT}` and `{QUAD}` stand for the above), what the error must say.
 const SCENES: &[(&str, &str, &str)] = &[
@@ -525,6 +526,35 @@ fn several_scenes_are_drawn_into_a_folder() {
     let bad = glumbra(folder.path(), &["render", &boxes, "none.toml", "-o", "late"]);
     refusal(&bad, 1, "none.toml").unwrap();
     assert!(!folder.path().join("late").exists(), "a picture beside a scene that cannot be read");
+}
+
+#[test]
+fn a_dash_is_standard_input_and_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = SMALL_SCENE.replace("{LIGHT}", LIGHT).replace("{QUAD}", QUAD);
+    fs::write(folder.path().join("scene.toml"), &scene).unwrap();
+    let piped = |arguments: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("glumbra").unwrap();
+        command.current_dir(folder.path()).args(arguments).write_stdin(scene.clone()).output().unwrap()
+    };
+    let pixels = |png: &[u8]| image::load_from_memory(png).unwrap().into_rgb8();
+    let file = glumbra(folder.path(), &["render", "scene.toml", "-o", "x.png"]);
+    assert!(file.status.success(), "{}", text(&file.stderr));
+    let through = piped(&["render", "-", "-o", "-", "--quiet"]);
+    assert_eq!((through.status.code(), text(&through.stderr)), (Some(0), String::new()));
+    assert!(pixels(&through.stdout) == pixels(&fs::read(folder.path().join("x.png")).unwrap()));
+    assert!(piped(&["render", "-"]).status.success());
+    assert_eq!(names(folder.path()), ["scene.png", "scene.toml", "x.png"]);
+    assert!(text(&piped(&["plan", "-"]).stdout).contains("lit"));
+    for (arguments, expected) in [
+        (&["render", "-", "-o", "-", "--aov", "shade"][..], "leave out --aov"),
+        (&["render", "-", "-o", "-", "--json", "-"], "leave out --json -"),
+        (&["render", "-", "scene.toml", "-o", "-"], "leave out the other scenes"),
+        (&["plan", "-", "--print-scene"], "save it first"),
+        (&["render", "-", "--set", "light.cone=none"], "<text>"),
+    ] {
+        refusal(&piped(arguments), 1, expected).unwrap();
+    }
 }
 
 #[test]

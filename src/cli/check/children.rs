@@ -2,6 +2,8 @@
 //! too long. After a crash the rest goes on in a new process.
 
 use std::collections::VecDeque;
+use std::sync::Mutex;
+use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use crate::cli::child_process::{self, BadEnd, ChildProcess, Next, quoted};
@@ -35,7 +37,69 @@ pub enum Heard {
 /// Name of the finding that stands for the end of a rule's process.
 const PROCESS: &str = "the rule runs to its end";
 
-/// Runs `rules` in child processes with these arguments, at most `limit` a rule, and gives `hear` what happens.
+/// Runs `rules` with `jobs` child processes at once, and gives `hear` what happens, in the order in which it does. The rest
+/// is as with [`run`].
+///
+/// # Errors
+///
+/// No process that finds a context.
+pub fn run_at_once(
+    arguments: &[String],
+    rules: &[&'static Rule],
+    (limit, each_alone): (Duration, bool),
+    jobs: usize,
+    hear: &mut impl FnMut(Heard),
+) -> Result<(), ChildError> {
+    if jobs == 1 {
+        return run(arguments, rules, limit, each_alone, hear);
+    }
+    let left = Mutex::new(parts(rules, jobs));
+    let take = || left.lock().ok().and_then(|mut left| left.pop_front());
+    let (send, news) = channel();
+    std::thread::scope(|scope| {
+        for _ in 0..jobs {
+            let send = send.clone();
+            scope.spawn(move || {
+                while let Some(part) = take() {
+                    let ran = run(arguments, &part, limit, each_alone, &mut |heard| {
+                        let _ = send.send(Ok(heard));
+                    });
+                    if let Err(error) = ran {
+                        let _ = send.send(Err(error));
+                    }
+                }
+            });
+        }
+        drop(send);
+        let mut result = Ok(());
+        for word in news {
+            match word {
+                Ok(heard) => hear(heard),
+                Err(error) => {
+                    // The others would meet it, too.
+                    if let Ok(mut left) = left.lock() {
+                        left.clear();
+                    }
+                    result = result.and(Err(error));
+                }
+            }
+        }
+        result
+    })
+}
+
+/// Parts of `rules` for processes that each take the next one: the generated rules first and alone, since they take longest,
+/// then some at a time.
+fn parts(rules: &[&'static Rule], jobs: usize) -> VecDeque<Vec<&'static Rule>> {
+    /// Parts for each process: few enough that starting them costs little, enough that none has to wait long.
+    const PARTS: usize = 4;
+    let (generated, others): (Vec<_>, Vec<_>) = rules.iter().copied().partition(|rule| rule.id.starts_with("GL-X"));
+    let size = others.len().div_ceil(jobs * PARTS).max(1);
+    generated.chunks(1).chain(others.chunks(size)).map(<[&Rule]>::to_vec).collect()
+}
+
+/// Runs `rules` in child processes with these arguments, one after the other, at most `limit` a rule, and gives `hear` what
+/// happens.
 ///
 /// # Errors
 ///

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::CheckArgs;
 use crate::cli::Error;
-use crate::cli::json::is_standard_output;
+use crate::cli::json::is_standard_stream;
 use crate::conformance::waivers::{self, Waiver};
 use crate::conformance::{self, Checked};
 use crate::output::{self, atomic_write};
@@ -32,7 +32,7 @@ impl<'a> Files<'a> {
         refuse_one_file_for_two(arguments)?;
         let [json, junit, waivers] =
             [&arguments.json, &arguments.junit, &arguments.write_waivers].map(|path| path.as_deref());
-        for path in [json, junit, waivers].into_iter().flatten().filter(|path| !is_standard_output(path)) {
+        for path in [json, junit, waivers].into_iter().flatten().filter(|path| !is_standard_stream(path)) {
             try_to_write(path).map_err(|error| Error::WriteFile { path: path.to_owned(), error })?;
         }
         Ok(Self { json, junit, waivers, written: None })
@@ -40,7 +40,7 @@ impl<'a> Files<'a> {
 
     /// Tests whether standard output is for a file's text.
     pub fn take_standard_output(&self) -> bool {
-        [self.json, self.junit].into_iter().flatten().any(is_standard_output)
+        [self.json, self.junit].into_iter().flatten().any(is_standard_stream)
     }
 
     /// Writes the results so far, unless that has just been done. Pipes and devices are left for the end.
@@ -52,7 +52,7 @@ impl<'a> Files<'a> {
         if self.written.is_some_and(|written| written.elapsed() < PAUSE) {
             return Ok(false);
         }
-        self.write(checked, |path| !is_standard_output(path) && path.metadata().map_or(true, |found| found.is_file()))?;
+        self.write(checked, |path| !is_standard_stream(path) && path.metadata().map_or(true, |found| found.is_file()))?;
         self.written = Some(Instant::now());
         Ok(true)
     }
@@ -84,10 +84,10 @@ impl<'a> Files<'a> {
 
 /// Writes all, or none.
 fn put(files: &[(&Path, String)]) -> Result<(), Error> {
-    for (_, text) in files.iter().filter(|(path, _)| is_standard_output(path)) {
+    for (_, text) in files.iter().filter(|(path, _)| is_standard_stream(path)) {
         crate::cli::print(text)?;
     }
-    let files: Vec<&(&Path, String)> = files.iter().filter(|(path, _)| !is_standard_output(path)).collect();
+    let files: Vec<&(&Path, String)> = files.iter().filter(|(path, _)| !is_standard_stream(path)).collect();
     let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
     let written = atomic_write::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
     written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })

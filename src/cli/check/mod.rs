@@ -7,7 +7,7 @@ mod reduce;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::ProgressBar;
@@ -76,12 +76,16 @@ pub struct CheckArgs {
         value_parser = clap::value_parser!(u16).range(1..=1000))]
     repeat: u16,
 
+    /// Processes at once; absent: one a core, 8 at most. 1 runs rule after rule, for a driver that shares badly
+    #[arg(long, value_name = "N", help_heading = "Processes", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
+
     /// Runs each rule in a process of its own, so that no rule meets what another has left
     #[arg(long, help_heading = "Processes")]
     isolate: bool,
 
     /// Runs all in this process, for a debugger or a tracer; a crash then ends the run
-    #[arg(long, conflicts_with_all = ["isolate", "timeout"], help_heading = "Processes")]
+    #[arg(long, conflicts_with_all = ["isolate", "timeout", "jobs"], help_heading = "Processes")]
     here: bool,
 
     /// Rules to run, as a child process
@@ -111,7 +115,7 @@ U uploads and read-backs, B blending, masks and clears, G GLSL, V vertices, Q qu
 K sequences of calls, and large numbers, X what is generated at random and held against models. \
 --list has all.
 
-The rules run in a child process. What ends it is a verdict of the rule that it was at, and the rest \
+The rules run in child processes. What ends one is a verdict of the rule that it was at, and the rest \
 goes on in a new one:
   CRASH          a signal, such as SIGSEGV, or an exit of the driver's own
   HANG           no end within --timeout
@@ -154,6 +158,12 @@ Examples:
   gdb --args glumbra check --here --filter GL-R1
   GALLIUM_DRIVER=softpipe glumbra check --context egl";
 
+/// Processes at once where none are asked for: more would not make it quicker, and each has a context.
+fn default_jobs() -> usize {
+    const MOST: usize = 8;
+    std::thread::available_parallelism().map_or(1, usize::from).min(MOST)
+}
+
 /// Columns of the text without --verbose, at most.
 const WIDTH: usize = 80;
 
@@ -183,8 +193,18 @@ fn check(arguments: &CheckArgs, screen: Screen) -> Result<Checked, Error> {
     let before = arguments.baseline.as_deref().map(baseline::load).transpose()?;
     let files = Files::new(arguments)?;
     let bar = screen.bar(rules.len() as u64 * u64::from(arguments.repeat), "{bar:40} {pos}/{len} rules  {msg}");
-    let mut run =
-        Run { context: None, repeats: Vec::new(), rules, known, before, files, bar, dirty: false, error: None };
+    let mut run = Run {
+        start: Instant::now(),
+        context: None,
+        repeats: Vec::new(),
+        rules,
+        known,
+        before,
+        files,
+        bar,
+        dirty: false,
+        error: None,
+    };
     for _ in 0..arguments.repeat {
         run.repeats.push(Vec::new());
         run.once(arguments)?;
@@ -203,6 +223,7 @@ fn check(arguments: &CheckArgs, screen: Screen) -> Result<Checked, Error> {
 
 /// A run so far.
 struct Run<'a> {
+    start: Instant,
     context: Option<ContextInfo>,
     /// Outcomes of each repeat.
     repeats: Vec<Vec<RuleOutcome>>,
@@ -237,7 +258,8 @@ impl Run<'_> {
         }
         let for_child = arguments.for_child();
         let limit = Duration::from_secs(arguments.timeout.into());
-        Ok(children::run(&for_child, &rules, limit, arguments.isolate, &mut |heard| self.hear(heard))?)
+        let jobs = arguments.jobs.map_or_else(default_jobs, usize::from);
+        Ok(children::run_at_once(&for_child, &rules, (limit, arguments.isolate), jobs, &mut |heard| self.hear(heard))?)
     }
 
     fn hear(&mut self, heard: Heard) {
@@ -269,11 +291,23 @@ impl Run<'_> {
     /// The results so far; nothing before there is a context.
     fn checked(&self) -> Option<Checked> {
         let context = self.context.clone()?;
-        let last = self.repeats.last().map_or(0, Vec::len);
-        let unfinished = self.rules.iter().skip(last).map(|rule| rule.id).collect();
-        let (mut outcomes, flakes) = conformance::join(self.repeats.clone());
+        let mut repeats = self.repeats.clone();
+        // Processes at once end their rules in any order.
+        let place = |id: &str| self.rules.iter().position(|rule| rule.id == id);
+        repeats.iter_mut().for_each(|outcomes| outcomes.sort_by_key(|outcome| place(outcome.id)));
+        let is_done = |id: &str| repeats.last().is_some_and(|last| last.iter().any(|outcome| outcome.id == id));
+        let unfinished = self.rules.iter().map(|rule| rule.id).filter(|id| !is_done(id)).collect();
+        let (mut outcomes, flakes) = conformance::join(repeats);
         let stale_waivers = waivers::apply(&self.known, &context, &mut outcomes);
-        let mut checked = Checked { context, outcomes, stale_waivers, unfinished, flakes, since: None };
+        let mut checked = Checked {
+            context,
+            outcomes,
+            seconds: self.start.elapsed().as_secs_f64(),
+            stale_waivers,
+            unfinished,
+            flakes,
+            since: None,
+        };
         checked.since = self.before.as_ref().map(|before| baseline::compare(before, &checked));
         Some(checked)
     }

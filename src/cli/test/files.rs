@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::results::TestResults;
 use super::{junit, page};
 use crate::cli::Error;
-use crate::cli::json::is_standard_output;
+use crate::cli::json::is_standard_stream;
 use crate::output::{self, atomic_write, json};
 
 /// The page in the folder of --html.
@@ -36,7 +36,7 @@ impl ResultFiles {
             if let Some((second, _)) = named[index + 1..].iter().find(|(_, other)| output::is_same_file(path, other)) {
                 return Err(Error::SameFile { path: (*path).clone(), first, second });
             }
-            if !is_standard_output(path) {
+            if !is_standard_stream(path) {
                 try_to_write(path).map_err(|error| Error::WriteFile { path: (*path).clone(), error })?;
             }
         }
@@ -45,7 +45,7 @@ impl ResultFiles {
 
     /// Tests whether standard output is for a file's text.
     pub fn take_standard_output(&self) -> bool {
-        [&self.json, &self.junit].into_iter().flatten().any(|path| is_standard_output(path))
+        [&self.json, &self.junit].into_iter().flatten().any(|path| is_standard_stream(path))
     }
 
     /// Writes all, or none.
@@ -64,7 +64,7 @@ impl ResultFiles {
         if let Some(path) = &self.page {
             files.push((path, page::to_html(results)));
         }
-        let (screen, files): (Vec<_>, Vec<_>) = files.into_iter().partition(|(path, _)| is_standard_output(path));
+        let (screen, files): (Vec<_>, Vec<_>) = files.into_iter().partition(|(path, _)| is_standard_stream(path));
         screen.iter().try_for_each(|(_, text)| crate::cli::print(text))?;
         let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
         let written = atomic_write::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
