@@ -110,14 +110,14 @@ impl PlaceReport {
         if let Some(object) = &self.object {
             let _ = write!(text, " of {object}");
         }
-        match (self.edge_pixels, &self.caster) {
-            (Some(pixels), Some(caster)) => {
-                let _ = write!(text, ", {pixels:.1} pixels from the nearest true shadow edge; caster: {caster}");
-            }
-            (Some(pixels), None) => {
-                let _ = write!(text, ", {pixels:.1} pixels from the nearest true shadow edge");
-            }
-            (None, _) => text += ", and no true shadow edge is in the picture",
+        text += &match self.edge_pixels {
+            Some(pixels) => format!(", {pixels:.1} pixels from the nearest true shadow edge"),
+            None => String::from(", and no true shadow edge is in the picture"),
+        };
+        match &self.caster {
+            Some(caster) if self.kind == "false shadow" => text += &format!(", which {caster} casts"),
+            Some(caster) => text += &format!("; the shadow that belongs there is that of {caster}"),
+            None => {}
         }
         text + "\n"
     }

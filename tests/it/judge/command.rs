@@ -68,7 +68,7 @@ fn what_is_wrong_is_said_and_drawn() {
         "a.shade.png, 192x192, against light 0",
         "note: Overrides of the picture: light.shadow.size=128; given: none",
         "worst places",
-        "caster: box",
+        "true shadow edge, which box casts",
         "no limits are given",
     ] {
         assert!(said.contains(expected), "{expected}: {said}");
