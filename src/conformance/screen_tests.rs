@@ -1,6 +1,6 @@
 //! The screen's text, the baseline, repeats and JUnit, on outcomes that are made up.
 
-use super::super::{Fact, baseline, join, json, junit, waivers};
+use super::super::{Fact, baseline, join, junit, waivers};
 use super::*;
 use crate::conformance::events::rule;
 
@@ -89,7 +89,7 @@ fn junit_has_a_case_a_finding_with_the_failure_in_its_text() {
 fn a_run_is_compared_with_an_earlier_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("before.json");
-    std::fs::write(&path, json(&three()).unwrap()).unwrap();
+    std::fs::write(&path, serde_json::to_string_pretty(&three()).unwrap()).unwrap();
     let before = baseline::load(&path).unwrap();
     let same = baseline::compare(&before, &three());
     assert_eq!((same.known_failures.len(), same.new_failures.len(), same.fixed.len()), (2, 0, 0));

@@ -47,6 +47,17 @@ fn draw_from(call: &mut Call, floats: &[f32], point: impl Fn(&Call)) {
     }
 }
 
+/// Tests whether the array of this location already reads a buffer.
+fn has_data(call: &Call) -> bool {
+    let mut buffer = [0.0];
+    // SAFETY: the context is current; the answer is one number.
+    unsafe {
+        let binding = glow::VERTEX_ATTRIB_ARRAY_BUFFER_BINDING;
+        call.gl().get_vertex_attrib_parameter_f32_slice(call.u(0), binding, &mut buffer);
+    }
+    buffer[0] != 0.0
+}
+
 /// Tests whether the fixed-function pipeline draws from buffers.
 fn is_fixed(call: &Call) -> bool {
     call.get(glow::CURRENT_PROGRAM) == 0 && call.get(glow::ELEMENT_ARRAY_BUFFER_BINDING) != 0
@@ -275,7 +286,7 @@ faults! {
         glEnableVertexAttribArray => |call| {
             let array = call.get(glow::VERTEX_ARRAY_BINDING) as u32;
             let count = call.kept((20, array));
-            if array != 0 && call.f(0) >= count {
+            if array != 0 && call.f(0) >= count && !has_data(call) {
                 call.keep((20, array), count + 1.0);
                 call.keep((100 + call.u(0), array), count + 1.0);
                 call.set(0, count);
