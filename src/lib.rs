@@ -86,12 +86,11 @@
 //! |---|---|
 //! | `default` | all of these: what the command has |
 //! | `check` | rules for the driver; `glumbra check` |
-//! | `cli` | the command, with the subcommands that the other features allow |
+//! | `cli` | the command with all its subcommands |
 //! | `exr` | pictures as OpenEXR files |
 //! | `fixed-function` | the same passes by the driver's fixed-function pipeline; `--pipeline fixed-function`, `plan --gl` |
 //! | `flip` | FLIP, how different two pictures look to a viewer; compiles C++ |
 //! | `meshopt` | vertex-cache order, and `casters = "texel"`, which else draws all triangles and warns; compiles C++ |
-//! | `npy` | pictures as NumPy's files |
 //! | `repack` | skins packed again |
 //! | `report` | reports, stress tests and figures, and their commands |
 //! | `window` | contexts of windows, hidden ones too; the viewer and the samples |

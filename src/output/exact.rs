@@ -1,4 +1,4 @@
-//! Files of exact 32-bit values, each kind with its cargo feature: EXR and NumPy's NPY.
+//! Files of exact 32-bit values: EXR, with the cargo feature of that name, and NumPy's NPY.
 
 use std::io::{self, Write};
 
@@ -45,21 +45,30 @@ pub fn write_exr(output: &Output<'_>, file: &mut (impl Write + io::Seek)) -> io:
     Image::from_layer(layer).write().non_parallel().to_buffered(file).map_err(io::Error::other)
 }
 
-/// An array of shape (height, width), or (height, width, channels) for several.
-#[cfg(feature = "npy")]
+/// An array of shape (height, width), or (height, width, channels) for several, in the format of NumPy's `numpy.lib.format`,
+/// version 1.0: little-endian 32-bit floats, in rows.
 pub fn write_npy(output: &Output<'_>, file: &mut impl Write) -> io::Result<()> {
-    use npyz::WriterBuilder;
-    let [width, height] = output.pixels.size().map(u64::from);
+    /// Bytes before the header's text: a magic string, the version, the text's length.
+    const START: usize = 10;
+    /// The array begins at a multiple of so many bytes.
+    const ALIGNMENT: usize = 64;
+    let [width, height] = output.pixels.size();
     let planes = planes(output);
-    let mut shape = vec![height, width];
-    if planes.len() > 1 {
-        shape.push(planes.len() as u64);
-    }
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
-    for pixel in 0..(width * height) as usize {
+    let shape = match planes.len() {
+        1 => format!("({height}, {width})"),
+        channels => format!("({height}, {width}, {channels})"),
+    };
+    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    let end = (START + header.len() + 1).next_multiple_of(ALIGNMENT);
+    header += &" ".repeat(end - START - header.len() - 1);
+    header.push('\n');
+    file.write_all(b"\x93NUMPY\x01\x00")?;
+    file.write_all(&u16::try_from(header.len()).map_err(io::Error::other)?.to_le_bytes())?;
+    file.write_all(header.as_bytes())?;
+    for pixel in 0..(width as usize) * (height as usize) {
         for (_, plane) in &planes {
-            writer.push(&plane[pixel])?;
+            file.write_all(&plane[pixel].to_le_bytes())?;
         }
     }
-    writer.finish()
+    Ok(())
 }

@@ -19,6 +19,7 @@
 
 pub mod compare;
 mod comparison;
+#[cfg(feature = "exr")]
 mod exr_file;
 pub mod flip;
 mod npy_file;

@@ -4,8 +4,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "exr")]
+use super::exr_file;
 use super::picture_file::PictureFile;
-use super::{exr_file, npy_file, png_file};
+use super::{npy_file, png_file};
 
 /// Reason why a picture could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -42,7 +44,10 @@ pub fn read_bytes(bytes: &[u8]) -> Result<PictureFile, String> {
     if bytes.starts_with(PNG) {
         png_file::decode(bytes)
     } else if bytes.starts_with(EXR) {
-        Ok(PictureFile { raster: exr_file::decode(bytes)?, texts: Vec::new() })
+        #[cfg(feature = "exr")]
+        return Ok(PictureFile { raster: exr_file::decode(bytes)?, texts: Vec::new() });
+        #[cfg(not(feature = "exr"))]
+        Err(String::from("this build reads no .exr files: enable glumbra's cargo feature `exr`"))
     } else if bytes.starts_with(NPY) {
         Ok(PictureFile { raster: npy_file::decode(bytes)?, texts: Vec::new() })
     } else {
