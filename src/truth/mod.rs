@@ -11,7 +11,7 @@
 //! its near plane or beyond its far plane along its axis is [`Answer::OutsideCone`]. Blockers count from the light on: near
 //! and far belong to its maps, not to its rays. A point light's planes are the six of a cube around it; a directional light
 //! has none, and its rays are parallel: infinity is not replaced by a far point.
-//! A light with a lens is taken from its middle; [`lens`] has all of its lens points.
+//! A light with a lens is taken from its middle; `truth::lens` has all of its lens points.
 //!
 //! # When it does not answer
 //! A sample may mean any point that a move by `2^-subpixel_bits` pixel in x and y reaches, and any position may be off by
