@@ -48,7 +48,11 @@ fn contents(failing: &[&CaseOutcome]) -> String {
 fn failure(case: &CaseOutcome) -> String {
     let at = case.at.as_ref().map(|at| format!("<p><code>{}</code></p>\n", escape(at))).unwrap_or_default();
     let check = case.check.as_ref().map(|check| format!(" <span class=\"chip\">{}</span>", escape(check)));
-    let pictures: String = case.files.named().map(|(name, path)| picture(name, path)).collect();
+    let difference = match case.check.as_deref() {
+        Some("truth") => "difference: blue a false shadow, orange a leak",
+        _ => "difference, from black for none to white",
+    };
+    let pictures: String = case.files.named().map(|(name, path)| picture(name, path, difference)).collect();
     let pictures = match pictures.is_empty() {
         true => pictures,
         false => format!("<div class=\"figures pictures\">\n{pictures}</div>\n"),
@@ -65,14 +69,14 @@ fn failure(case: &CaseOutcome) -> String {
     )
 }
 
-/// A picture of a failure, from its file.
-fn picture(name: &'static str, path: &std::path::Path) -> String {
+/// A picture of a failure, from its file. `difference`: what is said below one of differences.
+fn picture(name: &'static str, path: &std::path::Path, difference: &str) -> String {
     let read = std::fs::read(path).map_err(|error| error.to_string());
     let size = image::image_dimensions(path).map_err(|error| error.to_string());
     match (read, size) {
         (Ok(png), Ok((width, height))) => {
             let caption = match name {
-                "difference" => "difference, from black for none to white",
+                "difference" => difference,
                 name => name,
             };
             let html = figure(&png, [width, height], name, caption);
