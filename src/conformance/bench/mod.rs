@@ -13,6 +13,7 @@ mod draw;
 mod elements;
 pub mod environment;
 mod feed;
+pub mod fixed_commands;
 pub mod fixed_function;
 mod format;
 mod image;
