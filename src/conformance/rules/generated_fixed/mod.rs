@@ -28,8 +28,8 @@ use generate::Maker;
 use judge::{Count, Wrong};
 
 /// Streams, draws of each, and draws from one change of what a driver compiles programs for to the next.
-const STREAMS: u64 = 12;
-const DRAWS: usize = 40;
+const STREAMS: u64 = 8;
+const DRAWS: usize = 28;
 const EVERY: usize = 4;
 
 /// Streams in a finding.
