@@ -52,7 +52,7 @@ impl FixedPlayer<'_> {
                 fixed.FogCoordf(vertex.fog);
             }
             for unit in (0..FIXED_UNITS).filter(|unit| given.coordinates[*unit]) {
-                // Not by fewer: Mesa 22.3.6 mixes up vertices of a primitive whose calls have different counts.
+                // All by four: calls of different counts in one primitive are not tried.
                 fixed.MultiTexCoord4fv(glow::TEXTURE0 + unit as u32, vertex.coordinates[unit].as_ptr());
             }
             let [x, y, z, w] = vertex.position;

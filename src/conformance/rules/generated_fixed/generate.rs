@@ -222,7 +222,7 @@ impl<'a> Maker<'a> {
         }
         let last = self.state.saved.last().map(|(_, state)| tracks(state));
         if last == Some(false) && self.chance(0.6) {
-            // Nor does it clip by planes that it gives back.
+            // Clip planes that are given back are left out: not judged yet.
             let planes = self
                 .state
                 .saved
