@@ -165,12 +165,24 @@ impl FixedPlayer<'_> {
         }
     }
 
+    /// Has the driver look at the current values. Those that Mesa 22.3.6 has not looked at since they were set overwrite what
+    /// glPopAttrib gives back, and a material misses them whose tracking ends.
+    fn settle(&self) {
+        let mut color = [0.0; 4];
+        // SAFETY: the context is current; four numbers are written.
+        unsafe { self.gl.get_parameter_f32_slice(raw::CURRENT_COLOR, &mut color) };
+    }
+
     fn set(&self, command: &FixedCommand) {
         let (gl, fixed) = (&self.gl, self.binding());
         let environment = raw::TEXTURE_ENV;
         // SAFETY: the context is current; each call reads as many numbers as the command has.
         unsafe {
             match *command {
+                FixedCommand::Switch(raw::COLOR_MATERIAL, on) => {
+                    self.settle();
+                    if on { gl.enable(raw::COLOR_MATERIAL) } else { gl.disable(raw::COLOR_MATERIAL) }
+                }
                 FixedCommand::Switch(what, true) => gl.enable(what),
                 FixedCommand::Switch(what, false) => gl.disable(what),
                 FixedCommand::ActiveTexture(unit) => gl.active_texture(glow::TEXTURE0 + unit),
@@ -210,7 +222,10 @@ impl FixedPlayer<'_> {
                 FixedCommand::SceneAmbient(color) => fixed.LightModelfv(raw::LIGHT_MODEL_AMBIENT, color.as_ptr()),
                 FixedCommand::Material(face, name, color) => fixed.Materialfv(face, name, color.as_ptr()),
                 FixedCommand::Shininess(face, value) => fixed.Materialf(face, raw::SHININESS, value),
-                FixedCommand::ColorMaterial(face, name) => fixed.ColorMaterial(face, name),
+                FixedCommand::ColorMaterial(face, name) => {
+                    self.settle();
+                    fixed.ColorMaterial(face, name);
+                }
                 FixedCommand::ShadeModel(mode) => fixed.ShadeModel(mode),
                 FixedCommand::FrontFace(mode) => gl.front_face(mode),
                 FixedCommand::Fog(name, value) => fixed.Fogi(name, value),
@@ -218,11 +233,12 @@ impl FixedPlayer<'_> {
                 FixedCommand::FogColor(color) => fixed.Fogfv(raw::FOG_COLOR, color.as_ptr()),
                 FixedCommand::AlphaFunc(function, reference) => fixed.AlphaFunc(function, reference),
                 FixedCommand::ClipPlane(index, plane) => fixed.ClipPlane(raw::CLIP_PLANE0 + index, plane.as_ptr()),
-                FixedCommand::PushAttrib(mask) => fixed.PushAttrib(mask),
+                FixedCommand::PushAttrib(mask) => {
+                    self.settle();
+                    fixed.PushAttrib(mask);
+                }
                 FixedCommand::PopAttrib => {
-                    // Current values that Mesa 22.3.6 has not looked at since they were set overwrite those that it gives back.
-                    let mut color = [0.0; 4];
-                    gl.get_parameter_f32_slice(raw::CURRENT_COLOR, &mut color);
+                    self.settle();
                     fixed.PopAttrib();
                 }
                 FixedCommand::Color(color) => self.color(color),

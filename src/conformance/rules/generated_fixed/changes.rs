@@ -188,7 +188,10 @@ impl Maker<'_> {
                 let control = self.random.pick(&[raw::SINGLE_COLOR, raw::SEPARATE_SPECULAR_COLOR]);
                 self.push(Command::LightModel(raw::LIGHT_MODEL_COLOR_CONTROL, control as i32));
             }
-            // Sides are left out: colours of back faces do not agree with llvmpipe's of Mesa 22.3.6 in every pixel.
+            1 => {
+                let on = i32::from(self.chance(0.6));
+                self.push(Command::LightModel(raw::LIGHT_MODEL_TWO_SIDE, on));
+            }
             _ => {
                 let on = i32::from(self.chance(0.6));
                 self.push(Command::LightModel(raw::LIGHT_MODEL_LOCAL_VIEWER, on));

@@ -127,7 +127,11 @@ impl FixedState {
             }
         };
         let [red, green, blue] = [0, 1, 2].map(|channel| result(&state.rgb, channel));
-        let alpha = if state.rgb.function == raw::DOT3_RGBA { red } else { result(&state.alpha, 3) };
+        // The specification does not say whose scale the fourth component of DOT3_RGBA has.
+        let alpha = match state.rgb.function {
+            raw::DOT3_RGBA => hull(red, result(&CombinerState { scale: state.alpha.scale, ..state.rgb }, 0)),
+            _ => result(&state.alpha, 3),
+        };
         [red, green, blue, alpha]
     }
 }

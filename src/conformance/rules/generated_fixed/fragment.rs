@@ -15,8 +15,8 @@ const EDGE: f64 = 0.02;
 /// Offsets in pixels by which an edge of a clip plane may be off.
 const CLIPPED: f64 = 1.0 / 32.0;
 
-/// Slack of a colour behind lighting: two codes of 8 bits, for powers and square roots of few bits. Without: of f32.
-const LIT: [f64; 2] = [1e-5, 2.0 / 255.0];
+/// Slack of a colour behind lighting: half a code of 8 bits, for powers and square roots of few bits. Without: of f32.
+const LIT: [f64; 2] = [1e-5, 0.5 / 255.0];
 
 /// What a pixel may hold.
 #[derive(Clone, Copy, Debug)]
@@ -100,7 +100,9 @@ impl FixedState {
         // Always where there is lighting [GL 4.6 compatibility, 16.2].
         if self.on.has(raw::COLOR_SUM) || self.on.has(raw::LIGHTING) {
             for (channel, more) in color.iter_mut().zip(secondary).take(3) {
-                *channel = [channel[0] + more[0], channel[1] + more[1]].map(|value| value.clamp(0.0, 1.0));
+                // Clamped by 16.2; Mesa 22.3.6 takes the sum to the fog as it is.
+                let most = if self.on.has(raw::FOG) { 2.0 } else { 1.0 };
+                *channel = [(channel[0] + more[0]).clamp(0.0, 1.0), (channel[1] + more[1]).clamp(0.0, most)];
             }
         }
         if self.on.has(raw::FOG) {

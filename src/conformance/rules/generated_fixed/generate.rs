@@ -1,5 +1,7 @@
 //! Random commands of the fixed-function pipeline: little is set anew between draws. The maker's state is the model's.
 
+use glam::DVec3;
+
 use super::state::{FixedState, TARGETS, target_index};
 use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedCommand as Command, FixedTexture};
 use crate::conformance::random::Random;
@@ -72,9 +74,11 @@ impl<'a> Maker<'a> {
     /// A stream's beginning: several units, and sometimes lights.
     pub fn begin(&mut self) {
         self.made = super::start::starting();
-        // q would be 0 where it is generated.
+        // q would be 0 where it is generated, and (0, 0) is a texel's corner.
         for unit in (0..self.units).rev() {
             self.activate(unit);
+            let coordinates = self.coordinates();
+            self.push(Command::MultiTexCoord(unit as u32, coordinates));
             for name in [raw::OBJECT_PLANE, raw::EYE_PLANE] {
                 self.push(Command::TexGenPlane(raw::Q, name, [0.0, 0.0, 0.0, 1.0], false));
             }
@@ -222,20 +226,31 @@ impl<'a> Maker<'a> {
         }
         let last = self.state.saved.last().map(|(_, state)| tracks(state));
         if last == Some(false) && self.chance(0.6) {
-            // Clip planes that are given back are left out: not judged yet.
-            let planes = self
-                .state
-                .saved
-                .last()
-                .map(|(mask, state)| mask & raw::TRANSFORM_BIT != 0 && state.planes != self.state.planes);
-            if planes == Some(true) {
+            // Clip planes that Mesa 22.3.6 gives back are read so, and those of before clip on.
+            let planes = (self.state.saved.last())
+                .is_some_and(|(mask, state)| mask & raw::TRANSFORM_BIT != 0 && state.planes != self.state.planes);
+            if planes {
                 return;
             }
-            // Mesa 22.3.6 does not give COLOR_SUM back, which is saved with FOG_BIT and ENABLE_BIT.
-            let summed = self.state.saved.last().map(|(mask, state)| (*mask, state.on.has(raw::COLOR_SUM)));
+            let Some((mask, before, source)) =
+                self.state.saved.last().map(|(mask, state)| (*mask, state.on.clone(), state.fog.source))
+            else {
+                return;
+            };
+            let now = self.state.on.clone();
             self.push(Command::PopAttrib);
-            if let Some((_, on)) = summed.filter(|(mask, _)| mask & (raw::FOG_BIT | raw::ENABLE_BIT) != 0) {
-                self.push(Command::Switch(raw::COLOR_SUM, on));
+            // Mesa 22.3.6 does not give COLOR_SUM back, which is saved with FOG_BIT and ENABLE_BIT, nor lights with ENABLE_BIT alone.
+            if mask & (raw::FOG_BIT | raw::ENABLE_BIT) != 0 {
+                self.push(Command::Switch(raw::COLOR_SUM, before.has(raw::COLOR_SUM)));
+            }
+            // Nor the source of fog coordinates with FOG_BIT.
+            if mask & raw::FOG_BIT != 0 {
+                self.push(Command::Fog(raw::FOG_COORD_SRC, source as i32));
+            }
+            if mask & (raw::LIGHTING_BIT | raw::ENABLE_BIT) == raw::ENABLE_BIT {
+                for light in (raw::LIGHT0..=raw::LIGHT7).filter(|light| now.has(*light) != before.has(*light)) {
+                    self.push(Command::Switch(light, before.has(light)));
+                }
             }
             return;
         }
@@ -250,7 +265,10 @@ impl<'a> Maker<'a> {
                 raw::POLYGON_BIT,
                 glow::COLOR_BUFFER_BIT,
             ];
+            // Mesa 22.3.6 does not give back what was set within another glPushAttrib that does not save it.
+            let is_within = !self.state.saved.is_empty();
             let mask = match self.random.below(3) {
+                _ if is_within => bits.iter().sum(),
                 0 => bits.iter().sum(),
                 1 => self.random.pick(&bits),
                 _ => self.random.pick(&bits) | self.random.pick(&bits),
@@ -308,6 +326,27 @@ impl<'a> Maker<'a> {
             }
         }
         self.repair_matrices();
+        self.repair_shininess();
+    }
+
+    /// Makes another unit the active one, and back: Mesa 22.3.6 draws with texture matrices of before until then.
+    pub fn refresh(&mut self) {
+        let active = self.state.active as u32;
+        self.push(Command::ActiveTexture(u32::from(active == 0)));
+        self.push(Command::ActiveTexture(active));
+    }
+
+    /// Mesa takes (n . l) to the power of itself for highlights of attenuated lights and of spots where all shininess is 0.
+    fn repair_shininess(&mut self) {
+        let state = &self.state;
+        let dull = state.materials.iter().any(|material| material.shininess == 0.0);
+        let weakened = (state.lights.iter().zip(0..)).any(|(light, index)| {
+            state.on.has(raw::LIGHT0 + index) && (light.cutoff != 180.0 || light.attenuation != DVec3::X)
+        });
+        if dull && weakened {
+            let shininess = self.random.pick(&[0.5, 1.0, 2.0, 5.0]);
+            self.push(Command::Shininess(glow::FRONT_AND_BACK, shininess));
+        }
     }
 
     /// No source may be a unit without a texture.

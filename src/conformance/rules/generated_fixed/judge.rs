@@ -77,8 +77,16 @@ impl FixedState {
                 let got = seen[at[1] * CELLS[0] * CELL + at[0]];
                 let mut expected = Vec::new();
                 for way in &ways {
-                    let covering = way.iter().find(|triangle| triangle.covers(place) == Some(true));
-                    expected.push(covering.map_or(Pixel::Unsure, |triangle| self.shade(triangle, place, textures)));
+                    // Either triangle's on the edge between them.
+                    let within = |sure: Option<bool>| {
+                        let of = way.iter().filter(move |triangle| triangle.covers(place) == sure);
+                        of.map(|triangle| self.shade(triangle, place, textures)).collect::<Vec<Pixel>>()
+                    };
+                    let mut found = within(Some(true));
+                    if found.is_empty() {
+                        found = within(None);
+                    }
+                    expected.extend(if found.is_empty() { vec![Pixel::Unsure] } else { found });
                 }
                 match self.holds(&expected, got) {
                     None => count.unsure += 1,
@@ -93,11 +101,15 @@ impl FixedState {
     /// Tests a pixel against what any of the ways makes of it; `None`: it is not judged.
     fn holds(&self, ways: &[Pixel], got: [u8; 4]) -> Option<Result<(), [[f64; 2]; 4]>> {
         // A quad's or a polygon's values may be any mean of its corners' [GL 4.6 compatibility, 14.6.1].
-        if let [Pixel::Color(one), Pixel::Color(other)] = ways {
-            let far = |(one, other): (&[f64; 2], &[f64; 2])| {
-                one.iter().zip(other).any(|(one, other)| (one - other).abs() > 0.5 / 255.0)
+        if let [Pixel::Color(one), others @ ..] = ways {
+            let far = |other: &Pixel| match other {
+                Pixel::Color(other) => one
+                    .iter()
+                    .zip(other)
+                    .any(|(one, other)| one.iter().zip(other).any(|(one, other)| (one - other).abs() > 0.5 / 255.0)),
+                Pixel::Unsure | Pixel::Background => false,
             };
-            if one.iter().zip(other).any(far) {
+            if others.iter().any(far) {
                 return None;
             }
         }

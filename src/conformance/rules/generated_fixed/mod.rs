@@ -32,6 +32,9 @@ const STREAMS: u64 = 8;
 const DRAWS: usize = 28;
 const EVERY: usize = 4;
 
+/// Seed of the first stream; none of those that follow is skipped.
+const FIRST_SEED: u64 = 1000;
+
 /// Streams in a finding.
 const GROUP: u64 = 4;
 
@@ -45,13 +48,14 @@ fn stream(
     count: &mut Count,
 ) -> Result<Option<(usize, Wrong, String)>, Error> {
     let mut player = fixed.player(&subject.bench, surface, textures)?;
-    let mut maker = Maker::new(1003 + number, textures, fixed.most_units());
+    let mut maker = Maker::new(FIRST_SEED + number, textures, fixed.most_units());
     maker.begin();
     let mut found = None;
     for draw in 0..DRAWS {
         maker.step(draw % EVERY == 0);
         let background = [0.25, 0.5, 0.75, 0.125];
         maker.push(Command::Clear(background));
+        maker.refresh();
         player.play_all(&maker.made)?;
         maker.made.clear();
         let figure = maker.figure();
@@ -95,7 +99,7 @@ pub fn generated(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
             None => format!("all {} pixels right, {} more are not judged", count.judged, count.unsure),
         };
         let what = format!("streams {} to {}", group * GROUP, (group + 1) * GROUP - 1);
-        findings.must_hold(what, broken.is_none() && count.judged > count.unsure, measured);
+        findings.must_hold(what, broken.is_none() && count.judged > 4 * count.unsure, measured);
     }
     Ok(())
 }

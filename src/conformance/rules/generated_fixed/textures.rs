@@ -43,13 +43,13 @@ fn base(format: u32) -> u32 {
     }
 }
 
-/// All textures, each of one random colour: what is judged is environments and not which texel is found.
+/// All textures, of random texels.
 pub fn textures(random: &mut Random) -> Vec<FixedTexture> {
     let mut code = || random.pick(&[0, 255, 64, 128, 191, 100, 200, 30]);
     let of = |(target, format, size): (u32, u32, [u32; 3])| {
         let count = size.iter().product::<u32>();
         let is_depth = base(format) == glow::DEPTH_COMPONENT;
-        let texels = vec![[(); 4].map(|()| code()); count as usize];
+        let texels: Vec<[u8; 4]> = (0..count).map(|_| [(); 4].map(|()| code())).collect();
         let depths =
             if is_depth { texels.iter().map(|texel| f32::from(texel[0]) / 255.0).collect() } else { Vec::new() };
         FixedTexture { target, format, size, texels, depths }
