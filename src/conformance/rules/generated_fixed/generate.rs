@@ -88,14 +88,25 @@ impl<'a> Maker<'a> {
             self.texture(unit);
             self.mode();
         }
-        if self.chance(0.6) {
+        if self.chance(0.75) {
             self.push(Command::Switch(raw::LIGHTING, true));
-            for _ in 0..2 {
+            for _ in 0..3 {
                 let light = self.random.below(8) as u32;
                 self.push(Command::Switch(raw::LIGHT0 + light, true));
-                (0..12).for_each(|_| self.light(light));
+                // Bright enough to be seen, and no sum of three is saturated.
+                for name in [raw::DIFFUSE, raw::SPECULAR] {
+                    let [red, green, blue] = [(); 3].map(|()| self.random.between(0.2, 0.5));
+                    self.push(Command::Light(light, name, [red, green, blue, 1.0]));
+                }
+                (0..10).for_each(|_| self.light(light));
                 self.material();
             }
+            let [red, green, blue] = [(); 3].map(|()| self.random.between(0.3, 0.7));
+            self.push(Command::Material(glow::FRONT_AND_BACK, raw::SPECULAR, [red, green, blue, 1.0]));
+        }
+        if self.chance(0.5) {
+            self.push(Command::Switch(raw::FOG, true));
+            (0..6).for_each(|_| self.fog_number());
         }
         for _ in 0..6 {
             self.change_kind();
@@ -107,7 +118,7 @@ impl<'a> Maker<'a> {
 
     fn change_kind(&mut self) {
         let unit = self.random.below(self.units);
-        match self.random.below(22) {
+        match self.random.below(26) {
             0..4 => {
                 self.activate(unit);
                 self.texture(unit);
@@ -133,7 +144,7 @@ impl<'a> Maker<'a> {
                 }
             }
             14 => self.light_model(),
-            15 => self.fog_kind(),
+            15 | 21 | 22 => self.fog_kind(),
             16 => {
                 let what =
                     self.random.pick(&[raw::NORMALIZE, raw::RESCALE_NORMAL, raw::COLOR_SUM, raw::COLOR_MATERIAL]);
@@ -178,7 +189,7 @@ impl<'a> Maker<'a> {
 
     fn change_number(&mut self) {
         let unit = self.random.below(self.units);
-        match self.random.below(24) {
+        match self.random.below(26) {
             0..3 => self.modelview(),
             3 => self.projection(),
             4..6 => {
@@ -195,7 +206,7 @@ impl<'a> Maker<'a> {
                 let color = self.color();
                 self.push(Command::SceneAmbient(color.map(|part| 0.4 * part)));
             }
-            12 => self.fog_number(),
+            12 | 24 => self.fog_number(),
             13..15 => {
                 self.activate(unit);
                 self.environment_number();
@@ -269,7 +280,7 @@ impl<'a> Maker<'a> {
             let is_within = !self.state.saved.is_empty();
             let mask = match self.random.below(3) {
                 _ if is_within => bits.iter().sum(),
-                0 => bits.iter().sum(),
+                0 if self.chance(0.5) => bits.iter().sum(),
                 1 => self.random.pick(&bits),
                 _ => self.random.pick(&bits) | self.random.pick(&bits),
             };
