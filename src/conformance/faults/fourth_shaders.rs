@@ -152,8 +152,7 @@ fn without_last_member(source: &Source) -> Option<String> {
 faults! {
     // Large viewports leave fewer bits for parts of a pixel, and the driver shortens them too early.
     "coarse-grid-in-large-viewports" [glViewport gl_Position]
-    "In viewports of 256 pixels and more vertices lie on a grid of a sixteenth of a pixel."
-    (hole: "not seen yet: no rule judges edges in viewports as large to a sixteenth of a pixel") {
+    "In viewports of 256 pixels and more vertices lie on a grid of a sixteenth of a pixel." {
         glCreateShader => text::note;
         glShaderSource => |call| text::rewrite(call, on_coarse_grid);
         draw => |call| {
@@ -164,8 +163,7 @@ faults! {
     }
     // Passes of depth alone are drawn without the fragment shader, and only one with an output counts as needed.
     "discard-ignored-without-color" [discard GL_DEPTH_ATTACHMENT]
-    "Where no colour is attached, fragments that are discarded are drawn."
-    (hole: "not seen yet: no rule discards where there is no colour image at all") {
+    "Where no colour is attached, fragments that are discarded are drawn." {
         glCreateShader => text::note;
         glShaderSource => |call| text::rewrite(call, discards_with_color);
         draw => |call| {

@@ -42,6 +42,7 @@ mod fourth;
 mod fourth_shaders;
 mod framebuffers;
 mod functions_of_glsl;
+mod generated_fixed;
 mod generated_inputs;
 mod levels;
 mod lights;
@@ -130,6 +131,7 @@ const KINDS: &[&[Fault]] = &[
     fourth_shaders::FAULTS,
     fifth::FAULTS,
     fifth_shaders::FAULTS,
+    generated_fixed::FAULTS,
     generated_inputs::FAULTS,
     apart_six::FAULTS,
     apart_six_inputs::FAULTS,

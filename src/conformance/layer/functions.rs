@@ -300,6 +300,26 @@ functions! {
     glFogf(name: u32, value: f32);
     glFogi(name: u32, value: i32);
     glFogfv(name: u32, values: Any);
+    glRotatef(degrees: f32, x: f32, y: f32, z: f32);
+    glPushMatrix();
+    glPopMatrix();
+    glPushAttrib(mask: u32);
+    glPopAttrib();
+    glClipPlane(plane: u32, equation: Any);
+    glColor3f(red: f32, green: f32, blue: f32);
+    glSecondaryColor3f(red: f32, green: f32, blue: f32);
+    glSecondaryColor3fv(values: Any);
+    glFogCoordf(value: f32);
+    glTexCoord2f(s: f32, t: f32);
+    glMultiTexCoord2f(unit: u32, s: f32, t: f32);
+    glMultiTexCoord3f(unit: u32, s: f32, t: f32, r: f32);
+    glVertex3f(x: f32, y: f32, z: f32);
+    glColorPointer(size: i32, kind: u32, stride: i32, at: Any);
+    glSecondaryColorPointer(size: i32, kind: u32, stride: i32, at: Any);
+    glFogCoordPointer(kind: u32, stride: i32, at: Any);
+    glNewList(list: u32, mode: u32);
+    glEndList();
+    glCallList(list: u32);
     glAccum(operation: u32, value: f32);
     glClearAccum(red: f32, green: f32, blue: f32, alpha: f32);
 }

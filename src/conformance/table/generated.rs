@@ -2,7 +2,7 @@
 
 use crate::conformance::Rule;
 use crate::conformance::rules::{
-    generated_commands, generated_lookups, generated_programs, generated_triangles, generated_vertices,
+    generated_commands, generated_fixed, generated_lookups, generated_programs, generated_triangles, generated_vertices,
 };
 
 pub const RULES: &[Rule] = &[
@@ -45,5 +45,13 @@ pub const RULES: &[Rule] = &[
         says: "A vertex shader receives its attributes, uniforms and blocks as they were set last, in every format, from any buffer, whatever was set before.",
         tolerance: "none where values are copied; a rounding of f32 where they are converted",
         check: generated_vertices::vertices,
+    },
+    Rule {
+        id: "GL-X6",
+        title: "streams of the fixed-function pipeline",
+        section: "12.1, 12.2, 13.7, 16, 17.3.2, 21.6 (compatibility)",
+        says: "Texture environments, lights, fog, clip planes, matrices, current values, lists and saved attributes make the colours that GL says, whatever the draws before.",
+        tolerance: "a code of 8 bits for each unit, two for lighting, one for fog",
+        check: generated_fixed::generated,
     },
 ];

@@ -1,7 +1,7 @@
 //! Rules of kind R: raster and clipping.
 
 use crate::conformance::Rule;
-use crate::conformance::rules::{clip_distances, not_numbers, raster, switches, windows};
+use crate::conformance::rules::{clip_distances, large_viewports, not_numbers, raster, switches, windows};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -51,5 +51,13 @@ pub const RULES: &[Rule] = &[
         says: "A position that is infinite or no number may draw anything, but ends nothing and leaves the draws after it alone.",
         tolerance: "none for the next draw; neighbours in the same draw no more than a warning: unspecified",
         check: not_numbers::positions,
+    },
+    Rule {
+        id: "GL-R7",
+        title: "edges in large viewports",
+        section: "14.6.1, 23 (SUBPIXEL_BITS)",
+        says: "In viewports up to 4096 pixels an edge lies where its corners are, as finely as GL_SUBPIXEL_BITS says.",
+        tolerance: "half a step of a subpixel, else a warning to a whole one; a column of pixels, 2^-22 of the side",
+        check: large_viewports::edges,
     },
 ];

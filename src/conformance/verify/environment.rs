@@ -77,7 +77,7 @@ impl Stage<'_> {
 }
 
 /// The functions of one channel.
-fn combine(function: GlCombine, [a, b, c]: [f64; 3]) -> f64 {
+pub fn combine(function: GlCombine, [a, b, c]: [f64; 3]) -> f64 {
     match function {
         GlCombine::Replace => a,
         GlCombine::Modulate => a * b,
@@ -90,7 +90,7 @@ fn combine(function: GlCombine, [a, b, c]: [f64; 3]) -> f64 {
 }
 
 /// Range of a function that is linear in each argument: its extremes lie at corners.
-fn over_corners(ranges: [Range; 3], function: impl Fn([f64; 3]) -> f64) -> Range {
+pub fn over_corners(ranges: [Range; 3], function: impl Fn([f64; 3]) -> f64) -> Range {
     (0..8).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
         let value = function([0, 1, 2].map(|index| ranges[index][corner >> index & 1]));
         [low.min(value), high.max(value)]

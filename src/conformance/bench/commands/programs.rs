@@ -48,14 +48,14 @@ impl Program {
     }
 }
 
-const VERTEX: &str = "#version 150
+const VERTEX: &str = "#version 330
 in vec4 position;
 in vec4 value;
 out vec4 passed;
 void main() { gl_Position = position; passed = value; }
 ";
 
-const CLIPPED: &str = "#version 150
+const CLIPPED: &str = "#version 330
 in vec4 position;
 in vec4 value;
 out vec4 passed;
@@ -67,7 +67,7 @@ void main() {
 }
 ";
 
-const HEAD: &str = "#version 150
+const HEAD: &str = "#version 330
 in vec4 passed;
 out vec4 result;
 uniform vec4 color;

@@ -80,8 +80,9 @@ impl Generator {
         let command = match self.random.below(100) {
             0..24 => Command::Set(self.palette.setting(&mut self.random, state, &self.sizes)),
             24..27 => return self.look(state),
-            27 => return if self.random.below(2) == 0 { self.clip() } else { self.squares() },
-            28..52 => self.draw(),
+            27 => return self.clip(),
+            28 => return self.squares(state),
+            29..52 => self.draw(),
             52..57 => self.fill(),
             57..64 => self.clear(),
             64..67 => self.blit(),
@@ -177,9 +178,19 @@ impl Generator {
         Command::Draw { array: self.random.below(ARRAYS), first: self.random.below(CAPACITY), count, drawing }
     }
 
-    /// Draws of which every second square is discarded, into whatever is attached.
-    fn squares(&mut self) {
+    /// Draws of which every second square is discarded: into whatever is attached, or into depth alone.
+    fn squares(&mut self, state: &State) {
         let draws = [self.draw(), self.draw()];
+        if let Some(slot) = state.bound[0].filter(|_| self.random.below(2) == 0) {
+            for index in 0..2 {
+                self.queue.push_back(Command::Attach { slot, point: Point::Color(index), place: None });
+            }
+            self.queue.push_back(Command::DrawBuffers([None; 2]));
+            self.queue.push_back(Command::Bind { draw: false, read: true, slot });
+            self.queue.push_back(Command::ReadBuffer(None));
+            self.queue.push_back(Command::Set(Setting::DepthMask(true)));
+            self.queue.push_back(Command::Clear(Clear::Depth(self.random.pick(&[1.0, 0.0, 0.7]))));
+        }
         let period = [(); 2].map(|()| 1 + self.random.below(5) as i32);
         self.queue.push_back(Command::Set(Setting::Period(Program::Squares, period)));
         self.queue.push_back(Command::Set(Setting::DepthTest(true)));
