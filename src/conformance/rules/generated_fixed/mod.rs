@@ -28,9 +28,9 @@ use generate::Maker;
 use judge::{Count, Wrong};
 
 /// Streams, draws of each, and draws from one change of what a driver compiles programs for to the next.
-const STREAMS: u64 = 8;
+const STREAMS: u64 = 4;
 const DRAWS: usize = 22;
-const EVERY: usize = 3;
+const EVERY: usize = 4;
 
 /// Seed of the first stream; none of those that follow is skipped.
 const FIRST_SEED: u64 = 1000;
