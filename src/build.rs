@@ -41,7 +41,7 @@ fn commit() -> Option<String> {
     Some(if changed.is_empty() { name } else { format!("{name}, with changes") })
 }
 
-/// What git prints; nothing where it fails or is not there.
+/// The text that git prints; nothing where it fails or is not there.
 fn git(arguments: &[&str]) -> Option<String> {
     let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())

@@ -12,7 +12,7 @@
 //! 7. which [`frame::Renderer`] drives and reads back;
 //! 8. [`output`] writes PNG, EXR or NPY, which [`pictures`] reads and compares.
 //! 9. [`truth`] finds the same shadows by ray casting in f64 from the scene alone.
-//! 10. [`judge`] says how wrong a picture's shadow is, by whichever renderer. [`cases`] are pixel tests.
+//! 10. [`judge`] says how wrong a picture's shadow is, by whichever renderer. `cases` runs pixel tests.
 //!
 //! Draws a scene that is made in code, and writes the picture:
 //!
@@ -105,6 +105,7 @@
 // Documented: what a program that draws or tests needs. Hidden: parts that the command, the samples and the tests share.
 #[cfg(feature = "fixed-function")]
 mod c_text;
+#[doc(hidden)]
 pub mod cases;
 #[cfg(feature = "cli")]
 #[doc(hidden)]

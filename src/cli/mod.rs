@@ -139,7 +139,9 @@ pub enum Error {
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
     #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
     NoFloor { scene: std::path::PathBuf },
-    #[error("standard input or output: {0}")]
+    #[error("standard input: {0}")]
+    Input(std::io::Error),
+    #[error("standard output: {0}")]
     Output(#[from] std::io::Error),
     #[error(transparent)]
     Filter(#[from] crate::conformance::UnknownFilter),

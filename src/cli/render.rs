@@ -228,7 +228,9 @@ fn job(arguments: &RenderArgs, views: &[Aov], path: &Path, picture: PathBuf) -> 
     let start = Instant::now();
     let loaded = arguments.changes.load(path)?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
-    refuse_to_overwrite(&files, path, &loaded.scene)?;
+    if !is_standard_stream(&picture) {
+        refuse_to_overwrite(&files, path, &loaded.scene)?;
+    }
     let request = Request {
         views: views.iter().filter_map(|wanted| wanted.drawn(&loaded.scene)).collect(),
         float_picture: format.is_exact(),

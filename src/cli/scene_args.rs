@@ -42,7 +42,11 @@ impl SceneChanges {
     pub fn load(&self, scene: &Path) -> Result<Loaded, Error> {
         self.check(scene)?;
         let loaded = match is_standard_stream(scene) {
-            true => crate::load_str(&std::io::read_to_string(std::io::stdin())?, Path::new(""), &self.overrides())?,
+            true => crate::load_str(
+                &std::io::read_to_string(std::io::stdin()).map_err(Error::Input)?,
+                Path::new(""),
+                &self.overrides(),
+            )?,
             false => crate::load(scene, &self.overrides())?,
         };
         for warning in &loaded.warnings {

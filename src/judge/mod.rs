@@ -51,10 +51,13 @@
 
 mod band;
 mod bound;
+#[doc(hidden)]
 pub mod colors;
+#[doc(hidden)]
 pub mod difference;
 mod edges;
 mod light;
+#[doc(hidden)]
 pub mod metrics;
 mod mistakes;
 mod near;
@@ -64,10 +67,15 @@ mod verdicts;
 
 pub use bound::{Bound, MOST_WRONG};
 pub use light::Judge;
+#[doc(hidden)]
 pub use mistakes::{FoundMistake, Mistake};
+#[doc(hidden)]
 pub use pictured::shade_of_pictures;
+#[doc(hidden)]
 pub use places::WrongRegion;
-pub use verdicts::{Explanation, Judgement, PixelClass};
+#[doc(hidden)]
+pub use verdicts::Explanation;
+pub use verdicts::{Judgement, PixelClass};
 
 #[cfg(doc)]
 use crate::lights::MapInfo;

@@ -17,10 +17,12 @@
 //! # }
 //! ```
 
+#[doc(hidden)]
 pub mod compare;
 mod comparison;
 #[cfg(feature = "exr")]
 mod exr_file;
+#[doc(hidden)]
 pub mod flip;
 mod npy_file;
 mod picture_file;
@@ -29,7 +31,13 @@ mod raster;
 mod read;
 
 pub use compare::{PixelDifference, Tolerance};
-pub use comparison::{Comparison, alike};
-pub use picture_file::{MOST_VALUES, PictureFile};
+pub use comparison::Comparison;
+#[doc(hidden)]
+pub use comparison::alike;
+#[doc(hidden)]
+pub use picture_file::MOST_VALUES;
+pub use picture_file::PictureFile;
 pub use raster::Raster;
-pub use read::{Error, read, read_bytes};
+#[doc(hidden)]
+pub use read::read_bytes;
+pub use read::{Error, read};

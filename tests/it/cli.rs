@@ -551,7 +551,7 @@ fn a_dash_is_standard_input_and_output() {
         (&["render", "-", "-o", "-", "--json", "-"], "leave out --json -"),
         (&["render", "-", "scene.toml", "-o", "-"], "leave out the other scenes"),
         (&["plan", "-", "--print-scene"], "save it first"),
-        (&["render", "-", "--set", "light.cone=none"], "<text>"),
+        (&["render", "-", "--set", "light.cone=none"], "`light.cone` must be a number"),
     ] {
         refusal(&piped(arguments), 1, expected).unwrap();
     }

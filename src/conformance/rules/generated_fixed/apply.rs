@@ -236,7 +236,7 @@ impl FixedState {
         }
     }
 
-    /// What a draw leaves in the current values: those of the last vertex in immediate mode. The player sets those that
+    /// Values that a draw leaves as the current ones: those of the last vertex in immediate mode. The player sets those that
     /// arrays leave undefined to the same.
     fn leave(&mut self, figure: &crate::conformance::bench::fixed_commands::FixedFigure) {
         let Some(last) = figure.vertices.last() else { return };

@@ -1,12 +1,12 @@
 //! Single changes: a setting, and a value of it.
 
-use super::generate::Maker;
+use super::generate::StreamMaker;
 use super::start::COORDINATES;
 use super::state::{TARGETS, target_index};
 use crate::conformance::bench::fixed_commands::FixedCommand as Command;
 use crate::context::compatibility::raw;
 
-impl Maker<'_> {
+impl StreamMaker<'_> {
     /// Binds a texture to the active unit and enables its target, or disables one.
     pub fn texture(&mut self, unit: usize) {
         if self.chance(0.25) {

@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-use super::generate::Maker;
+use super::generate::StreamMaker;
 use super::state::FixedState;
 use crate::conformance::bench::fixed_commands::{
     FIXED_UNITS, FixedCommand as Command, FixedFigure, FixedGiven, FixedVertex, FixedWay,
@@ -26,7 +26,7 @@ fn orthographic(middle: f64, reach: f64) -> DMat4 {
     scale * DMat4::from_translation(DVec3::new(-middle, 0.0, 5.0))
 }
 
-impl Maker<'_> {
+impl StreamMaker<'_> {
     /// A rotation, a scale or a shift.
     fn any_motion(&mut self) -> DMat4 {
         let axis = DVec3::from_array(self.vector(1.0).map(f64::from)).normalize();
@@ -158,7 +158,7 @@ impl Maker<'_> {
         [x, y, z, 1.0]
     }
 
-    /// What a vertex has beside its place.
+    /// Values that a vertex has beside its place.
     fn values(&mut self) -> FixedVertex {
         let length = if self.state.on.has(raw::NORMALIZE) { self.random.between(0.2, 3.0) } else { 1.0 };
         let color = self.color();

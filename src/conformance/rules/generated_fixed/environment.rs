@@ -11,7 +11,7 @@ pub type Color = [Range; 4];
 /// Rounding of a stage before its scale: half a code of 8 bits.
 const ROUNDING: f64 = 0.5 / 255.0;
 
-/// What is looked up in the texture of a unit.
+/// A value that is looked up in the texture of a unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Texel {
     /// Base internal format.

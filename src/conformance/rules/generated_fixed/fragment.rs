@@ -5,7 +5,7 @@ use glam::{DVec2, DVec4};
 
 use super::environment::{Color, Texel, exact, hull};
 use super::state::{FixedState, PLANES};
-use super::vertex::Corner;
+use super::vertex::FixedCorner;
 use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedTexture};
 use crate::context::compatibility::raw;
 
@@ -18,36 +18,36 @@ const CLIPPED: f64 = 1.0 / 32.0;
 /// Slack of a colour behind lighting: half a code of 8 bits, for powers and square roots of few bits. Without: of f32.
 const LIT: [f64; 2] = [1e-5, 0.5 / 255.0];
 
-/// What a pixel may hold.
+/// Colours that a pixel may hold.
 #[derive(Clone, Copy, Debug)]
-pub enum Pixel {
+pub enum FixedPixel {
     Unsure,
     Background,
     Color(Color),
 }
 
 /// A triangle: three corners, and that whose flat colours it has.
-pub struct Triangle {
-    pub corners: [Corner; 3],
-    pub provoking: Corner,
+pub struct FixedTriangle {
+    pub corners: [FixedCorner; 3],
+    pub provoking: FixedCorner,
 }
 
 /// Linear weights of a triangle's corners at a place.
-fn linear_weights(corners: &[Corner; 3], at: DVec2) -> [f64; 3] {
+fn linear_weights(corners: &[FixedCorner; 3], at: DVec2) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| corner.window);
     let area = (b - a).perp_dot(c - a);
     [(b - at).perp_dot(c - at), (c - at).perp_dot(a - at), (a - at).perp_dot(b - at)].map(|part| part / area)
 }
 
 /// With perspective.
-fn weights(corners: &[Corner; 3], at: DVec2) -> [f64; 3] {
+fn weights(corners: &[FixedCorner; 3], at: DVec2) -> [f64; 3] {
     let linear = linear_weights(corners, at);
     let over: [f64; 3] = std::array::from_fn(|index| linear[index] / corners[index].clip.w);
     let sum: f64 = over.iter().sum();
     over.map(|weight| weight / sum)
 }
 
-impl Triangle {
+impl FixedTriangle {
     /// How surely it covers a pixel.
     pub fn covers(&self, at: DVec2) -> Option<bool> {
         let weights = linear_weights(&self.corners, at);
@@ -66,33 +66,33 @@ impl Triangle {
 
 impl FixedState {
     /// A pixel that a triangle covers.
-    pub fn shade(&self, triangle: &Triangle, at: DVec2, textures: &[FixedTexture]) -> Pixel {
+    pub fn shade(&self, triangle: &FixedTriangle, at: DVec2, textures: &[FixedTexture]) -> FixedPixel {
         let corners = &triangle.corners;
         if corners.iter().any(|corner| !corner.sure) || !triangle.provoking.sure {
-            return Pixel::Unsure;
+            return FixedPixel::Unsure;
         }
         match self.is_clipped(corners, at) {
-            Some(true) => return Pixel::Background,
-            None => return Pixel::Unsure,
+            Some(true) => return FixedPixel::Background,
+            None => return FixedPixel::Unsure,
             Some(false) => {}
         }
         let weights = weights(corners, at);
-        let mean = |of: &dyn Fn(&Corner) -> DVec4| {
+        let mean = |of: &dyn Fn(&FixedCorner) -> DVec4| {
             weights.iter().zip(corners).map(|(weight, corner)| *weight * of(corner)).sum::<DVec4>()
         };
         let side = usize::from(self.two_side && self.on.has(raw::LIGHTING) && !triangle.is_front(self.front));
         let flat = self.shade == raw::FLAT;
-        let primary = |corner: &Corner| corner.shaded[side].primary;
-        let secondary = |corner: &Corner| corner.shaded[side].secondary.extend(0.0);
-        let of = |get: &dyn Fn(&Corner) -> DVec4| if flat { get(&triangle.provoking) } else { mean(get) };
+        let primary = |corner: &FixedCorner| corner.shaded[side].primary;
+        let secondary = |corner: &FixedCorner| corner.shaded[side].secondary.extend(0.0);
+        let of = |get: &dyn Fn(&FixedCorner) -> DVec4| if flat { get(&triangle.provoking) } else { mean(get) };
         let slack = LIT[usize::from(self.on.has(raw::LIGHTING))];
         let wide = |color: DVec4| color.to_array().map(|value| [value - slack, value + slack]);
         let (primary, secondary) = (wide(of(&primary)), wide(of(&secondary)));
         let mut texels = [None::<Texel>; FIXED_UNITS];
         for (unit, texel) in texels.iter_mut().enumerate() {
             let Some(slot) = self.texture_of(unit) else { continue };
-            let at = mean(&|corner: &Corner| corner.coordinates[unit]);
-            let Some(found) = self.texel(slot, &textures[slot], at) else { return Pixel::Unsure };
+            let at = mean(&|corner: &FixedCorner| corner.coordinates[unit]);
+            let Some(found) = self.texel(slot, &textures[slot], at) else { return FixedPixel::Unsure };
             *texel = Some(found);
         }
         let clamped = |color: Color| color.map(|range| range.map(|value| value.clamp(0.0, 1.0)));
@@ -109,13 +109,13 @@ impl FixedState {
             color = self.fogged(color, corners, [weights, linear_weights(corners, at)]);
         }
         match self.alpha_passes(color[3]) {
-            Some(true) => Pixel::Color(color),
-            Some(false) => Pixel::Background,
-            None => Pixel::Unsure,
+            Some(true) => FixedPixel::Color(color),
+            Some(false) => FixedPixel::Background,
+            None => FixedPixel::Unsure,
         }
     }
 
-    fn is_clipped(&self, corners: &[Corner; 3], at: DVec2) -> Option<bool> {
+    fn is_clipped(&self, corners: &[FixedCorner; 3], at: DVec2) -> Option<bool> {
         let mut clipped = Some(false);
         for plane in (0..PLANES).filter(|plane| self.on.has(raw::CLIP_PLANE0 + *plane as u32)) {
             let around = [[0.0, 0.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|by| {
@@ -145,14 +145,14 @@ impl FixedState {
 
     /// Fog by depth or by distance, found for each vertex or for each fragment [GL 4.6 compatibility, 16.4], between corners
     /// with perspective or without.
-    fn fogged(&self, color: Color, corners: &[Corner; 3], weights: [[f64; 3]; 2]) -> Color {
+    fn fogged(&self, color: Color, corners: &[FixedCorner; 3], weights: [[f64; 3]; 2]) -> Color {
         let ways = weights.into_iter().flat_map(|weights| {
-            let mean = move |of: &dyn Fn(&Corner) -> f64| -> f64 {
+            let mean = move |of: &dyn Fn(&FixedCorner) -> f64| -> f64 {
                 weights.iter().zip(corners).map(|(weight, corner)| weight * of(corner)).sum()
             };
             [0, 1].map(|way| {
-                let fragment = self.factor(mean(&|corner: &Corner| corner.fog[way]));
-                hull(exact(fragment), exact(mean(&|corner: &Corner| self.factor(corner.fog[way]))))
+                let fragment = self.factor(mean(&|corner: &FixedCorner| corner.fog[way]));
+                hull(exact(fragment), exact(mean(&|corner: &FixedCorner| self.factor(corner.fog[way]))))
             })
         });
         let [low, high] = ways.reduce(hull).unwrap_or([0.0, 1.0]);

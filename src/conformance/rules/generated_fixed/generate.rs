@@ -7,7 +7,7 @@ use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedCommand as Com
 use crate::conformance::random::Random;
 use crate::context::compatibility::raw;
 
-pub struct Maker<'a> {
+pub struct StreamMaker<'a> {
     pub random: Random,
     pub state: FixedState,
     /// Commands that have been made and not been given.
@@ -18,7 +18,7 @@ pub struct Maker<'a> {
     pub units: usize,
 }
 
-impl<'a> Maker<'a> {
+impl<'a> StreamMaker<'a> {
     pub fn new(seed: u64, textures: &'a [FixedTexture], units: usize) -> Self {
         let targets = textures.iter().map(|texture| texture.target).collect();
         let state = FixedState::new(textures.len());
@@ -376,7 +376,7 @@ impl<'a> Maker<'a> {
     }
 }
 
-impl Maker<'_> {
+impl StreamMaker<'_> {
     /// Commands that give back every matrix that is kept.
     pub fn unstacked(&self) -> Vec<Command> {
         let mut all = Vec::new();

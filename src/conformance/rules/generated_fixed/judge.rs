@@ -5,9 +5,9 @@ use std::fmt;
 use glam::DVec2;
 
 use super::draws::{CELL, CELLS, SIZE};
-use super::fragment::{Pixel, Triangle};
+use super::fragment::{FixedPixel, FixedTriangle};
 use super::state::FixedState;
-use super::vertex::Corner;
+use super::vertex::FixedCorner;
 use crate::conformance::bench::fixed_commands::{FixedFigure, FixedTexture, FixedWay};
 use crate::context::compatibility::raw;
 
@@ -38,8 +38,8 @@ impl fmt::Display for Wrong {
 }
 
 /// Triangles of a cell's corners in the order that they were given; quads in either of two ways.
-fn triangles(primitive: u32, corners: &[Corner]) -> Vec<Vec<Triangle>> {
-    let of = |indices: [usize; 3], provoking: usize| Triangle {
+fn triangles(primitive: u32, corners: &[FixedCorner]) -> Vec<Vec<FixedTriangle>> {
+    let of = |indices: [usize; 3], provoking: usize| FixedTriangle {
         corners: indices.map(|index| corners[index]),
         provoking: corners[provoking],
     };
@@ -66,7 +66,7 @@ impl FixedState {
         count: &mut Count,
     ) -> Option<Wrong> {
         let transform = self.transform();
-        let corners: Vec<Corner> =
+        let corners: Vec<FixedCorner> =
             figure.vertices.iter().map(|vertex| self.corner(&transform, figure.given, vertex, SIZE)).collect();
         let each = corners.len() / (CELLS[0] * CELLS[1]);
         for (cell, corners) in corners.chunks(each).enumerate() {
@@ -80,13 +80,13 @@ impl FixedState {
                     // Either triangle's on the edge between them.
                     let within = |sure: Option<bool>| {
                         let of = way.iter().filter(move |triangle| triangle.covers(place) == sure);
-                        of.map(|triangle| self.shade(triangle, place, textures)).collect::<Vec<Pixel>>()
+                        of.map(|triangle| self.shade(triangle, place, textures)).collect::<Vec<FixedPixel>>()
                     };
                     let mut found = within(Some(true));
                     if found.is_empty() {
                         found = within(None);
                     }
-                    expected.extend(if found.is_empty() { vec![Pixel::Unsure] } else { found });
+                    expected.extend(if found.is_empty() { vec![FixedPixel::Unsure] } else { found });
                 }
                 match self.holds(&expected, got) {
                     None => count.unsure += 1,
@@ -99,15 +99,15 @@ impl FixedState {
     }
 
     /// Tests a pixel against what any of the ways makes of it; `None`: it is not judged.
-    fn holds(&self, ways: &[Pixel], got: [u8; 4]) -> Option<Result<(), [[f64; 2]; 4]>> {
+    fn holds(&self, ways: &[FixedPixel], got: [u8; 4]) -> Option<Result<(), [[f64; 2]; 4]>> {
         // A quad's or a polygon's values may be any mean of its corners' [GL 4.6 compatibility, 14.6.1].
-        if let [Pixel::Color(one), others @ ..] = ways {
-            let far = |other: &Pixel| match other {
-                Pixel::Color(other) => one
+        if let [FixedPixel::Color(one), others @ ..] = ways {
+            let far = |other: &FixedPixel| match other {
+                FixedPixel::Color(other) => one
                     .iter()
                     .zip(other)
                     .any(|(one, other)| one.iter().zip(other).any(|(one, other)| (one - other).abs() > 0.5 / 255.0)),
-                Pixel::Unsure | Pixel::Background => false,
+                FixedPixel::Unsure | FixedPixel::Background => false,
             };
             if others.iter().any(far) {
                 return None;
@@ -116,9 +116,9 @@ impl FixedState {
         let mut first = None;
         for way in ways {
             let color = match way {
-                Pixel::Unsure => return None,
-                Pixel::Background => self.background.to_array().map(|value| [value; 2]),
-                Pixel::Color(color) => *color,
+                FixedPixel::Unsure => return None,
+                FixedPixel::Background => self.background.to_array().map(|value| [value; 2]),
+                FixedPixel::Color(color) => *color,
             };
             let fits = color
                 .iter()

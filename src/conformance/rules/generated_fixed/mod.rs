@@ -24,7 +24,7 @@ use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings};
 
 use draws::{CELL, CELLS};
-use generate::Maker;
+use generate::StreamMaker;
 use judge::{Count, Wrong};
 
 /// Streams, draws of each, and draws from one change of what a driver compiles programs for to the next.
@@ -48,7 +48,7 @@ fn stream(
     count: &mut Count,
 ) -> Result<Option<(usize, Wrong, String)>, Error> {
     let mut player = fixed.player(&subject.bench, surface, textures)?;
-    let mut maker = Maker::new(FIRST_SEED + number, textures, fixed.most_units());
+    let mut maker = StreamMaker::new(FIRST_SEED + number, textures, fixed.most_units());
     maker.begin();
     let mut found = None;
     for draw in 0..DRAWS {

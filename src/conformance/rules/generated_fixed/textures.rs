@@ -78,7 +78,7 @@ struct Look<'a> {
 }
 
 impl FixedState {
-    /// What a unit finds; `None`: its coordinates have no bound.
+    /// The texel that a unit finds; `None`: its coordinates have no bound.
     pub fn texel(&self, slot: usize, texture: &FixedTexture, at: DVec4) -> Option<Texel> {
         let state = self.textures[slot];
         let own = base(texture.format);

@@ -11,11 +11,11 @@ use crate::context::compatibility::raw;
 
 /// A vertex behind the vertex stages.
 #[derive(Clone, Copy, Debug)]
-pub struct Corner {
+pub struct FixedCorner {
     pub clip: DVec4,
     /// Pixels of the viewport.
     pub window: DVec2,
-    /// Of front and of back.
+    /// Front and back.
     pub shaded: [Shaded; 2],
     /// Fog coordinates that GL allows: depth and distance, or the one that is given twice.
     pub fog: [f64; 2],
@@ -50,7 +50,7 @@ impl FixedState {
     }
 
     /// A vertex through all stages, in a viewport of this size.
-    pub fn corner(&self, transform: &Transform, given: FixedGiven, vertex: &FixedVertex, size: DVec2) -> Corner {
+    pub fn corner(&self, transform: &Transform, given: FixedGiven, vertex: &FixedVertex, size: DVec2) -> FixedCorner {
         let current = &self.current;
         let color = if given.color { wide(vertex.color) } else { current.color };
         let secondary =
@@ -96,7 +96,7 @@ impl FixedState {
             if self.on.has(raw::CLIP_PLANE0 + plane as u32) { self.planes[plane].dot(eye) } else { 1.0 }
         });
         let window = (clip.truncate().truncate() / clip.w * 0.5 + 0.5) * size;
-        Corner { clip, window, shaded, fog, coordinates, planes, sure }
+        FixedCorner { clip, window, shaded, fog, coordinates, planes, sure }
     }
 
     /// A coordinate that is generated; no number where it has no bound.
