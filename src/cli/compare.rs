@@ -54,15 +54,15 @@ pub struct CompareArgs {
 }
 
 const HELP: &str = "\
-Values: codes of 8 and 16 bits are parts of the greatest code, floats are as they are; a difference of 1/255 is one code.
-No gamma is applied. A grey picture has three equal channels beside a coloured one; one without alpha is opaque.
+Values: codes of 8 and 16 bits are parts of the greatest code, floats are as they are; a difference of 1/255 is one code. \
+No gamma is applied. A grey picture has three equal channels beside a coloured one; one without alpha is opaque. \
 Without limits, no bit may differ.
 
 Exit status: 0 the same, or within the limits; 1 beyond them; 2 wrong usage, or a file that cannot be read or compared.
 
 Examples:
   glumbra compare actual.png golden.png
-  glumbra compare actual.png golden.png --max 2 --share 0.1 --mean 0.05 -o difference.png
+  glumbra compare actual.png golden.png --max 2 --share 0.1 -o difference.png
   glumbra compare actual.exr golden.exr --max 0.01
   glumbra compare actual.png golden.png --flip 0.02
   glumbra compare actual.png golden.png --json - | jq .passing";

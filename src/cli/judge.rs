@@ -105,20 +105,22 @@ enum Band {
 }
 
 const HELP: &str = "\
-Values are taken as they stand: codes of 8 or 16 bits over their greatest, no gamma. Pixels count where the ray tracer is
-certain, and but for --band exact where the surface faces the light: on the others shading leaves no light. A picture without
-alpha is compared on every surface of the scene. Of colours, too dark is false shadow, and too bright is a leak.
+Values are taken as they stand: codes of 8 or 16 bits over their greatest, no gamma. Pixels count where the ray tracer is \
+certain, and but for --band exact where the surface faces the light: on the others shading leaves no light. A picture without \
+alpha is compared on every surface of the scene. Of colours, too dark is false shadow, and too bright is a leak. \
 `glumbra render --aov truth` draws what a shade should be, `--aov difference` how far glumbra's own picture is from it.
 
-Exit status: 0 within the limits, or no limit is given; 1 beyond one, or nothing could be compared, or more than half of the
+Exit status: 0 within the limits, or no limit is given; 1 beyond one, or nothing could be compared, or more than half of the \
 picture is undecided; 2 wrong usage, or a file that cannot be read or compared.
 
 Examples:
-  my-engine --scene room.gltf --shadow-term shade.png && glumbra judge room.toml shade.png
-  glumbra judge room.toml shade.png --light 1 --max-false-shadow 0.1 --max-leak 0.2 --max-outside 0 --max-edge 0.5
-  glumbra judge room.toml lit.png --unshadowed no-shadow.png --light-off ambient.png -o wrong.png
+  my-engine --scene room.gltf --shadow-term shade.png
+  glumbra judge room.toml shade.png
+  glumbra judge room.toml shade.png --max-false-shadow 0.1 --max-leak 0.2
+  glumbra judge room.toml lit.png --unshadowed no-shadow.png -o wrong.png
   glumbra judge room.toml picture.exr --kind color --band 2 --json -
-  glumbra render room.toml -o a.png --aov shade && glumbra judge room.toml a.shade.png --band technique";
+  glumbra render room.toml -o a.png --aov shade
+  glumbra judge room.toml a.shade.png --band technique";
 
 fn parse_band(text: &str) -> Result<Band, String> {
     match text {

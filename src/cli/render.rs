@@ -83,8 +83,8 @@ Views for --aov:
                     lights, where light or a photograph is projected
   difference        the picture's error against the truth; black where the
                     bounds of a colour at an edge allow it, grey where the truth
-                    is not certain. A PNG has errors of colours 16 times as large
-A PNG stretches depths and distances for the eye. EXR and NPY have them as they are.
+                    is not certain. A PNG has those of colours 16 times as large
+A PNG stretches depths and distances for the eye. EXR and NPY have them as they are. \
 `glumbra judge` holds any program's picture against the truth.
 
 A PNG says in text chunks which scene, overrides, technique, driver and version made it; \

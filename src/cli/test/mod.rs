@@ -98,9 +98,9 @@ A case is a folder with a case.toml: a scene, and what must be seen of it. For e
   why = \"the box is between it and the lamp\"
 
   [[truth]]
-  false_shadow = 0.1            # % of the pixels, by rays cast against the scene
+  false_shadow = 0.1           # % of the pixels, by rays cast against the scene
   leak = 0.2
-  edge = 0.5                    # pixels that shadow edges may lie aside, in the mean
+  edge = 0.5                   # pixels that edges may lie aside, in the mean
   why = \"a map of 1024 texels\"
 
   [golden]                      # golden.png, written by --bless
@@ -108,15 +108,15 @@ A case is a folder with a case.toml: a scene, and what must be seen of it. For e
   mean = 0.05
   why = \"another compiler of its shaders rounds otherwise\"
 
-Checks, in this order: GL errors, fails_with, warns, leaves_out, [[pick]], [[edge]], [[cone]], [[count]], [[same]],
+Checks, in this order: GL errors, fails_with, warns, leaves_out, [[pick]], [[edge]], [[cone]], [[count]], [[same]], \
 [[after]], [[sum]], [[truth]], [golden]. data/cases/README.md has every key. A check that could not fail is refused.
 
 Another renderer can draw in glumbra's place:
-  render = [\"my-engine\", \"--scene\", \"{scene}\", \"--what\", \"{kind}\", \"-o\", \"{out}\"]
-It runs in the case's folder. {kind} is picture, or shade: a gray picture of how much of light number {light} arrives, 1 lit,
+  render = [\"my-engine\", \"--scene\", \"{scene}\", \"{kind}\", \"-o\", \"{out}\"]
+It runs in the case's folder. {kind} is picture, or shade: a gray picture of how much of light number {light} arrives, 1 lit, \
 0 shadowed. {width} and {height} are the scene's. {out} is a PNG file; {out.exr} and {out.npy} have floats.
 
-Verdicts: pass, FAIL, BLESSED (a golden was written); CRASH, HANG and OUT OF MEMORY of the process that ran the case, which
+Verdicts: pass, FAIL, BLESSED (a golden was written); CRASH, HANG and OUT OF MEMORY of the process that ran the case, which \
 the others survive.
 
 Exit status: 0 all pass, 1 a case fails or was blessed, 2 nothing could be run, 130 interrupted.
@@ -124,8 +124,8 @@ Exit status: 0 all pass, 1 a case fails or was blessed, 2 nothing could be run, 
 Examples:
   glumbra test data/cases
   glumbra test tests/pixels --filter shadow --html out/failures
-  glumbra test tests/pixels --bless && git diff        then look at each picture, and run again
-  glumbra test tests/pixels --junit out/test.xml --json out/test.json --shard 2/4";
+  glumbra test tests/pixels --bless        # look at each, run again
+  glumbra test tests/pixels --junit test.xml --json test.json --shard 2/4";
 
 /// Time beyond --timeout in which a case that runs a command is expected to end it and to say so.
 const GRACE: Duration = Duration::from_secs(3);
