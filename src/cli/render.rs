@@ -38,7 +38,7 @@ pub struct RenderArgs {
     changes: SceneChanges,
 
     /// The picture's file: .png, or .exr or .npy with exact 32-bit values; by default the scene's name with .png, here.
-    /// Of several scenes the folder, made if it is not there; - is a PNG on standard output
+    /// For several scenes it names the folder, made if it is not there; - is a PNG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
