@@ -218,13 +218,7 @@ impl FixedState {
 
     fn set_material(&mut self, face: u32, name: u32, color: DVec4) {
         for (material, _) in self.materials.iter_mut().zip(faces(face)).filter(|(_, meant)| *meant) {
-            match name {
-                raw::AMBIENT => material.ambient = color,
-                raw::DIFFUSE => material.diffuse = color,
-                raw::SPECULAR => material.specular = color,
-                raw::EMISSION => material.emission = color,
-                _ => (material.ambient, material.diffuse) = (color, color),
-            }
+            material.set(name, color);
         }
     }
 

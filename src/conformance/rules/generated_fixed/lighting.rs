@@ -22,13 +22,7 @@ impl FixedState {
         let [face, name] = self.color_material;
         let meant = face == glow::FRONT_AND_BACK || (face == glow::BACK) == (side == 1);
         if self.on.has(raw::COLOR_MATERIAL) && meant {
-            match name {
-                raw::AMBIENT => material.ambient = color,
-                raw::DIFFUSE => material.diffuse = color,
-                raw::SPECULAR => material.specular = color,
-                raw::EMISSION => material.emission = color,
-                _ => (material.ambient, material.diffuse) = (color, color),
-            }
+            material.set(name, color);
         }
         material
     }

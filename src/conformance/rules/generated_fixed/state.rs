@@ -48,6 +48,19 @@ pub struct MaterialState {
     pub shininess: f64,
 }
 
+impl MaterialState {
+    /// Sets the colour that GL calls `name`; GL_AMBIENT_AND_DIFFUSE is what is left.
+    pub fn set(&mut self, name: u32, color: DVec4) {
+        match name {
+            raw::AMBIENT => self.ambient = color,
+            raw::DIFFUSE => self.diffuse = color,
+            raw::SPECULAR => self.specular = color,
+            raw::EMISSION => self.emission = color,
+            _ => (self.ambient, self.diffuse) = (color, color),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 pub struct FogState {
     pub mode: u32,
