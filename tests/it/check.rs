@@ -69,7 +69,7 @@ fn without_a_mistake_no_rule_fails() {
             Profile::Core33,
             vec![
                 "GL-C6", "GL-C12", "GL-T1", "GL-T6", "GL-F12", "GL-E1", "GL-E2", "GL-E3", "GL-E4", "GL-V2", "GL-K8",
-                "GL-K13",
+                "GL-K13", "GL-X6",
             ],
         ),
     ] {

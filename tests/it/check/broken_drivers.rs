@@ -100,7 +100,8 @@ fn what_ends_a_rule_is_its_verdict_and_the_others_are_run() {
 fn a_run_that_is_killed_leaves_its_results_and_no_process() {
     for signal in [libc::SIGINT, libc::SIGKILL] {
         let folder = tempfile::tempdir().unwrap();
-        let arguments = ["--filter", "C1", "--filter", "F1", "--filter", "M1", "--json", "x.json", "--junit", "x.xml"];
+        let rules = ["--filter", "C1", "--filter", "F1", "--filter", "M1"];
+        let arguments = [&rules[..], &["--jobs", "1", "--json", "x.json", "--junit", "x.xml"]].concat();
         let mut run = broken(folder.path(), "busy", &arguments).stdout(Stdio::null()).spawn().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap_or_default();
         let start = Instant::now();
