@@ -1,7 +1,8 @@
-//! Vertices in immediate mode and from the client's arrays.
+//! Vertices in immediate mode, from the client's arrays and from buffers.
 
 use glow::HasContext;
 
+use super::player::FIRST_INDEX;
 use super::{FIXED_UNITS, FixedFigure, FixedGiven, FixedPlayer, FixedVertex, FixedWay};
 use crate::context::compatibility::raw;
 
@@ -102,6 +103,9 @@ impl FixedPlayer<'_> {
             return;
         }
         self.enable(*given);
+        if *way == FixedWay::Buffers {
+            return self.draw_from_buffers(figure);
+        }
         let (fixed, stride) = (self.binding(), size_of::<FixedVertex>() as i32);
         let Some(first) = vertices.first() else { return };
         // SAFETY: the context is current, no buffer is bound, and the vertices outlive the draws.
@@ -134,6 +138,58 @@ impl FixedPlayer<'_> {
                 }
             }
             fixed.DisableClientState(raw::VERTEX_ARRAY);
+        }
+    }
+
+    /// Draws from a buffer for each attribute that is given.
+    fn draw_from_buffers(&self, figure: &FixedFigure) {
+        let FixedFigure { primitive, length, vertices, given, .. } = figure;
+        let (fixed, gl, float) = (self.binding(), &self.gl, glow::FLOAT);
+        let null = std::ptr::null();
+        // SAFETY: the context is current; each array has as many numbers as its pointer says, and one for each vertex.
+        unsafe {
+            self.fill(0, vertices.iter().flat_map(|vertex| &vertex.position));
+            fixed.VertexPointer(4, float, 0, null);
+            fixed.EnableClientState(raw::VERTEX_ARRAY);
+            if given.color {
+                self.fill(1, vertices.iter().flat_map(|vertex| &vertex.color));
+                fixed.ColorPointer(4, float, 0, null);
+            }
+            if given.secondary {
+                self.fill(2, vertices.iter().flat_map(|vertex| &vertex.secondary));
+                fixed.SecondaryColorPointer(3, float, 0, null);
+            }
+            if given.normal {
+                self.fill(3, vertices.iter().flat_map(|vertex| &vertex.normal));
+                fixed.NormalPointer(float, 0, null);
+            }
+            if given.fog {
+                self.fill(4, vertices.iter().map(|vertex| &vertex.fog));
+                fixed.FogCoordPointer(float, 0, null);
+            }
+            for unit in (0..FIXED_UNITS).filter(|unit| given.coordinates[*unit]) {
+                self.fill(5 + unit, vertices.iter().flat_map(|vertex| &vertex.coordinates[unit]));
+                fixed.ClientActiveTexture(glow::TEXTURE0 + unit as u32);
+                fixed.TexCoordPointer(4, float, 0, null);
+            }
+            gl.bind_buffer(glow::ARRAY_BUFFER, None);
+            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(self.wide_indices));
+            for from in (0..vertices.len()).step_by(*length) {
+                let place = FIRST_INDEX + size_of::<u32>() * from;
+                gl.draw_elements(*primitive, *length as i32, glow::UNSIGNED_INT, place as i32);
+            }
+            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, None);
+            fixed.DisableClientState(raw::VERTEX_ARRAY);
+        }
+    }
+
+    /// Fills one of the buffers, and leaves it bound.
+    fn fill<'v>(&self, which: usize, numbers: impl Iterator<Item = &'v f32>) {
+        let bytes: Vec<u8> = numbers.flat_map(|number| number.to_ne_bytes()).collect();
+        // SAFETY: the context is current.
+        unsafe {
+            self.gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.arrays[which]));
+            self.gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, &bytes, glow::STREAM_DRAW);
         }
     }
 }

@@ -103,6 +103,8 @@ pub enum FixedWay {
     Arrays,
     /// glDrawElements from there.
     Elements,
+    /// glDrawElements from buffers, one for each attribute.
+    Buffers,
 }
 
 /// Primitives and their vertices.

@@ -12,6 +12,9 @@ use crate::context::compatibility::{Binding, raw};
 /// Display lists.
 pub const LISTS: u32 = 3;
 
+/// Bytes before the indices as unsigned integers: more than 16 bits count.
+pub const FIRST_INDEX: usize = 70_000;
+
 /// Textures and lists, deleted on drop.
 pub struct FixedPlayer<'a> {
     bench: &'a Bench,
@@ -21,6 +24,10 @@ pub struct FixedPlayer<'a> {
     lists: u32,
     /// Indices 0, 1, 2 and on, as bytes.
     pub(super) indices: glow::Buffer,
+    /// The same as unsigned integers, from [`FIRST_INDEX`] on.
+    pub(super) wide_indices: glow::Buffer,
+    /// Buffers of a draw's attributes: position, colour, secondary colour, normal, fog, coordinates of each unit.
+    pub(super) arrays: Vec<glow::Buffer>,
     /// Arrays that are enabled.
     pub(super) enabled: FixedGiven,
 }
@@ -39,10 +46,14 @@ impl FixedBench {
     ) -> Result<FixedPlayer<'a>, Error> {
         let gl = bench.raw().clone();
         // SAFETY: the context is current; the buffer is deleted on drop.
-        let indices = unsafe { gl.create_buffer().map_err(no("buffer"))? };
+        let buffer = || unsafe { gl.create_buffer().map_err(no("buffer")) };
+        let arrays = (0..5 + super::FIXED_UNITS).map(|_| buffer()).collect::<Result<Vec<_>, _>>()?;
+        let (indices, wide_indices) = (buffer()?, buffer()?);
         let mut player = FixedPlayer {
             bench,
             indices,
+            wide_indices,
+            arrays,
             gl: gl.clone(),
             fixed: self,
             textures: Vec::new(),
@@ -59,6 +70,10 @@ impl FixedBench {
             let all: Vec<u8> = (0..=u8::MAX).collect();
             gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(indices));
             gl.buffer_data_u8_slice(glow::ELEMENT_ARRAY_BUFFER, &all, glow::STATIC_DRAW);
+            let wide: Vec<u8> = (0..u32::from(u8::MAX)).flat_map(u32::to_ne_bytes).collect();
+            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(wide_indices));
+            let before = vec![0; FIRST_INDEX];
+            gl.buffer_data_u8_slice(glow::ELEMENT_ARRAY_BUFFER, &[before, wide].concat(), glow::STATIC_DRAW);
             gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, None);
             gl.bind_buffer(glow::PIXEL_UNPACK_BUFFER, None);
             gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 4);
@@ -266,7 +281,9 @@ impl Drop for FixedPlayer<'_> {
                 self.gl.delete_texture(name);
             }
             self.binding().DeleteLists(self.lists, LISTS as i32);
-            self.gl.delete_buffer(self.indices);
+            for buffer in self.arrays.drain(..).chain([self.indices, self.wide_indices]) {
+                self.gl.delete_buffer(buffer);
+            }
             self.gl.active_texture(glow::TEXTURE0);
         }
     }

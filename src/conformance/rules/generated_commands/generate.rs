@@ -86,7 +86,7 @@ impl Generator {
             52..57 => self.fill(),
             57..64 => self.clear(),
             64..67 => self.blit(),
-            67..70 => self.copy(state),
+            67..70 => return self.copy(state),
             70..74 => return self.upload(state),
             74..80 => return self.read(state),
             80..85 => {
@@ -266,20 +266,11 @@ impl Generator {
     }
 
     /// A texture's slot, level and layer.
-    fn place(&mut self, state: &State) -> Option<(usize, u32, u32, [u32; 2])> {
+    pub fn place(&mut self, state: &State) -> Option<(usize, u32, u32, [u32; 2])> {
         let slot = self.random.below(TEXTURES);
         let image = state.textures[slot].as_ref()?;
         let level = self.random.below(image.levels as usize) as u32;
         Some((slot, level, self.random.below(image.layers as usize) as u32, image.size_of(level)))
-    }
-
-    fn copy(&mut self, state: &State) -> Command {
-        let Some((slot, level, layer, size)) = self.place(state) else { return Command::Flush };
-        let from = self.area(size);
-        let [_, _, width, height] = from;
-        let at = [(size[0] as i32, width), (size[1] as i32, height)]
-            .map(|(side, part)| self.random.below((side - part + 1) as usize) as i32);
-        Command::Copy { from, slot, level, layer, at }
     }
 
     fn upload(&mut self, state: &State) {

@@ -7,6 +7,7 @@
 mod answers;
 mod apply;
 mod blend;
+mod copies;
 mod draw;
 mod generate;
 mod image;

@@ -1,6 +1,6 @@
 //! Single changes: a setting, and a value of it.
 
-use super::generate::StreamMaker;
+use super::generate::{FOG_MODES, StreamMaker};
 use super::start::COORDINATES;
 use super::state::{TARGETS, target_index};
 use crate::conformance::bench::fixed_commands::FixedCommand as Command;
@@ -34,7 +34,7 @@ impl StreamMaker<'_> {
     pub fn mode(&mut self) {
         let modes =
             [glow::REPLACE, raw::MODULATE, raw::DECAL, glow::BLEND, raw::ADD, raw::COMBINE, raw::COMBINE, raw::COMBINE];
-        let mode = self.random.pick(&modes);
+        let mode = self.deal("environment", &modes);
         self.push(Command::TexEnv(raw::TEXTURE_ENV_MODE, mode as i32));
         if mode != raw::COMBINE {
             return;
@@ -48,8 +48,8 @@ impl StreamMaker<'_> {
         ] {
             if self.chance(0.8) {
                 let dots = [raw::DOT3_RGB, raw::DOT3_RGBA];
-                let any = self.random.pick(&functions);
-                let of = if !alpha && self.chance(0.2) { self.random.pick(&dots) } else { any };
+                let any = self.deal(if alpha { "function of alpha" } else { "function" }, &functions);
+                let of = if !alpha && self.chance(0.2) { self.deal("dot", &dots) } else { any };
                 self.push(Command::TexEnv(function, of as i32));
             }
             for index in 0..3 {
@@ -75,8 +75,10 @@ impl StreamMaker<'_> {
         self.push(Command::TexEnvScale(name, scale));
     }
 
+    /// The environment's colour: any, or a dark one that the unit's scale makes bright.
     pub fn environment_number(&mut self) {
-        let color = self.color();
+        let brightness = self.random.pick(&[1.0, 0.25]);
+        let color = self.color().map(|part| brightness * part);
         self.push(Command::TexEnvColor(color));
     }
 
@@ -86,7 +88,7 @@ impl StreamMaker<'_> {
         let one = self.random.below(4);
         let on = self.chance(0.7);
         let modes = [raw::OBJECT_LINEAR, raw::EYE_LINEAR, raw::SPHERE_MAP, raw::REFLECTION_MAP, raw::NORMAL_MAP];
-        let shared = self.random.pick(&modes);
+        let shared = self.deal("generation", &modes);
         for (index, [coordinate, switch]) in COORDINATES.into_iter().enumerate() {
             if !all && index != one {
                 continue;
@@ -223,7 +225,7 @@ impl StreamMaker<'_> {
                 self.push(Command::Switch(raw::FOG, on));
             }
             2 => {
-                let mode = self.random.pick(&[glow::LINEAR, raw::EXP, raw::EXP2]);
+                let mode = self.deal("fog mode", &FOG_MODES);
                 self.push(Command::Fog(raw::FOG_MODE, mode as i32));
             }
             _ => {

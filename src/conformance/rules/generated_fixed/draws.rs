@@ -214,7 +214,15 @@ impl StreamMaker<'_> {
             }
             vertices.extend(order.iter().map(|index| corners[*index]));
         }
-        let way = self.random.pick(&[FixedWay::Immediate, FixedWay::Immediate, FixedWay::Arrays, FixedWay::Elements]);
+        let ways = [
+            FixedWay::Immediate,
+            FixedWay::Immediate,
+            FixedWay::Arrays,
+            FixedWay::Elements,
+            FixedWay::Buffers,
+            FixedWay::Buffers,
+        ];
+        let way = self.deal("way", &ways);
         FixedFigure { primitive, length, vertices, given, way }
     }
 }

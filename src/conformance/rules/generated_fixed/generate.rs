@@ -1,11 +1,16 @@
 //! Random commands of the fixed-function pipeline: little is set anew between draws. The maker's state is the model's.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::state::{FixedState, TARGETS, target_index};
 use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedCommand as Command, FixedTexture};
 use crate::conformance::random::Random;
 use crate::context::compatibility::raw;
+
+/// Ways in which fog thickens.
+pub const FOG_MODES: [u32; 3] = [glow::LINEAR, raw::EXP, raw::EXP2];
 
 pub struct StreamMaker<'a> {
     pub random: Random,
@@ -16,13 +21,29 @@ pub struct StreamMaker<'a> {
     pub targets: Vec<u32>,
     /// Units that are used.
     pub units: usize,
+    decks: &'a mut Decks,
 }
 
+/// Lists whose entries are dealt in a random order, each once before any comes again: a few streams have all of them.
+#[derive(Default)]
+pub struct Decks(BTreeMap<&'static str, Vec<usize>>);
+
 impl<'a> StreamMaker<'a> {
-    pub fn new(seed: u64, textures: &'a [FixedTexture], units: usize) -> Self {
+    pub fn new(seed: u64, textures: &'a [FixedTexture], units: usize, decks: &'a mut Decks) -> Self {
         let targets = textures.iter().map(|texture| texture.target).collect();
         let state = FixedState::new(textures.len());
-        Self { random: Random::new(seed), state, made: Vec::new(), textures, targets, units: units.min(FIXED_UNITS) }
+        let (random, units) = (Random::new(seed), units.min(FIXED_UNITS));
+        Self { random, state, made: Vec::new(), textures, targets, units, decks }
+    }
+
+    /// Deals one of a list; the lists of a name are of one length.
+    pub fn deal<T: Copy>(&mut self, name: &'static str, list: &[T]) -> T {
+        let deck = self.decks.0.entry(name).or_default();
+        if deck.is_empty() {
+            deck.extend(0..list.len());
+        }
+        let place = self.random.below(deck.len());
+        list[deck.swap_remove(place)]
     }
 
     /// Makes a command, and applies it.
@@ -88,7 +109,7 @@ impl<'a> StreamMaker<'a> {
             self.texture(unit);
             self.mode();
         }
-        if self.chance(0.75) {
+        if self.deal("lighting", &[true, true, true, false]) {
             self.push(Command::Switch(raw::LIGHTING, true));
             for _ in 0..3 {
                 let light = self.random.below(8) as u32;
@@ -104,9 +125,16 @@ impl<'a> StreamMaker<'a> {
             let [red, green, blue] = [(); 3].map(|()| self.random.between(0.3, 0.7));
             self.push(Command::Material(glow::FRONT_AND_BACK, raw::SPECULAR, [red, green, blue, 1.0]));
         }
-        if self.chance(0.5) {
+        if self.deal("fog", &[true, true, true, false]) {
             self.push(Command::Switch(raw::FOG, true));
+            let mode = self.deal("fog mode", &FOG_MODES);
+            self.push(Command::Fog(raw::FOG_MODE, mode as i32));
             (0..6).for_each(|_| self.fog_number());
+        }
+        if self.deal("planes", &[true, false]) {
+            self.modelview();
+            self.clip_plane(0);
+            self.push(Command::Switch(raw::CLIP_PLANE0, true));
         }
         for _ in 0..6 {
             self.change_kind();
@@ -132,7 +160,7 @@ impl<'a> StreamMaker<'a> {
                 self.generation();
             }
             11..13 => {
-                let on = self.chance(0.7);
+                let on = self.deal("lighting", &[true, true, true, false]);
                 self.push(Command::Switch(raw::LIGHTING, on));
             }
             13 => {
@@ -144,7 +172,7 @@ impl<'a> StreamMaker<'a> {
                 }
             }
             14 => self.light_model(),
-            15 | 21 | 22 => self.fog_kind(),
+            15 | 21 => self.fog_kind(),
             16 => {
                 let what =
                     self.random.pick(&[raw::NORMALIZE, raw::RESCALE_NORMAL, raw::COLOR_SUM, raw::COLOR_MATERIAL]);
@@ -160,18 +188,12 @@ impl<'a> StreamMaker<'a> {
             18 => {
                 let on = self.chance(0.4);
                 self.push(Command::Switch(raw::ALPHA_TEST, on));
-                let function = self.random.pick(&[
-                    glow::GREATER,
-                    glow::GEQUAL,
-                    glow::LESS,
-                    glow::LEQUAL,
-                    glow::NOTEQUAL,
-                    glow::ALWAYS,
-                ]);
+                let functions = [glow::GREATER, glow::GEQUAL, glow::LESS, glow::LEQUAL, glow::NOTEQUAL, glow::ALWAYS];
+                let function = self.deal("alpha function", &functions);
                 let reference = self.random.between(0.1, 0.9);
                 self.push(Command::AlphaFunc(function, reference));
             }
-            19 => {
+            19 | 22 => {
                 let plane = self.random.below(4) as u32;
                 let on = self.chance(0.35);
                 self.clip_plane(plane);
@@ -227,90 +249,6 @@ impl<'a> StreamMaker<'a> {
             22 => self.list(),
             _ => self.attributes(),
         }
-    }
-
-    /// Saves attributes, or gives them back. What tracks the current colour is left alone: GL does not say when it follows.
-    fn attributes(&mut self) {
-        let tracks = |state: &FixedState| state.on.has(raw::COLOR_MATERIAL);
-        if tracks(&self.state) {
-            return;
-        }
-        let last = self.state.saved.last().map(|(_, state)| tracks(state));
-        if last == Some(false) && self.chance(0.6) {
-            // Clip planes that Mesa 22.3.6 gives back are read so, and those of before clip on.
-            let planes = (self.state.saved.last())
-                .is_some_and(|(mask, state)| mask & raw::TRANSFORM_BIT != 0 && state.planes != self.state.planes);
-            if planes {
-                return;
-            }
-            let Some((mask, before, source)) =
-                self.state.saved.last().map(|(mask, state)| (*mask, state.on.clone(), state.fog.source))
-            else {
-                return;
-            };
-            let now = self.state.on.clone();
-            self.push(Command::PopAttrib);
-            // Mesa 22.3.6 does not give COLOR_SUM back, which is saved with FOG_BIT and ENABLE_BIT, nor lights with ENABLE_BIT alone.
-            if mask & (raw::FOG_BIT | raw::ENABLE_BIT) != 0 {
-                self.push(Command::Switch(raw::COLOR_SUM, before.has(raw::COLOR_SUM)));
-            }
-            // Nor the source of fog coordinates with FOG_BIT.
-            if mask & raw::FOG_BIT != 0 {
-                self.push(Command::Fog(raw::FOG_COORD_SRC, source as i32));
-            }
-            if mask & (raw::LIGHTING_BIT | raw::ENABLE_BIT) == raw::ENABLE_BIT {
-                for light in (raw::LIGHT0..=raw::LIGHT7).filter(|light| now.has(*light) != before.has(*light)) {
-                    self.push(Command::Switch(light, before.has(light)));
-                }
-            }
-            return;
-        }
-        if self.state.saved.len() < 4 {
-            let bits = [
-                raw::CURRENT_BIT,
-                raw::LIGHTING_BIT,
-                raw::FOG_BIT,
-                raw::TRANSFORM_BIT,
-                raw::TEXTURE_BIT,
-                raw::ENABLE_BIT,
-                raw::POLYGON_BIT,
-                glow::COLOR_BUFFER_BIT,
-            ];
-            // Mesa 22.3.6 does not give back what was set within another glPushAttrib that does not save it.
-            let is_within = !self.state.saved.is_empty();
-            let mask = match self.random.below(3) {
-                _ if is_within => bits.iter().sum(),
-                0 if self.chance(0.5) => bits.iter().sum(),
-                1 => self.random.pick(&bits),
-                _ => self.random.pick(&bits) | self.random.pick(&bits),
-            };
-            self.push(Command::PushAttrib(mask));
-        }
-    }
-
-    /// A list of a few commands that is kept, or one that was.
-    fn list(&mut self) {
-        let slot = self.random.below(3);
-        if self.chance(0.6) && !self.state.lists[slot].is_empty() {
-            return self.push(Command::CallList(slot));
-        }
-        let (state, made) = (self.state.clone(), std::mem::take(&mut self.made));
-        for _ in 0..1 + self.random.below(4) {
-            match self.random.below(6) {
-                0 => self.environment_number(),
-                1 => self.plane(),
-                2 => self.current(),
-                3 => self.material(),
-                4 => self.fog_number(),
-                _ => {
-                    let light = self.random.below(8) as u32;
-                    self.light(light);
-                }
-            }
-        }
-        let commands = std::mem::replace(&mut self.made, made);
-        self.state = state;
-        self.push(Command::NewList(slot, commands));
     }
 
     /// Sets what a draw needs to be defined: textures that are bound, functions that fit them, matrices that can be inverted.

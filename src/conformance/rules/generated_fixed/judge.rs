@@ -172,6 +172,7 @@ impl FixedState {
             FixedWay::Immediate => "glBegin",
             FixedWay::Arrays => "glDrawArrays",
             FixedWay::Elements => "glDrawElements",
+            FixedWay::Buffers => "glDrawElements from buffers",
         };
         words.push(format!("{way} of {:#x}, given {:?}", figure.primitive, figure.given));
         words.join("; ")

@@ -10,6 +10,7 @@ mod environment;
 mod fragment;
 mod generate;
 mod judge;
+mod kept;
 mod lighting;
 mod start;
 mod state;
@@ -24,13 +25,13 @@ use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings};
 
 use draws::{CELL, CELLS};
-use generate::StreamMaker;
+use generate::{Decks, StreamMaker};
 use judge::{Count, Wrong};
 
 /// Streams, draws of each, and draws from one change of what a driver compiles programs for to the next.
 const STREAMS: u64 = 4;
-const DRAWS: usize = 22;
-const EVERY: usize = 4;
+const DRAWS: usize = 36;
+const EVERY: usize = 6;
 
 /// Seed of the first stream; none of those that follow is skipped.
 const FIRST_SEED: u64 = 1000;
@@ -45,10 +46,10 @@ fn stream(
     surface: &Surface,
     textures: &[FixedTexture],
     number: u64,
-    count: &mut Count,
+    (decks, count): (&mut Decks, &mut Count),
 ) -> Result<Option<(usize, Wrong, String)>, Error> {
     let mut player = fixed.player(&subject.bench, surface, textures)?;
-    let mut maker = StreamMaker::new(FIRST_SEED + number, textures, fixed.most_units());
+    let mut maker = StreamMaker::new(FIRST_SEED + number, textures, fixed.most_units(), decks);
     maker.begin();
     let mut found = None;
     for draw in 0..DRAWS {
@@ -85,12 +86,13 @@ pub fn generated(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
     let size = [(CELLS[0] * CELL) as u32, (CELLS[1] * CELL) as u32];
     let surface = subject.bench.surface(size, Some(GlFormat::Rgba8), None)?;
     let textures = textures::textures(&mut Random::new(77));
+    let mut decks = Decks::default();
     for group in 0..STREAMS / GROUP {
         let (mut count, mut broken) = (Count::default(), None);
         for number in group * GROUP..(group + 1) * GROUP {
             // One is enough: the next streams would find the same again.
             if broken.is_none() {
-                let found = stream(subject, fixed, &surface, &textures, number, &mut count)?;
+                let found = stream(subject, fixed, &surface, &textures, number, (&mut decks, &mut count))?;
                 broken = found.map(|found| (number, found));
             }
         }

@@ -37,10 +37,11 @@ pub fn mutate(random: &mut Random, sampling: &mut Sampling) {
         3 | 4 => sampling.wrap[random.below(3)] = random.pick(&WRAPS),
         5 => {
             let part = random.below(4);
-            if random.chance(0.5) {
-                sampling.border[part] = random.between(-0.5, 1.5);
-            } else {
-                sampling.border = [(); 4].map(|()| random.unit());
+            match random.below(4) {
+                0 | 1 => sampling.border[part] = random.between(-0.5, 1.5),
+                2 => sampling.border = [(); 4].map(|()| random.unit()),
+                // As scenes set it: what is outside passes, or fails.
+                _ => sampling.border = [random.pick(&[0.0, 1.0]); 4],
             }
         }
         6 => sampling.compare = Some(random.pick(&GlCompare::ALL)),

@@ -12,7 +12,8 @@ use crate::conformance::random::Random;
 
 /// Bytes of the buffers: every array fits.
 const BYTES: usize = 110_000;
-const INDEX_BYTES: usize = 4000;
+/// Bytes of the buffers of indices: a small one, and one with places that 16 bits do not count.
+const INDEX_BYTES: [usize; 2] = [4000, 200_000];
 const KINDS: [Kind; 6] = [Kind::Float, Kind::Float, Kind::Float, Kind::Float, Kind::Signed, Kind::Unsigned];
 
 /// A draw, and what its vertices are: number, instance and first instance of each.
@@ -26,10 +27,9 @@ impl World {
         let bench = &subject.bench;
         let mut kinds = [Kind::Float; LOCATIONS];
         kinds.iter_mut().skip(1).for_each(|kind| *kind = dice.pick(&KINDS));
-        let mut held = |count: usize, bytes: usize| {
-            (0..count).map(|_| Held::new(bench, dice, bytes)).collect::<Result<Vec<_>, _>>()
-        };
-        let (buffers, indices) = (held(4, BYTES)?, held(2, INDEX_BYTES)?);
+        let mut held =
+            |sizes: &[usize]| sizes.iter().map(|bytes| Held::new(bench, dice, *bytes)).collect::<Result<Vec<_>, _>>();
+        let (buffers, indices) = (held(&[BYTES; 4])?, held(&INDEX_BYTES)?);
         let arrays = (0..3).map(|_| Array::new(bench)).collect::<Result<Vec<_>, _>>()?;
         let programs = [0.0, 0.5, 0.6]
             .map(|left_out| CapturingProgram::new(bench, dice, &kinds, left_out))
@@ -244,7 +244,6 @@ impl World {
         };
         let bytes: Vec<u8> =
             order.iter().flat_map(|vertex| (*vertex as i32 - base).to_le_bytes().into_iter().take(size)).collect();
-        let offset = size * dice.below((INDEX_BYTES - bytes.len()) / size);
         let held = match &self.arrays[self.bound].indices {
             Some(held) if dice.chance(0.7) => held.clone(),
             _ => {
@@ -255,6 +254,8 @@ impl World {
                 held
             }
         };
+        let room = held.bytes.borrow().len() - bytes.len();
+        let offset = size * dice.below(room / size);
         held.write(&subject.bench, dice, offset, &bytes)?;
         self.arrays[self.bound].indices = Some(Rc::clone(&held));
         Ok((GlRange::Elements { kind, offset: offset as u32, base }, order))
