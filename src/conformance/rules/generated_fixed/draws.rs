@@ -183,14 +183,20 @@ impl StreamMaker<'_> {
             fog: self.chance(0.5),
             coordinates: [(); FIXED_UNITS].map(|()| self.chance(0.6)),
         };
-        let primitive = self.random.pick(&[
+        // The colours of a quad or a polygon between its corners are open: a fifth of the draws have them.
+        let primitives = [
+            glow::TRIANGLES,
             glow::TRIANGLES,
             glow::TRIANGLES,
             glow::TRIANGLE_STRIP,
+            glow::TRIANGLE_STRIP,
+            glow::TRIANGLE_FAN,
+            glow::TRIANGLE_FAN,
             glow::TRIANGLE_FAN,
             raw::QUADS,
             raw::POLYGON,
-        ]);
+        ];
+        let primitive = self.deal("primitive", &primitives);
         let (order, length): (&[usize], usize) = match primitive {
             glow::TRIANGLES => (&[0, 1, 2, 0, 2, 3], 6 * CELLS[0] * CELLS[1]),
             glow::TRIANGLE_STRIP => (&[0, 1, 3, 2], 4),
