@@ -62,6 +62,33 @@ impl StreamMaker<'_> {
                 _ => self.deal("bit", &bits) | self.random.pick(&bits),
             };
             self.push(Command::PushAttrib(mask));
+            if !is_within {
+                self.change_saved(mask);
+            }
+        }
+    }
+
+    /// Changes numbers that are saved, so that something is to be given back.
+    fn change_saved(&mut self, mask: u32) {
+        let saves = |bit: u32| mask & bit != 0;
+        if saves(raw::CURRENT_BIT) {
+            self.current();
+        }
+        if saves(raw::LIGHTING_BIT) {
+            let light = self.random.below(3) as u32;
+            self.light(light);
+            self.material();
+        }
+        if saves(raw::FOG_BIT) {
+            self.fog_number();
+            self.fog_number();
+        }
+        if saves(raw::TRANSFORM_BIT) {
+            self.clip_plane(0);
+        }
+        if saves(raw::TEXTURE_BIT) {
+            self.environment_number();
+            self.plane();
         }
     }
 
