@@ -148,6 +148,28 @@ impl StreamMaker<'_> {
         }
     }
 
+    /// A number of a light that leaves its kind: far or near, a spot or not, attenuated or not.
+    pub fn light_number(&mut self, light: u32) {
+        let (color, [x, y, z]) = (self.color(), self.vector(4.0));
+        let old = &self.state.lights[light as usize];
+        let (cutoff, is_attenuated) = (old.cutoff, old.attenuation.y != 0.0);
+        let w = self.state.lights[light as usize].position.w as f32;
+        match self.random.below(7) {
+            0 => self.push(Command::Light(light, raw::AMBIENT, color.map(|part| 0.2 * part))),
+            1 => self.push(Command::Light(light, raw::DIFFUSE, color.map(|part| 0.7 * part))),
+            2 => self.push(Command::Light(light, raw::SPECULAR, color.map(|part| 0.7 * part))),
+            3 if cutoff != 180.0 => {
+                let [x, y, z] = self.vector(1.0);
+                self.push(Command::Light(light, raw::SPOT_DIRECTION, [x, y, z - 1.0, 0.0]));
+            }
+            4 if is_attenuated => {
+                let number = self.random.pick(&[0.05, 0.2]);
+                self.push(Command::LightNumber(light, raw::LINEAR_ATTENUATION, number));
+            }
+            _ => self.push(Command::Light(light, raw::POSITION, [x, y, z + 2.0 * w, w])),
+        }
+    }
+
     /// One property of a light.
     pub fn light(&mut self, light: u32) {
         let color = self.color();

@@ -158,6 +158,17 @@ impl StreamMaker<'_> {
         [x, y, z, 1.0]
     }
 
+    /// What vertices are given from now on. A driver compiles another vertex program for it.
+    pub fn give(&mut self) {
+        self.given = FixedGiven {
+            color: self.chance(0.6),
+            secondary: self.chance(0.4),
+            normal: self.chance(0.6),
+            fog: self.chance(0.5),
+            coordinates: [(); FIXED_UNITS].map(|()| self.chance(0.6)),
+        };
+    }
+
     /// Values that a vertex has beside its place.
     fn values(&mut self) -> FixedVertex {
         let length = if self.state.on.has(raw::NORMALIZE) { self.random.between(0.2, 3.0) } else { 1.0 };
@@ -176,13 +187,7 @@ impl StreamMaker<'_> {
     pub fn figure(&mut self) -> FixedFigure {
         let clip_from_object = FixedState::top(&self.state.projection) * FixedState::top(&self.state.modelview);
         let object_from_clip = clip_from_object.inverse();
-        let given = FixedGiven {
-            color: self.chance(0.6),
-            secondary: self.chance(0.4),
-            normal: self.chance(0.6),
-            fog: self.chance(0.5),
-            coordinates: [(); FIXED_UNITS].map(|()| self.chance(0.6)),
-        };
+        let given = self.given;
         // The colours of a quad or a polygon between its corners are open: a fifth of the draws have them.
         let primitives = [
             glow::TRIANGLES,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::state::{FixedState, TARGETS, target_index};
-use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedCommand as Command, FixedTexture};
+use crate::conformance::bench::fixed_commands::{FIXED_UNITS, FixedCommand as Command, FixedGiven, FixedTexture};
 use crate::conformance::random::Random;
 use crate::context::compatibility::raw;
 
@@ -21,6 +21,8 @@ pub struct StreamMaker<'a> {
     pub targets: Vec<u32>,
     /// Units that are used.
     pub units: usize,
+    /// Attributes that each vertex is given.
+    pub given: FixedGiven,
     decks: &'a mut Decks,
 }
 
@@ -33,7 +35,7 @@ impl<'a> StreamMaker<'a> {
         let targets = textures.iter().map(|texture| texture.target).collect();
         let state = FixedState::new(textures.len());
         let (random, units) = (Random::new(seed), units.min(FIXED_UNITS));
-        Self { random, state, made: Vec::new(), textures, targets, units, decks }
+        Self { random, state, made: Vec::new(), textures, targets, units, given: FixedGiven::default(), decks }
     }
 
     /// Deals one of a list; the lists of a name are of one length.
@@ -85,6 +87,7 @@ impl<'a> StreamMaker<'a> {
             for _ in 0..1 + self.random.below(4) {
                 self.change_kind();
             }
+            self.give();
         }
         for _ in 0..1 + self.random.below(5) {
             self.change_number();
@@ -163,7 +166,7 @@ impl<'a> StreamMaker<'a> {
                 let on = self.deal("lighting", &[true, true, true, false]);
                 self.push(Command::Switch(raw::LIGHTING, on));
             }
-            13 => {
+            13 | 23 => {
                 let on = self.chance(0.5);
                 let light = self.random.below(8) as u32;
                 self.push(Command::Switch(raw::LIGHT0 + light, on));
@@ -221,7 +224,7 @@ impl<'a> StreamMaker<'a> {
             }
             6..9 => {
                 let light = self.random.below(8) as u32;
-                self.light(light);
+                self.light_number(light);
             }
             9..11 => self.material(),
             11 => {

@@ -76,7 +76,7 @@ impl StreamMaker<'_> {
         }
         if saves(raw::LIGHTING_BIT) {
             let light = self.random.below(3) as u32;
-            self.light(light);
+            self.light_number(light);
             self.material();
         }
         if saves(raw::FOG_BIT) {
@@ -108,7 +108,7 @@ impl StreamMaker<'_> {
                 4 => self.fog_number(),
                 _ => {
                     let light = self.random.below(8) as u32;
-                    self.light(light);
+                    self.light_number(light);
                 }
             }
         }

@@ -29,8 +29,8 @@ use generate::{Decks, StreamMaker};
 use judge::{Count, Wrong};
 
 /// Streams, draws of each, and draws from one change of what a driver compiles programs for to the next.
-const STREAMS: u64 = 4;
-const DRAWS: usize = 36;
+const STREAMS: u64 = 8;
+const DRAWS: usize = 30;
 const EVERY: usize = 6;
 
 /// Seed of the first stream; none of those that follow is skipped.
