@@ -68,7 +68,7 @@ fn offset_across(call: &mut Call) {
     let names = [glow::POLYGON_OFFSET_FACTOR, glow::POLYGON_OFFSET_UNITS];
     let [factor, units] = names.map(|name| call.float(name) as f32);
     let is_own = call.kept((61, call.get(glow::CURRENT_PROGRAM) as u32)) != 0.0;
-    if is_own && call.enabled(glow::POLYGON_OFFSET_FILL) {
+    if is_own && factor != 0.0 && call.enabled(glow::POLYGON_OFFSET_FILL) {
         let bits = call.depth_format().0.min(24);
         set_state(call, [1.0, factor, units * 0.5_f32.powi(bits), 0.0]);
         call.with(glow::POLYGON_OFFSET_FILL, false);
