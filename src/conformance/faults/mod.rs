@@ -29,6 +29,10 @@ macro_rules! faults {
 mod apart;
 mod apart_again;
 mod apart_inputs;
+mod apart_seven;
+mod apart_seven_inputs;
+mod apart_seven_raster;
+mod apart_seven_shaders;
 mod apart_shaders;
 mod apart_six;
 mod apart_six_inputs;
@@ -135,6 +139,10 @@ const KINDS: &[&[Fault]] = &[
     generated_inputs::FAULTS,
     apart_six::FAULTS,
     apart_six_inputs::FAULTS,
+    apart_seven::FAULTS,
+    apart_seven_raster::FAULTS,
+    apart_seven_shaders::FAULTS,
+    apart_seven_inputs::FAULTS,
 ];
 
 /// Every fault.
