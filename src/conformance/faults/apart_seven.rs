@@ -61,7 +61,9 @@ fn blacken_rests(call: &Call) {
         let mut texels = vec![0; 4 * width * height];
         let pixels = glow::PixelPackData::Slice(Some(&mut texels));
         // SAFETY: the context is current; the level's texels fill the bytes.
-        unsafe { call.gl().get_tex_image(glow::TEXTURE_2D, level, glow::RGBA, glow::UNSIGNED_BYTE, pixels) };
+        call.with_plain_pixels(|gl| unsafe {
+            gl.get_tex_image(glow::TEXTURE_2D, level, glow::RGBA, glow::UNSIGNED_BYTE, pixels)
+        });
         for (place, texel) in texels.chunks_exact_mut(4).enumerate() {
             if place % width >= across || place / width >= up {
                 texel.fill(0);
@@ -97,7 +99,9 @@ fn zero_cleared_blocks(call: &mut Call) {
     let (format, kind, row) = (glow::DEPTH_COMPONENT, glow::FLOAT, width as usize);
     let mut bytes = vec![0; 4 * row * height as usize];
     // SAFETY: as above; the depths fill the bytes.
-    unsafe { gl.get_tex_image(target, level, format, kind, glow::PixelPackData::Slice(Some(&mut bytes))) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(target, level, format, kind, glow::PixelPackData::Slice(Some(&mut bytes)))
+    });
     let mut depths: Vec<f32> = bytes.as_chunks::<4>().0.iter().map(|four| f32::from_ne_bytes(*four)).collect();
     for top in (0..height as usize).step_by(BLOCK) {
         for left in (0..row).step_by(BLOCK) {
@@ -112,7 +116,9 @@ fn zero_cleared_blocks(call: &mut Call) {
     let bytes: Vec<u8> = depths.iter().flat_map(|depth| depth.to_ne_bytes()).collect();
     let pixels = glow::PixelUnpackData::Slice(Some(&bytes));
     // SAFETY: as above.
-    unsafe { gl.tex_sub_image_2d(target, level, 0, 0, width, height, format, kind, pixels) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.tex_sub_image_2d(target, level, 0, 0, width, height, format, kind, pixels)
+    });
 }
 
 faults! {

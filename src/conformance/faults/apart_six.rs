@@ -112,7 +112,9 @@ fn alias_small_levels(call: &Call) {
     let mut texels = vec![0; 4 * width * height];
     let pixels = glow::PixelPackData::Slice(Some(&mut texels));
     // SAFETY: the context is current; the level's texels fill the bytes.
-    unsafe { call.gl().get_tex_image(glow::TEXTURE_2D, first, glow::RGBA, glow::UNSIGNED_BYTE, pixels) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(glow::TEXTURE_2D, first, glow::RGBA, glow::UNSIGNED_BYTE, pixels)
+    });
     for level in first + 1.. {
         let [across, up] = size(level);
         if across == 0 {
@@ -138,14 +140,18 @@ fn map_copied_depths(call: &mut Call) {
     let (format, kind) = (glow::DEPTH_COMPONENT, glow::FLOAT);
     let mut bytes = vec![0; 4 * width as usize * height as usize];
     // SAFETY: as above; the depths fill the bytes.
-    unsafe { gl.get_tex_image(target, level, format, kind, glow::PixelPackData::Slice(Some(&mut bytes))) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(target, level, format, kind, glow::PixelPackData::Slice(Some(&mut bytes)))
+    });
     for four in bytes.chunks_exact_mut(4) {
         let depth = f32::from_ne_bytes([four[0], four[1], four[2], four[3]]);
         four.copy_from_slice(&(near + (far - near) * depth).to_ne_bytes());
     }
     let pixels = glow::PixelUnpackData::Slice(Some(&bytes));
     // SAFETY: as above.
-    unsafe { gl.tex_sub_image_2d(target, level, 0, 0, width, height, format, kind, pixels) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.tex_sub_image_2d(target, level, 0, 0, width, height, format, kind, pixels)
+    });
 }
 
 /// Draws with the offset's units in those of 16 bits where depths are floats.

@@ -189,7 +189,9 @@ fn brighten_levels(call: &Call) {
     let mut bytes = vec![0; 4 * width * height];
     let pixels = glow::PixelPackData::Slice(Some(&mut bytes));
     // SAFETY: the context is current; the texels fill the bytes.
-    unsafe { call.gl().get_tex_image(glow::TEXTURE_2D, 0, glow::RGBA, glow::UNSIGNED_BYTE, pixels) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(glow::TEXTURE_2D, 0, glow::RGBA, glow::UNSIGNED_BYTE, pixels)
+    });
     let mut level = 0;
     while width.max(height) > 1 {
         level += 1;

@@ -69,7 +69,9 @@ fn subsample(call: &Call) {
     let mut bytes = vec![0; 4 * (width * height) as usize];
     let pixels = glow::PixelPackData::Slice(Some(&mut bytes));
     // SAFETY: the context is current; the texels fill the bytes.
-    unsafe { call.gl().get_tex_image(glow::TEXTURE_2D, 0, glow::RGBA, glow::UNSIGNED_BYTE, pixels) };
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(glow::TEXTURE_2D, 0, glow::RGBA, glow::UNSIGNED_BYTE, pixels)
+    });
     for level in (1..).take_while(|level| width.max(height) >> level > 0) {
         let [columns, rows] = [width, height].map(|side| (side >> level).max(1));
         let from = |x: i32, y: i32| {

@@ -34,6 +34,40 @@ impl Call<'_> {
         [buffer, row, rows, pixels] == [0; 4] && alignment < 8
     }
 
+    /// Asks for texels, or gives some, while all pixels lie in the client's memory row after row, without gaps.
+    pub fn with_plain_pixels<T>(&self, act: impl FnOnce(&glow::Context) -> T) -> T {
+        const STORES: [u32; 10] = [
+            glow::PACK_ALIGNMENT,
+            glow::UNPACK_ALIGNMENT,
+            glow::PACK_ROW_LENGTH,
+            glow::PACK_SKIP_ROWS,
+            glow::PACK_SKIP_PIXELS,
+            glow::PACK_IMAGE_HEIGHT,
+            glow::UNPACK_ROW_LENGTH,
+            glow::UNPACK_SKIP_ROWS,
+            glow::UNPACK_SKIP_PIXELS,
+            glow::UNPACK_IMAGE_HEIGHT,
+        ];
+        let buffers = [
+            (glow::PIXEL_PACK_BUFFER, glow::PIXEL_PACK_BUFFER_BINDING),
+            (glow::PIXEL_UNPACK_BUFFER, glow::PIXEL_UNPACK_BUFFER_BINDING),
+        ];
+        let gl = self.gl();
+        // SAFETY: the context is current; what is set at the end is what was read.
+        unsafe {
+            let held = buffers.map(|(target, binding)| (target, gl.get_parameter_buffer(binding)));
+            let before = STORES.map(|name| (name, self.get(name)));
+            held.iter().for_each(|(target, _)| gl.bind_buffer(*target, None));
+            for (index, name) in STORES.into_iter().enumerate() {
+                gl.pixel_store_i32(name, i32::from(index < 2));
+            }
+            let result = act(gl);
+            before.into_iter().for_each(|(name, value)| gl.pixel_store_i32(name, value));
+            held.into_iter().for_each(|(target, buffer)| gl.bind_buffer(target, buffer));
+            result
+        }
+    }
+
     /// Tests whether something is enabled.
     pub fn enabled(&self, name: u32) -> bool {
         // SAFETY: the context is current.
@@ -84,6 +118,8 @@ impl Call<'_> {
         let pixels = glow::PixelUnpackData::Slice(Some(texels));
         let (format, kind) = (glow::RGBA, glow::UNSIGNED_BYTE);
         // SAFETY: the context is current; the texels fill the rectangle.
-        unsafe { self.gl().tex_sub_image_2d(glow::TEXTURE_2D, level, 0, 0, width, height, format, kind, pixels) };
+        self.with_plain_pixels(|gl| unsafe {
+            gl.tex_sub_image_2d(glow::TEXTURE_2D, level, 0, 0, width, height, format, kind, pixels);
+        });
     }
 }
