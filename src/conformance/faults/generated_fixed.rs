@@ -21,14 +21,10 @@ fn without(call: &mut Call, bit: u32) {
 }
 
 faults! {
-    "fog-not-saved" [glPushAttrib GL_FOG_BIT] "glPushAttrib does not save fog."
-    (hole: "not seen yet: eight streams of GL-X6 see it, the four that are played do not") { glPushAttrib => |call| without(call, raw::FOG_BIT) }
-    "fog-exp2-is-exp" [glFogi GL_EXP2] "EXP2 is EXP."
-    (hole: "not seen yet: eight streams of GL-X6 see it, the four that are played do not") { glFogi => |call| { call.replace(1, raw::EXP2, raw::EXP); } }
-    "clip-planes-not-transformed" [glClipPlane] "Clip planes are given in eye space."
-    (hole: "not seen yet: eight streams of GL-X6 see it, the four that are played do not") { glClipPlane => under_identity }
-    "decal-is-replace" [GL_DECAL glTexEnvi] "DECAL is REPLACE."
-    (hole: "not seen yet: eight streams of GL-X6 see it, the four that are played do not") { glTexEnvi => |call| if call.u(1) == raw::TEXTURE_ENV_MODE { call.replace(2, raw::DECAL, glow::REPLACE); } }
+    "fog-not-saved" [glPushAttrib GL_FOG_BIT] "glPushAttrib does not save fog." { glPushAttrib => |call| without(call, raw::FOG_BIT) }
+    "fog-exp2-is-exp" [glFogi GL_EXP2] "EXP2 is EXP." { glFogi => |call| { call.replace(1, raw::EXP2, raw::EXP); } }
+    "clip-planes-not-transformed" [glClipPlane] "Clip planes are given in eye space." { glClipPlane => under_identity }
+    "decal-is-replace" [GL_DECAL glTexEnvi] "DECAL is REPLACE." { glTexEnvi => |call| if call.u(1) == raw::TEXTURE_ENV_MODE { call.replace(2, raw::DECAL, glow::REPLACE); } }
     "color-arrays-opaque" [glColorPointer]
     "Colours of arrays have alpha 1." { glColorPointer => |call| call.set(0, 3) }
 }
