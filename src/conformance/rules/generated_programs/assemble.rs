@@ -83,12 +83,17 @@ impl Assembled {
             self.maker.scope.push(*member);
             self.maker.writable.push(*member);
         }
-        let mut written: Vec<usize> = Vec::new();
+        let mut written: Vec<usize> = self.constants();
         let discards_at = if self.stage == Stage::Vertex { usize::MAX } else { self.maker.random.below(16) };
         for turn in 0..80 {
             if turn == discards_at {
                 let condition = self.maker.expr(Type::BOOL, 2);
-                self.take(Statement::If(condition, vec![Statement::Discard], Vec::new()), false);
+                let discard = |condition| Statement::If(condition, vec![Statement::Discard], Vec::new());
+                let statement = match self.maker.random.chance(0.5) {
+                    true => discard(condition),
+                    false => self.maker.call_of(Type::BOOL, condition, discard),
+                };
+                self.take(statement, false);
             }
             let kept = (self.maker.scope.clone(), self.maker.writable.clone());
             let statement = self.maker.statement(Inside::default());
@@ -110,6 +115,32 @@ impl Assembled {
         self.results = results;
     }
 
+    /// Constants made of literals, and variables that differ with them.
+    fn constants(&mut self) -> Vec<usize> {
+        let mut written = Vec::new();
+        for kind in [Type::FLOAT, Type::INT, Type::FLOAT] {
+            let maker = &mut self.maker;
+            let [a, b] = [(); 2].map(|()| whole(maker.random.whole(0, 9).into(), Type::INT));
+            let operator = maker.random.pick(&["-", "-", "+", "*"]);
+            let folded = call(operator, Gives::Integers, vec![a, b], Type::INT);
+            let value = if kind == Type::INT { folded } else { float(folded) };
+            let name = maker.new_variable("c", kind);
+            self.take(Statement::Constant(name, value), true);
+            self.maker.scope.push(name);
+            let gives = if kind == Type::INT { Gives::Integers } else { Gives::Floats };
+            let more = self.maker.leaf(kind);
+            let sum = call("+", gives, vec![variable(name, kind), more], kind);
+            let index = self.maker.new_variable("v", kind);
+            let kept = (self.maker.scope.clone(), self.maker.writable.clone());
+            self.maker.declare(index);
+            match self.take(Statement::Declare(index, sum), false) {
+                Some(changed) => written.extend(changed),
+                None => (self.maker.scope, self.maker.writable) = kept,
+            }
+        }
+        written
+    }
+
     /// Accepts a statement, unless it leaves too much open: the variables that it changes.
     fn take(&mut self, statement: Statement, always: bool) -> Option<Vec<usize>> {
         let maker = &mut self.maker;
@@ -129,7 +160,11 @@ impl Assembled {
             |index: &usize| (0..count).any(|pixel| at(&after, pixel, *index) != at(&maker.pixels, pixel, *index));
         let changed: Vec<usize> = writable.into_iter().filter(is_changed).collect();
         let is_good = |index: &usize| make::is_good((0..count).map(|pixel| &after[pixel][*index]), false);
-        let is_discard = matches!(&statement, Statement::If(_, then, _) if matches!(then[..], [Statement::Discard]));
+        let is_jump = |statement: &Statement| matches!(statement, Statement::If(_, then, _) if matches!(then[..], [Statement::Discard]));
+        let is_discard = match &statement {
+            Statement::Call(None, own, _) => maker.program.functions[*own].body.first().is_some_and(is_jump),
+            other => is_jump(other),
+        };
         let suits = match is_discard {
             true => (2..count / 2).contains(&discarded),
             false => !changed.is_empty() && changed.iter().all(is_good),

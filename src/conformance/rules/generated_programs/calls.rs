@@ -46,6 +46,20 @@ impl Maker {
         Statement::Call(result, own, arguments.into_iter().map(|(argument, ..)| argument).collect())
     }
 
+    /// A call of a new function without a result, whose one statement is made of its parameter.
+    pub fn call_of(&mut self, kind: Type, argument: Expr, make: impl Fn(Expr) -> Statement) -> Statement {
+        let index = self.new_variable("p", kind);
+        let own = self.program.functions.len();
+        self.program.functions.push(Own {
+            name: format!("own{own}"),
+            parameters: vec![(index, Direction::In)],
+            result: None,
+            body: vec![make(variable(index, kind))],
+        });
+        self.pure.push(own);
+        Statement::Call(None, own, vec![Argument::In(argument)])
+    }
+
     /// A place for an argument that is written, of a variable that no other argument writes.
     fn argument(&mut self, kind: Option<Type>, written: &[usize]) -> Option<Place> {
         (0..16).find_map(|_| {

@@ -42,6 +42,8 @@ pub struct Place {
 #[derive(Clone)]
 pub enum Statement {
     Declare(usize, Expr),
+    /// The same of a constant expression.
+    Constant(usize, Expr),
     /// The operator before `=`, or none.
     Assign(Place, Option<&'static Function>, Expr),
     If(Expr, Vec<Statement>, Vec<Statement>),
@@ -170,6 +172,9 @@ impl Program {
         let text = match statement {
             Statement::Declare(variable, expr) => {
                 format!("{} = {};", self.declaration(*variable), self.expression(expr))
+            }
+            Statement::Constant(variable, expr) => {
+                format!("const {} = {};", self.declaration(*variable), self.expression(expr))
             }
             Statement::Assign(place, operator, expr) => {
                 let operator = operator.map_or("", |operator| operator.name);

@@ -214,6 +214,22 @@ impl Maker {
         Some(Expr { kind, form: Form::Call(function, arguments) })
     }
 
+    /// A function of an expression, of the same type.
+    pub fn function_of(&mut self, first: &Expr) -> Option<Expr> {
+        let kind = first.kind;
+        let suits: Vec<&'static Function> = (self.functions.iter().copied())
+            .filter(|function| gives(function.gives, kind) && matches!(function.takes, [(Takes::Same, _), ..]))
+            .collect();
+        if suits.is_empty() {
+            return None;
+        }
+        let function = self.random.pick(&suits);
+        let mut arguments = self.arguments(function, kind, 1)?;
+        arguments[0] = first.clone();
+        let made = Expr { kind, form: Form::Call(function, arguments) };
+        self.is_good(&made).then_some(made)
+    }
+
     /// A call of a function that has been a statement's own with a result of this size least often.
     pub fn seldom(&mut self) -> Option<Expr> {
         for _ in 0..8 {

@@ -116,7 +116,9 @@ impl Run<'_> {
             return Flow::Lost;
         }
         match statement {
-            Statement::Declare(variable, expr) => self.variables[*variable] = self.value(expr),
+            Statement::Declare(variable, expr) | Statement::Constant(variable, expr) => {
+                self.variables[*variable] = self.value(expr)
+            }
             Statement::Assign(place, operator, expr) => self.assign(place, *operator, expr),
             Statement::If(condition, then, otherwise) => {
                 return match self.value(condition)[0].truth() {

@@ -143,9 +143,28 @@ impl Maker {
             NumberBase::Bool => None,
             _ => suits(self.random.pick(&["+", "-", "*", "&", "|", "^"])),
         };
+        if self.random.chance(0.15)
+            && let Some(value) = self.of_itself(&place)
+        {
+            return Statement::Assign(place, None, value);
+        }
         let depth = 1 + self.random.below(2);
         let value = self.expr(kind, depth);
         Statement::Assign(place, operator, value)
+    }
+
+    /// A function of a place's own value, as in `v.x = max(v.x, y)`.
+    fn of_itself(&mut self, place: &Place) -> Option<Expr> {
+        let kind = place.kind;
+        if place.index.is_some() || !kind.is_vector() || kind.count > 0 {
+            return None;
+        }
+        let whole = variable(place.variable, self.program.variables[place.variable].kind);
+        let own = match place.swizzle.is_empty() {
+            true => whole,
+            false => Expr { kind, form: Form::Swizzle(Box::new(whole), place.swizzle.clone()) },
+        };
+        (0..8).find_map(|_| self.function_of(&own))
     }
 
     /// Statements of a block, made with the variables as they are at its start.
