@@ -75,7 +75,7 @@ const SEQUENCES: [Sequence; 6] = [
     Sequence {
         size: [40, 30],
         depth: GlFormat::Depth24,
-        traits: [Traits { distances: true, ..PLAIN }, PLAIN],
+        traits: [Traits { distances: true, ..PLAIN }, Traits { depth: true, discards: true, ..PLAIN }],
         numbers: [24, 6],
     },
 ];

@@ -127,7 +127,8 @@ pub fn text(dice: &mut Random, most: usize, traits: Traits) -> Text {
             _ => ("", Interpolation::Smooth),
         };
         let name = format!("v{number}");
-        let _ = writeln!(declared, "{qualifier} WAY {kind} {name}{after};");
+        let before = if qualifier.is_empty() { String::new() } else { format!("{qualifier} ") };
+        let _ = writeln!(declared, "{before}WAY {kind} {name}{after};");
         for place in places {
             let component = Component {
                 source: dice.below(4),
