@@ -103,13 +103,20 @@ pub fn text(dice: &mut Random, most: usize, traits: Traits) -> Text {
     let mut components = Vec::new();
     // Each number takes a whole vec4 at worst where a driver does not pack what is of different kinds.
     let mut locations = 0;
+    // Half of the programs begin with a number that is flat beside a vector that is not.
+    let begins_flat = dice.chance(0.5);
     for number in 0.. {
-        let integer = dice.chance(0.15);
+        let first = if begins_flat { number } else { usize::MAX };
+        let integer = dice.chance(0.15) && first > 1;
         let (kind, after, places, cast) = if integer {
             let (kind, after, cast, places) = dice.pick(&WHOLE);
             (kind, after, places, cast)
         } else {
-            let (kind, after, places) = dice.pick(&TYPES);
+            let (kind, after, places) = match first {
+                0 => TYPES[0],
+                1 => TYPES[2],
+                _ => dice.pick(&TYPES),
+            };
             (kind, after, places, "")
         };
         let mut rows: Vec<&str> = places.iter().map(|place| place.split(['.']).next().unwrap_or("")).collect();
@@ -119,7 +126,12 @@ pub fn text(dice: &mut Random, most: usize, traits: Traits) -> Text {
             break;
         }
         locations += taken;
-        let (qualifier, how) = match (integer, dice.below(8)) {
+        let choice = match first {
+            0 => 0,
+            1 => 7,
+            _ => dice.below(8),
+        };
+        let (qualifier, how) = match (integer, choice) {
             (true, _) | (_, 0) => ("flat", Interpolation::Flat),
             (_, 1 | 2) => ("noperspective", Interpolation::NoPerspective),
             (_, 3) => ("centroid", Interpolation::Smooth),
