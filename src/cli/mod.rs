@@ -19,6 +19,7 @@ mod repack;
 mod repack_report;
 mod report;
 mod report_light;
+mod result_files;
 #[cfg(feature = "window")]
 pub mod sample;
 #[cfg(feature = "window")]
