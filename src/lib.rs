@@ -141,6 +141,8 @@ pub mod output;
 pub mod pass;
 pub mod pictures;
 pub mod plan;
+#[doc(hidden)]
+pub mod png_file;
 pub mod prelude;
 #[doc(hidden)]
 #[allow(unsafe_code)] // signal handlers, locks on files, the allocator

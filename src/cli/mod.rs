@@ -14,6 +14,7 @@ mod judge_report;
 mod path_text;
 mod pipeline;
 mod plan;
+mod png_texts;
 mod render;
 mod repack;
 mod repack_report;
@@ -28,7 +29,6 @@ mod scene_args;
 mod screen;
 mod stress;
 mod test;
-mod text_keys;
 mod truth_views;
 mod tune;
 
