@@ -85,6 +85,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `default` | all of these: what the command has |
+//! | `pure-rust` | all that need no C++ compiler: the default ones but `flip` and `meshopt` |
 //! | `check` | rules for the driver; `glumbra check` |
 //! | `cli` | the command with all its subcommands |
 //! | `exr` | pictures as OpenEXR files |

@@ -165,6 +165,9 @@ fn codes(value: f64) -> Option<f64> {
 }
 
 fn flip_of(actual: &Raster, expected: &Raster) -> Result<FlipMap, String> {
+    if !flip::HAS_FLIP {
+        return Err(String::from("this build has no FLIP: enable glumbra's cargo feature `flip`, which compiles C++"));
+    }
     let [actual, expected] = [actual, expected].map(|raster| raster.to_image());
     let both = expected.zip(actual).ok_or_else(|| String::from("--flip needs pictures of at most four channels"))?;
     flip::flip(&both.0, &both.1).ok_or_else(|| format!("--flip takes at most {} pixels", flip::MOST_PIXELS))
