@@ -232,6 +232,12 @@ impl Renderer {
         Ok(self.device.read_window(window)?)
     }
 
+    /// The driver in a line: GL_RENDERER and GL_VERSION.
+    #[doc(hidden)]
+    pub fn driver(&self) -> String {
+        self.device.driver()
+    }
+
     /// The device, for its own functions.
     #[doc(hidden)]
     pub fn device(&mut self) -> &mut Device {

@@ -85,6 +85,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `default` | all of these: what the command has |
+//! | `pure-rust` | all that need no C++ compiler: the default ones but `flip` and `meshopt` |
 //! | `check` | rules for the driver; `glumbra check` |
 //! | `cli` | the command with all its subcommands |
 //! | `exr` | pictures as OpenEXR files |
@@ -141,6 +142,8 @@ pub mod output;
 pub mod pass;
 pub mod pictures;
 pub mod plan;
+#[doc(hidden)]
+pub mod png_file;
 pub mod prelude;
 #[doc(hidden)]
 #[allow(unsafe_code)] // signal handlers, locks on files, the allocator

@@ -11,6 +11,7 @@ use super::draw::{Drawer, DrawnScene, Wanted};
 use super::outcome::{Failure, FailureFiles};
 use super::read::PixelCase;
 use crate::pictures::Raster;
+use crate::png_file::PngTexts;
 
 /// Inputs of a picture: the scene's file, its overrides, the number of frames, and what is read.
 type Key = (PathBuf, Vec<String>, u32, Wanted);
@@ -98,6 +99,18 @@ impl<'a> CaseBench<'a> {
         }
     }
 
+    /// Texts of the PNG file `name` that shows something of this case.
+    pub fn texts(&self, name: &str) -> PngTexts {
+        let driver = match &self.case.checks.render {
+            Some(_) => self.driver().ok(),
+            None => self.shared.drawer.borrow().used_driver().map(str::to_owned),
+        };
+        let what = name.trim_end_matches(".png");
+        PngTexts::titled(format!("{what} picture of the pixel test {}", self.case.name))
+            .with(PngTexts::SCENE, self.case.scene().display().to_string())
+            .with(PngTexts::DRIVER, driver.unwrap_or_default())
+    }
+
     /// Notes what a check has measured that holds.
     pub fn note(&self, measured: String) {
         self.shared.measured.borrow_mut().push(measured);
@@ -123,7 +136,7 @@ impl<'a> CaseBench<'a> {
         let _ = std::fs::create_dir_all(&folder);
         let mut write = |name: &str, picture: Option<&Raster>| {
             let path = folder.join(name);
-            match picture?.write_png(&path) {
+            match picture?.write_described_png(&path, &self.texts(name)) {
                 Ok(()) => Some(path),
                 Err(error) => {
                     files.errors.push(error);

@@ -4,7 +4,7 @@
 use super::bench::CaseBench;
 use super::draw::Wanted;
 use super::file::Sets;
-use super::golden::{self, GoldenResult};
+use super::golden::{self, GoldenFile, GoldenResult};
 use super::outcome::{CaseVerdict, Failure};
 use super::{floors, picks, relations, truths};
 
@@ -82,7 +82,8 @@ fn says(on: &CaseBench, kind: &str, text: &str) -> Result<(), Failure> {
 fn golden(on: &CaseBench, wanted: &super::file::Golden) -> Result<(), Failure> {
     let drawn = on.draw(&[], Wanted::Picture)?;
     let actual = &drawn.picture;
-    match golden::check(actual, &on.case.folder, wanted, &on.driver()?, on.shared.bless)? {
+    let of = GoldenFile { folder: &on.case.folder, texts: on.texts(golden::GOLDEN) };
+    match golden::check(actual, wanted, &of, &on.driver()?, on.shared.bless)? {
         GoldenResult::Same(how) => {
             on.note(format!("golden: {how}"));
             Ok(())

@@ -67,7 +67,7 @@ impl Drawer {
         let gl = self.gl.get_or_insert_with(|| {
             let context = context::open(request).map_err(|error| error.to_string())?;
             let info = context.describe();
-            let driver = format!("{}, OpenGL {}", info.renderer, info.version);
+            let driver = info.driver();
             Ok(Gl { renderer: Renderer::new(&context), driver, context })
         });
         gl.as_mut().map_err(|error| error.clone().into())

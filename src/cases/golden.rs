@@ -7,6 +7,7 @@ use std::path::Path;
 use super::file::Golden;
 use crate::pictures::compare::{self, Tolerance};
 use crate::pictures::{self, Raster};
+use crate::png_file::PngTexts;
 
 /// The driver that drew the golden beside it, one line.
 const DRIVER_FILE: &str = "golden.driver";
@@ -16,6 +17,18 @@ const DRIVER_FILE: &str = "golden.driver";
 /// pixel wide, and the mean difference is 0.40/255. A picture without a shadow of 3x3 pixels differs from its golden in a
 /// square, however small a share of the picture that is.
 const OTHER: Tolerance = Tolerance { max: 1.0, mean: 0.75 / 255.0, share: 0.006, slight: 16.0 / 255.0, spot: Some(3) };
+
+/// Name of the golden in its case's folder.
+pub const GOLDEN: &str = "golden.png";
+
+/// A golden's file.
+#[derive(Clone, Debug)]
+pub struct GoldenFile<'a> {
+    /// The case's folder.
+    pub folder: &'a Path,
+    /// Texts of the PNG, if it is written.
+    pub texts: PngTexts,
+}
 
 /// Result of a comparison with a golden.
 #[derive(Clone, Debug)]
@@ -33,21 +46,21 @@ pub enum GoldenResult {
     Written(String),
 }
 
-/// Compares `actual`, drawn by `driver`, with `golden.png` in `folder`. With `bless` it is written instead.
+/// Compares `actual`, drawn by `driver`, with the golden `of` a case. With `bless` it is written instead.
 ///
 /// # Errors
 ///
 /// A golden that cannot be written.
 pub fn check(
     actual: &Raster,
-    folder: &Path,
     golden: &Golden,
+    of: &GoldenFile<'_>,
     driver: &str,
     bless: bool,
 ) -> Result<GoldenResult, String> {
-    let path = folder.join("golden.png");
+    let path = of.folder.join(GOLDEN);
     if bless {
-        return write(actual, folder, &path, driver).map(GoldenResult::Written);
+        return write(actual, of, &path, driver).map(GoldenResult::Written);
     }
     if !path.is_file() {
         let name = path.display();
@@ -58,7 +71,7 @@ pub fn check(
         Ok(expected) => expected,
         Err(why) => return Ok(GoldenResult::Wrong { why, expected: None }),
     };
-    let recorded = fs::read_to_string(folder.join(DRIVER_FILE)).unwrap_or_default();
+    let recorded = fs::read_to_string(of.folder.join(DRIVER_FILE)).unwrap_or_default();
     let (tolerance, how) = tolerance(recorded.trim(), driver, golden);
     Ok(match compare::compare(actual, &expected, &tolerance) {
         Ok(found) => GoldenResult::Same(format!("{how}: {found}")),
@@ -97,9 +110,9 @@ fn tolerance(recorded: &str, here: &str, golden: &Golden) -> (Tolerance, String)
     (OTHER, how)
 }
 
-fn write(actual: &Raster, folder: &Path, path: &Path, driver: &str) -> Result<String, String> {
-    actual.write_png(path)?;
-    let file = folder.join(DRIVER_FILE);
+fn write(actual: &Raster, of: &GoldenFile<'_>, path: &Path, driver: &str) -> Result<String, String> {
+    actual.write_described_png(path, &of.texts)?;
+    let file = of.folder.join(DRIVER_FILE);
     fs::write(&file, format!("{driver}\n")).map_err(|error| format!("{}: {error}", file.display()))?;
     Ok(format!("{}: written; look at the picture, then run again", path.display()))
 }

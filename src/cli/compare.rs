@@ -13,6 +13,7 @@ use super::json::JsonArgs;
 use crate::pictures::compare::has_spot;
 use crate::pictures::flip::{self, FlipMap};
 use crate::pictures::{self, Comparison, Raster, alike};
+use crate::png_file::PngTexts;
 
 /// Compares two pictures pixel by pixel: PNG, EXR or NPY files of any program.
 #[derive(Debug, Args)]
@@ -130,7 +131,10 @@ fn compare(arguments: &CompareArgs) -> Result<bool, Error> {
     let within = is_within(arguments, [&actual, &expected], &found, flip.as_ref());
     if let Some(path) = &arguments.output {
         let difference = actual.difference(&expected).unwrap_or(expected);
-        difference.write_png(path).map_err(Error::DifferencePicture)?;
+        let texts = PngTexts::titled("differences of two pictures, from black for none to white at 16/255")
+            .with("Actual", arguments.actual.display().to_string())
+            .with("Expected", arguments.expected.display().to_string());
+        difference.write_described_png(path, &texts).map_err(Error::DifferencePicture)?;
     }
     let report = Report {
         actual: arguments.actual.display().to_string(),
@@ -161,6 +165,9 @@ fn codes(value: f64) -> Option<f64> {
 }
 
 fn flip_of(actual: &Raster, expected: &Raster) -> Result<FlipMap, String> {
+    if !flip::HAS_FLIP {
+        return Err(String::from("this build has no FLIP: enable glumbra's cargo feature `flip`, which compiles C++"));
+    }
     let [actual, expected] = [actual, expected].map(|raster| raster.to_image());
     let both = expected.zip(actual).ok_or_else(|| String::from("--flip needs pictures of at most four channels"))?;
     flip::flip(&both.0, &both.1).ok_or_else(|| format!("--flip takes at most {} pixels", flip::MOST_PIXELS))

@@ -9,7 +9,7 @@ use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::figures::{self, FIGURES};
 use crate::frame::Renderer;
-use crate::output;
+use crate::output::{self, SheetFile};
 
 /// Draws the figures of the documents in data/documents.md that show a result, from our own scenes, as contact sheets
 /// with captions, graphs and shares of wrong pixels.
@@ -58,13 +58,15 @@ pub fn run(arguments: &FiguresArgs, screen: Screen) -> Result<(), Error> {
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     let mut renderer = Renderer::new(&context);
     screen.driver(context.as_ref());
+    let driver = context.describe().driver();
     let panels = chosen.iter().map(|figure| figure.panels.len() as u64).sum();
     let bar = screen.bar(panels, "{bar:40} {pos}/{len} panels, {eta} left  {msg}");
     let mut sheets = Vec::new();
     for figure in &chosen {
         bar.set_message(figure.name);
         let sheet = figure.draw(arguments.scale, &mut renderer, || bar.inc(1))?;
-        sheets.push((folder.join(format!("{}.png", figure.name)), sheet));
+        let path = folder.join(format!("{}.png", figure.name));
+        sheets.push(SheetFile { path, canvas: sheet, texts: figure.texts(arguments.scale, &driver) });
     }
     bar.finish_and_clear();
     let index = folder.join("index.md");

@@ -5,20 +5,21 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
+use super::Error;
 use super::answers;
 use super::compare::parse_percent;
 use super::json::JsonArgs;
 use super::judge_report::{self, JudgeLimits, JudgeReport};
 use super::scene_args::SceneArgs;
 use super::screen::Screen;
-use super::{Error, text_keys};
 use crate::frame::ShadeImage;
 use crate::judge::colors::{DrawnColors, shadow_of, true_colors, why_unshaded};
-use crate::judge::difference::{difference_picture, to_png};
-use crate::judge::{Bound, FoundMistake, Judge, Judgement, shade_of_pictures};
+use crate::judge::difference::difference_picture;
+use crate::judge::{Bound, FoundMistake, Judge, Judgement, color_mistake, shade_of_pictures};
 use crate::output::atomic_write;
 use crate::pictures::{self, PictureFile, Raster};
 use crate::plan::{self, Request};
+use crate::png_file::{self, PngTexts};
 use crate::scene::Scene;
 
 /// Says how wrong the shadow in a picture is, whichever program drew it, against exact visibility.
@@ -108,6 +109,8 @@ const HELP: &str = "\
 Values are taken as they stand: codes of 8 or 16 bits over their greatest, no gamma. Pixels count where the ray tracer is \
 certain, and but for --band exact where the surface faces the light: on the others shading leaves no light. A picture without \
 alpha is compared on every surface of the scene. Of colours, too dark is false shadow, and too bright is a leak. \
+A mistake that explains what is wrong is named: a picture that is upside down, mirrored, turned, moved by up to 4 pixels; a \
+shade that is inverted or of another light; colours with red and blue exchanged, or encoded by the curve of sRGB. \
 `glumbra render --aov truth` draws what a shade should be, `--aov difference` how far glumbra's own picture is from it.
 
 Exit status: 0 within the limits, or no limit is given; 1 beyond one, or nothing could be compared, or more than half of the \
@@ -173,7 +176,8 @@ fn judge(arguments: &JudgeArgs, screen: Screen) -> Result<bool, Error> {
     let Judged { mut judge, judgement, shade, mistake, edges } = judged?;
     if let Some(path) = &arguments.output {
         let picture = difference_picture(judge.truth(&bound), &shade)?;
-        let png = to_png(&picture).map_err(|error| Error::DifferencePicture(error.to_string()))?;
+        let texts = arguments.texts("differences of a picture's shade from exact visibility");
+        let png = png_file::of_rgb(&picture, &texts).map_err(|error| Error::DifferencePicture(error.to_string()))?;
         let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &png));
         written.map_err(|(_, error)| Error::WriteFile { path: path.clone(), error })?;
     }
@@ -228,7 +232,8 @@ impl<'a> Judged<'a> {
                     }
                 }
                 let shade = judge.shade_of(&judgement);
-                Ok(Self { judge, judgement, shade, mistake: None, edges: [None; 2] })
+                let mistake = color_mistake(&truth, &drawn);
+                Ok(Self { judge, judgement, shade, mistake, edges: [None; 2] })
             }
             Picture::Shade { mut image, knows_surfaces } => {
                 if !knows_surfaces {
@@ -347,13 +352,22 @@ impl JudgeArgs {
         Ok(Picture::Shade { image, knows_surfaces: false })
     }
 
+    /// Texts of a picture of what was found.
+    fn texts(&self, title: &str) -> PngTexts {
+        PngTexts::titled(title)
+            .with(PngTexts::SCENE, self.scene.scene.display().to_string())
+            .with(PngTexts::OVERRIDES, self.scene.changes.overrides().join(" "))
+            .with("Light", self.light.to_string())
+            .with("Picture", self.picture.display().to_string())
+    }
+
     /// The picture's own words on its scene, where that is another scene than the one that is given.
     fn notes(&self, file: &PictureFile) -> Vec<String> {
         let given = [
-            (text_keys::SCENE, self.scene.scene.display().to_string()),
-            (text_keys::OVERRIDES, self.scene.changes.overrides().join(" ")),
+            (PngTexts::SCENE, self.scene.scene.display().to_string()),
+            (PngTexts::OVERRIDES, self.scene.changes.overrides().join(" ")),
         ];
-        let is_ours = file.texts.iter().any(|(keyword, _)| keyword == text_keys::SCENE);
+        let is_ours = file.texts.iter().any(|(keyword, _)| keyword == PngTexts::SCENE);
         let said = |keyword: &str| file.texts.iter().find(|(known, _)| known == keyword).map_or("", |(_, text)| text);
         let differing = given.iter().filter(|(keyword, text)| is_ours && said(keyword) != text);
         let note = |(keyword, text): &(&str, String)| {

@@ -14,11 +14,13 @@ mod judge_report;
 mod path_text;
 mod pipeline;
 mod plan;
+mod png_texts;
 mod render;
 mod repack;
 mod repack_report;
 mod report;
 mod report_light;
+mod result_files;
 #[cfg(feature = "window")]
 pub mod sample;
 #[cfg(feature = "window")]
@@ -27,7 +29,6 @@ mod scene_args;
 mod screen;
 mod stress;
 mod test;
-mod text_keys;
 mod truth_views;
 mod tune;
 

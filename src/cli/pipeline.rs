@@ -8,6 +8,7 @@ use super::{ContextArgs, Error};
 use crate::context::{self, Context, Profile};
 use crate::frame::{Frame, Renderer, Times};
 use crate::plan::Plan;
+use crate::png_file::PngTexts;
 
 /// Pipeline that draws the passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -21,6 +22,12 @@ pub enum Pipeline {
 }
 
 impl Pipeline {
+    /// Adds its name to the texts of a PNG, unless it is the usual one.
+    pub fn texts(self, texts: PngTexts) -> PngTexts {
+        let name = self.to_possible_value().filter(|_| self != Self::default());
+        texts.with("Pipeline", name.map(|name| name.get_name().to_owned()).unwrap_or_default())
+    }
+
     /// Opens a context that this pipeline can use.
     ///
     /// # Errors

@@ -5,25 +5,25 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::Instant;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use indicatif::ProgressBar;
 use serde::Serialize;
 
 use super::json::{JsonArgs, is_standard_stream};
 use super::path_text::{PathBytes, path_text};
 use super::pipeline::Pipeline;
+use super::png_texts::scene_texts;
 use super::scene_args::SceneChanges;
 use super::screen::Screen;
-use super::text_keys;
 use super::truth_views::{Aov, parse_aov};
 use super::{ContextArgs, Error};
-use crate::context::Context;
+use crate::context::{Context, ContextInfo};
 use crate::device::Pixels;
 use crate::frame::{Frame, Renderer, Times};
 use crate::output::{self, FileFormat, Output};
 use crate::plan::{Plan, Request, Summary};
-use crate::scene::{Light, Scene};
-use crate::techniques::LightShadow;
+use crate::png_file::PngTexts;
+use crate::scene::Scene;
 
 /// Renders a scene or a model to a picture.
 #[derive(Debug, Args)]
@@ -278,14 +278,13 @@ fn draw(
     let outputs: Vec<Output<'_>> =
         files.iter().zip(pictures).map(|(path, (pixels, view))| Output { path, pixels, view }).collect();
     let info = context.describe();
-    let driver = format!("{}, OpenGL {}", info.renderer, info.version);
-    let texts = arguments.texts(&path, &scene, driver);
+    let texts = arguments.texts(&path, &scene, &info);
     if is_standard_stream(&files[0]) {
         let mut out = std::io::stdout().lock();
-        out.write_all(&output::to_png(&outputs[0], &texts)?)?;
+        out.write_all(&output::to_png(&outputs[0], texts.as_slice())?)?;
         out.flush()?;
     } else {
-        output::write_described(&outputs, &texts)?;
+        output::write_described(&outputs, texts.as_slice())?;
     }
     for (index, output) in outputs.iter().enumerate() {
         let [width, height] = output.pixels.size();
@@ -307,22 +306,11 @@ fn draw(
 }
 
 impl RenderArgs {
-    /// Texts of a PNG: all that decides its pixels, and no time.
-    fn texts(&self, path: &Path, scene: &Scene, driver: String) -> Vec<(&'static str, String)> {
-        let technique = |light: &Light| LightShadow::of(&light.shadow).map_or("none", |shadow| shadow.technique.name());
-        let techniques: Vec<&str> = scene.lights.iter().map(technique).collect();
-        let mut texts = vec![
-            ("Software", concat!("glumbra ", env!("CARGO_PKG_VERSION")).to_owned()),
-            (text_keys::SCENE, path.display().to_string()),
-            (text_keys::OVERRIDES, self.changes.overrides().join(" ")),
-            (text_keys::TECHNIQUE, techniques.join(", ")),
-            (text_keys::DRIVER, driver),
-        ];
-        let pipeline = self.pipeline.to_possible_value().filter(|_| self.pipeline != Pipeline::default());
-        texts.extend(pipeline.map(|pipeline| ("Pipeline", pipeline.get_name().to_owned())));
-        texts.extend(self.after_pass.clone().map(|pass| ("After pass", pass)));
-        texts.retain(|(_, text)| !text.is_empty());
-        texts
+    /// Texts of its PNG files.
+    fn texts(&self, path: &Path, scene: &Scene, info: &ContextInfo) -> PngTexts {
+        let overrides = self.changes.overrides().join(" ");
+        let texts = scene_texts(&path.display().to_string(), overrides, scene, &info.driver());
+        self.pipeline.texts(texts).with("After pass", self.after_pass.clone().unwrap_or_default())
     }
 }
 

@@ -12,6 +12,7 @@ use crate::geometry::md2::{self, Model, NormalSource, Pose};
 use crate::geometry::skin::{self, LARGEST, Raster, RepackOptions, Repacked, Skin};
 use crate::geometry::{self, Mesh, load_obj};
 use crate::output::{self, atomic_write};
+use crate::png_file::PngTexts;
 
 /// Turns and packs the skin of a model so that its tangent bases agree across edges.
 #[derive(Debug, Args)]
@@ -163,8 +164,11 @@ fn repack(arguments: &RepackArgs) -> Result<Report, Error> {
     }
     for (picture, path) in pictures.iter().zip(&maps) {
         let sampled = new.resample(&old, picture).map_err(wrong)?;
-        let failed = |error: image::ImageError| Error::Write { file: (*path).clone(), reason: error.to_string() };
-        contents.push(sampled.to_png().map_err(failed)?);
+        let failed = |error: std::io::Error| Error::Write { file: (*path).clone(), reason: error.to_string() };
+        let texts = PngTexts::titled("a skin that was packed again")
+            .with("Source", path.display().to_string())
+            .with("Model", arguments.model.display().to_string());
+        contents.push(sampled.to_png(&texts).map_err(failed)?);
     }
     write(&arguments.output, &files, &contents)?;
     let report = Report::new(&old, &new, &files);

@@ -7,13 +7,15 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, ValueEnum};
 
 use super::pipeline::Pipeline;
+use super::png_texts::scene_texts;
 use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
-use crate::context::{Choice, Profile};
+use crate::context::{Choice, ContextInfo, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output::{self, Output};
 use crate::plan::Request;
+use crate::png_file::PngTexts;
 use crate::scene::{Embedded, Scene};
 use crate::viewer::{self, Mode, Shown, State};
 
@@ -136,32 +138,47 @@ fn show(sample: &Sample, arguments: &Arguments) -> Result<(), Error> {
     let mode = Mode::from(arguments.mode);
     let (scene, request) = mode.frame(&loaded.scene, loaded.scene.image.size);
     crate::plan::make(&scene, &Request { sampled_warnings: false, ..request.clone() })?;
+    let texts = |info: &ContextInfo| arguments.texts(sample, &scene, info);
     if let Some(path) = &arguments.output {
-        return write(path, &draw(&scene, request, path, arguments)?);
+        let (pixels, info) = draw(&scene, request, path, arguments)?;
+        return write(path, &pixels, &texts(&info));
     }
     let shown = Shown { title: sample.name.to_owned(), capture: arguments.capture.is_some() };
     let captured = viewer::run(State::new(loaded.scene, mode).with_techniques(sample.techniques), shown)?;
     match (&arguments.capture, captured) {
-        (Some(path), Some(pixels)) => write(path, &pixels),
+        (Some(path), Some((pixels, info))) => write(path, &pixels, &texts(&info)),
         _ => Ok(()),
     }
 }
 
-/// One picture without a window.
-fn draw(scene: &Scene, mut request: Request, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
+/// One picture without a window, and its driver.
+fn draw(
+    scene: &Scene,
+    mut request: Request,
+    path: &Path,
+    arguments: &Arguments,
+) -> Result<(Pixels, ContextInfo), Error> {
     request.float_picture = output::check_path(path)?.is_exact();
     let context = arguments.pipeline.open(&arguments.context)?;
     let mut renderer = Renderer::new(&context);
     let plan = renderer.plan(scene, &request)?;
     let (_, frame) = arguments.pipeline.draw(&context, &mut renderer, &plan, 1, false, || {})?;
-    Ok(frame.picture)
+    Ok((frame.picture, context.describe()))
 }
 
-fn write(path: &Path, pixels: &Pixels) -> Result<(), Error> {
-    Ok(output::write_all(&[Output { path, pixels, view: None }])?)
+fn write(path: &Path, pixels: &Pixels, texts: &PngTexts) -> Result<(), Error> {
+    Ok(output::write_described(&[Output { path, pixels, view: None }], texts.as_slice())?)
 }
 
 impl Arguments {
+    /// Texts of its PNG files.
+    fn texts(&self, sample: &Sample, scene: &Scene, info: &ContextInfo) -> PngTexts {
+        let mode = self.mode.to_possible_value().map(|mode| mode.get_name().to_owned()).unwrap_or_default();
+        let overrides = self.overrides(sample).join(" ");
+        let texts = scene_texts(sample.scene.path, overrides, scene, &info.driver());
+        self.pipeline.texts(texts).with("Sample", sample.name).with("Mode", mode)
+    }
+
     /// Overrides in order: the sample's technique, size and tweaks, then `--set`.
     fn overrides(&self, sample: &Sample) -> Vec<String> {
         let technique = sample.techniques.first().map(|name| format!("light.shadow.technique={name}"));

@@ -7,14 +7,16 @@ use clap::builder::PossibleValuesParser;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
 
+use super::png_texts::scene_texts;
 use super::scene_args::parse_size;
 use super::{ContextArgs, Error};
-use crate::context::{self, Choice, Profile};
+use crate::context::{self, Choice, ContextInfo, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output::{self, Output};
 use crate::plan;
-use crate::scene::Embedded;
+use crate::png_file::PngTexts;
+use crate::scene::{Embedded, Scene};
 use crate::viewer::{self, ModelCommand, ModelMode, ModelState, Show, Shown};
 use crate::views::View;
 
@@ -126,11 +128,7 @@ fn begin(sample: &ModelSample, arguments: &Arguments) -> Result<(ModelState, Vec
     let file = arguments.output.as_ref().or(arguments.capture.as_ref());
     file.map(|path| output::check_path(path)).transpose()?;
     let mode = ModelMode::named(&arguments.mode).unwrap_or_default();
-    let shadows = sample.shadows && !arguments.no_shadows;
-    let unshadowed = (!shadows).then(|| String::from("light.shadow.technique=none"));
-    let size = arguments.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
-    let overrides = unshadowed.into_iter().chain(size).chain(arguments.set.iter().cloned()).collect();
-    Ok(ModelState::new(sample.scene, overrides, mode)?)
+    Ok(ModelState::new(sample.scene, arguments.overrides(sample), mode)?)
 }
 
 fn show(sample: &ModelSample, arguments: &Arguments, state: ModelState, warnings: &[String]) -> Result<(), Error> {
@@ -141,18 +139,20 @@ fn show(sample: &ModelSample, arguments: &Arguments, state: ModelState, warnings
     let (scene, request) = state.frame();
     plan::make(&scene, &request)?;
     let view = request.views.first().map(|wanted| wanted.view);
+    let texts = |info: &ContextInfo| arguments.texts(sample, &scene, info);
     if let Some(path) = &arguments.output {
-        return write(path, &draw(&state, path, arguments)?, view);
+        let (pixels, info) = draw(&state, path, arguments)?;
+        return write(path, &pixels, view, &texts(&info));
     }
     let shown = Shown { title: sample.name.to_owned(), capture: arguments.capture.is_some() };
     match (&arguments.capture, viewer::run(state, shown)?) {
-        (Some(path), Some(pixels)) => write(path, &pixels, None),
+        (Some(path), Some((pixels, info))) => write(path, &pixels, None, &texts(&info)),
         _ => Ok(()),
     }
 }
 
-/// One picture without a window.
-fn draw(state: &ModelState, path: &Path, arguments: &Arguments) -> Result<Pixels, Error> {
+/// One picture without a window, and its driver.
+fn draw(state: &ModelState, path: &Path, arguments: &Arguments) -> Result<(Pixels, ContextInfo), Error> {
     let (scene, mut request) = state.frame();
     request.float_picture = output::check_path(path)?.is_exact();
     let context = context::open(&arguments.context.request(Profile::Core33))?;
@@ -160,9 +160,29 @@ fn draw(state: &ModelState, path: &Path, arguments: &Arguments) -> Result<Pixels
     let plan = renderer.plan(&scene, &request)?;
     renderer.draw(&plan)?;
     let frame = renderer.read(&plan)?;
-    Ok(frame.views.into_iter().next().unwrap_or(frame.picture))
+    Ok((frame.views.into_iter().next().unwrap_or(frame.picture), context.describe()))
 }
 
-fn write(path: &Path, pixels: &Pixels, view: Option<View>) -> Result<(), Error> {
-    Ok(output::write_all(&[Output { path, pixels, view }])?)
+fn write(path: &Path, pixels: &Pixels, view: Option<View>, texts: &PngTexts) -> Result<(), Error> {
+    Ok(output::write_described(&[Output { path, pixels, view }], texts.as_slice())?)
+}
+
+impl Arguments {
+    /// Overrides in order: none of its shadows, its size, then `--set`.
+    fn overrides(&self, sample: &ModelSample) -> Vec<String> {
+        let shadows = sample.shadows && !self.no_shadows;
+        let unshadowed = (!shadows).then(|| String::from("light.shadow.technique=none"));
+        let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
+        unshadowed.into_iter().chain(size).chain(self.set.iter().cloned()).collect()
+    }
+
+    /// Texts of its PNG files.
+    fn texts(&self, sample: &ModelSample, scene: &Scene, info: &ContextInfo) -> PngTexts {
+        let overrides = self.overrides(sample).join(" ");
+        scene_texts(sample.scene.path, overrides, scene, &info.driver())
+            .with("Sample", sample.name)
+            .with("Mode", self.mode.clone())
+            .with("Frame", self.frame.map(|frame| frame.to_string()).unwrap_or_default())
+            .with("Wireframe", if self.wireframe { "yes" } else { "" })
+    }
 }

@@ -31,6 +31,13 @@ pub struct ContextInfo {
     pub limits: ContextLimits,
 }
 
+impl ContextInfo {
+    /// The driver in a line: GL_RENDERER and GL_VERSION.
+    pub fn driver(&self) -> String {
+        format!("{}, OpenGL {}", self.renderer, self.version)
+    }
+}
+
 /// Limits of a context, as its GL_MAX_* queries answer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -100,6 +100,11 @@ impl Device {
         if self.context.is_current() { Ok(()) } else { Ok(self.context.make_current()?) }
     }
 
+    /// The driver in a line.
+    pub fn driver(&self) -> String {
+        self.context.describe().driver()
+    }
+
     /// The largest image side that can be drawn into, and the textures that one fragment shader can read.
     pub fn limits(&self) -> (u32, u32) {
         let get = |name| unsafe { self.gl.get_parameter_i32(name) }.max(0) as u32;

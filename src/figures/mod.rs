@@ -28,6 +28,7 @@ use crate::frame::{self, Renderer};
 use crate::geometry::skin;
 use crate::judge::metrics;
 use crate::output::{self, canvas::Canvas};
+use crate::png_file::PngTexts;
 use crate::scene::{self, Embedded, Scene};
 use crate::truth;
 use crate::views::View;
@@ -177,6 +178,15 @@ pub fn chosen(names: &[String]) -> Result<Vec<&'static Figure>, Error> {
 }
 
 impl Figure {
+    /// Texts of its PNG file.
+    pub fn texts(&self, scale: u32, driver: &str) -> PngTexts {
+        PngTexts::titled(format!("figure {}: {}", self.name, self.title))
+            .with("Source", self.source)
+            .with(PngTexts::SCENE, self.scene.path)
+            .with("Scale", scale.to_string())
+            .with(PngTexts::DRIVER, driver)
+    }
+
     /// A panel's scene.
     ///
     /// # Errors

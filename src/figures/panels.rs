@@ -3,8 +3,8 @@
 use super::{Measured, Panel, PanelStage, SceneChange};
 use crate::views::View;
 
-/// Pictures that the figures' scenes name.
-pub const PICTURES: &[(&str, &[u8])] = &[
+/// Pictures that the figures' scenes name. A static is in the program once, a constant wherever it is used.
+pub static PICTURES: [(&str, &[u8]); 12] = [
     ("../textures/checker.png", include_bytes!("../../data/textures/checker.png")),
     ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
     ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),
@@ -20,7 +20,7 @@ pub const PICTURES: &[(&str, &[u8])] = &[
 ];
 
 /// Models that the figures' scenes name.
-pub const MESHES: &[(&str, &[u8])] = &[
+pub static MESHES: [(&str, &[u8]); 8] = [
     ("../meshes/facade-wall.obj", include_bytes!("../../data/meshes/facade-wall.obj")),
     ("../meshes/facade-stone.obj", include_bytes!("../../data/meshes/facade-stone.obj")),
     ("../meshes/facade-wood.obj", include_bytes!("../../data/meshes/facade-wood.obj")),
@@ -40,8 +40,8 @@ macro_rules! embedded {
         $crate::scene::Embedded {
             path: concat!("data/", $folder, $name),
             text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/", $folder, $name)),
-            pictures: $crate::figures::panels::PICTURES,
-            meshes: $crate::figures::panels::MESHES,
+            pictures: &$crate::figures::panels::PICTURES,
+            meshes: &$crate::figures::panels::MESHES,
         }
     };
 }

@@ -48,7 +48,7 @@ const AGAINST: [&str; 4] =
     ["light.position=[-0.4, 4.0, -5.0]", "light.target=[0.9, 0.0, 1.4]", "light.cone=50", "light.shape=frustum"];
 
 /// All figures, in the order of their documents.
-pub const FIGURES: &[Figure] = &[
+pub static FIGURES: &[Figure] = &[
     Figure {
         name: "hsm-title",
         title: "The eye's view without and with shadows",

@@ -3,8 +3,7 @@
 //! Greys show the truth, darker for less light; only errors have a colour. The colours are of the set that Okabe and Ito
 //! chose to be distinguishable with any colour vision, and differ in lightness from the grey below.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
+use image::{Rgb, RgbImage};
 
 use super::metrics::{Error, check_size, is_lit};
 use crate::frame::ShadeImage;
@@ -69,22 +68,6 @@ pub fn difference_picture(truth: &Truth, shade: &ShadeImage) -> Result<RgbImage,
         (Answer::Shadowed, true) if is_lit(shade.shade[index]) => LEAK,
         _ => true_color(pixel),
     }))
-}
-
-/// The picture as PNG.
-///
-/// # Errors
-///
-/// An error of the encoder; it has none for a picture of at least one pixel.
-pub fn to_png(picture: &RgbImage) -> Result<Vec<u8>, image::ImageError> {
-    let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive).write_image(
-        picture.as_raw(),
-        picture.width(),
-        picture.height(),
-        ExtendedColorType::Rgb8,
-    )?;
-    Ok(bytes)
 }
 
 fn true_color(pixel: &Pixel) -> [u8; 3] {
@@ -158,12 +141,5 @@ mod tests {
     #[test]
     fn a_picture_of_another_size_is_refused() {
         assert!(difference_picture(&truth(&[Answer::Lit]), &shade(&[None, None])).is_err());
-    }
-
-    #[test]
-    fn png_comes_back() {
-        let picture = truth_picture(&truth(&[Answer::Lit, Answer::Shadowed]));
-        let read = image::load_from_memory(&to_png(&picture).unwrap()).unwrap().to_rgb8();
-        assert_eq!(read, picture);
     }
 }

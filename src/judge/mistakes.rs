@@ -22,6 +22,10 @@ pub enum Mistake {
     Shifted([i32; 2]),
     /// It shows the shade of the light with this number.
     OtherLight(usize),
+    /// Of a picture in colours: red and blue are exchanged.
+    RedAndBlue,
+    /// Of a picture in colours: its codes are those of sRGB, where they must be proportional to light.
+    Encoded,
 }
 
 /// A mistake, and how far it explains what is wrong.
@@ -44,6 +48,10 @@ impl fmt::Display for FoundMistake {
             Mistake::Inverted => write!(f, "the picture is inverted: 1 must be light, 0 shadow")?,
             Mistake::Shifted([x, y]) => write!(f, "the picture is moved by {x} pixels to the right and {y} down")?,
             Mistake::OtherLight(light) => write!(f, "the picture shows light {light}: try --light {light}")?,
+            Mistake::RedAndBlue => write!(f, "red and blue of the picture are exchanged")?,
+            Mistake::Encoded => {
+                write!(f, "the picture is encoded by the curve of sRGB: its codes must be proportional to light")?
+            }
         }
         let percents = [self.wrong_share, self.without_share].map(|share| 100.0 * share);
         write!(f, " (so {:.2} % are wrong, else {:.2} %)", percents[0], percents[1])
@@ -78,7 +86,7 @@ impl Judge<'_> {
         let tally =
             |truth: &Truth, value: &dyn Fn(i64, i64) -> Option<(f32, bool)>| count(truth, knows_surfaces, value);
         let now = tally(truth, &at);
-        if now.wrong < FEWEST_WRONG {
+        if !now.is_worth_a_search() {
             return Ok(None);
         }
         let mut tried = vec![
@@ -87,40 +95,54 @@ impl Judge<'_> {
             (Mistake::Turned, tally(truth, &|x, y| at(width - 1 - x, height - 1 - y))),
             (Mistake::Inverted, tally(truth, &|x, y| at(x, y).map(|(value, covered)| (1.0 - value, covered)))),
         ];
-        let shifts = (-MOST_SHIFT..=MOST_SHIFT).flat_map(|y| (-MOST_SHIFT..=MOST_SHIFT).map(move |x| [x, y]));
-        for [right, down] in shifts.filter(|shift| *shift != [0, 0]) {
+        for [right, down] in shifts() {
             let moved = tally(truth, &|x, y| at(x + i64::from(right), y + i64::from(down)));
             tried.push((Mistake::Shifted([right, down]), moved));
         }
-        let is_much_better =
-            |other: &Tally| BETTER * other.share() <= now.share() && 2 * other.compared >= now.compared;
-        let best = |tried: &[(Mistake, Tally)]| {
-            let better = tried.iter().filter(|(_, tally)| is_much_better(tally));
-            better.min_by(|(_, a), (_, b)| a.share().total_cmp(&b.share())).copied()
-        };
-        let mut found = best(&tried);
+        let mut found = explain(now, &tried);
         if found.is_none() {
             for light in (0..self.scene().lights.len()).filter(|light| *light != self.light()) {
                 let other = truth::trace(self.scene(), light, &options())?;
                 tried.push((Mistake::OtherLight(light), tally(&other, &at)));
             }
-            found = best(&tried);
+            found = explain(now, &tried);
         }
-        Ok(found.map(|(mistake, without)| FoundMistake {
-            mistake,
-            wrong_share: now.share(),
-            without_share: without.share(),
-        }))
+        Ok(found)
     }
 }
 
+/// All shifts that are tried, to the right and down.
+pub(super) fn shifts() -> impl Iterator<Item = [i32; 2]> {
+    let all = (-MOST_SHIFT..=MOST_SHIFT).flat_map(|y| (-MOST_SHIFT..=MOST_SHIFT).map(move |x| [x, y]));
+    all.filter(|shift| *shift != [0, 0])
+}
+
+/// The mistake without which a picture would fit best, if it would fit much better than `now`.
+pub(super) fn explain(now: Tally, tried: &[(Mistake, Tally)]) -> Option<FoundMistake> {
+    let is_much_better = |other: &Tally| BETTER * other.share() <= now.share() && 2 * other.compared >= now.compared;
+    let better = tried.iter().filter(|(_, tally)| is_much_better(tally));
+    let (mistake, without) = better.min_by(|(_, a), (_, b)| a.share().total_cmp(&b.share()))?;
+    Some(FoundMistake { mistake: *mistake, wrong_share: now.share(), without_share: without.share() })
+}
+
+/// Pixels that are compared, and those that are wrong.
 #[derive(Clone, Copy, Default)]
-struct Tally {
+pub(super) struct Tally {
     compared: usize,
     wrong: usize,
 }
 
 impl Tally {
+    /// Counts a pixel.
+    pub(super) fn add(&mut self, is_wrong: bool) {
+        self.compared += 1;
+        self.wrong += usize::from(is_wrong);
+    }
+
+    pub(super) fn is_worth_a_search(&self) -> bool {
+        self.wrong >= FEWEST_WRONG
+    }
+
     fn share(&self) -> f64 {
         self.wrong as f64 / self.compared.max(1) as f64
     }
@@ -141,8 +163,7 @@ fn count(truth: &Truth, knows_surfaces: bool, value: &dyn Fn(i64, i64) -> Option
             (Answer::Background, true) if knows_surfaces => true,
             _ => continue,
         };
-        tally.compared += 1;
-        tally.wrong += usize::from(is_wrong);
+        tally.add(is_wrong);
     }
     tally
 }

@@ -26,7 +26,7 @@
 //!
 //! # Files
 //! `light.rs` judges a picture, `bound.rs` explains a map's wrong pixels, `near.rs`, `band.rs` and `edges.rs` know true shadow
-//! edges. `places.rs` says where a picture is wrong, `mistakes.rs` whether it only lies wrong.
+//! edges. `places.rs` says where a picture is wrong, `mistakes.rs` and `color_mistakes.rs` whether it only lies wrong.
 //! `metrics.rs` has a report's shares and distances of edges, `difference.rs` draws them. `colors.rs` compares colours.
 //!
 //! ```
@@ -51,6 +51,7 @@
 
 mod band;
 mod bound;
+mod color_mistakes;
 #[doc(hidden)]
 pub mod colors;
 #[doc(hidden)]
@@ -66,6 +67,8 @@ mod places;
 mod verdicts;
 
 pub use bound::{Bound, MOST_WRONG};
+#[doc(hidden)]
+pub use color_mistakes::color_mistake;
 pub use light::Judge;
 #[doc(hidden)]
 pub use mistakes::{FoundMistake, Mistake};

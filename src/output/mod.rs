@@ -16,10 +16,8 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
-
 use crate::device::Pixels;
+use crate::png_file::{self, PngColor, PngEffort, PngPicture, PngTexts};
 use crate::views::View;
 
 /// Reason why a file could not be written.
@@ -135,7 +133,8 @@ pub fn write_all(outputs: &[Output<'_>]) -> Result<(), Error> {
     write_described(outputs, &[])
 }
 
-/// The same with texts in each PNG: keywords, of at most 79 letters of Latin-1, and what they say.
+/// The same with texts in each PNG: keywords, of at most 79 letters of Latin-1, and what they say. `Software`, glumbra and its
+/// version, is in each PNG unless it is one of them.
 ///
 /// # Errors
 ///
@@ -176,69 +175,42 @@ fn write(output: &Output<'_>, texts: &[(&str, String)], path: &Path) -> io::Resu
 }
 
 fn write_png(output: &Output<'_>, texts: &[(&str, String)], file: &mut impl Write) -> io::Result<()> {
-    let [width, height] = output.pixels.size();
-    let (mut bytes, color) = png_bytes(output);
-    let mut encoder = png::Encoder::new(file, width, height);
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_filter(png::Filter::Up);
-    let (color, depth) = match color {
-        ExtendedColorType::L8 => (png::ColorType::Grayscale, png::BitDepth::Eight),
-        ExtendedColorType::L16 => (png::ColorType::Grayscale, png::BitDepth::Sixteen),
-        ExtendedColorType::La8 => (png::ColorType::GrayscaleAlpha, png::BitDepth::Eight),
-        ExtendedColorType::La16 => (png::ColorType::GrayscaleAlpha, png::BitDepth::Sixteen),
-        _ => (png::ColorType::Rgb, png::BitDepth::Eight),
-    };
-    encoder.set_color(color);
-    encoder.set_depth(depth);
-    for (keyword, text) in texts {
-        // Plain chunks hold Latin-1 only.
-        match text.is_ascii() {
-            true => encoder.add_text_chunk((*keyword).to_owned(), text.clone())?,
-            false => encoder.add_itxt_chunk((*keyword).to_owned(), text.clone())?,
-        }
-    }
-    if depth == png::BitDepth::Sixteen {
-        for code in bytes.as_chunks_mut::<2>().0 {
-            *code = u16::from_ne_bytes(*code).to_be_bytes();
-        }
-    }
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&bytes)?;
-    writer.finish()?;
-    Ok(())
+    let (bytes, (color, is_deep)) = png_bytes(output);
+    let picture = PngPicture { size: output.pixels.size(), color, is_deep, bytes: &bytes };
+    png_file::write(file, &picture, PngEffort::Fast, texts)
 }
 
 /// The picture as RGB; shade as grey and alpha; distances and depths as grey, stretched from their least to their greatest
-/// so that they are visible (the other formats have the exact values).
-fn png_bytes(output: &Output<'_>) -> (Vec<u8>, ExtendedColorType) {
+/// so that they are visible (the other formats have the exact values). With it, the channels, and whether they have 16 bits.
+fn png_bytes(output: &Output<'_>) -> (Vec<u8>, (PngColor, bool)) {
     match (output.pixels, output.view) {
         (Pixels::Rgba8 { data, .. }, _) => {
-            (data.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect(), ExtendedColorType::Rgb8)
+            (data.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect(), (PngColor::Rgb, false))
         }
         (Pixels::Depth { data, .. }, _) => {
             let stretch = Stretch::over(data.iter().copied().filter(|depth| *depth < 1.0));
             let gray = data.iter().flat_map(|depth| to_u16(stretch.apply(*depth)).to_ne_bytes());
-            (gray.collect(), ExtendedColorType::L16)
+            (gray.collect(), (PngColor::Gray, true))
         }
         (Pixels::RgbaF32 { size, data }, Some(View::TexelsPerPixel)) => {
-            (density::colored(*size, data, density::ONE).into_bytes(), ExtendedColorType::Rgb8)
+            (density::colored(*size, data, density::ONE).into_bytes(), (PngColor::Rgb, false))
         }
         (Pixels::Stencil { size, data }, Some(View::StencilColors)) => {
-            (counts::colored(*size, data).into_bytes(), ExtendedColorType::Rgb8)
+            (counts::colored(*size, data).into_bytes(), (PngColor::Rgb, false))
         }
-        (Pixels::Stencil { data, .. }, _) => (data.clone(), ExtendedColorType::L8),
+        (Pixels::Stencil { data, .. }, _) => (data.clone(), (PngColor::Gray, false)),
         (Pixels::RgbaF32 { data, .. }, Some(View::Shade)) => {
-            (data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[3])]).collect(), ExtendedColorType::La8)
+            (data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[3])]).collect(), (PngColor::GrayAlpha, false))
         }
         (Pixels::RgbaF32 { data, .. }, Some(View::LightDistance | View::ProjectedMap)) => {
             let pixels = || data.chunks_exact(4);
             let stretch = Stretch::over(pixels().filter(|p| p[3] > 0.0).map(|p| p[0]));
             let gray = pixels().flat_map(|p| [to_u16(stretch.apply(p[0])), to_u16(p[3])]);
-            (gray.flat_map(u16::to_ne_bytes).collect(), ExtendedColorType::La16)
+            (gray.flat_map(u16::to_ne_bytes).collect(), (PngColor::GrayAlpha, true))
         }
         (Pixels::RgbaF32 { data, .. }, _) => (
             data.chunks_exact(4).flat_map(|p| [to_u8(p[0]), to_u8(p[1]), to_u8(p[2])]).collect(),
-            ExtendedColorType::Rgb8,
+            (PngColor::Rgb, false),
         ),
     }
 }
@@ -251,12 +223,14 @@ pub fn to_canvas(pixels: &Pixels, view: Option<View>) -> canvas::Canvas {
     let over = |gray: f32, alpha: f32| BEHIND.map(|behind| (behind + alpha * (255.0 * gray - behind)).round() as u8);
     let short = |pair: &[u8]| f32::from(u16::from_ne_bytes([pair[0], pair[1]])) / 65535.0;
     let rgb: Vec<u8> = match kind {
-        ExtendedColorType::L8 => bytes.iter().flat_map(|gray| [*gray; 3]).collect(),
-        ExtendedColorType::L16 => bytes.chunks_exact(2).flat_map(|pair| over(short(pair), 1.0)).collect(),
-        ExtendedColorType::La8 => {
+        (PngColor::Gray, false) => bytes.iter().flat_map(|gray| [*gray; 3]).collect(),
+        (PngColor::Gray, true) => bytes.chunks_exact(2).flat_map(|pair| over(short(pair), 1.0)).collect(),
+        (PngColor::GrayAlpha, false) => {
             bytes.chunks_exact(2).flat_map(|p| over(f32::from(p[0]) / 255.0, f32::from(p[1]) / 255.0)).collect()
         }
-        ExtendedColorType::La16 => bytes.chunks_exact(4).flat_map(|p| over(short(&p[..2]), short(&p[2..]))).collect(),
+        (PngColor::GrayAlpha, true) => {
+            bytes.chunks_exact(4).flat_map(|p| over(short(&p[..2]), short(&p[2..]))).collect()
+        }
         _ => bytes,
     };
     canvas::Canvas::of_bytes(pixels.size(), rgb)
@@ -288,24 +262,36 @@ pub fn to_keyed(pixels: &Pixels, view: Option<View>, one: Option<&str>) -> Keyed
     }
 }
 
-/// Writes canvases as PNG, and texts; all of them, or none.
+/// A canvas, its file, and what the file says of it.
+#[doc(hidden)]
+#[derive(Clone, Debug)]
+pub struct SheetFile {
+    /// File to write, a PNG.
+    pub path: PathBuf,
+    /// The picture.
+    pub canvas: canvas::Canvas,
+    /// Texts in the file.
+    pub texts: PngTexts,
+}
+
+/// Writes canvases as PNG, and files of text; all of them, or none.
 ///
 /// # Errors
 ///
 /// As [`write_all`].
 #[doc(hidden)]
-pub fn write_sheets(sheets: &[(PathBuf, canvas::Canvas)], texts: &[(PathBuf, String)]) -> Result<(), Error> {
-    let paths: Vec<&Path> =
-        sheets.iter().map(|(path, _)| path.as_path()).chain(texts.iter().map(|(path, _)| path.as_path())).collect();
+pub fn write_sheets(sheets: &[SheetFile], files: &[(PathBuf, String)]) -> Result<(), Error> {
+    let pictures = sheets.iter().map(|sheet| sheet.path.as_path());
+    let paths: Vec<&Path> = pictures.chain(files.iter().map(|(path, _)| path.as_path())).collect();
     let written = atomic_write::write_all(&paths, |index, temporary| match sheets.get(index) {
-        Some((_, sheet)) => {
-            let [width, height] = sheet.size();
-            let file = BufWriter::new(fs::File::create(temporary)?);
-            PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive)
-                .write_image(sheet.bytes(), width, height, ExtendedColorType::Rgb8)
-                .map_err(io::Error::other)
+        Some(SheetFile { canvas, texts, .. }) => {
+            let picture =
+                PngPicture { size: canvas.size(), color: PngColor::Rgb, is_deep: false, bytes: canvas.bytes() };
+            let mut file = BufWriter::new(fs::File::create(temporary)?);
+            png_file::write(&mut file, &picture, PngEffort::High, texts.as_slice())?;
+            file.flush()
         }
-        None => fs::write(temporary, &texts[index - sheets.len()].1),
+        None => fs::write(temporary, &files[index - sheets.len()].1),
     });
     written.map_err(|(index, error)| failed(paths[index], &error))
 }

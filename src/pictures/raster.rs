@@ -6,6 +6,7 @@ use image::RgbImage;
 
 use crate::device::Pixels;
 use crate::output::atomic_write;
+use crate::png_file::{self, PngTexts};
 
 /// Channels side by side, rows from the top down. Colours and shade in [0, 1].
 #[derive(Clone, Debug, PartialEq)]
@@ -46,13 +47,8 @@ impl Raster {
         Self { size: pixels.size(), channels, data }
     }
 
-    /// The picture as a PNG file of 8 bits a channel: gray for one or two channels (what the light does not reach is
-    /// blue), RGB for three.
-    ///
-    /// # Errors
-    ///
-    /// A size that a PNG file cannot have.
-    pub fn to_png(&self) -> Result<Vec<u8>, String> {
+    /// The picture in 8 bits a channel, as [`Raster::to_png`] has it.
+    fn to_shown(&self) -> Option<RgbImage> {
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let rgb = self.pixels().flat_map(|p| match *p {
             [gray] => [byte(gray); 3],
@@ -61,10 +57,22 @@ impl Raster {
             [r, g, b] | [r, g, b, _] => [byte(r), byte(g), byte(b)],
             _ => [255, 0, 255],
         });
-        let image = image::RgbImage::from_raw(self.size[0], self.size[1], rgb.collect()).ok_or("odd size")?;
-        let mut file = std::io::Cursor::new(Vec::new());
-        image.write_to(&mut file, image::ImageFormat::Png).map_err(|error| error.to_string())?;
-        Ok(file.into_inner())
+        RgbImage::from_raw(self.size[0], self.size[1], rgb.collect())
+    }
+
+    /// The picture as a PNG file of 8 bits a channel: gray for one or two channels (what the light does not reach is
+    /// blue), RGB for three.
+    ///
+    /// # Errors
+    ///
+    /// A size that a PNG file cannot have.
+    pub fn to_png(&self) -> Result<Vec<u8>, String> {
+        self.to_described_png(&PngTexts::default())
+    }
+
+    fn to_described_png(&self, texts: &PngTexts) -> Result<Vec<u8>, String> {
+        let picture = self.to_shown().ok_or("odd size")?;
+        png_file::of_rgb(&picture, texts).map_err(|error| error.to_string())
     }
 
     /// Writes [`Raster::to_png`]'s file.
@@ -73,7 +81,17 @@ impl Raster {
     ///
     /// A file that cannot be written.
     pub fn write_png(&self, path: &Path) -> Result<(), String> {
-        let file = self.to_png()?;
+        self.write_described_png(path, &PngTexts::default())
+    }
+
+    /// The same with texts in the file.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written.
+    #[doc(hidden)]
+    pub fn write_described_png(&self, path: &Path, texts: &PngTexts) -> Result<(), String> {
+        let file = self.to_described_png(texts)?;
         let written = atomic_write::write_all(&[path], |_, path| std::fs::write(path, &file));
         written.map_err(|(_, error)| format!("{}: {error}", path.display()))
     }

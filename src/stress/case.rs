@@ -37,7 +37,7 @@ pub struct Case {
 macro_rules! files {
     ($($name:literal at $path:literal),* $(,)?) => {
         /// Meshes and pictures that cases name, with their bytes.
-        pub const FILES: &[(&str, &[u8])] =
+        pub static FILES: &[(&str, &[u8])] =
             &[$(($name, include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/", $path))) ),*];
     };
 }

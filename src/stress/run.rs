@@ -14,6 +14,7 @@ use crate::context::{self, ContextRequest};
 use crate::frame::{self, Renderer};
 use crate::geometry::Material;
 use crate::judge::{Bound, difference};
+use crate::png_file::{self, PngTexts};
 use crate::scene::BumpShading;
 use crate::truth::Truth;
 
@@ -89,6 +90,7 @@ fn draw_rows(
         object.material =
             object.material.take().map(|material| Arc::new(Material { bump: None, ..(*material).clone() }));
     }
+    let driver = renderer.driver();
     let mut shares = Vec::new();
     for (light, source) in scene.lights.iter().enumerate().filter(|_| case.shades) {
         let mut judge = RowJudge::new(&scene, light).map_err(|error| error.to_string())?;
@@ -103,7 +105,7 @@ fn draw_rows(
             let mut judged = judge.row(settings, renderer);
             judged.row.add_warnings(&loaded.warnings);
             if options.pictures {
-                keep_pictures(&mut judge, &judged, result);
+                keep_pictures(&mut judge, &judged, &driver, result);
             }
             result.rows.push(judged.row);
         }
@@ -135,7 +137,7 @@ fn chosen<'r>(rows: &'r [RowSettings], case: &str, one_in: usize, technique: Opt
 }
 
 /// Keeps the pictures of a row that will be `result`'s next, if it is the technique's worst so far.
-fn keep_pictures(judge: &mut RowJudge<'_>, judged: &Judged, result: &mut CaseResult) {
+fn keep_pictures(judge: &mut RowJudge<'_>, judged: &Judged, driver: &str, result: &mut CaseResult) {
     let row = &judged.row;
     let Some(shade) = judged.shade.as_ref().filter(|_| row.verdict != Verdict::Right) else { return };
     let known = result.pictures.iter().position(|pictures| {
@@ -149,7 +151,17 @@ fn keep_pictures(judge: &mut RowJudge<'_>, judged: &Judged, result: &mut CaseRes
     let truth = judge.judge().truth(&judged.bound);
     let drawn = difference::shade_picture(shade);
     let Ok(differs) = difference::difference_picture(truth, shade) else { return };
-    let pngs = [drawn, difference::truth_picture(truth), differs].map(|picture| difference::to_png(&picture));
+    let texts = |title: &str| {
+        PngTexts::titled(title)
+            .with(PngTexts::SCENE, format!("stress case {}", result.name))
+            .with("Settings", row.settings.to_inline())
+            .with("Light", row.light.to_string())
+            .with(PngTexts::DRIVER, driver)
+    };
+    let truth = difference::truth_picture(truth);
+    let pngs =
+        [(drawn, "shade"), (truth, "exact visibility"), (differs, "differences of a shade from exact visibility")];
+    let pngs = pngs.map(|(picture, title)| png_file::of_rgb(&picture, &texts(title)));
     if let [Ok(drawn), Ok(truth), Ok(difference)] = pngs {
         let size = [shade.width, shade.height];
         let pictures = RowPictures { row: result.rows.len(), size, drawn, truth, difference };

@@ -18,7 +18,7 @@ use super::Error;
 use super::keys::{HELP_EDGE, help_of, help_sheet};
 use super::show::{Button, Reaction, Show};
 use crate::context::window::{self, WindowContext};
-use crate::context::{self, Choice, Context, ContextRequest, Profile};
+use crate::context::{self, Choice, Context, ContextInfo, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
 use crate::output;
@@ -40,12 +40,12 @@ const PIXELS_A_STEP: f64 = 20.0;
 const LONGEST_STEP: f64 = 0.25;
 
 /// Opens a window of the state's size and shows it until the user quits. The window's own pixels, if they were to be
-/// captured.
+/// captured, and its driver.
 ///
 /// # Errors
 ///
 /// No display, no context, and every error of a frame.
-pub fn run(state: impl Show, shown: Shown) -> Result<Option<Pixels>, Error> {
+pub fn run(state: impl Show, shown: Shown) -> Result<Option<(Pixels, ContextInfo)>, Error> {
     if !context::display_is_named() {
         return Err(Error::NoDisplay);
     }
@@ -67,7 +67,7 @@ struct App<S> {
     mouse: Mouse,
     /// Time to which the state was moved on.
     moved: Option<Instant>,
-    captured: Option<Pixels>,
+    captured: Option<(Pixels, ContextInfo)>,
     failed: Option<Error>,
 }
 
@@ -125,7 +125,7 @@ impl<S: Show> App<S> {
             renderer.present_sheet(&Arc::new(sheet), HELP_EDGE, size)?;
         }
         if self.shown.capture && self.captured.is_none() {
-            self.captured = Some(renderer.read_window(size)?);
+            self.captured = Some((renderer.read_window(size)?, context.describe()));
         }
         Ok(context.swap_buffers()?)
     }

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use glumbra::cases::PixelCase;
 use glumbra::cases::draw::{DrawnScene, Wanted};
 use glumbra::cases::file::Golden;
-use glumbra::cases::golden::{self, GoldenResult};
+use glumbra::cases::golden::{self, GoldenFile, GoldenResult};
 use glumbra::pictures::Raster;
 use glumbra::pictures::compare::{Tolerance, compare};
+use glumbra::png_file::PngTexts;
 
 use crate::with_runner;
 
@@ -83,9 +84,13 @@ fn driver() -> String {
     with_runner(|runner| runner.drawer().driver()).unwrap()
 }
 
+fn file(folder: &Path) -> GoldenFile<'_> {
+    GoldenFile { folder, texts: PngTexts::default() }
+}
+
 /// Compares with the golden in `folder`: how, or why it fails.
 fn against_golden(actual: &Raster, folder: &Path, wanted: &Golden) -> Result<String, String> {
-    match golden::check(actual, folder, wanted, &driver(), false)? {
+    match golden::check(actual, wanted, &file(folder), &driver(), false)? {
         GoldenResult::Same(how) => Ok(how),
         GoldenResult::Wrong { why, .. } => Err(why),
         GoldenResult::Written(how) => panic!("{how}"),
@@ -160,7 +165,7 @@ fn blessing_writes_and_fails() {
     let folder = Folder::new();
     let actual = draw(&[]);
     let wanted = Golden { max: 2.0, mean: 0.05, why: String::new() };
-    let written = golden::check(&actual, folder.folder.path(), &wanted, &driver(), true).unwrap();
+    let written = golden::check(&actual, &wanted, &file(folder.folder.path()), &driver(), true).unwrap();
     assert!(matches!(written, GoldenResult::Written(_)), "{written:?}");
     against_golden(&actual, folder.folder.path(), &wanted).unwrap();
 }

@@ -57,6 +57,7 @@ mod photos;
 mod placement;
 mod plan_listings;
 mod planes;
+mod png_texts;
 mod projected;
 mod public_api;
 mod ranges;

@@ -1,21 +1,29 @@
-//! Files of a run: tried before it, written whole at its end.
+//! Files of a run: JSON and JUnit are written as results come, the page at the end.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::results::TestResults;
 use super::{junit, page};
 use crate::cli::Error;
 use crate::cli::json::is_standard_stream;
-use crate::output::{self, atomic_write, json};
+use crate::cli::result_files::{self, Pace, can_be_replaced};
+use crate::output::json;
 
 /// The page in the folder of --html.
 const PAGE: &str = "index.html";
+
+/// Between two writes while cases are run.
+const PAUSE: Duration = Duration::from_secs(1);
 
 /// Files to write.
 pub struct ResultFiles {
     json: Option<PathBuf>,
     junit: Option<PathBuf>,
     page: Option<PathBuf>,
+    pace: Pace,
+    /// There are results that the files do not have yet. So it is at the start: files of an earlier run are of other results.
+    behind: bool,
 }
 
 impl ResultFiles {
@@ -25,22 +33,12 @@ impl ResultFiles {
     ///
     /// Two names of one file, and a file that cannot be written.
     pub fn new(json: Option<&Path>, junit: Option<&Path>, html: Option<&Path>) -> Result<Self, Error> {
-        let files = Self {
-            json: json.map(Path::to_owned),
-            junit: junit.map(Path::to_owned),
-            page: html.map(|folder| folder.join(PAGE)),
-        };
-        let named = [("--json", &files.json), ("--junit", &files.junit), ("--html", &files.page)];
-        let named: Vec<_> = named.into_iter().filter_map(|(name, path)| Some((name, path.as_ref()?))).collect();
-        for (index, (first, path)) in named.iter().enumerate() {
-            if let Some((second, _)) = named[index + 1..].iter().find(|(_, other)| output::is_same_file(path, other)) {
-                return Err(Error::SameFile { path: (*path).clone(), first, second });
-            }
-            if !is_standard_stream(path) {
-                try_to_write(path).map_err(|error| Error::WriteFile { path: (*path).clone(), error })?;
-            }
-        }
-        Ok(files)
+        let page = html.map(|folder| folder.join(PAGE));
+        let named = [("--json", json), ("--junit", junit), ("--html", page.as_deref())];
+        result_files::refuse_one_file_for_two(&named)?;
+        named.iter().filter_map(|(_, path)| *path).try_for_each(result_files::try_to_write)?;
+        let [json, junit] = [json, junit].map(|path| path.map(Path::to_owned));
+        Ok(Self { json, junit, page, pace: Pace::new(PAUSE), behind: true })
     }
 
     /// Tests whether standard output is for a file's text.
@@ -48,34 +46,54 @@ impl ResultFiles {
         [&self.json, &self.junit].into_iter().flatten().any(|path| is_standard_stream(path))
     }
 
-    /// Writes all, or none.
+    /// Notes that there is another result.
+    pub fn note_result(&mut self) {
+        self.behind = true;
+    }
+
+    /// Writes the results so far as JSON and JUnit, if the files do not have them and were not written just now. Pipes and
+    /// devices are left for the end.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written.
+    pub fn write_unfinished(&mut self, results: &mut TestResults) -> Result<(), Error> {
+        if !self.behind {
+            return Ok(());
+        }
+        let Self { json, junit, pace, .. } = self;
+        let written = pace.write(|| {
+            results.take_time();
+            result_files::put(&texts([json, junit], results, can_be_replaced)?)
+        })?;
+        self.behind = !written;
+        Ok(())
+    }
+
+    /// Writes all: JSON and JUnit, or none of the two, and the page even if they could not be written.
     ///
     /// # Errors
     ///
     /// A file that cannot be written.
     pub fn write(&self, results: &TestResults) -> Result<(), Error> {
-        let mut files: Vec<(&Path, String)> = Vec::new();
-        if let Some(path) = &self.json {
-            files.push((path, json::document("test", results)?));
-        }
-        if let Some(path) = &self.junit {
-            files.push((path, junit::to_junit(results)?));
-        }
-        if let Some(path) = &self.page {
-            files.push((path, page::to_html(results)));
-        }
-        let (screen, files): (Vec<_>, Vec<_>) = files.into_iter().partition(|(path, _)| is_standard_stream(path));
-        screen.iter().try_for_each(|(_, text)| crate::cli::print(text))?;
-        let paths: Vec<&Path> = files.iter().map(|(path, _)| *path).collect();
-        let written = atomic_write::write_all(&paths, |index, path| std::fs::write(path, &files[index].1));
-        written.map_err(|(index, error)| Error::WriteFile { path: paths[index].to_owned(), error })
+        let texts = texts([&self.json, &self.junit], results, |_| true).and_then(|files| result_files::put(&files));
+        let page = self.page.iter().try_for_each(|path| result_files::put(&[(path, page::to_html(results))]));
+        texts.and(page)
     }
 }
 
-/// Makes the folder of a file, and tries whether the file can be written.
-fn try_to_write(path: &Path) -> std::io::Result<()> {
-    if let Some(folder) = path.parent().filter(|folder| *folder != Path::new("")) {
-        std::fs::create_dir_all(folder)?;
+/// The results as JSON and JUnit, for each of the two that has a file that is `wanted`.
+fn texts<'a>(
+    [json, junit]: [&'a Option<PathBuf>; 2],
+    results: &TestResults,
+    wanted: impl Fn(&Path) -> bool,
+) -> Result<Vec<(&'a Path, String)>, Error> {
+    let mut files: Vec<(&Path, String)> = Vec::new();
+    if let Some(path) = json.as_deref().filter(|path| wanted(path)) {
+        files.push((path, json::document("test", results)?));
     }
-    atomic_write::try_to_write(path)
+    if let Some(path) = junit.as_deref().filter(|path| wanted(path)) {
+        files.push((path, junit::to_junit(results)?));
+    }
+    Ok(files)
 }

@@ -1,5 +1,6 @@
 //! JUnit's XML: a suite each folder, a test case each case.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
@@ -15,16 +16,14 @@ use crate::cases::{CaseOutcome, CaseVerdict};
 pub fn to_junit(results: &TestResults) -> Result<String, SerializeError> {
     let mut report = Report::new("glumbra test");
     report.set_time(Duration::from_secs_f64(results.seconds));
-    let mut suites: Vec<TestSuite> = Vec::new();
+    let mut suites: BTreeMap<String, TestSuite> = BTreeMap::new();
     let mut add = |folder: &str, case: TestCase| {
-        if suites.last().is_none_or(|suite| suite.name.as_str() != folder) {
+        let new = || {
             let mut suite = TestSuite::new(folder);
             suite.add_properties(results.driver.iter().map(|driver| Property::new("driver", driver.as_str())));
-            suites.push(suite);
-        }
-        if let Some(suite) = suites.last_mut() {
-            suite.add_test_case(case);
-        }
+            suite
+        };
+        suites.entry(folder.to_owned()).or_insert_with(new).add_test_case(case);
     };
     for outcome in &results.cases {
         let (folder, name) = parts(&outcome.name);
@@ -35,18 +34,20 @@ pub fn to_junit(results: &TestResults) -> Result<String, SerializeError> {
         }
         add(folder, case);
     }
-    for name in &results.not_run {
+    for name in &results.unfinished {
         let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-        status.set_type("not run").set_message("the run was interrupted before this case");
+        status
+            .set_type("unfinished")
+            .set_message("the run has not come to the end of this case, or was ended before it");
         let (folder, name) = parts(name);
         let mut case = TestCase::new(name, status);
         case.set_classname(folder.replace('/', "."));
         add(folder, case);
     }
-    for suite in &mut suites {
+    for suite in suites.values_mut() {
         suite.set_time(suite.test_cases.iter().filter_map(|case| case.time).sum());
     }
-    report.add_test_suites(suites);
+    report.add_test_suites(suites.into_values());
     report.to_string()
 }
 

@@ -10,7 +10,7 @@ mod workers;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Args;
 
@@ -116,6 +116,9 @@ Another renderer can draw in glumbra's place:
 It runs in the case's folder. {kind} is picture, or shade: a gray picture of how much of light number {light} arrives, 1 lit, \
 0 shadowed. {width} and {height} are the scene's. {out} is a PNG file; {out.exr} and {out.npy} have floats.
 
+JSON and JUnit are written as results come, once a second at most, so that a run that is killed leaves what it has: \
+`unfinished` names the cases that have not ended. The page is written at the end, or after Ctrl-C.
+
 Verdicts: pass, FAIL, BLESSED (a golden was written); CRASH, HANG and OUT OF MEMORY of the process that ran the case, which \
 the others survive.
 
@@ -168,21 +171,29 @@ fn test(arguments: &TestArgs, screen: Screen) -> Result<ExitCode, Error> {
     }
     let cases = read(&found)?;
     let files = ResultFiles::new(arguments.json.as_deref(), arguments.junit.as_deref(), arguments.html.as_deref())?;
-    let begin = Instant::now();
-    let mut screen = TestScreen::new(cases.len(), screen, files.take_standard_output());
-    let mut results = TestResults::new(&arguments.folders);
-    let ended = run_all(arguments, &cases, &mut screen, &mut results);
-    screen.finish();
-    results.seconds = begin.elapsed().as_secs_f64();
-    results.cases.sort_by(|a, b| a.name.cmp(&b.name));
-    let is_known = |name: &str| results.cases.iter().any(|case| case.name == name);
-    results.not_run = cases.iter().filter(|case| !is_known(&case.name)).map(|case| case.name.clone()).collect();
-    let interrupted = ended?;
-    files.write(&results)?;
-    screen.end(&results, arguments.bless)?;
+    let mut run = Run {
+        screen: TestScreen::new(cases.len(), screen, files.take_standard_output()),
+        results: TestResults::new(&arguments.folders, cases.iter().map(|case| case.name.as_str())),
+        files,
+        cases,
+        has_warned: false,
+    };
+    let ended = run.all(arguments);
+    run.screen.finish();
+    run.results.take_time();
+    let interrupted = match ended {
+        Err(error) if run.results.cases.is_empty() => return Err(error),
+        ended => {
+            let written = run.files.write(&run.results);
+            // The screen has the results if the files have not.
+            run.screen.end(&run.results, arguments.bless)?;
+            written?;
+            ended?
+        }
+    };
     Ok(match interrupted {
         true => ExitCode::from(130),
-        false => ExitCode::from(u8::from(results.fails())),
+        false => ExitCode::from(u8::from(run.results.fails())),
     })
 }
 
@@ -205,38 +216,58 @@ fn read(found: &[cases::FoundCase]) -> Result<Vec<PixelCase>, Error> {
     }
 }
 
-/// Runs the cases in child processes. Returns whether the run was interrupted.
-fn run_all(
-    arguments: &TestArgs,
-    cases: &[PixelCase],
-    screen: &mut TestScreen,
-    results: &mut TestResults,
-) -> Result<bool, Error> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let count = arguments.jobs.map_or(cores, usize::from).min(cases.len()).max(1);
-    let limit = Duration::from_secs(arguments.timeout.into());
-    let jobs = cases.iter().map(|case| {
-        let grace = if case.checks.render.is_some() { GRACE } else { Duration::ZERO };
-        (Job { folder: case.folder.clone(), name: case.name.clone() }, limit + grace)
-    });
-    let stop = stop_on_interrupt();
-    let workers = Workers { words: for_child(arguments), jobs: jobs.collect(), count, cores, stop: stop.clone() };
-    workers.run(|news| match news {
-        TestNews::Begins(index) => screen.begins(&cases[index].name),
-        TestNews::Ended { outcome, driver } => {
-            results.driver = results.driver.take().or(driver);
-            screen.ended(&outcome);
-            results.cases.push(*outcome);
+/// A run so far.
+struct Run {
+    cases: Vec<PixelCase>,
+    screen: TestScreen,
+    results: TestResults,
+    files: ResultFiles,
+    /// It was said that a file cannot be written while cases are run.
+    has_warned: bool,
+}
+
+impl Run {
+    /// Runs the cases in child processes. Returns whether the run was interrupted.
+    fn all(&mut self, arguments: &TestArgs) -> Result<bool, Error> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let count = arguments.jobs.map_or(cores, usize::from).min(self.cases.len()).max(1);
+        let limit = Duration::from_secs(arguments.timeout.into());
+        let jobs = self.cases.iter().map(|case| {
+            let grace = if case.checks.render.is_some() { GRACE } else { Duration::ZERO };
+            (Job { folder: case.folder.clone(), name: case.name.clone() }, limit + grace)
+        });
+        let stop = stop_on_interrupt();
+        let workers = Workers { words: for_child(arguments), jobs: jobs.collect(), count, cores, stop: stop.clone() };
+        workers.run(|news| self.hear(news))?;
+        Ok(stop.load(std::sync::atomic::Ordering::Relaxed))
+    }
+
+    fn hear(&mut self, news: TestNews) {
+        match news {
+            TestNews::Begins(index) => self.screen.begins(&self.cases[index].name),
+            TestNews::Ended { outcome, driver } => {
+                self.results.driver = self.results.driver.take().or(driver);
+                self.add(*outcome);
+            }
+            TestNews::Died { index, verdict, seconds, message } => {
+                self.add(CaseOutcome::ended(&self.cases[index], verdict, seconds, message));
+            }
+            TestNews::Said(text) => self.screen.said(&text),
+            TestNews::Tick => self.screen.tick(),
         }
-        TestNews::Died { index, verdict, seconds, message } => {
-            let outcome = CaseOutcome::ended(&cases[index], verdict, seconds, message);
-            screen.ended(&outcome);
-            results.cases.push(outcome);
+        if let Err(error) = self.files.write_unfinished(&mut self.results)
+            && !std::mem::replace(&mut self.has_warned, true)
+        {
+            // The cases are run nevertheless, and each write is another attempt.
+            self.screen.said(&format!("warning: {error}"));
         }
-        TestNews::Said(text) => screen.said(&text),
-        TestNews::Tick => screen.tick(),
-    })?;
-    Ok(stop.load(std::sync::atomic::Ordering::Relaxed))
+    }
+
+    fn add(&mut self, outcome: CaseOutcome) {
+        self.screen.ended(&outcome);
+        self.results.add(outcome);
+        self.files.note_result();
+    }
 }
 
 /// Words of the command line that a child process is given.

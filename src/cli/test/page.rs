@@ -18,15 +18,15 @@ pub fn to_html(results: &TestResults) -> String {
         count => format!("{count} cases fail"),
     };
     let driver = results.driver.as_ref().map(|driver| format!("<p>{}</p>\n", escape(driver))).unwrap_or_default();
-    let not_run = match results.not_run.is_empty() {
+    let unfinished = match results.unfinished.is_empty() {
         true => String::new(),
-        false => format!("<h2>Not run</h2>\n{}", list(results.not_run.iter().cloned())),
+        false => format!("<h2>Unfinished</h2>\n{}", list(results.unfinished.iter().cloned())),
     };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n\
-         <p>{} of {} pass; {:.1} s.</p>\n{driver}{contents}{failures}{not_run}{passes}</main>\n\
+         <p>{} of {} pass; {:.1} s.</p>\n{driver}{contents}{failures}{unfinished}{passes}</main>\n\
          <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         passing.len(),
         results.cases.len(),

@@ -89,12 +89,12 @@ impl TestScreen {
         }
         let names: Vec<&str> = fails().map(|case| case.name.as_str()).collect();
         let style = style(if names.is_empty() { CaseVerdict::Pass } else { CaseVerdict::Fail });
-        match (names.is_empty(), results.not_run.len()) {
+        match (names.is_empty(), results.unfinished.len()) {
             (true, 0) => text += &format!("{style}No case fails.{style:#}\n"),
-            (true, count) => text += &format!("Interrupted: {count} not run.\n"),
+            (true, count) => text += &format!("Interrupted: {count} unfinished.\n"),
             (false, 0) => text += &format!("{style}FAIL:{style:#} {}\n", names.join(", ")),
             (false, count) => {
-                text += &format!("Interrupted: {count} not run. {style}FAIL:{style:#} {}\n", names.join(", "))
+                text += &format!("Interrupted: {count} unfinished. {style}FAIL:{style:#} {}\n", names.join(", "))
             }
         }
         self.print(&text);

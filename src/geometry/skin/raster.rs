@@ -1,13 +1,12 @@
 //! Pictures with their own channels and depth: what is read is written in the same format, so that texels that only move
 //! keep their values.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ColorType, DynamicImage, ExtendedColorType, ImageEncoder};
+use image::{ColorType, DynamicImage};
 
 use crate::geometry::{Error, text, texture};
+use crate::png_file::{self, PngColor, PngEffort, PngPicture, PngTexts};
 
 /// A picture of 8 or 16 bits a channel, rows from the top down.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,34 +68,26 @@ impl Raster {
         &self.samples[first..first + self.channels]
     }
 
-    /// The bytes of a PNG.
+    /// The bytes of a PNG with these texts.
     ///
     /// # Errors
     ///
     /// Those of the encoder.
-    pub fn to_png(&self) -> Result<Vec<u8>, image::ImageError> {
-        let color = match (self.channels, self.is_deep) {
-            (1, false) => ExtendedColorType::L8,
-            (2, false) => ExtendedColorType::La8,
-            (3, false) => ExtendedColorType::Rgb8,
-            (_, false) => ExtendedColorType::Rgba8,
-            (1, true) => ExtendedColorType::L16,
-            (2, true) => ExtendedColorType::La16,
-            (3, true) => ExtendedColorType::Rgb16,
-            (_, true) => ExtendedColorType::Rgba16,
+    pub fn to_png(&self, texts: &PngTexts) -> std::io::Result<Vec<u8>> {
+        let color = match self.channels {
+            1 => PngColor::Gray,
+            2 => PngColor::GrayAlpha,
+            3 => PngColor::Rgb,
+            _ => PngColor::Rgba,
         };
         let bytes: Vec<u8> = match self.is_deep {
             false => self.samples.iter().map(|code| *code as u8).collect(),
             true => self.samples.iter().flat_map(|code| code.to_ne_bytes()).collect(),
         };
-        let mut file = Cursor::new(Vec::new());
-        PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive).write_image(
-            &bytes,
-            self.size[0],
-            self.size[1],
-            color,
-        )?;
-        Ok(file.into_inner())
+        let picture = PngPicture { size: self.size, color, is_deep: self.is_deep, bytes: &bytes };
+        let mut file = Vec::new();
+        png_file::write(&mut file, &picture, PngEffort::Balanced, texts.as_slice())?;
+        Ok(file)
     }
 }
 

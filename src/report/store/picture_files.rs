@@ -128,11 +128,11 @@ fn check(png: &[u8], scene: &SceneReport) -> Result<(), String> {
 mod tests {
     use super::super::{merge, write};
     use super::*;
-    use crate::judge::difference::to_png;
+    use crate::png_file::{PngTexts, of_rgb};
     use crate::report::samples;
 
     fn png(size: [u32; 2]) -> Vec<u8> {
-        to_png(&image::RgbImage::new(size[0], size[1])).unwrap()
+        of_rgb(&image::RgbImage::new(size[0], size[1]), &PngTexts::default()).unwrap()
     }
 
     /// A part's folder with the pictures of the scene, and of `rows`.

@@ -5,9 +5,10 @@ use super::results::{Row, SceneReport};
 use crate::device::Pixels;
 use crate::frame::{self, Renderer, draw_shade};
 use crate::judge::colors::{draw_colors, errors_of, known_or_drawn};
-use crate::judge::difference::{self, difference_picture, truth_picture};
+use crate::judge::difference::{difference_picture, truth_picture};
 use crate::judge::metrics;
 use crate::plan::Request;
+use crate::png_file::{self, PngTexts};
 use crate::report::measure::picks::{Goals, Pick, Picks};
 use crate::report::measure::run::{Sweep, in_clear_air};
 use crate::report::measure::sweeps::MeasuredSweep;
@@ -24,7 +25,7 @@ pub enum Error {
     Difference(#[from] metrics::Error),
     /// The PNG encoder failed.
     #[error("a picture of the report cannot be encoded: {0}")]
-    Encode(#[from] image::ImageError),
+    Encode(#[from] std::io::Error),
 }
 
 /// Draws the pictures of one scene. `measured`: its sweeps of projected light.
@@ -39,30 +40,46 @@ pub fn of(
     goals: &Goals,
     renderer: &mut Renderer,
 ) -> Result<ScenePictures, Error> {
-    let light = light(sweep, measured, renderer)?;
+    let light = light(sweep, report, measured, renderer)?;
     if report.unshaded.is_some() {
-        return Ok(ScenePictures { picture: Some(picture(sweep, renderer)?), light, ..ScenePictures::default() });
+        return Ok(ScenePictures {
+            picture: Some(picture(sweep, report, renderer)?),
+            light,
+            ..ScenePictures::default()
+        });
     }
     let mut differences = Vec::new();
     for (row, caption) in rows_that_matter(report, goals) {
         let Some(scene) = sweep.scene_of(row.index) else { continue };
         let shade = draw_shade(&in_clear_air(&scene), report.light, renderer)?;
-        let png = difference::to_png(&difference_picture(&sweep.truth, &shade)?)?;
+        let texts = of_driver(report, "differences of a row's shade from the truth", renderer);
+        let texts = texts
+            .with("Row", row.index.to_string())
+            .with("Settings", format!("technique = \"{}\", {}", row.technique, row.settings_text()));
+        let png = png_file::of_rgb(&difference_picture(&sweep.truth, &shade)?, &texts)?;
         differences.push(DifferencePicture { row: row.index, caption, png });
     }
     Ok(ScenePictures {
-        picture: Some(picture(sweep, renderer)?),
-        truth: Some(difference::to_png(&truth_picture(&sweep.truth))?),
+        picture: Some(picture(sweep, report, renderer)?),
+        truth: Some(png_file::of_rgb(&truth_picture(&sweep.truth), &titled(report, "exact visibility"))?),
         differences,
         light,
     })
 }
 
 /// Pictures of projected light: the colours to compare with and FLIP of the scene as written; those of its sweeps.
-fn light(sweep: &Sweep, measured: &[MeasuredSweep], renderer: &mut Renderer) -> Result<Vec<(String, Vec<u8>)>, Error> {
+fn light(
+    sweep: &Sweep,
+    report: &SceneReport,
+    measured: &[MeasuredSweep],
+    renderer: &mut Renderer,
+) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let mut pictures = Vec::new();
-    let mut add =
-        |name: String, picture: &image::RgbImage| difference::to_png(picture).map(|png| pictures.push((name, png)));
+    let driver = renderer.driver();
+    let mut add = |name: String, picture: &image::RgbImage| {
+        let texts = titled(report, &format!("projected light: {name}")).with(PngTexts::DRIVER, driver.clone());
+        png_file::of_rgb(picture, &texts).map(|png| pictures.push((name, png)))
+    };
     if let Some(reference) = &sweep.colors {
         let drawn = draw_colors(&sweep.scene, false, renderer)?;
         add(light_pictures::COLORS.to_owned(), &known_or_drawn(&reference.colors, &drawn))?;
@@ -111,7 +128,17 @@ pub(super) fn rows_that_matter<'r>(report: &'r SceneReport, goals: &Goals) -> Ve
     rows
 }
 
-fn picture(sweep: &Sweep, renderer: &mut Renderer) -> Result<Vec<u8>, Error> {
+/// Texts of a picture of the report's scene.
+fn titled(report: &SceneReport, title: &str) -> PngTexts {
+    PngTexts::titled(title).with(PngTexts::SCENE, report.path.display().to_string())
+}
+
+/// Texts of a picture that the renderer draws.
+fn of_driver(report: &SceneReport, title: &str, renderer: &Renderer) -> PngTexts {
+    titled(report, title).with(PngTexts::DRIVER, renderer.driver())
+}
+
+fn picture(sweep: &Sweep, report: &SceneReport, renderer: &mut Renderer) -> Result<Vec<u8>, Error> {
     let plan = renderer.plan(&sweep.scene, &Request::default())?;
     renderer.draw(&plan)?;
     let [width, height] = sweep.report.size;
@@ -120,5 +147,5 @@ fn picture(sweep: &Sweep, renderer: &mut Renderer) -> Result<Vec<u8>, Error> {
         _ => Vec::new(),
     };
     let picture = image::RgbImage::from_raw(width, height, rgb).unwrap_or_default();
-    Ok(difference::to_png(&picture)?)
+    Ok(png_file::of_rgb(&picture, &of_driver(report, "the scene as written", renderer))?)
 }

@@ -180,10 +180,10 @@ mod tests {
 
     #[test]
     fn an_older_reports_plots_and_pictures_are_removed_and_nothing_else() {
-        use crate::judge::difference::to_png;
+        use crate::png_file::{PngTexts, of_rgb};
         use crate::report::show::html::{DifferencePicture, ScenePictures};
         let folder = tempfile::tempdir().unwrap();
-        let png = to_png(&image::RgbImage::new(2, 2)).unwrap();
+        let png = of_rgb(&image::RgbImage::new(2, 2), &PngTexts::default()).unwrap();
         let difference = |row| DifferencePicture { row, caption: String::new(), png: png.clone() };
         let write = |name: &str, fingerprint: &str, row| {
             let mut report = samples::report();
@@ -255,11 +255,15 @@ mod tests {
     /// Leaves a page to look at: `GLUMBRA_SAMPLE=/tmp/x cargo test --lib pictures_are_written`.
     #[test]
     fn pictures_are_written_into_the_page() {
-        use crate::judge::difference::to_png;
+        use crate::png_file::{PngTexts, of_rgb};
         use crate::report::show::html::{DifferencePicture, ScenePictures};
         let temporary = tempfile::tempdir().unwrap();
         let folder = std::env::var_os("GLUMBRA_SAMPLE").map_or(temporary.path().to_owned(), PathBuf::from);
-        let png = to_png(&image::RgbImage::from_fn(512, 512, |x, y| image::Rgb([x as u8, y as u8, 90]))).unwrap();
+        let png = of_rgb(
+            &image::RgbImage::from_fn(512, 512, |x, y| image::Rgb([x as u8, y as u8, 90])),
+            &PngTexts::default(),
+        )
+        .unwrap();
         let difference = DifferencePicture { row: 5, caption: "size = 256".to_owned(), png: png.clone() };
         let scene = ScenePictures {
             picture: Some(png.clone()),

@@ -26,7 +26,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // The bound between right and wrong is that of a technique's map.
     ("judge", &["frame", "truth", "pictures"]),
     // A view decides the channels of its file.
-    ("output", &["device", "views"]),
+    ("output", &["device", "views", "png_file"]),
     // A renderer warns of depth formats that are not what they are called: it has them measured.
     ("frame", &["plan", "device", "conformance"]),
     ("plan", &["techniques", "surfaces", "compositions", "views"]),
@@ -48,7 +48,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("truth", &["scene"]),
     // A scene names programs of register combiners.
     ("scene", &["geometry", "combiners"]),
-    ("geometry", &["math"]),
+    // A skin that was packed again is written as it was read.
+    ("geometry", &["math", "png_file"]),
+    ("png_file", &[]),
     ("math", &[]),
     // What the process is doing when it crashes; locks and signals.
     ("process", &[]),

@@ -2,6 +2,8 @@
 //! the page of keys.
 
 mod format;
+#[cfg(unix)]
+mod interrupted;
 mod other_renderer;
 
 use std::collections::BTreeSet;

@@ -1,7 +1,6 @@
 //! `glumbra check` on drivers that crash, hang, run out of memory or lose the context: each is the verdict of the rule that
 //! met it, and the run goes on. The fault is a function of GL that a library, loaded before the driver, gives in its place.
 
-use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::path::PathBuf;
 use std::process::Stdio;
@@ -9,6 +8,7 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use super::*;
+use crate::support::processes::{await_end, children_of};
 
 /// glCopyTexSubImage2D, which GL-F1 alone calls of the rules below, does what FAULT says. `dlsym` is how libEGL's own
 /// eglGetProcAddress is found.
@@ -116,24 +116,6 @@ fn a_run_that_is_killed_leaves_its_results_and_no_process() {
         assert_eq!(run.wait().unwrap().signal(), Some(signal));
         let json: serde_json::Value = serde_json::from_str(&read("x.json")).unwrap();
         assert_eq!(json["unfinished"], serde_json::json!(["GL-F1", "GL-M1"]));
-        let is_alive =
-            |id: &u32| std::fs::read_to_string(format!("/proc/{id}/stat")).is_ok_and(|stat| !stat.contains(" Z "));
-        let start = Instant::now();
-        while children.iter().any(is_alive) {
-            assert!(start.elapsed() < Duration::from_secs(10), "the child goes on");
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        await_end(&children);
     }
-}
-
-/// The processes whose parent is `id`, by /proc.
-fn children_of(id: u32) -> Vec<u32> {
-    let parent_of = |child: u32| {
-        let mut stat = String::new();
-        std::fs::File::open(format!("/proc/{child}/stat")).ok()?.read_to_string(&mut stat).ok()?;
-        stat.rsplit_once(')')?.1.split_whitespace().nth(1)?.parse::<u32>().ok()
-    };
-    let all = std::fs::read_dir("/proc").unwrap().flatten();
-    let ids = all.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    ids.filter(|child| parent_of(*child) == Some(id)).collect()
 }

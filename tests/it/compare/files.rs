@@ -208,11 +208,15 @@ fn texts_of_a_png_come_back_in_order() {
         [("Scene", String::from("a b.toml")), ("Driver", String::from("llvmpipe")), ("Lüge", String::from("é"))];
     write_described(&outputs, &texts[..2]).unwrap();
     let file = read(&path).unwrap();
+    let software = ("Software", concat!("glumbra ", env!("CARGO_PKG_VERSION")).to_owned());
     let expected: Vec<(String, String)> =
-        texts[..2].iter().map(|(key, text)| ((*key).to_owned(), text.clone())).collect();
+        [&software].into_iter().chain(&texts[..2]).map(|(key, text)| ((*key).to_owned(), text.clone())).collect();
     assert_eq!(file.texts, expected);
     assert_eq!(file.raster.data, rgb_of(&colors()), "texts change no pixel");
     write_described(&outputs, &texts[2..]).unwrap();
-    assert_eq!(read(&path).unwrap().texts[0].1, "é");
+    assert_eq!(read(&path).unwrap().texts[1].1, "é");
+    // A program of its own name.
+    write_described(&outputs, &[("Software", String::from("other"))]).unwrap();
+    assert_eq!(read(&path).unwrap().texts, [("Software".to_owned(), "other".to_owned())]);
     assert!(read(Path::new("/nowhere.png")).unwrap_err().to_string().starts_with("/nowhere.png: "));
 }

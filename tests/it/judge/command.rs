@@ -134,6 +134,11 @@ fn colored_pictures_are_judged() {
         ],
     );
     assert_eq!(own.status.code(), Some(0), "{}{}", text(&own.stdout), text(&own.stderr));
+    assert!(!text(&own.stdout).contains("mistake"), "{}", text(&own.stdout));
+    let picture = image::open(folder.path().join("a.png")).unwrap().to_rgb8();
+    image::imageops::flip_vertical(&picture).save(folder.path().join("over.png")).unwrap();
+    let over = glumbra(folder.path(), &["judge", &scene(), "over.png", "--kind", "color"]);
+    assert!(text(&over.stdout).contains("mistake: the picture is upside down"), "{}", text(&over.stdout));
     // Another lighting model for glumbra: half as bright, with another light and ambient light in it.
     let render = |name: &str, set: &[&str]| {
         let set = set.iter().flat_map(|set| ["--set", set]);

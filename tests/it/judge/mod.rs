@@ -1,6 +1,7 @@
 //! `glumbra::judge` and `glumbra judge`: planted wrong pixels are found to the last one, each where it is and by its kind;
 //! pictures that are turned over, moved or of another light are named; and a picture by another renderer is judged.
 
+mod color_mistakes;
 mod command;
 pub mod other_renderer;
 mod surfaces;

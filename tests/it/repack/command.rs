@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use glumbra::geometry::md2::{Model, NormalSource, Pose};
 use glumbra::geometry::skin::{self, Raster, Skin};
 use glumbra::geometry::{Mesh, load_obj};
+use glumbra::png_file::PngTexts;
 
 use super::meshes::*;
 
@@ -140,7 +141,7 @@ fn write_cylinder(folder: &Path) -> Mesh {
     mesh.parts = vec![glumbra::geometry::Part { name: "can".into(), indices: 0..indices, material: None, bounds }];
     let skin = Skin::of_mesh(&mesh, [SIDE; 2]).unwrap();
     fs::write(folder.join("can.obj"), skin::write_obj(&mesh, &skin, None)).unwrap();
-    fs::write(folder.join("label.png"), smooth_decal(&mut random).to_png().unwrap()).unwrap();
+    fs::write(folder.join("label.png"), smooth_decal(&mut random).to_png(&PngTexts::default()).unwrap()).unwrap();
     mesh
 }
 
@@ -170,7 +171,7 @@ fn an_obj_model_comes_with_its_decal() {
     }
     // Deep pictures stay deep.
     let deep = Raster { size: [8; 2], channels: 1, is_deep: true, samples: vec![40_000; 64] };
-    fs::write(folder.path().join("deep.png"), deep.to_png().unwrap()).unwrap();
+    fs::write(folder.path().join("deep.png"), deep.to_png(&PngTexts::default()).unwrap()).unwrap();
     let output = glumbra(folder.path(), &["repack", "can.obj", "--height", "deep.png", "--size", "64x64", "-o", "low"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let map = Raster::load(&folder.path().join("low/deep.png")).unwrap();

@@ -3,6 +3,8 @@
 pub mod contexts;
 pub mod gl_headers;
 pub mod lit_box;
+#[cfg(unix)]
+pub mod processes;
 pub mod random;
 pub mod replaced;
 pub mod rims;
