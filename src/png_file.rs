@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-/// What a PNG says of itself: all that decides its pixels, and no time. An empty text is left out. The encoder adds the
+/// Texts of a PNG about itself: all that decides its pixels, and no time. An empty text is left out. The encoder adds the
 /// program and its version.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PngTexts(Vec<(&'static str, String)>);

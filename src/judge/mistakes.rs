@@ -22,9 +22,9 @@ pub enum Mistake {
     Shifted([i32; 2]),
     /// It shows the shade of the light with this number.
     OtherLight(usize),
-    /// Of a picture in colours: red and blue are exchanged.
+    /// Red and blue are exchanged in a picture in colours.
     RedAndBlue,
-    /// Of a picture in colours: its codes are those of sRGB, where they must be proportional to light.
+    /// A picture in colours has the codes of sRGB where they must be proportional to light.
     Encoded,
 }
 

@@ -131,7 +131,7 @@ fn looked_up_last(source: &Source) -> Option<String> {
     if source.stage == Stage::Fragment { changed(source, text) } else { None }
 }
 
-/// What a function has given a parameter that is inout is lost where it returns within a branch.
+/// Loses the value of a parameter that is inout where a function returns within a branch.
 fn lost_by_early_returns(source: &Source) -> Option<String> {
     let (mut text, mut name) = (String::new(), None);
     let mut declared = None;

@@ -174,7 +174,7 @@ impl StreamMaker<'_> {
     pub fn light(&mut self, light: u32) {
         let color = self.color();
         let position = self.vector(4.0);
-        match self.random.below(11) {
+        match self.random.below(12) {
             0 => self.push(Command::Light(light, raw::AMBIENT, color.map(|part| 0.2 * part))),
             1 => self.push(Command::Light(light, raw::DIFFUSE, color.map(|part| 0.7 * part))),
             2 => self.push(Command::Light(light, raw::SPECULAR, color.map(|part| 0.7 * part))),
@@ -199,10 +199,23 @@ impl StreamMaker<'_> {
                 let constant = self.random.between(0.5, 1.5);
                 self.push(Command::LightNumber(light, raw::CONSTANT_ATTENUATION, constant));
             }
-            _ => {
+            10 => {
                 let name = self.random.pick(&[raw::LINEAR_ATTENUATION, raw::QUADRATIC_ATTENUATION]);
                 let number = self.random.pick(&[0.0, 0.05, 0.2]);
                 self.push(Command::LightNumber(light, name, number));
+                // Not all three are 0, or the light has no bound.
+                self.push(Command::LightNumber(light, raw::CONSTANT_ATTENUATION, 1.0));
+            }
+            // The way that light falls off in nature, or one near to it: no constant part.
+            _ => {
+                let [linear, quadratic] = self.random.pick(&[[0.0, 0.1], [0.4, 0.0], [0.2, 0.05]]);
+                for (name, number) in [
+                    (raw::LINEAR_ATTENUATION, linear),
+                    (raw::QUADRATIC_ATTENUATION, quadratic),
+                    (raw::CONSTANT_ATTENUATION, 0.0),
+                ] {
+                    self.push(Command::LightNumber(light, name, number));
+                }
             }
         }
     }

@@ -158,7 +158,7 @@ impl StreamMaker<'_> {
         [x, y, z, 1.0]
     }
 
-    /// What vertices are given from now on. A driver compiles another vertex program for it.
+    /// Chooses what vertices are given from now on. A driver compiles another vertex program for it.
     pub fn give(&mut self) {
         self.given = FixedGiven {
             color: self.chance(0.6),

@@ -134,6 +134,11 @@ impl<'a> StreamMaker<'a> {
             self.push(Command::Fog(raw::FOG_MODE, mode as i32));
             (0..6).for_each(|_| self.fog_number());
         }
+        if self.deal("alpha test", &[true, false, false]) {
+            let reference = self.random.between(0.3, 0.7);
+            self.push(Command::AlphaFunc(glow::GEQUAL, reference));
+            self.push(Command::Switch(raw::ALPHA_TEST, true));
+        }
         if self.deal("planes", &[true, false]) {
             self.modelview();
             self.clip_plane(0);

@@ -143,6 +143,7 @@ impl<'a> World<'a> {
         };
         match shape {
             Shape::Line if side(10) == 1 => [2000 + side(48), 1, 1],
+            Shape::Line if side(3) == 1 => [side(1000), 1, 1],
             Shape::Line => [side(130), 1, 1],
             Shape::Flat if side(10) == 1 => [2000 + side(90), side(3), 1],
             Shape::Flat if side(10) == 1 => [side(3), 2000 + side(90), 1],
