@@ -170,6 +170,19 @@ impl StreamMaker<'_> {
         }
     }
 
+    /// Makes a light one of each kind in turn: parallel or of a point, attenuated in one way or another.
+    pub fn kind_of_light(&mut self, light: u32) {
+        let w = self.deal("far", &[1.0, 1.0, 0.0, 2.0]);
+        let [x, y, z] = self.vector(4.0);
+        self.push(Command::Light(light, raw::POSITION, [x, y, z + 2.0 * w, w]));
+        let kinds = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.1], [0.8, 0.1, 0.05], [0.0, 0.4, 0.0]];
+        let numbers = self.deal("attenuation", &kinds);
+        let names = [raw::LINEAR_ATTENUATION, raw::QUADRATIC_ATTENUATION, raw::CONSTANT_ATTENUATION];
+        for (name, number) in names.into_iter().zip([numbers[1], numbers[2], numbers[0]]) {
+            self.push(Command::LightNumber(light, name, number));
+        }
+    }
+
     /// One property of a light.
     pub fn light(&mut self, light: u32) {
         let color = self.color();

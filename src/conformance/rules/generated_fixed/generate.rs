@@ -122,7 +122,8 @@ impl<'a> StreamMaker<'a> {
                     let [red, green, blue] = [(); 3].map(|()| self.random.between(0.2, 0.5));
                     self.push(Command::Light(light, name, [red, green, blue, 1.0]));
                 }
-                (0..10).for_each(|_| self.light(light));
+                (0..8).for_each(|_| self.light(light));
+                self.kind_of_light(light);
                 self.material();
             }
             let [red, green, blue] = [(); 3].map(|()| self.random.between(0.3, 0.7));
