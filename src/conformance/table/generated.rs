@@ -1,6 +1,6 @@
 //! Rules of kind X: generated commands, states, programs and data, held against models.
 
-use crate::conformance::Rule;
+use crate::conformance::{Rule, frames};
 use crate::conformance::rules::{
     generated_commands, generated_fixed, generated_lookups, generated_programs, generated_triangles, generated_vertices,
 };
@@ -53,5 +53,13 @@ pub const RULES: &[Rule] = &[
         says: "Texture environments, lights, fog, clip planes, matrices, current values, lists and saved attributes make the colours that GL says, whatever the draws before.",
         tolerance: "a code of 8 bits for each unit, two for lighting, one for fog",
         check: generated_fixed::generated,
+    },
+    Rule {
+        id: "GL-X7",
+        title: "frames of the renderer",
+        section: "8, 9, 13, 14, 17, GLSL 3 to 8",
+        says: "The renderer's own shaders, states, copies and look-ups leave in every image of a small frame what a model of GL computes.",
+        tolerance: "errors of f32 carried through each pass; 0.6 codes of 8 bits, 1.6 after a blend; what GL leaves open is not judged",
+        check: frames::frames,
     },
 ];

@@ -1,0 +1,12 @@
+//! An interpreter of the GLSL that the renderer's shaders use, on numbers with bounds of error.
+
+mod compile;
+mod expressions;
+mod functions;
+mod ops;
+mod run;
+mod tokens;
+
+pub use compile::{Unknown, compile};
+pub use ops::{Compiled, Level, Look, Shared, Slot, Varies};
+pub use run::{Asked, Detail, LANES, Lanes, Machine, NoTextures, Textures, either_of};
