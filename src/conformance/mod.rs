@@ -99,7 +99,7 @@ pub struct DriverUnderTest {
     pub fixed: Result<FixedBench, String>,
     pub info: ContextInfo,
     /// For what draws beside the benches.
-    pub(crate) context: Rc<dyn Context>,
+    pub context: Rc<dyn Context>,
 }
 
 #[cfg(feature = "check")]

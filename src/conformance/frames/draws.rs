@@ -6,11 +6,10 @@ use super::images::{Image, Plane, depth_step};
 use super::lookups::{Bound, BoundTextures};
 use super::model::{Shaders, maker};
 use super::triangle::{Corner, Covered, SetUp, Triangle};
-use crate::conformance::frames::glsl::Varies;
 use crate::conformance::rules::generated_programs::number::{Num, SLACK};
 use crate::geometry::Mesh;
 use crate::pass::{
-    Attribute, Batch, DepthFormat, Draw, DrawState, Face, Format, IndexOrder, Primitive, Storage, UniformValue,
+    Attribute, Batch, DepthFormat, Draw, DrawState, Face, Format, IndexOrder, Primitive, UniformValue,
 };
 
 /// Planes that a pass draws into.

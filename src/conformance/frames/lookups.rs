@@ -217,11 +217,11 @@ impl Bound<'_> {
         }
         let face = 2 * largest + usize::from(at[largest].value < 0.0);
         let over = at[largest].magnitude();
-        let coordinate = |way: glam::DVec3| {
-            let along = way.to_array().iter().zip(at).map(|(a, b)| b.times(Num::exact(*a))).fold(Num::exact(0.0), Num::plus);
+        let coordinate = |axis: usize| {
+            let along = FACES[face][axis].to_array().iter().zip(at).map(|(a, b)| b.times(Num::exact(*a))).fold(Num::exact(0.0), Num::plus);
             along.over(over).plus(Num::exact(1.0)).times(Num::exact(0.5))
         };
-        let [s, t] = [FACES[face][1], FACES[face][2]].map(coordinate);
+        let [s, t] = [1, 2].map(coordinate);
         if !s.is_known() || !t.is_known() {
             return None;
         }

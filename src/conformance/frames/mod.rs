@@ -52,6 +52,7 @@ pub fn frames(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
                     continue;
                 }
             };
+            let t0 = std::time::Instant::now();
             let drawn = match model::run(&plan.list, &mut library) {
                 Ok(drawn) => drawn,
                 Err(why) => {
@@ -59,7 +60,14 @@ pub fn frames(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
                     continue;
                 }
             };
+            let t1 = t0.elapsed().as_secs_f64();
             let judged = device.run(&plan.list, Measure::No).and_then(|_| judge::judge(&plan.list, &drawn, &mut device));
+            if std::env::var("X7").is_ok() {
+                #[allow(clippy::print_stderr)]
+                {
+                    eprintln!("{:?} {number}: model {t1:.3} s, both {:.3}; {:?}; {}", group, t0.elapsed().as_secs_f64(), judged, frame.said);
+                }
+            }
             match judged {
                 Ok(mut judged) => {
                     judged.first = judged.first.map(|first| format!("{}: {first}", said()));
@@ -77,10 +85,9 @@ pub fn frames(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
 }
 
 fn planned(frame: &FrameToDraw, limits: &Limits, derived: &Derived) -> Result<Plan, String> {
-    let scene = frame.scene()?;
     let views = frame.views.clone();
     let request = Request { views, sampled_warnings: false, limits: *limits, ..Request::default() };
-    plan::make_with(&scene, &request, derived).map_err(|error| error.to_string())
+    plan::make_with(&frame.scene, &request, derived).map_err(|error| error.to_string())
 }
 
 fn report(

@@ -8,5 +8,5 @@ mod run;
 mod tokens;
 
 pub use compile::{Unknown, compile};
-pub use ops::{Compiled, Level, Look, Shared, Slot, Varies};
+pub use ops::{Compiled, Slot, Varies};
 pub use run::{Asked, Detail, LANES, Lanes, Machine, NoTextures, Textures, either_of};

@@ -1,0 +1,66 @@
+//! The frames: small scenes with each setting's values in turn, the others at random. Seeds are fixed, so that a driver
+//! draws the same frames wherever it is checked.
+
+mod axes;
+mod groups;
+mod world;
+
+use std::path::Path;
+
+use crate::conformance::random::Random;
+use crate::plan::ViewRequest;
+use crate::scene::{self, Scene};
+use crate::techniques::Techniques;
+
+pub use groups::Group;
+
+/// A frame in words, and its scene as text.
+pub struct FrameToDraw {
+    pub said: String,
+    pub scene: Scene,
+    pub views: Vec<ViewRequest>,
+}
+
+/// A scene that is being written.
+pub struct Draft {
+    pub text: String,
+    pub said: String,
+    pub views: Vec<ViewRequest>,
+}
+
+macro_rules! files {
+    ($($name:literal),*) => { &[$(($name, include_bytes!(concat!("../files/", $name)))),*] };
+}
+
+const PICTURES: &[(&str, &[u8])] = files!(
+    "gloss.png", "heights.png", "holes.png", "leaves.png", "normals.png", "slide.png", "tiles.png"
+);
+const MESHES: &[(&str, &[u8])] = files!("ball.obj", "ring.obj", "sheet.obj");
+
+/// Scenes that are tried for one frame: settings that do not go together are refused.
+const TRIES: usize = 40;
+
+/// Frames of a group.
+pub fn of_group(group: Group) -> Vec<FrameToDraw> {
+    let mut dice = Random::new(0x7_0000 + group as u64);
+    let mut turns = axes::Turns::new(group.axes());
+    let mut frames = Vec::new();
+    for _ in 0..group.frames() {
+        let mut chosen = turns.next(&mut dice);
+        for _ in 0..TRIES {
+            let draft = group.draft(&chosen, &mut dice);
+            if let Ok(scene) = loaded(&draft.text) {
+                frames.push(FrameToDraw { said: draft.said, scene, views: draft.views });
+                break;
+            }
+            turns.vary(&mut chosen, &mut dice);
+        }
+    }
+    frames
+}
+
+/// A scene of a text.
+fn loaded(text: &str) -> Result<Scene, String> {
+    let result = scene::load_with_files(Path::new("frame.toml"), text, [PICTURES, MESHES], &Techniques);
+    result.map(|loaded| loaded.scene).map_err(|error| error.to_string())
+}
