@@ -1,24 +1,16 @@
 //! Draws of the model: vertices, triangles, and which fragments they have.
 
-use super::fragments::{Fragment, Outputs};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use super::fragments::{Fragment, Outputs, Targets};
 use super::glsl::{LANES, Lanes, Machine, Slot};
-use super::images::{Image, Plane, depth_step};
+use super::images::{Image, depth_step};
 use super::lookups::{Bound, BoundTextures};
-use super::model::{Shaders, maker};
+use super::shaders::Shaders;
 use super::triangle::{Corner, Covered, SetUp, Triangle};
 use crate::conformance::rules::generated_programs::number::{Num, SLACK};
 use crate::geometry::Mesh;
-use crate::pass::{
-    Attribute, Batch, DepthFormat, Draw, DrawState, Face, Format, IndexOrder, Primitive, UniformValue,
-};
-
-/// Planes that a pass draws into.
-pub struct Targets<'a> {
-    pub color: &'a mut Plane,
-    pub depth: &'a mut Plane,
-    pub color_format: Option<Format>,
-    pub depth_format: Option<Format>,
-}
+use crate::pass::{Attribute, Batch, DepthFormat, Draw, DrawState, Face, Format, IndexOrder, Primitive, UniformValue};
 
 /// A batch's shaders, state and textures.
 pub struct DrawContext<'a> {
@@ -38,13 +30,7 @@ pub struct DrawContext<'a> {
 const MOVING: [&str; 4] = ["wave_reach", "wave_vector", "clip_planes", "eye_from_model"];
 
 impl<'a> DrawContext<'a> {
-    pub fn new(
-        images: &'a [Image],
-        shaders: &'a Shaders,
-        state: DrawState,
-        viewport: [u32; 2],
-        batch: &Batch,
-    ) -> Self {
+    pub fn new(images: &'a [Image], shaders: &'a Shaders, state: DrawState, viewport: [u32; 2], batch: &Batch) -> Self {
         let bound = |name: &String| {
             let input = batch.inputs.iter().find(|input| input.name == *name)?;
             let image = &images[input.image.0];
@@ -378,10 +364,15 @@ fn value_of(mesh: &Mesh, attribute: Attribute, index: usize) -> [f32; 4] {
     match attribute {
         Attribute::Position => position(mesh, index),
         Attribute::Normal => mesh.normals.get(index).copied().map_or(none, wide),
-        Attribute::Texcoord => {
-            mesh.texcoords.as_ref().map_or(none, |list| [list[index][0], list[index][1], 0.0, 1.0])
-        }
+        Attribute::Texcoord => mesh.texcoords.as_ref().map_or(none, |list| [list[index][0], list[index][1], 0.0, 1.0]),
         Attribute::Tangent => mesh.tangents.as_ref().map_or(none, |list| wide(list.tangents[index])),
         Attribute::Bitangent => mesh.tangents.as_ref().map_or(none, |list| wide(list.bitangents[index])),
     }
+}
+
+/// A number that stands for all that decides a fragment's depth.
+fn maker(parts: impl Iterator<Item = u32>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    parts.for_each(|part| part.hash(&mut hasher));
+    hasher.finish().max(1)
 }

@@ -1,11 +1,18 @@
 //! What a fragment does to its pixel [GL 4.6, 17.3]: stencil, depth, blending, masks.
 
-use super::draws::Targets;
 use super::glsl::either_of;
-use super::images::{stored_color, stored_depth};
+use super::images::{Plane, stored_color, stored_depth};
 use super::lookups::holds;
 use crate::conformance::rules::generated_programs::number::Num;
 use crate::pass::{Blend, Compare, DrawState, Format, Stencil, StencilOp, StencilOps};
+
+/// Planes that a pass draws into.
+pub struct Targets<'a> {
+    pub color: &'a mut Plane,
+    pub depth: &'a mut Plane,
+    pub color_format: Option<Format>,
+    pub depth_format: Option<Format>,
+}
 
 /// What a fragment shader puts out.
 pub struct Outputs {
@@ -50,10 +57,7 @@ impl Fragment {
         let Some(test) = state.depth_test.filter(|_| targets.depth_format.is_some()) else { return Some(true) };
         let index = self.index(targets.depth.size[0]);
         if self.maker != 0 && self.maker == targets.depth.makers[index] {
-            return Some(matches!(
-                test,
-                Compare::LessEqual | Compare::Equal | Compare::GreaterEqual | Compare::Always
-            ));
+            return Some(matches!(test, Compare::LessEqual | Compare::Equal | Compare::GreaterEqual | Compare::Always));
         }
         holds(test, self.stored(targets, state, depth), targets.depth.depth[index])
     }
@@ -93,7 +97,13 @@ impl Fragment {
     }
 
     /// The stencil value after all that may happen; `None`: one of several.
-    fn counted(&self, stencil: &Stencil, old: Option<u8>, stencil_passes: Option<bool>, depth_passes: Option<bool>) -> Option<u8> {
+    fn counted(
+        &self,
+        stencil: &Stencil,
+        old: Option<u8>,
+        stencil_passes: Option<bool>,
+        depth_passes: Option<bool>,
+    ) -> Option<u8> {
         let sides: &[&StencilOps] = match self.front {
             Some(true) => &[&stencil.front],
             Some(false) => &[&stencil.back],

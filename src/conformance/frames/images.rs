@@ -109,9 +109,7 @@ fn line(color: Vec<[Num; 4]>) -> Vec<Plane> {
 }
 
 fn reds(values: &Arc<[f32]>) -> Vec<[Num; 4]> {
-    let texel = |value: &f32| {
-        [Num::exact(f64::from(*value)), Num::exact(0.0), Num::exact(0.0), Num::exact(1.0)]
-    };
+    let texel = |value: &f32| [Num::exact(f64::from(*value)), Num::exact(0.0), Num::exact(0.0), Num::exact(1.0)];
     values.iter().map(texel).collect()
 }
 

@@ -141,11 +141,9 @@ impl Bound<'_> {
     }
 
     fn level(&self, asked: &Asked, level: usize) -> [Num; 4] {
-        let Some(around) = (if self.coordinates == 3 {
-            self.around_on_cube(asked.at, level)
-        } else {
-            self.around(asked.at, level)
-        }) else {
+        let Some(around) =
+            (if self.coordinates == 3 { self.around_on_cube(asked.at, level) } else { self.around(asked.at, level) })
+        else {
             return [Num::UNKNOWN; 4];
         };
         match (self.sampler.compare, asked.reference) {
@@ -218,7 +216,12 @@ impl Bound<'_> {
         let face = 2 * largest + usize::from(at[largest].value < 0.0);
         let over = at[largest].magnitude();
         let coordinate = |axis: usize| {
-            let along = FACES[face][axis].to_array().iter().zip(at).map(|(a, b)| b.times(Num::exact(*a))).fold(Num::exact(0.0), Num::plus);
+            let along = FACES[face][axis]
+                .to_array()
+                .iter()
+                .zip(at)
+                .map(|(a, b)| b.times(Num::exact(*a)))
+                .fold(Num::exact(0.0), Num::plus);
             along.over(over).plus(Num::exact(1.0)).times(Num::exact(0.5))
         };
         let [s, t] = [1, 2].map(coordinate);
@@ -280,7 +283,8 @@ impl Bound<'_> {
             // A reference may be rounded to what the texture holds.
             reference.error += depth_step(format) / SLACK;
         }
-        let values: Vec<Num> = around.texels.iter().map(|texel| Num::boolean(holds(compare, reference, texel[0]))).collect();
+        let values: Vec<Num> =
+            around.texels.iter().map(|texel| Num::boolean(holds(compare, reference, texel[0]))).collect();
         let result = if self.is_nearest() {
             values[1..].iter().fold(values[0], |all, value| either(all, *value))
         } else {

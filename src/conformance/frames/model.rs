@@ -1,39 +1,12 @@
 //! The model of a frame: runs a pass list on images of numbers with bounds.
 
-use std::collections::HashMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::rc::Rc;
-
-use super::draws::{DrawContext, Targets};
-use super::glsl::{Compiled, Unknown, compile};
+use super::draws::DrawContext;
+use super::fragments::Targets;
+use super::glsl::Unknown;
 use super::images::{Image, Plane, stored_color, stored_depth};
+use super::shaders::Library;
 use crate::conformance::rules::generated_programs::number::Num;
-use crate::pass::{Batch, DrawPass, Pass, PassList, Program, Stage, Work};
-
-/// Both stages of a program.
-pub struct Shaders {
-    pub vertex: Compiled,
-    pub fragment: Compiled,
-}
-
-/// Programs that have been compiled, for all frames.
-#[derive(Default)]
-pub struct Library(HashMap<Program, Rc<Shaders>>);
-
-impl Library {
-    fn get(&mut self, program: &Program) -> Result<Rc<Shaders>, Unknown> {
-        if let Some(known) = self.0.get(program) {
-            return Ok(known.clone());
-        }
-        let stage = |stage: Stage| {
-            compile(&program.source(stage).text, stage == Stage::Vertex)
-                .map_err(|why| format!("{} ({}): {why}", program.label, stage.name()))
-        };
-        let shaders = Rc::new(Shaders { vertex: stage(Stage::Vertex)?, fragment: stage(Stage::Fragment)? });
-        self.0.insert(program.clone(), shaders.clone());
-        Ok(shaders)
-    }
-}
+use crate::pass::{Batch, DrawPass, ImageId, Pass, PassList, Work};
 
 /// Images of a list after its passes, and the pass that wrote each last.
 pub struct Drawn {
@@ -84,7 +57,7 @@ fn draw_pass(images: &mut [Image], pass: &DrawPass, library: &mut Library) -> Re
         let face = if image.faces > 1 { pass.target.face.map_or(0, |face| face as usize) } else { 0 };
         pass.target.level as usize * image.faces + face
     };
-    let mut take = |image: Option<crate::pass::ImageId>| {
+    let mut take = |image: Option<ImageId>| {
         image.map(|id| {
             let place = place(&images[id.0]);
             (id.0, place, images[id.0].format, std::mem::take(&mut images[id.0].planes[place]))
@@ -140,11 +113,4 @@ fn draw_batch(
         context.draw(targets, batch, draw);
     }
     Ok(())
-}
-
-/// A number that stands for all that decides a fragment's depth.
-pub fn maker(parts: impl Iterator<Item = u32>) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    parts.for_each(|part| part.hash(&mut hasher));
-    hasher.finish().max(1)
 }

@@ -123,7 +123,9 @@ impl<'a> Triangle<'a> {
         let sizes = clip.map(|corner| corner.map(f64::abs).into_iter().fold(0.0, f64::max));
         let ratio = sizes.into_iter().fold(0.0, f64::max) / sizes.into_iter().fold(f64::MAX, f64::min);
         let inside = clip.iter().all(|[x, y, z, w]| *w > 0.0 && [x, y, z].iter().all(|part| part.abs() <= *w));
-        let is_out = |side: &dyn Fn([f64; 4], f64) -> f64| clip.iter().zip(sizes).all(|(corner, size)| side(*corner, size) < 0.0);
+        let is_out = |side: &dyn Fn([f64; 4], f64) -> f64| {
+            clip.iter().zip(sizes).all(|(corner, size)| side(*corner, size) < 0.0)
+        };
         let margin = 1e-4;
         let mut is_outside = false;
         for axis in 0..if state.depth_clamp { 2 } else { 3 } {
@@ -138,11 +140,16 @@ impl<'a> Triangle<'a> {
             let error = corner.clip.iter().map(|number| number.error).fold(0.0, f64::max);
             share = share.max(SLACK * error / size.max(f64::MIN_POSITIVE));
             if before_eye {
-                let doubt = |part: usize| SLACK * (corner.clip[part].error + error) * state.viewport[part] / corner.clip[3].value;
+                let doubt = |part: usize| {
+                    SLACK * (corner.clip[part].error + error) * state.viewport[part] / corner.clip[3].value
+                };
                 band += doubt(0).max(doubt(1));
             }
         }
-        let distance_doubt = corners.iter().flat_map(|corner| &corner.distances[..state.clip_distances]).any(|distance| !distance.is_known());
+        let distance_doubt = corners
+            .iter()
+            .flat_map(|corner| &corner.distances[..state.clip_distances])
+            .any(|distance| !distance.is_known());
         let rounding = (EPSILON + share) * if inside { 1.0 } else { 2.0 + ratio.min(1e6) };
         let [near, far] = state.depth_range;
         let (scale, middle) = ((far - near) / 2.0, (far + near) / 2.0);
@@ -228,13 +235,7 @@ impl<'a> Triangle<'a> {
         [self.depth.terms[0], self.depth.terms[1]]
     }
 
-    /// Greatest depth of the corners, which decides the steps of floats.
-    pub fn deepest(&self) -> Option<f64> {
-        let depths = self.corners.map(|corner| corner.clip[2].value / corner.clip[3].value * 0.5 + 0.5);
-        self.is_whole.then(|| depths.into_iter().fold(0.0, f64::max))
-    }
-
-    /// The corner of a value: the functions that interpolate it need them all at once.
+    /// A value of the corners at a place.
     pub fn interpolate(&self, index: usize, how: Varies, at: [f64; 2]) -> Num {
         let numbers = self.corners.map(|corner| corner.values[index]);
         if numbers.iter().any(|number| !number.is_known()) || self.unknown.is_some() {

@@ -221,7 +221,10 @@ impl<'a> Compiler<'a> {
     }
 
     pub fn binary(&mut self, sign: &str, a: Place, b: Place) -> Result<Place, Unknown> {
-        if sign == "*" && (a.shaped.is_matrix() || b.shaped.is_matrix()) && !a.shaped.is_scalar() && !b.shaped.is_scalar()
+        if sign == "*"
+            && (a.shaped.is_matrix() || b.shaped.is_matrix())
+            && !a.shaped.is_scalar()
+            && !b.shaped.is_scalar()
         {
             return Ok(self.product(&a, &b));
         }

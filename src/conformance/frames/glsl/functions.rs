@@ -94,9 +94,9 @@ impl<'a> Compiler<'a> {
         }
         let shaped = given.first().map_or(Shaped::VOID, |place| place.shaped);
         Ok(Some(match name {
-            "clamp" => self.each(shaped, &[&given[0], &given[1], &given[2]], |to, a| {
-                Op::Three(s::clamp, to, a[0], a[1], a[2])
-            }),
+            "clamp" => {
+                self.each(shaped, &[&given[0], &given[1], &given[2]], |to, a| Op::Three(s::clamp, to, a[0], a[1], a[2]))
+            }
             "mix" if given[2].shaped.kind == Kind::Bool => {
                 self.each(shaped, &[&given[0], &given[1], &given[2]], |to, a| Op::Choose(to, a[2], a[1], a[0]))
             }

@@ -5,6 +5,7 @@ mod expressions;
 mod functions;
 mod ops;
 mod run;
+mod statements;
 mod tokens;
 
 pub use compile::{Unknown, compile};

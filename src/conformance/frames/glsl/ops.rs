@@ -74,9 +74,16 @@ pub enum Level {
 /// A lookup of a texture.
 #[derive(Clone, Debug)]
 pub enum Look {
-    Filtered { at: Vec<Slot>, reference: Option<Slot>, level: Level },
+    Filtered {
+        at: Vec<Slot>,
+        reference: Option<Slot>,
+        level: Level,
+    },
     /// A texel by its number at a level.
-    Fetch { at: Vec<Slot>, level: Slot },
+    Fetch {
+        at: Vec<Slot>,
+        level: Slot,
+    },
     /// Texels a side of level 0, by dimension.
     Size,
 }
@@ -100,9 +107,18 @@ pub enum Op {
     /// Sampler, lookup.
     Look(Slot, usize, Box<Look>),
     /// Of these slots, in groups of `scalars`, the group that `index` names.
-    Pick { to: Slot, scalars: usize, from: Box<[Slot]>, index: Slot },
+    Pick {
+        to: Slot,
+        scalars: usize,
+        from: Box<[Slot]>,
+        index: Slot,
+    },
     /// The same as an assignment.
-    Put { to: Box<[Slot]>, index: Slot, from: Box<[Slot]> },
+    Put {
+        to: Box<[Slot]>,
+        index: Slot,
+        from: Box<[Slot]>,
+    },
     If(Slot, Vec<Op>, Vec<Op>),
     Loop(Box<LoopOp>),
     /// A function's body, which `Return` leaves.

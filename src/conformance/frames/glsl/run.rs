@@ -254,7 +254,9 @@ impl Machine {
                         _ if !textures.has_levels(sampler) => Detail::Any,
                         Level::Implicit if mask != ALL => Detail::Unknown,
                         Level::Implicit => {
-                            let along = |axis| [0, 1].map(|part: usize| along(axis, self.get(at[part.min(at.len() - 1)]))[lane]);
+                            let along = |axis| {
+                                [0, 1].map(|part: usize| along(axis, self.get(at[part.min(at.len() - 1)]))[lane])
+                            };
                             Detail::Changes([along(0), along(1)])
                         }
                         Level::Given(slot) => {

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::Draft;
 use super::axes::{Axis, Chosen};
-use super::world::{color, ground, light, textures, thing, view};
+use super::world::{color, ground, light, photograph, textures, thing, view};
 use crate::conformance::random::Random;
-use crate::plan::{View, ViewRequest};
+use crate::plan::{Request, View, ViewRequest};
 
 /// Part of the renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,10 @@ pub enum Group {
 }
 
 const FORMATS: Axis = &[
-    "format = \"depth16\"", "format = \"depth24\"", "format = \"depth32\"", "format = \"depth32f\"",
+    "format = \"depth16\"",
+    "format = \"depth24\"",
+    "format = \"depth32\"",
+    "format = \"depth32f\"",
     "format = \"depth\"",
 ];
 const TRANSFERS: Axis = &["transfer = \"fbo\"", "transfer = \"copy\""];
@@ -32,7 +35,9 @@ const KERNELS: Axis = &["", "", "kernel = \"2x2\"", "kernel = \"3x3\""];
 const SIZES: Axis = &["size = 32", "size = 24", "size = 40", "size = 48"];
 const CULLS: Axis = &["", "cull = \"back\"", "cull = \"front\""];
 const OFFSETS: Axis = &[
-    "", "offset = { factor = 1.5, units = 4.0 }", "offset = { factor = 3.0, units = 0.0, texels = 1.0 }",
+    "",
+    "offset = { factor = 1.5, units = 4.0 }",
+    "offset = { factor = 3.0, units = 0.0, texels = 1.0 }",
     "offset = { factor = 0.0, units = 0.0 }",
 ];
 const BIASES: Axis = &["", "", "bias = \"receiver-plane\"", "bias = \"normal-offset\"", "bias = \"adaptive\""];
@@ -55,16 +60,21 @@ const MAPS: &[Axis] = &[
     &["", "texture_matrix = \"scale-bias\"", "texture_matrix = \"projection\""],
     &["", "", "into = \"stencil\""],
     &[
-        "", "guard = \"spot-cutoff\"", "guard = \"texture-1d\"", "guard = \"clip-plane\"", "guard = \"stencil\"",
-        "guard = \"cull\"", "guard = \"fragment\"", "guard = \"none\"",
+        "",
+        "guard = \"spot-cutoff\"",
+        "guard = \"texture-1d\"",
+        "guard = \"clip-plane\"",
+        "guard = \"stencil\"",
+        "guard = \"cull\"",
+        "guard = \"fragment\"",
+        "guard = \"none\"",
     ],
     DIMMINGS,
     &["", "", "", "casters = \"texel\""],
 ];
 
-const CUBE_MAPS: &[Axis] = &[
-    FORMATS, TRANSFERS, FILTERS, ORDERS, KERNELS, CULLS, OFFSETS, SIZES, DIMMINGS, &["", "", "into = \"stencil\""],
-];
+const CUBE_MAPS: &[Axis] =
+    &[FORMATS, TRANSFERS, FILTERS, ORDERS, KERNELS, CULLS, OFFSETS, SIZES, DIMMINGS, &["", "", "into = \"stencil\""]];
 
 const MIDDLES: &[Axis] = &[
     &["technique = \"midpoint\"", "technique = \"midpoint\"", "technique = \"second-depth\"\nclosed = \"assume\""],
@@ -82,8 +92,13 @@ const MIDDLES: &[Axis] = &[
 
 const VOLUMES: &[Axis] = &[
     &[
-        "method = \"auto\"", "method = \"parity\"", "method = \"z-pass\"", "method = \"z-pass-two-sided\"",
-        "method = \"z-pass-capped\"", "method = \"z-fail\"", "method = \"z-fail-clamped\"",
+        "method = \"auto\"",
+        "method = \"parity\"",
+        "method = \"z-pass\"",
+        "method = \"z-pass-two-sided\"",
+        "method = \"z-pass-capped\"",
+        "method = \"z-fail\"",
+        "method = \"z-fail-clamped\"",
         "method = \"z-fail-truncated\"",
     ],
     &["", "count = \"saturate\""],
@@ -96,17 +111,22 @@ const SURFACES: &[Axis] = &[
     &["", "lighting = \"per-vertex\""],
     &["", "", "passes = \"shadow\""],
     &["", "", "background = \"ambient\""],
+    &["", "", "hidden = \"grey\"", "hidden = \"smear\"", "hidden = \"leave\", filter = \"trilinear\""],
 ];
 
 const PROJECTED: &[Axis] = &[
     &["", "image = \"slide.png\"", "image = \"slide.png\""],
     &["", "filter = \"nearest\"", "filter = \"linear\"", "filter = \"trilinear\""],
     &[
-        "", "beam = { profile = [1.0, 1.0, 0.5, 0.5, 0.0] }", "beam = { exponent = 3.0, lens = 0.3 }",
+        "",
+        "beam = { profile = [1.0, 1.0, 0.5, 0.5, 0.0] }",
+        "beam = { exponent = 3.0, lens = 0.3 }",
         "beam = { shield = \"holes.png\" }",
     ],
     &[
-        "", "falloff = \"inverse\"", "falloff = \"inverse-square\"",
+        "",
+        "falloff = \"inverse\"",
+        "falloff = \"inverse-square\"",
         "falloff = { by = \"z\", law = \"inverse\", d0 = 3.0 }",
         "falloff = { by = \"z\", table = [[1.0, 1.0], [4.0, 0.6], [8.0, 0.1]] }",
     ],
@@ -115,7 +135,10 @@ const PROJECTED: &[Axis] = &[
     &["", "", "law = \"slide\""],
     &["", "", "", "focus = { distance = 4.0, radius = 0.2, samples = 3 }"],
     &[
-        "", "", "dust = { density = 0.2, slices = 5 }", "dust = { density = 0.3, slices = 4, blend = \"add\" }",
+        "",
+        "",
+        "dust = { density = 0.2, slices = 5 }",
+        "dust = { density = 0.3, slices = 4, blend = \"add\" }",
         "dust = { density = 0.2, slices = 5, extinct = \"all\", jitter = true }",
         "dust = { density = 0.9, slices = 4, thickness = \"axis\" }",
     ],
@@ -129,7 +152,8 @@ const BUMPS: &[Axis] = &[
     &["", "precision = \"9-bit\""],
     &["", "two_units = true"],
     &[
-        "bump = { height = \"heights.png\", scale = 2.0 }", "bump = { normal_map = \"normals.png\" }",
+        "bump = { height = \"heights.png\", scale = 2.0 }",
+        "bump = { normal_map = \"normals.png\" }",
         "bump = { normal_map = \"normals.png\", green = \"down\", format = \"unorm8\" }",
         "bump = { height = \"heights.png\", scale = 3.0, difference = \"central\", border = \"clamp\", basis = \"skewed\" }",
         "bump = { height = \"heights.png\", scale = -2.0, mipmaps = \"mean\", format = \"unorm8\", basis = \"per-polygon\" }",
@@ -149,16 +173,11 @@ const VIEWS: &[Axis] = &[
 ];
 
 impl Group {
-    pub const ALL: [Self; 8] = [
-        Self::Maps,
-        Self::CubeMaps,
-        Self::Middles,
-        Self::Volumes,
-        Self::Surfaces,
-        Self::Projected,
-        Self::Bumps,
-        Self::Views,
-    ];
+    /// Groups of shadows.
+    pub const SHADOWS: [Self; 4] = [Self::Maps, Self::CubeMaps, Self::Middles, Self::Volumes];
+
+    /// Groups of light on surfaces.
+    pub const SURFACES: [Self; 4] = [Self::Surfaces, Self::Projected, Self::Bumps, Self::Views];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -203,12 +222,14 @@ impl Group {
     /// A scene with these settings.
     pub fn draft(self, chosen: &Chosen, dice: &mut Random) -> Draft {
         let written: Vec<&str> = chosen.iter().copied().filter(|value| !value.is_empty()).collect();
-        let mut draft = Draft { text: view(dice), said: written.join(", ").replace('\n', ", "), views: Vec::new() };
+        let said = written.join(", ").replace('\n', ", ");
+        let mut draft = Draft { text: view(dice), said, request: Request::default() };
+        draft.requested(dice);
         match self {
             Self::Maps => {
                 let kind = dice.pick(&["spot", "spot", "spot", "directional"]);
                 draft.shading("", dice);
-                draft.shadowed(kind, "technique = \"shadow-map\"", chosen, dice);
+                draft.shadowed(kind, "technique = \"shadow-map\"", &fitting(chosen, kind), dice);
             }
             Self::CubeMaps => {
                 draft.shading("", dice);
@@ -226,7 +247,7 @@ impl Group {
                 }
             }
             Self::Surfaces => {
-                draft.shading(&chosen.join("\n"), dice);
+                draft.shading(&chosen[..3].join("\n"), dice);
                 for index in 0..dice.whole(1, 3) {
                     let kind = dice.pick(&["spot", "point", "directional"]);
                     if index == 0 && kind != "point" {
@@ -245,7 +266,7 @@ impl Group {
                 }
             }
             Self::Bumps => {
-                draft.shading(&chosen[..5].join("\n"), dice);
+                draft.shading(&fitting(&chosen[..5], "").join("\n"), dice);
                 draft.text += &light(dice, chosen[7], "");
                 if !chosen[8].is_empty() {
                     let _ = write!(draft.text, "\n[light.shadow]\n{}\n", chosen[8]);
@@ -258,7 +279,32 @@ impl Group {
     }
 }
 
+/// Settings without those that do not go with another one.
+fn fitting(chosen: &[&'static str], kind: &str) -> Chosen {
+    let has = |text: &str| chosen.iter().any(|value| value.starts_with(text));
+    let is_out = |value: &&str| {
+        let begins = |names: &[&str]| names.iter().any(|name| value.starts_with(name));
+        let of_levels = ["filter", "transfer", "bias", "fit", "addressing"];
+        (has("mipmaps") && begins(&of_levels))
+            || (kind != "spot" && begins(&["guard"]))
+            || (has("into") && (value.contains("\"stencil\"") || value.contains("clip-plane")) && begins(&["guard"]))
+            || (has("bump = \"reference\"") && begins(&["normalize", "precision"]))
+            || (!has("bump = \"reference\"") && begins(&["self_shadow"]))
+            || (!has("bump = \"three-pass\"") && begins(&["two_units"]))
+    };
+    chosen.iter().copied().filter(|value| !is_out(value)).collect()
+}
+
 impl Draft {
+    /// Requests beside the picture: floats show each error of the shaders, codes of 8 bits are what is seen.
+    fn requested(&mut self, dice: &mut Random) {
+        self.request.float_picture = dice.chance(0.5);
+        self.request.keep_all = dice.chance(0.15);
+        if dice.chance(0.05) {
+            self.request.wire = Some(0);
+        }
+    }
+
     fn shading(&mut self, lines: &str, dice: &mut Random) {
         let per_vertex = if !lines.contains("lighting") && !lines.contains("bump") && dice.chance(0.25) {
             "lighting = \"per-vertex\"\n"
@@ -281,6 +327,7 @@ impl Draft {
         };
         let of_ground = match group {
             Group::Bumps => String::new(),
+            Group::Surfaces if !chosen[3].is_empty() => photograph(chosen[3]),
             _ => textures(dice),
         };
         self.text += &ground(dice, &of_ground);
@@ -303,7 +350,7 @@ impl Draft {
             let needs_map = ["light-depth", "projected-map", "texels-per-pixel"].contains(&name);
             let found = crate::views::VIEWS.iter().find(|(known, ..)| *known == name);
             if let Some((_, view, ..)) = found.filter(|_| !(is_volume && needs_map)) {
-                self.views.push(ViewRequest { view: *view as View, light: 0 });
+                self.request.views.push(ViewRequest { view: *view as View, light: 0 });
             }
         }
     }

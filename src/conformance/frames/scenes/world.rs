@@ -53,14 +53,24 @@ pub fn textures(dice: &mut Random) -> String {
     if dice.chance(0.12) {
         keys += ", alpha = \"holes.png\"";
     }
+    if keys.contains("holes") || keys.contains("leaves") {
+        keys += dice.pick(&["", ", opacity = 0.8"]);
+    }
     if !keys.is_empty() && dice.chance(0.4) {
         keys += ", texgen = { s = [0.6, 0.1, 0.3, 0.07], t = [0.0, 0.5, 0.7, 0.21], scale = 1.5 }";
     }
     keys
 }
 
+/// A photograph of a surface, taken from above. `more`: keys of it.
+pub fn photograph(more: &str) -> String {
+    let place = "eye = [0.8, 3.5, 2.0], target = [0.0, 0.0, 0.0], fov_y = 55.0, map = { size = 32 }";
+    format!(", photo = {{ image = \"slide.png\", {place}, {more} }}")
+}
+
 fn material(dice: &mut Random, more: &str) -> String {
-    let shininess = dice.pick(&["1.0", "5.0", "8.0", "20.0", "33.5"]);
+    let is_bumpy = more.contains("bump") && dice.chance(0.8);
+    let shininess = if is_bumpy { "8.0" } else { dice.pick(&["1.0", "5.0", "8.0", "20.0", "33.5"]) };
     let specular = match dice.chance(0.5) {
         true => format!(", specular = {}, shininess = {shininess}", color(dice, 0.0, 0.6)),
         false => String::new(),
@@ -71,7 +81,11 @@ fn material(dice: &mut Random, more: &str) -> String {
 pub fn ground(dice: &mut Random, more: &str) -> String {
     let material = material(dice, more);
     let side = dice.between(2.5, 6.0);
-    format!("\n[[object]]\nname = \"ground\"\nmesh = \"quad\"\nscale = [{}, 1.0, {}]\n{material}", number(side), number(side))
+    format!(
+        "\n[[object]]\nname = \"ground\"\nmesh = \"quad\"\nscale = [{}, 1.0, {}]\n{material}",
+        number(side),
+        number(side)
+    )
 }
 
 /// Meshes that enclose a volume.
@@ -105,8 +119,12 @@ pub fn thing(dice: &mut Random, is_closed: bool, more: &str) -> String {
         false => "",
     };
     let marks = if wave.is_empty() { marks } else { "" };
+    let lit = match more.contains("bump") {
+        true => "",
+        false => dice.pick(&["", "", "", "", "", "", "lit = false\n", "casts_shadow = false\n"]),
+    };
     format!(
-        "\n[[object]]\nmesh = \"{mesh}\"\ntranslate = {place}\nscale = {}\n{turn}{marks}{wave}{}",
+        "\n[[object]]\nmesh = \"{mesh}\"\ntranslate = {place}\nscale = {}\n{turn}{marks}{wave}{lit}{}",
         vector(scale),
         material(dice, more)
     )
@@ -121,15 +139,20 @@ pub fn light(dice: &mut Random, kind: &str, more: &str) -> String {
             let way = around(dice, [1.0, 1.0], [0.5, 0.95]).map(|part| -part);
             text += &format!("direction = {}\n", vector(way));
         }
-        "point" => text += &format!("position = {}\nnear = 0.5\nfar = 14.0\n", vector(position)),
+        "point" => {
+            text +=
+                &format!("position = {}\nnear = 0.5\nfar = {}\n", vector(position), dice.pick(&["14.0", "14.0", "4.5"]))
+        }
         _ => {
             let target = around(dice, [0.0, 0.6], [0.0, 0.5]);
             let cone = number(dice.between(35.0, 75.0));
             let shape = dice.pick(&["cone", "frustum"]);
             text += &format!(
-                "position = {}\ntarget = {}\ncone = {cone}\nnear = 1.0\nfar = 12.0\n",
+                "position = {}\ntarget = {}\ncone = {cone}\nnear = {}\nfar = {}\n",
                 vector(position),
-                vector(target)
+                vector(target),
+                dice.pick(&["1.0", "1.0", "2.5"]),
+                dice.pick(&["12.0", "12.0", "4.0", "5.0"])
             );
             if !more.contains("shape") {
                 text += &format!("shape = \"{shape}\"\n");
