@@ -55,7 +55,8 @@ fn copy(images: &mut [Image], pass: &Pass) {
 fn draw_pass(images: &mut [Image], pass: &DrawPass, library: &mut Library) -> Result<(), Unknown> {
     let place = |image: &Image| {
         let face = if image.faces > 1 { pass.target.face.map_or(0, |face| face as usize) } else { 0 };
-        pass.target.level as usize * image.faces + face
+        // A renderbuffer has one level, whichever of the other image is drawn into.
+        (pass.target.level as usize).min(image.levels() - 1) * image.faces + face
     };
     let mut take = |image: Option<ImageId>| {
         image.map(|id| {

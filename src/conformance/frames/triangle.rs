@@ -214,13 +214,22 @@ impl<'a> Triangle<'a> {
         if value.is_finite() && slack.is_finite() { Num { value, error: slack / SLACK } } else { Num::UNKNOWN }
     }
 
+    /// How far a place may be off, in pixels, where corners are snapped to 2^-8; farther outside of the triangle, as beside its
+    /// edges in a quad, by more.
+    fn moves(&self, at: [f64; 2]) -> f64 {
+        let weights = self.weights.map(|weight| weight.at(at).abs());
+        let sum: f64 = weights.iter().sum();
+        let parts = weights.iter().zip(&self.corners).map(|(weight, corner)| weight * corner.clip[3].value.abs());
+        parts.sum::<f64>().max(sum / self.over_w.at(at).abs()).max(1.0) / 256.0
+    }
+
     /// 1/w of the fragment.
     pub fn over_w(&self, at: [f64; 2]) -> Num {
         self.linear_at(&self.over_w, at)
     }
 
     fn linear_at(&self, linear: &Linear, at: [f64; 2]) -> Num {
-        let moved = (linear.terms[0].abs() + linear.terms[1].abs()) / 256.0;
+        let moved = (linear.terms[0].abs() + linear.terms[1].abs()) * self.moves(at);
         Self::known(linear.at(at), self.rounding * linear.size_at(at) + moved)
     }
 
@@ -268,7 +277,7 @@ impl<'a> Triangle<'a> {
         let value = above.at(at) / bottom;
         let slope = |part: usize| (above.terms[part] - value * self.over_w.terms[part]) / bottom;
         let rounding = self.rounding * (above.size_at(at) + value.abs() * self.over_w.size_at(at)) / bottom;
-        let slack = rounding + (slope(0).abs() + slope(1).abs()) / 256.0 + EPSILON * value.abs();
+        let slack = rounding + (slope(0).abs() + slope(1).abs()) * self.moves(at) + EPSILON * value.abs();
         let weights = self.weights.iter().zip(own).map(|(weight, error)| weight.at(at).abs() * error).sum::<f64>();
         let known = Self::known(value, slack);
         Num { error: known.error + weights / bottom, ..known }

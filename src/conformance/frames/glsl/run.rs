@@ -294,7 +294,8 @@ pub fn either_of(a: Num, b: Num) -> Num {
     }
     let low = (a.value - SLACK * a.error).min(b.value - SLACK * b.error);
     let high = (a.value + SLACK * a.error).max(b.value + SLACK * b.error);
-    Num { value: (low + high) / 2.0, error: (high - low) / (2.0 * SLACK) }
+    // A little more, so that both ends are within it whatever was rounded here.
+    Num { value: (low + high) / 2.0, error: (high - low) / (2.0 * SLACK) * (1.0 + 1e-9) + 1e-300 }
 }
 
 /// The change to the next pixel, in this row or column of the quad or in the other one.
