@@ -34,11 +34,7 @@ impl<'a> DrawContext<'a> {
         let bound = |name: &String| {
             let input = batch.inputs.iter().find(|input| input.name == *name)?;
             let image = &images[input.image.0];
-            let coordinates = match image.faces {
-                6 => 3,
-                _ => 2,
-            };
-            Some(Bound { image, sampler: input.sampler, coordinates })
+            Some(Bound { image, sampler: input.sampler, is_cube: image.faces == 6, seamless: state.seamless })
         };
         let textures = BoundTextures(shaders.fragment.samplers.iter().map(bound).collect());
         let mut first = 0;

@@ -17,8 +17,10 @@ const LEVEL: f64 = 1.0 / 16.0;
 pub struct Bound<'a> {
     pub image: &'a Image,
     pub sampler: Sampler,
-    /// Coordinates of the texture: 1, 2, or 3 of a cube.
-    pub coordinates: usize,
+    /// It is a cube map.
+    pub is_cube: bool,
+    /// Filters of cube maps look across the faces' edges.
+    pub seamless: bool,
 }
 
 /// Textures of a draw. `None`: the shader's sampler has none.
@@ -142,7 +144,7 @@ impl Bound<'_> {
 
     fn level(&self, asked: &Asked, level: usize) -> [Num; 4] {
         let Some(around) =
-            (if self.coordinates == 3 { self.around_on_cube(asked.at, level) } else { self.around(asked.at, level) })
+            (if self.is_cube { self.around_on_cube(asked.at, level) } else { self.around(asked.at, level) })
         else {
             return [Num::UNKNOWN; 4];
         };
@@ -245,7 +247,7 @@ impl Bound<'_> {
     fn across(&self, level: usize, face: usize, [x, y]: [i64; 2]) -> Option<[Num; 4]> {
         let size = self.image.plane(level, face).size[0] as i64;
         let is_out = [x, y].map(|at| !(0..size).contains(&at));
-        if self.is_nearest() || is_out == [false; 2] {
+        if self.is_nearest() || is_out == [false; 2] || !self.seamless {
             let place = [x, y].map(|at| at.clamp(0, size - 1) as usize);
             return Some(self.image.plane(level, face).texel(place));
         }

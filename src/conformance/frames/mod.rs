@@ -66,7 +66,6 @@ fn frames(subject: &DriverUnderTest, findings: &mut Findings, groups: &[Group]) 
         };
         for (number, FrameToDraw { said, plan }) in scenes::of_group(group, planned).into_iter().enumerate() {
             let said = || format!("frame {number} ({said})");
-            let t0 = std::time::Instant::now();
             let drawn = match model::run(&plan.list, &mut library) {
                 Ok(drawn) => drawn,
                 Err(why) => {
@@ -74,23 +73,10 @@ fn frames(subject: &DriverUnderTest, findings: &mut Findings, groups: &[Group]) 
                     continue;
                 }
             };
-            let t1 = t0.elapsed().as_secs_f64();
             // Some a second time: the device leaves out passes whose targets hold their results already.
             let times = if number % 3 == 1 { 2 } else { 1 };
             let run = (0..times).try_for_each(|_| device.run(&plan.list, Measure::No).map(|_| ()));
             let judged = run.and_then(|()| judge::judge(&plan.list, &drawn, &mut device));
-            if std::env::var("X7").is_ok() {
-                #[allow(clippy::print_stderr)]
-                {
-                    eprintln!(
-                        "{:?} {number}: model {t1:.3} s, both {:.3}; {:?}; {}",
-                        group,
-                        t0.elapsed().as_secs_f64(),
-                        judged,
-                        said()
-                    );
-                }
-            }
             match judged {
                 Ok(mut judged) => {
                     judged.first = judged.first.map(|first| format!("{}: {first}", said()));

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Draft;
 use super::axes::{Axis, Chosen};
-use super::world::{color, ground, light, photograph, textures, thing, view};
+use super::world::{Style, color, ground, light, photograph, textures, thing, view};
 use crate::conformance::random::Random;
 use crate::plan::{Request, View, ViewRequest};
 
@@ -25,6 +25,7 @@ const FORMATS: Axis = &[
     "format = \"depth16\"",
     "format = \"depth24\"",
     "format = \"depth32\"",
+    "format = \"depth32f\"",
     "format = \"depth32f\"",
     "format = \"depth\"",
 ];
@@ -210,11 +211,11 @@ impl Group {
         match self {
             Self::Maps => 18,
             Self::CubeMaps => 8,
-            Self::Middles => 9,
-            Self::Volumes => 10,
+            Self::Middles => 8,
+            Self::Volumes => 8,
             Self::Surfaces => 8,
-            Self::Projected => 10,
-            Self::Bumps => 10,
+            Self::Projected => 9,
+            Self::Bumps => 9,
             Self::Views => 6,
         }
     }
@@ -325,17 +326,21 @@ impl Draft {
             Group::Views if dice.chance(0.5) => ", bump = { height = \"heights.png\", scale = 2.0 }".to_owned(),
             _ => String::new(),
         };
-        let of_ground = match group {
-            Group::Bumps => String::new(),
+        let keys = match group {
+            _ if !bump.is_empty() => bump,
             Group::Surfaces if !chosen[3].is_empty() => photograph(chosen[3]),
             _ => textures(dice),
         };
-        self.text += &ground(dice, &of_ground);
+        // Volumes are of what encloses one.
         let is_closed = group == Group::Volumes || group == Group::Middles;
-        for index in 0..dice.whole(1, 3) {
-            let more = if index == 0 && !bump.is_empty() { bump.clone() } else { textures(dice) };
-            let more = if group == Group::Volumes && more.contains("alpha") { String::new() } else { more };
-            self.text += &thing(dice, is_closed, &more);
+        let style = Style::new(dice, if is_closed && keys.contains("alpha") { String::new() } else { keys });
+        // Bumps lie on things alone, and other textures not always on the ground.
+        let is_plain = style.textures.contains("bump") || dice.chance(0.3);
+        let plain = Style::new(dice, String::new());
+        let plain = Style { is_specular: style.is_specular, ..plain };
+        self.text += &ground(dice, if is_plain { &plain } else { &style });
+        for _ in 0..dice.whole(1, 3) {
+            self.text += &thing(dice, is_closed, &style);
         }
     }
 
@@ -346,7 +351,8 @@ impl Draft {
         self.text += &light(dice, "spot", "");
         let size = if is_volume { "" } else { "size = 32" };
         let _ = write!(self.text, "\n[light.shadow]\n{technique}\n{size}\n");
-        for name in [0, 1, 2, 3, 5].map(|axis| chosen[axis]) {
+        // The second and the fourth take turns.
+        for name in [0, if dice.chance(0.5) { 1 } else { 3 }, 2, 5].map(|axis| chosen[axis]) {
             let needs_map = ["light-depth", "projected-map", "texels-per-pixel"].contains(&name);
             let found = crate::views::VIEWS.iter().find(|(known, ..)| *known == name);
             if let Some((_, view, ..)) = found.filter(|_| !(is_volume && needs_map)) {

@@ -68,18 +68,43 @@ pub fn photograph(more: &str) -> String {
     format!(", photo = {{ image = \"slide.png\", {place}, {more} }}")
 }
 
-fn material(dice: &mut Random, more: &str) -> String {
-    let is_bumpy = more.contains("bump") && dice.chance(0.8);
-    let shininess = if is_bumpy { "8.0" } else { dice.pick(&["1.0", "5.0", "8.0", "20.0", "33.5"]) };
-    let specular = match dice.chance(0.5) {
-        true => format!(", specular = {}, shininess = {shininess}", color(dice, 0.0, 0.6)),
-        false => String::new(),
-    };
-    format!("material = {{ diffuse = {}{specular}{more} }}\n", color(dice, 0.2, 1.0))
+/// What the objects of a frame have in common: each difference is a shader more, which a driver compiles for a while.
+pub struct Style {
+    /// Keys of the materials: decal, alpha, bumps.
+    pub textures: String,
+    pub is_specular: bool,
+    /// Lines of things above the ground.
+    pub lines: &'static str,
 }
 
-pub fn ground(dice: &mut Random, more: &str) -> String {
-    let material = material(dice, more);
+impl Style {
+    /// `textures`: keys of the materials.
+    pub fn new(dice: &mut Random, textures: String) -> Self {
+        let wave =
+            "wave = { direction = [0, 1, 0], amplitude = 0.25, axis = [1, 0, 0.25], wavelength = 1.2, phase = 0.1 }\n";
+        let lines = match dice.below(12) {
+            0 if !textures.contains("bump") => wave,
+            1 if !textures.contains("bump") => "lit = false\n",
+            2 => "casts_shadow = false\n",
+            3..6 => "closed = true\n",
+            _ => "",
+        };
+        Self { textures, is_specular: dice.chance(0.6), lines }
+    }
+
+    fn material(&self, dice: &mut Random) -> String {
+        let is_bumpy = self.textures.contains("bump") && dice.chance(0.8);
+        let shininess = if is_bumpy { "8.0" } else { dice.pick(&["1.0", "5.0", "8.0", "20.0", "33.5"]) };
+        let specular = match self.is_specular {
+            true => format!(", specular = {}, shininess = {shininess}", color(dice, 0.0, 0.6)),
+            false => String::new(),
+        };
+        format!("material = {{ diffuse = {}{specular}{} }}\n", color(dice, 0.2, 1.0), self.textures)
+    }
+}
+
+pub fn ground(dice: &mut Random, style: &Style) -> String {
+    let material = style.material(dice);
     let side = dice.between(2.5, 6.0);
     format!(
         "\n[[object]]\nname = \"ground\"\nmesh = \"quad\"\nscale = [{}, 1.0, {}]\n{material}",
@@ -91,8 +116,8 @@ pub fn ground(dice: &mut Random, more: &str) -> String {
 /// Meshes that enclose a volume.
 const CLOSED: [&str; 4] = ["box", "ring.obj", "ball.obj", "box"];
 
-/// A thing above the ground. `more`: keys of its material.
-pub fn thing(dice: &mut Random, is_closed: bool, more: &str) -> String {
+/// A thing above the ground.
+pub fn thing(dice: &mut Random, is_closed: bool, style: &Style) -> String {
     let mesh = if is_closed || dice.chance(0.7) { dice.pick(&CLOSED) } else { dice.pick(&["sheet.obj", "quad"]) };
     let size = dice.between(0.35, 0.8);
     let scale = match dice.below(5) {
@@ -111,22 +136,12 @@ pub fn thing(dice: &mut Random, is_closed: bool, more: &str) -> String {
         ),
         false => String::new(),
     };
-    let marks = if CLOSED.contains(&mesh) && dice.chance(0.4) { "closed = true\n" } else { "" };
-    let wave = match more.is_empty() && dice.chance(0.12) {
-        true => {
-            "wave = { direction = [0, 1, 0], amplitude = 0.25, axis = [1, 0, 0.25], wavelength = 1.2, phase = 0.1 }\n"
-        }
-        false => "",
-    };
-    let marks = if wave.is_empty() { marks } else { "" };
-    let lit = match more.contains("bump") {
-        true => "",
-        false => dice.pick(&["", "", "", "", "", "", "lit = false\n", "casts_shadow = false\n"]),
-    };
+    let is_open = !CLOSED.contains(&mesh);
+    let lines = if is_open && style.lines.contains("closed") { "" } else { style.lines };
     format!(
-        "\n[[object]]\nmesh = \"{mesh}\"\ntranslate = {place}\nscale = {}\n{turn}{marks}{wave}{lit}{}",
+        "\n[[object]]\nmesh = \"{mesh}\"\ntranslate = {place}\nscale = {}\n{turn}{lines}{}",
         vector(scale),
-        material(dice, more)
+        style.material(dice)
     )
 }
 
@@ -152,7 +167,7 @@ pub fn light(dice: &mut Random, kind: &str, more: &str) -> String {
                 vector(position),
                 vector(target),
                 dice.pick(&["1.0", "1.0", "2.5"]),
-                dice.pick(&["12.0", "12.0", "4.0", "5.0"])
+                dice.pick(&["12.0", "4.5", "4.0", "5.0"])
             );
             if !more.contains("shape") {
                 text += &format!("shape = \"{shape}\"\n");
