@@ -40,9 +40,7 @@ const TRIES: usize = 40;
 
 /// Frames of a group.
 pub fn of_group(group: Group, plan: impl Fn(&Scene, Request) -> Option<Plan>) -> Vec<FrameToDraw> {
-    let mut dice = Random::new(
-        0x7_0000 + group as u64 + std::env::var("X7SEED").ok().and_then(|s| s.parse::<u64>().ok()).unwrap_or(0) * 1000,
-    );
+    let mut dice = Random::new(0x7_0000 + group as u64);
     let mut turns = axes::Turns::new(group.axes());
     let mut frames = Vec::new();
     for _ in 0..group.frames() {
