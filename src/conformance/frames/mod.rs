@@ -17,6 +17,8 @@ mod triangle;
 
 use std::collections::BTreeMap;
 
+use glow::HasContext;
+
 use self::judge::Tally;
 use self::scenes::{FrameToDraw, Group};
 use self::shaders::Library;
@@ -90,6 +92,52 @@ fn frames(subject: &DriverUnderTest, findings: &mut Findings, groups: &[Group]) 
         }
         report(findings, group, &tally, count, failed, &skipped);
     }
+    leave(&mut device);
+}
+
+/// Sets what the device has changed to GL's state at the start: other rules follow on the context.
+fn leave(device: &mut Device) {
+    let gl = device.raw_gl();
+    let switches = [
+        glow::DEPTH_TEST,
+        glow::STENCIL_TEST,
+        glow::BLEND,
+        glow::SCISSOR_TEST,
+        glow::CULL_FACE,
+        glow::POLYGON_OFFSET_FILL,
+        glow::DEPTH_CLAMP,
+        glow::TEXTURE_CUBE_MAP_SEAMLESS,
+    ];
+    // SAFETY: the context is current; only state is set.
+    unsafe {
+        switches.into_iter().for_each(|switch| gl.disable(switch));
+        (0..8).for_each(|distance| gl.disable(glow::CLIP_DISTANCE0 + distance));
+        gl.enable(glow::DITHER);
+        gl.use_program(None);
+        gl.bind_vertex_array(None);
+        gl.bind_framebuffer(glow::FRAMEBUFFER, None);
+        gl.bind_renderbuffer(glow::RENDERBUFFER, None);
+        gl.bind_buffer(glow::ARRAY_BUFFER, None);
+        gl.depth_func(glow::LESS);
+        gl.depth_mask(true);
+        gl.depth_range_f32(0.0, 1.0);
+        gl.color_mask(true, true, true, true);
+        gl.cull_face(glow::BACK);
+        gl.front_face(glow::CCW);
+        gl.polygon_offset(0.0, 0.0);
+        gl.blend_func(glow::ONE, glow::ZERO);
+        gl.stencil_mask(u32::MAX);
+        gl.stencil_func(glow::ALWAYS, 0, u32::MAX);
+        gl.stencil_op(glow::KEEP, glow::KEEP, glow::KEEP);
+        gl.pixel_store_i32(glow::PACK_ALIGNMENT, 4);
+        for unit in (0..16).rev() {
+            gl.active_texture(glow::TEXTURE0 + unit);
+            gl.bind_sampler(unit, None);
+            [glow::TEXTURE_1D, glow::TEXTURE_2D, glow::TEXTURE_CUBE_MAP]
+                .into_iter()
+                .for_each(|target| gl.bind_texture(target, None));
+        }
+    }
 }
 
 fn report(
@@ -103,6 +151,7 @@ fn report(
     let Tally { judged, open, wrong, first } = tally;
     let all = judged + open;
     let share = *judged as f64 / all.max(1) as f64;
+    let is_drawn = failed.is_none();
     let mut measured = match (failed, wrong, first) {
         (Some(why), ..) => why,
         (None, 1.., Some(first)) => format!("{wrong} of {judged} numbers wrong; first: {first}"),
@@ -111,6 +160,10 @@ fn report(
     for (why, count) in skipped {
         measured += &format!("; {count} frames without a model: {why}");
     }
-    let holds = *wrong == 0 && share >= JUDGED && measured.contains("judged and right");
+    let missing = group.frames() - count - skipped.values().sum::<usize>();
+    if missing > 0 && is_drawn {
+        measured += &format!("; {missing} frames could not be planned");
+    }
+    let holds = is_drawn && *wrong == 0 && missing == 0 && share >= JUDGED;
     findings.must_hold(group.name(), holds, measured);
 }

@@ -6,6 +6,8 @@ mod functions;
 mod ops;
 mod run;
 mod statements;
+#[cfg(test)]
+mod tests;
 mod tokens;
 
 pub use compile::{Unknown, compile};
