@@ -1,4 +1,4 @@
-//! What a fragment does to its pixel [GL 4.6, 17.3]: stencil, depth, blending, masks.
+//! Effects of a fragment on its pixel [GL 4.6, 17.3]: stencil, depth, blending, masks.
 
 use super::glsl::either_of;
 use super::images::{Plane, stored_color, stored_depth};
@@ -14,7 +14,7 @@ pub struct Targets<'a> {
     pub depth_format: Option<Format>,
 }
 
-/// What a fragment shader puts out.
+/// Outputs of a fragment shader.
 pub struct Outputs {
     pub color: [Num; 4],
     pub depth: Num,

@@ -35,7 +35,7 @@ impl Plane {
         plane
     }
 
-    /// What a shader gets of a texel.
+    /// The texel as a shader gets it.
     pub fn texel(&self, [x, y]: [usize; 2]) -> [Num; 4] {
         let index = y * self.size[0] + x;
         match self.depth.get(index) {

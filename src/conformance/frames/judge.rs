@@ -38,7 +38,7 @@ impl Tally {
         }
         // A bit of what is read back is lost where it becomes a float.
         let off = (seen - due.value).abs() - 1e-7 * size;
-        if due.is_known() && !(off <= reach) {
+        if due.is_known() && (off.is_nan() || off > reach) {
             self.wrong += 1;
             self.first.get_or_insert_with(|| format!("{}: {seen:?} is not {:?} within {reach:.1e}", said(), due.value));
         }

@@ -53,7 +53,10 @@ fn floor(a: Num) -> Num {
     a.step(f64::floor)
 }
 
-const ONES: [(&str, fn(Num) -> Num); 13] = [
+type OfOne = fn(Num) -> Num;
+type OfTwo = fn(Num, Num) -> Num;
+
+const ONES: [(&str, OfOne); 13] = [
     ("abs", Num::magnitude),
     ("floor", floor),
     ("fract", s::fract),
@@ -69,7 +72,7 @@ const ONES: [(&str, fn(Num) -> Num); 13] = [
     ("not", not),
 ];
 
-const TWOS: [(&str, fn(Num, Num) -> Num); 9] = [
+const TWOS: [(&str, OfTwo); 9] = [
     ("min", Num::least),
     ("max", Num::most),
     ("pow", s::pow),

@@ -106,7 +106,7 @@ pub enum Op {
     Along(usize, Slot, Slot),
     /// Sampler, lookup.
     Look(Slot, usize, Box<Look>),
-    /// Of these slots, in groups of `scalars`, the group that `index` names.
+    /// Chooses the group that `index` names, of these slots in groups of `scalars`.
     Pick {
         to: Slot,
         scalars: usize,

@@ -128,8 +128,8 @@ impl Machine {
                 Op::Look(to, sampler, look) => self.look(*to, *sampler, look, mask, textures),
                 Op::Pick { to, scalars, from, index } => {
                     let index = self.get(*index);
-                    for lane in 0..LANES {
-                        let group = index[lane].whole().filter(|group| *group >= 0).map(|group| group as usize);
+                    for (lane, index) in index.iter().enumerate() {
+                        let group = index.whole().filter(|group| *group >= 0).map(|group| group as usize);
                         for part in 0..*scalars {
                             let slot = group.and_then(|group| from.get(group * scalars + part));
                             let value = slot.map_or(Num::UNKNOWN, |slot| self.get(*slot)[lane]);
@@ -274,7 +274,7 @@ impl Machine {
             };
         }
         for part in 0..4 {
-            self.slots[to as usize + part] = std::array::from_fn(|lane| results[lane][part]);
+            self.slots[to as usize + part] = results.map(|result| result[part]);
         }
     }
 }

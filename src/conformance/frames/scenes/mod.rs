@@ -28,7 +28,7 @@ pub struct Draft {
 }
 
 macro_rules! files {
-    ($($name:literal),*) => { &[$(($name, include_bytes!(concat!("../files/", $name)))),*] };
+    ($($name:literal),*) => { &[$(($name, include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/frames/", $name)))),*] };
 }
 
 const PICTURES: &[(&str, &[u8])] =

@@ -68,7 +68,7 @@ pub fn photograph(more: &str) -> String {
     format!(", photo = {{ image = \"slide.png\", {place}, {more} }}")
 }
 
-/// What the objects of a frame have in common: each difference is a shader more, which a driver compiles for a while.
+/// Materials and keys that the objects of a frame share: each difference is a shader more, which a driver compiles for a while.
 pub struct Style {
     /// Keys of the materials: decal, alpha, bumps.
     pub textures: String,
