@@ -1,4 +1,4 @@
-//! GLSL's functions, as operations [GLSL 3.30, 8].
+//! GLSL's functions, as operations [GLSL 4.60, 8].
 
 use super::compile::{Compiler, Place, Unknown};
 use super::ops::{Kind, Level, Look, Op, Shape, Shaped, Slot};

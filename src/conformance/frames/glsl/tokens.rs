@@ -1,4 +1,4 @@
-//! Tokens of a shader's text after the preprocessor [GLSL 3.30, 3.1 to 3.3]: conditions, macros with and without parameters.
+//! Tokens of a shader's text after the preprocessor [GLSL 4.60, 3.1 to 3.3]: conditions, macros with and without parameters.
 
 use std::collections::HashMap;
 
