@@ -18,6 +18,8 @@ mod filter;
 #[cfg(feature = "check")]
 mod findings;
 #[cfg(feature = "check")]
+mod frames;
+#[cfg(feature = "check")]
 mod layer;
 #[cfg(feature = "check")]
 mod print;
@@ -42,6 +44,9 @@ pub mod verify;
 pub mod waivers;
 #[cfg(feature = "check")]
 mod write;
+
+#[cfg(feature = "check")]
+use std::rc::Rc;
 
 #[cfg(feature = "check")]
 use serde::Serialize;
@@ -93,19 +98,21 @@ pub struct DriverUnderTest {
     /// The fixed-function pipeline, or why there is none.
     pub fixed: Result<FixedBench, String>,
     pub info: ContextInfo,
+    /// For what draws beside the benches.
+    pub context: Rc<dyn Context>,
 }
 
 #[cfg(feature = "check")]
 impl DriverUnderTest {
-    /// The driver of `context`, which is current and outlives the subject.
+    /// The driver of `context`, which is current.
     ///
     /// # Errors
     ///
     /// A driver that has not even a vertex array.
-    pub fn new(context: &dyn Context, mutation: Option<Mutation>) -> Result<Self, bench::Error> {
-        let bench = Bench::of(context)?.with_mutation(mutation);
-        let fixed = FixedBench::new(context, mutation).map_err(|error| error.to_string());
-        Ok(Self { bench, fixed, info: context.describe() })
+    pub fn new(context: &Rc<dyn Context>, mutation: Option<Mutation>) -> Result<Self, bench::Error> {
+        let bench = Bench::of(context.as_ref())?.with_mutation(mutation);
+        let fixed = FixedBench::new(context.as_ref(), mutation).map_err(|error| error.to_string());
+        Ok(Self { bench, fixed, info: context.describe(), context: context.clone() })
     }
 }
 

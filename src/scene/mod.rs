@@ -99,6 +99,25 @@ pub fn load_embedded(embedded: &Embedded, overrides: &[String], shadows: &dyn Re
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
+/// Loads a scene from text that is made while the program runs, whose pictures and meshes are part of the program; otherwise
+/// as [`load`]. `path`: the file's name, for messages.
+///
+/// # Errors
+///
+/// As [`load`].
+#[doc(hidden)]
+pub fn load_with_files(
+    path: &Path,
+    text: &str,
+    [pictures, meshes]: [&'static [(&'static str, &'static [u8])]; 2],
+    shadows: &dyn ReadShadow,
+) -> Result<Loaded, Error> {
+    let mut assets = Assets::with_files(pictures, meshes);
+    let root = parse::document(path, text)?;
+    let scene = resolve::scene(&root, &mut assets, shadows)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
 /// Loads a scene (.toml) or a model (.obj, .md2) with a scene supplied around it. `overrides` are the texts of `--set`,
 /// `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
 /// techniques read it.

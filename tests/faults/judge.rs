@@ -25,7 +25,7 @@ pub fn context(fault: Option<&Fault>) -> Rc<dyn Context> {
 /// Ids of the rules that fail, of `rules` in their order; with `first` no more than the first that does.
 pub fn red(fault: Option<&Fault>, rules: &[&'static Rule], first: bool) -> Vec<&'static str> {
     let context = context(fault);
-    let Ok(subject) = DriverUnderTest::new(context.as_ref(), None) else { return vec!["no bench"] };
+    let Ok(subject) = DriverUnderTest::new(&context, None) else { return vec!["no bench"] };
     let known = waivers::load(None).expect("the waivers");
     let fails = |rule: &&'static Rule| {
         let mut outcomes = conformance::run(&subject, &[rule], |_| {});
@@ -39,7 +39,7 @@ pub fn red(fault: Option<&Fault>, rules: &[&'static Rule], first: bool) -> Vec<&
 /// The rules, those that took the least time on a sound driver first.
 pub fn quickest() -> Vec<&'static Rule> {
     let context = context(None);
-    let subject = DriverUnderTest::new(context.as_ref(), None).expect("a bench");
+    let subject = DriverUnderTest::new(&context, None).expect("a bench");
     let rules: Vec<_> = conformance::TABLE.iter().collect();
     let outcomes = conformance::run(&subject, &rules, |_| {});
     let mut timed: Vec<_> = outcomes.iter().map(|outcome| outcome.seconds).zip(rules).collect();

@@ -21,7 +21,7 @@ use glumbra::geometry::normal_cube;
 /// waived.
 fn outcomes(profile: Profile, mutation: Option<Mutation>, rules: &[&str]) -> Vec<RuleOutcome> {
     let context = context::open(&ContextRequest { profile, ..ContextRequest::default() }).unwrap();
-    let subject = DriverUnderTest::new(context.as_ref(), mutation).unwrap();
+    let subject = DriverUnderTest::new(&context, mutation).unwrap();
     let patterns: Vec<_> = rules.iter().map(|id| (*id).to_owned()).collect();
     let mut outcomes = conformance::run(&subject, &conformance::choose(&patterns).unwrap(), |_| {});
     waivers::apply(&waivers::load(None).unwrap(), &subject.info, &mut outcomes);

@@ -38,7 +38,7 @@ pub fn steps(
     mut tell: impl FnMut(Event) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let opened = open(arguments).map_err(Error::from);
-    let subject = opened.and_then(|context| Ok((DriverUnderTest::new(context.as_ref(), None)?, context)));
+    let subject = opened.and_then(|context| Ok((DriverUnderTest::new(&context, None)?, context)));
     let (subject, context) = match subject {
         Ok(opened) => opened,
         Err(error) => return tell(Event::Refused(error.to_string())),

@@ -300,24 +300,19 @@ faults! {
     }
     // A vector and a number share a register, and interpolation is the register's.
     "vectors-flat-beside-flat-numbers" [flat out in]
-    "Varyings vec3 are flat in a program that has a float that is."
-    (hole: "not seen yet: no program has a vec3 that varies beside a flat float") { text flat_beside_flat }
+    "Varyings vec3 are flat in a program that has a float that is." { text flat_beside_flat }
     // Constants are folded in unsigned numbers.
     "folded-differences-without-sign" [const float]
-    "A constant float made of a difference of whole numbers has no sign."
-    (hole: "not seen yet: no program folds a difference in a constant float") { text folded_without_sign }
+    "A constant float made of a difference of whole numbers has no sign." { text folded_without_sign }
     // Copy propagation takes an assignment by which a variable reads itself for one of a variable to itself.
     "own-components-not-assigned" [clamp]
-    "A component that is assigned a function of itself stays as it was."
-    (hole: "not seen yet: no program assigns a component a function of itself") { text without_own_components }
+    "A component that is assigned a function of itself stays as it was." { text without_own_components }
     // A call is inlined with its jumps, and the jump of a discard ends the function's body.
     "discard-in-functions-returns" [discard]
-    "discard in a function that main calls ends the function alone."
-    (hole: "not seen yet: no program discards in a function") { text discards_return }
+    "discard in a function that main calls ends the function alone." { text discards_return }
     // Either output switches the early test off, and with both the depth of the raster is kept.
     "own-depth-lost-with-discard" [gl_FragDepth discard]
-    "A shader that may discard leaves the depth of the triangle."
-    (hole: "not seen yet: no program has gl_FragDepth beside discard") { text own_depth_where_discarded }
+    "A shader that may discard leaves the depth of the triangle." { text own_depth_where_discarded }
     // Repeats are by the magnitude.
     "negative-coordinates-mirrored" [texture sampler2D]
     "A lookup left of or below 0 is mirrored at 0." { text lookups_without_sign }

@@ -177,7 +177,7 @@ fn note(
     let mode = Rc::new(RefCell::new(Mode::Pass));
     let context = layer::over(open()?, |layer| log::hook(layer, &mode));
     *mode.borrow_mut() = Mode::Record(log::Log::default());
-    let subject = DriverUnderTest::new(context.as_ref(), None)?;
+    let subject = DriverUnderTest::new(&context, None)?;
     // The bench itself asks for errors, which the rule's later runs do not.
     let skipped = if let Mode::Record(log) = &*mode.borrow() { log.reads.len() } else { 0 };
     let findings = findings_of(rule, &subject);

@@ -1,9 +1,9 @@
 //! Rules of kind X: generated commands, states, programs and data, held against models.
 
-use crate::conformance::Rule;
 use crate::conformance::rules::{
     generated_commands, generated_fixed, generated_lookups, generated_programs, generated_triangles, generated_vertices,
 };
+use crate::conformance::{Rule, frames};
 
 pub const RULES: &[Rule] = &[
     Rule {
@@ -53,5 +53,21 @@ pub const RULES: &[Rule] = &[
         says: "Texture environments, lights, fog, clip planes, matrices, current values, lists and saved attributes make the colours that GL says, whatever the draws before.",
         tolerance: "a code of 8 bits for each unit, two for lighting, one for fog",
         check: generated_fixed::generated,
+    },
+    Rule {
+        id: "GL-X7",
+        title: "frames with shadows",
+        section: "8, 9, 13, 14, 17, GLSL 3 to 8",
+        says: "The renderer's own shaders, states, copies and look-ups for shadow maps and volumes leave in every image what GL says.",
+        tolerance: "errors of f32 carried through each pass; 0.6 codes of 8 bits, 1.6 after a blend; what GL leaves open is not judged",
+        check: frames::shadows,
+    },
+    Rule {
+        id: "GL-X8",
+        title: "frames with light on surfaces",
+        section: "8, 9, 13, 14, 17, GLSL 3 to 8",
+        says: "So do those for lit, bump-mapped and textured surfaces, projected light, photographs, dust and views.",
+        tolerance: "errors of f32 carried through each pass; 0.6 codes of 8 bits, 1.6 after a blend; what GL leaves open is not judged",
+        check: frames::surfaces,
     },
 ];

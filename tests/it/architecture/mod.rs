@@ -42,7 +42,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("fixed_function", &["device", "c_text"]),
     ("c_text", &[]),
     ("device", &["pass", "context"]),
-    ("conformance", &["context", "math", "c_text"]),
+    // Frames of the renderer, planned and drawn on the driver at hand, beside a model of GL.
+    ("conformance", &["plan", "device", "c_text"]),
     ("context", &["process"]),
     ("pass", &["geometry"]),
     ("truth", &["scene"]),

@@ -7,12 +7,12 @@ mod functions;
 mod inputs;
 mod leaves;
 mod make;
-mod number;
+pub mod number;
 mod run;
-mod scalars;
+pub mod scalars;
 mod statements;
 mod value;
-mod vectors;
+pub mod vectors;
 
 use self::assemble::{Assembled, DueNumber, RESULTS, Stage, Uses, assemble};
 use self::inputs::{GivenUniforms, PIXELS, VECTORS};
