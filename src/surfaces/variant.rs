@@ -152,7 +152,7 @@ pub fn of(
     let program = Program {
         label: String::from("surface"),
         defines,
-        vertex: vertex(lights, ending, needs, &bumps, &cut),
+        vertex: vertex(lights, needs, &bumps, &cut),
         fragment: fragment(scene, lights, ending, needs, &bumps, &cut),
         attributes,
     };
@@ -276,10 +276,10 @@ fn is_in_view(item: &Drawable, viewer: &Viewer) -> bool {
     frustum::overlap(&(viewer.clip_from_world() * item.world_from_model), &item.bounds) == Overlap::Inside
 }
 
-fn vertex(lights: &[&LightParts], ending: &Ending, needs: Needs, bumps: &Bumps, cut: &Cutout) -> Vec<Chunk> {
+fn vertex(lights: &[&LightParts], needs: Needs, bumps: &Bumps, cut: &Cutout) -> Vec<Chunk> {
     let mut chunks = vec![glsl!("common/position.vert")];
     chunks.extend(cut.vertex.iter().cloned());
-    if *ending == Ending::Lit && needs.per_vertex {
+    if needs.per_vertex {
         chunks.push(glsl!("surfaces/material.glsl"));
     }
     for light in lights {

@@ -63,3 +63,17 @@ fn wrong_passes_are_taught() {
     assert!(error.contains("cannot be used with"), "{error}");
     assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none(), "nothing is written");
 }
+
+/// Each view of a surface in each way of lighting: what per-vertex lighting needs is in the vertex shader of views, too.
+#[test]
+fn views_of_light_are_drawn_per_vertex_too() {
+    let folder = tempfile::tempdir().unwrap();
+    for lighting in ["shading.lighting=per-fragment", "shading.lighting=per-vertex"] {
+        for view in ["decal", "depth", "diffuse", "specular", "normal", "shade", "gloss"] {
+            let path = folder.path().join("out.png");
+            let mut command = command(&["render", "data/cases/scenes/box.toml", "-o", path.to_str().unwrap()]);
+            let output = run(command.args(["--set", lighting, "--aov", view]).current_dir(ROOT));
+            assert_eq!(output.code, 0, "{lighting}, {view}: {}", output.stderr);
+        }
+    }
+}
