@@ -72,7 +72,8 @@ fn views_of_light_are_drawn_per_vertex_too() {
         for view in ["decal", "depth", "diffuse", "specular", "normal", "shade", "gloss"] {
             let path = folder.path().join("out.png");
             let mut command = command(&["render", "data/cases/scenes/box.toml", "-o", path.to_str().unwrap()]);
-            let output = run(command.args(["--set", lighting, "--aov", view]).current_dir(ROOT));
+            command.args(["--set", lighting, "--aov", view]).current_dir(ROOT);
+            let output = run(command);
             assert_eq!(output.code, 0, "{lighting}, {view}: {}", output.stderr);
         }
     }
