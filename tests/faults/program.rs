@@ -1,10 +1,10 @@
 //! Tells which rules of `glumbra check` see each fault of `conformance::faults`, and which pictures it changes.
 //!
 //! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [RULE...] [NAME...]`: all rules, or those of these
-//! ids, for each fault whose name or whose broken functions contain one of the names, or for all; `--holes`: only those that no rule sees by the table of
-//! `ci/drivers.md`; `--write`: puts the results into that table; `--pictures`: draws the scenes too; `--reduce`: no rules, but
-//! programs as by `glumbra check --reduce` for each fault and each rule that sees it by the table, held against the broken
-//! driver and the sound one. 1: a fault changes a picture and no rule, or a program is wrong.
+//! ids, for each fault whose name or whose broken functions contain one of the names, or for all. `--holes`: only those that no
+//! rule sees by the table of `ci/drivers.md`; `--write`: puts the results of all rules into that table; `--pictures`: draws the
+//! scenes too; `--reduce`: no rules, but programs as by `glumbra check --reduce` for each fault and each rule that sees it by the
+//! table, held against the broken driver and the sound one. 1: a fault changes a picture and no rule, or a program is wrong.
 
 mod judge;
 mod reduced;
@@ -37,6 +37,10 @@ fn main() -> ExitCode {
     let (options, names): (Vec<_>, Vec<_>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
     let (ids, names): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.starts_with("GL-"));
     let has = |option: &str| options.iter().any(|given| given == option);
+    if has("--write") && !ids.is_empty() {
+        eprintln!("--write: the table has the results of all rules; leave {} out", ids.join(" "));
+        return ExitCode::FAILURE;
+    }
     let page = std::fs::read_to_string(PAGE).unwrap_or_default();
     let mut known = rows(&page);
     let is_hole = |fault: &Fault| known.iter().all(|row| row.fault != fault.name || row.red.is_empty());
