@@ -12,7 +12,7 @@ invariant gl_Position;
 uniform vec3 wave_reach;
 uniform vec4 wave_vector;
 
-vec4 model_position;
+vec4 model_position = vec4(0.0);
 
 const float WAVE_TURN = 6.28318530717958648;
 

@@ -8,7 +8,7 @@ uniform float spacing;
 // Window depth of a point at distance h along the view axis: x + y / h.
 uniform vec2 depth_of_distance;
 
-vec4 placed_coord_@;
+vec4 placed_coord_@ = vec4(0.0);
 
 // A number in [-1/2, 1/2) of a pixel, without a pattern [Jimenez 2014].
 float jitter_here()

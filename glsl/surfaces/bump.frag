@@ -3,8 +3,8 @@ in vec3 eye_tangent;
 in vec3 eye_bitangent;
 uniform sampler2D normal_map;
 
-vec3 smooth_normal; // of the surface without bumps: of unit length, in eye space
-float bump_dim;     // length of the normals that the texel is the mean of; multiplies diffuse light
+vec3 smooth_normal = vec3(0.0); // of the surface without bumps: of unit length, in eye space
+float bump_dim = 0.0;            // length of the normals that the texel is the mean of; multiplies diffuse light
 
 // normal: interpolated, of any length. smooth_normal is set before; it may be the other way around.
 vec3 bumped(vec3 normal)

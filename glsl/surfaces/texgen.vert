@@ -6,7 +6,7 @@ uniform mat4 texture_matrix_@;
 
 #if defined(OVER_W_@)
 noperspective out vec4 light_coord_over_w_@;
-vec4 light_coord_@;
+vec4 light_coord_@ = vec4(0.0);
 #elif defined(AFFINE_@)
 noperspective out vec4 light_coord_@;
 #else

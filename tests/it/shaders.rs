@@ -292,3 +292,25 @@ fn the_percentage_closer_loop_stands_once() {
     let found: Vec<&String> = chunks.iter().filter(|(_, text)| loops(text) > 0).map(|(name, _)| name).collect();
     assert_eq!(found, ["shadow_map/percentage_closer.glsl"]);
 }
+
+/// Variables outside of functions have values from the start. Drivers warn of those without one that a function reads before the
+/// text has set them, and a driver that keeps compiled shaders warns in the first run alone.
+#[test]
+fn global_variables_are_initialised() {
+    const TYPES: [&str; 11] =
+        ["float", "int", "uint", "bool", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4", "Surface"];
+    let mut plain = Vec::new();
+    for folder in std::fs::read_dir(root().join("glsl")).unwrap().map(|entry| entry.unwrap().path()) {
+        for file in std::fs::read_dir(&folder).into_iter().flatten().map(|entry| entry.unwrap().path()) {
+            for line in std::fs::read_to_string(&file).unwrap().lines() {
+                let code = line.split("//").next().unwrap_or_default().trim_end();
+                // What is indented is in a function or a structure.
+                let declared = code.split_once(' ').filter(|(kind, _)| TYPES.contains(kind)).map(|(_, rest)| rest);
+                if declared.is_some_and(|rest| rest.ends_with(';') && !rest.contains(['=', '('])) {
+                    plain.push(format!("{}: {code}", file.display()));
+                }
+            }
+        }
+    }
+    assert!(plain.is_empty(), "{plain:#?}");
+}
