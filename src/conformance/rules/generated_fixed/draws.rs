@@ -103,9 +103,17 @@ impl StreamMaker<'_> {
     }
 
     pub fn texture_matrix(&mut self) {
-        match self.random.below(6) {
+        match self.random.below(7) {
             0 => self.push(Command::LoadIdentity),
             1 => self.stacked(),
+            // As a texture is placed: moved, then scaled.
+            6 => {
+                let by = self.vector(0.6);
+                let scale = [(); 3].map(|()| self.random.pick(&[0.5, 0.75, 1.5, 2.0]));
+                self.push(Command::LoadIdentity);
+                self.push(Command::Translate(by));
+                self.push(Command::Scale(scale));
+            }
             // One that makes q of s.
             2 => {
                 let mut matrix = [0.0; 16];
