@@ -33,7 +33,9 @@ float falloff_of_@(float depth)
 #endif
 #endif
 #ifdef IMAGE_GRADIENT_@
-vec2 image_st_@, image_dx_@, image_dy_@;
+vec2 image_st_@ = vec2(0.0);
+vec2 image_dx_@ = vec2(0.0);
+vec2 image_dy_@ = vec2(0.0);
 #endif
 
 // Called before any branch, where derivatives are defined.
