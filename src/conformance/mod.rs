@@ -22,6 +22,8 @@ mod frames;
 #[cfg(feature = "check")]
 mod layer;
 #[cfg(feature = "check")]
+mod model;
+#[cfg(feature = "check")]
 mod print;
 pub mod probe;
 #[cfg(feature = "check")]

@@ -7,8 +7,9 @@ use super::glsl::{LANES, Lanes, Machine, Slot};
 use super::images::{Image, depth_step};
 use super::lookups::{Bound, BoundTextures};
 use super::shaders::Shaders;
-use super::triangle::{Corner, Covered, SetUp, Triangle};
-use crate::conformance::rules::generated_programs::number::{Num, SLACK};
+use super::triangle::{Corner, SetUp, Triangle};
+use crate::conformance::model::number::{Num, SLACK};
+use crate::conformance::model::window::Covered;
 use crate::geometry::Mesh;
 use crate::pass::{Attribute, Batch, DepthFormat, Draw, DrawState, Face, Format, IndexOrder, Primitive, UniformValue};
 

@@ -3,7 +3,7 @@
 use super::glsl::either_of;
 use super::images::{Plane, stored_color, stored_depth};
 use super::lookups::holds;
-use crate::conformance::rules::generated_programs::number::Num;
+use crate::conformance::model::number::Num;
 use crate::pass::{Blend, Compare, DrawState, Format, Stencil, StencilOp, StencilOps};
 
 /// Planes that a pass draws into.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::glsl::Unknown;
-use crate::conformance::rules::generated_programs::number::{Num, ROUNDING, SLACK};
+use crate::conformance::model::number::{Num, ROUNDING, SLACK};
 use crate::geometry::normal_cube;
 use crate::pass::{CubeFace, DepthFormat, Format, ImageDesc, Storage};
 

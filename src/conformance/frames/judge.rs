@@ -2,7 +2,7 @@
 
 use super::images::{Image, Plane};
 use super::model::Drawn;
-use crate::conformance::rules::generated_programs::number::{Num, SLACK};
+use crate::conformance::model::number::{Num, SLACK};
 use crate::device::{Device, Error, Pixels};
 use crate::pass::{Format, ImageId, PassList, Storage};
 

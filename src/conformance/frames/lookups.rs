@@ -2,7 +2,7 @@
 
 use super::glsl::{Asked, Detail, Textures};
 use super::images::{Image, Plane, depth_step};
-use crate::conformance::rules::generated_programs::number::{Num, ROUNDING, SLACK};
+use crate::conformance::model::number::{Num, ROUNDING, SLACK};
 use crate::geometry::normal_cube::FACES;
 use crate::pass::{Border, Compare, DepthFormat, Filter, Format, Sampler, Wrap};
 

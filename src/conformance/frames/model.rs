@@ -5,7 +5,7 @@ use super::fragments::Targets;
 use super::glsl::Unknown;
 use super::images::{Image, Plane, stored_color, stored_depth};
 use super::shaders::Library;
-use crate::conformance::rules::generated_programs::number::Num;
+use crate::conformance::model::number::Num;
 use crate::pass::{Batch, DrawPass, ImageId, Pass, PassList, Work};
 
 /// Images of a list after its passes, and the pass that wrote each last.

@@ -1,11 +1,11 @@
-//! A triangle as the model draws it, in homogeneous coordinates of the window in f64 [GL 4.6, 13.7, 13.8.1, 14.6.1, 14.6.5].
-//!
-//! Weights b of the corners at a pixel solve sum b (x, y, w) = (X, Y, 1). Each is linear in the window, and so is what
-//! clips: no polygon has to be cut. sum b is 1/w of the fragment. As `rules/generated_triangles/model.rs`, but with corners
-//! that are known to a bound, as a vertex shader leaves them.
+//! A triangle as the model draws it, by functions that are linear in the [window](crate::conformance::model::window)
+//! [GL 4.6, 13.7, 13.8.1, 14.6.1, 14.6.5]. Its corners are known to a bound, as a vertex shader leaves them.
 
 use super::glsl::Varies;
-use crate::conformance::rules::generated_programs::number::{Num, SLACK};
+use crate::conformance::model::number::{Num, SLACK};
+use crate::conformance::model::window::{
+    BAND, Covered, EPSILON, Linear, Weights, covers, covers_unknown, is_inside, rounding_factor,
+};
 
 /// A vertex as the vertex shader puts it out.
 #[derive(Clone, Debug)]
@@ -13,40 +13,6 @@ pub struct Corner {
     pub clip: [Num; 4],
     pub distances: Vec<Num>,
     pub values: Vec<Num>,
-}
-
-/// Rounding of a driver's f32 arithmetic: eight roundings.
-const EPSILON: f64 = 1.0 / (1 << 20) as f64;
-/// Width of the strip along an edge where a pixel is not judged, in pixels: vertices are snapped to 2^-8.
-const BAND: f64 = 3.0 / 256.0;
-
-/// A function that is linear in the window, and the sum of the sizes of its terms.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Linear {
-    terms: [f64; 3],
-    sizes: [f64; 3],
-}
-
-impl Linear {
-    fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        self.terms[0] * x + self.terms[1] * y + self.terms[2]
-    }
-
-    fn size_at(&self, [x, y]: [f64; 2]) -> f64 {
-        self.sizes[0] * x.abs() + self.sizes[1] * y.abs() + self.sizes[2]
-    }
-
-    /// A sum of three with factors.
-    fn sum(weights: &[Self; 3], factors: [f64; 3]) -> Self {
-        let mut sum = Self::default();
-        for (weight, factor) in weights.iter().zip(factors) {
-            for part in 0..3 {
-                sum.terms[part] += weight.terms[part] * factor;
-                sum.sizes[part] += weight.sizes[part] * factor.abs();
-            }
-        }
-        sum
-    }
 }
 
 /// State that a triangle is set up with.
@@ -81,48 +47,21 @@ pub struct Triangle<'a> {
     pub bounds: [[f64; 2]; 2],
 }
 
-/// Answer whether a pixel has a fragment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Covered {
-    Yes,
-    No,
-    Unsure,
-}
-
 impl<'a> Triangle<'a> {
     pub fn new(corners: [&'a Corner; 3], state: &SetUp) -> Self {
         let [width, height] = state.viewport;
         let clip = corners.map(|corner| corner.clip.map(|number| number.value));
         let is_known = corners.iter().all(|corner| corner.clip.iter().all(|number| number.is_known()));
         let window = clip.map(|[x, y, _, w]| [(x + w) * width / 2.0, (y + w) * height / 2.0, w]);
-        let cross = |a: [f64; 3], b: [f64; 3]| {
-            let pairs = [[1, 2], [2, 0], [0, 1]];
-            let terms = pairs.map(|[i, j]| a[i] * b[j] - a[j] * b[i]);
-            let sizes = pairs.map(|[i, j]| (a[i] * b[j]).abs() + (a[j] * b[i]).abs());
-            Linear { terms, sizes }
-        };
-        let edges = [0, 1, 2].map(|index: usize| cross(window[(index + 1) % 3], window[(index + 2) % 3]));
-        let dot = |terms: [f64; 3], with: [f64; 3]| terms.iter().zip(with).map(|(a, b)| a * b).sum::<f64>();
-        let area = dot(edges[0].terms, window[0]);
-        let area_size = dot(edges[0].sizes, window[0].map(f64::abs));
-        let weights = edges.map(|edge| Linear {
-            terms: edge.terms.map(|term| term / area),
-            sizes: edge.sizes.map(|size| size / area.abs()),
-        });
+        let edges = Weights::new(window);
+        let Weights { of: weights, area, area_size } = edges;
         let part = |index: usize| clip.map(|corner| corner[index]);
-        let mut planes = weights.to_vec();
         let (z, w) = (part(2), part(3));
-        if !state.depth_clamp {
-            for side in [1.0, -1.0] {
-                planes.push(Linear::sum(&weights, [0, 1, 2].map(|corner| w[corner] + side * z[corner])));
-            }
-        }
+        let mut planes = edges.planes(&clip, state.depth_clamp);
         for index in 0..state.clip_distances {
             planes.push(Linear::sum(&weights, corners.map(|corner| corner.distances[index].value)));
         }
         let sizes = clip.map(|corner| corner.map(f64::abs).into_iter().fold(0.0, f64::max));
-        let ratio = sizes.into_iter().fold(0.0, f64::max) / sizes.into_iter().fold(f64::MAX, f64::min);
-        let inside = clip.iter().all(|[x, y, z, w]| *w > 0.0 && [x, y, z].iter().all(|part| part.abs() <= *w));
         let is_out = |side: &dyn Fn([f64; 4], f64) -> f64| {
             clip.iter().zip(sizes).all(|(corner, size)| side(*corner, size) < 0.0)
         };
@@ -150,7 +89,7 @@ impl<'a> Triangle<'a> {
             .iter()
             .flat_map(|corner| &corner.distances[..state.clip_distances])
             .any(|distance| !distance.is_known());
-        let rounding = (EPSILON + share) * if inside { 1.0 } else { 2.0 + ratio.min(1e6) };
+        let rounding = (EPSILON + share) * rounding_factor(&clip);
         let [near, far] = state.depth_range;
         let (scale, middle) = ((far - near) / 2.0, (far + near) / 2.0);
         let depth = Linear::sum(&weights, [0, 1, 2].map(|corner| z[corner] * scale + w[corner] * middle));
@@ -165,7 +104,7 @@ impl<'a> Triangle<'a> {
             band,
             unknown: None,
             empty: is_known && (same || is_outside),
-            is_whole: inside && state.clip_distances == 0,
+            is_whole: is_inside(&clip) && state.clip_distances == 0,
             bounds: [[0.0; 2], state.viewport],
         };
         if before_eye {
@@ -192,22 +131,10 @@ impl<'a> Triangle<'a> {
         if self.empty {
             return Covered::No;
         }
-        if let Some([low, high]) = self.unknown {
-            let within = (0..2).all(|part| (low[part]..=high[part]).contains(&at[part]));
-            return if within { Covered::Unsure } else { Covered::No };
+        match self.unknown {
+            Some(area) => covers_unknown(area, at),
+            None => covers(&self.planes, at, self.band, self.rounding),
         }
-        let mut covered = Covered::Yes;
-        for plane in &self.planes {
-            let value = plane.at(at);
-            let slack = self.band * plane.terms[0].hypot(plane.terms[1]) + self.rounding * plane.size_at(at);
-            if value < -slack {
-                return Covered::No;
-            }
-            if value <= slack || !value.is_finite() {
-                covered = Covered::Unsure;
-            }
-        }
-        covered
     }
 
     fn known(value: f64, slack: f64) -> Num {

@@ -4,7 +4,7 @@ use super::compile::{Compiler, Place, Unknown};
 use super::functions as f;
 use super::ops::{Kind, Op, Shaped, Slot};
 use super::tokens::Token;
-use crate::conformance::rules::generated_programs::number::Num;
+use crate::conformance::model::number::Num;
 
 /// Binary operators by their rank, the loosest first.
 const RANKS: [&[&str]; 7] =

@@ -2,8 +2,8 @@
 
 use super::compile::{Compiler, Place, Unknown};
 use super::ops::{Kind, Level, Look, Op, Shape, Shaped, Slot};
-use crate::conformance::rules::generated_programs::number::Num;
-use crate::conformance::rules::generated_programs::{scalars as s, vectors as v};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::{scalars as s, vectors as v};
 
 pub fn not(a: Num) -> Num {
     Num::boolean(a.truth().map(|a| !a))

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::conformance::rules::generated_programs::number::Num;
+use crate::conformance::model::number::Num;
 
 /// Place of a scalar.
 pub type Slot = u32;

@@ -1,8 +1,8 @@
 //! Runs a compiled shader on four lanes at once: the pixels of a quad, or four vertices.
 
 use super::ops::{Compiled, Level, Look, Op, Slot};
-use crate::conformance::rules::generated_programs::number::{Num, ROUNDING, SLACK, sum};
-use crate::conformance::rules::generated_programs::scalars::inversesqrt;
+use crate::conformance::model::number::{Num, ROUNDING, SLACK, sum};
+use crate::conformance::model::scalars::inversesqrt;
 
 /// Lane 2 y + x is the pixel (x, y) of the quad.
 pub const LANES: usize = 4;

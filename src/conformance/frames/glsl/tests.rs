@@ -1,7 +1,7 @@
 //! Shaders whose results are known.
 
 use super::{Compiled, LANES, Machine, NoTextures, compile};
-use crate::conformance::rules::generated_programs::number::Num;
+use crate::conformance::model::number::Num;
 
 fn run(text: &str) -> (Compiled, Machine) {
     let shader = compile(text, false).unwrap();
@@ -58,7 +58,7 @@ fn derivatives_are_differences_in_the_quad() {
     let (shader, machine) = run(text);
     let along = machine.slots[shader.outputs[0].slots[0] as usize][0];
     // 0.5 in the lower row, 1.5 in the upper one.
-    let reach = along.error * crate::conformance::rules::generated_programs::number::SLACK;
+    let reach = along.error * crate::conformance::model::number::SLACK;
     assert!(along.value - reach <= 0.5 && along.value + reach >= 1.5 && reach < 0.51, "{along:?}");
 }
 

@@ -4,10 +4,10 @@ use super::code::{Expr, Form, Place, Statement};
 use super::functions::Gives;
 use super::inputs::{DECLARATIONS, Given, INTEGERS, VECTORS, given};
 use super::make::{self, Maker, Use, call, variable, whole};
-use super::number::Num;
 use super::run::{Ended, Variables, evaluate, run};
 use super::statements::Inside;
-use super::value::{NumberBase, Type};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::value::{NumberBase, Type};
 use crate::conformance::random::Random;
 
 /// Scalars that a program gives: four of each of eight targets.

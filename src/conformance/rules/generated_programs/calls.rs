@@ -4,7 +4,7 @@ use super::code::{Argument, Direction, Expr, Form, Own, Place, Statement};
 use super::make::{Maker, variable};
 use super::run::run;
 use super::statements::Inside;
-use super::value::Type;
+use crate::conformance::model::value::Type;
 
 impl Maker {
     /// A call of a new function, or of one that is there, with arguments that it writes.

@@ -1,8 +1,8 @@
 //! Programs as trees, and their text in GLSL.
 
 use super::functions::{Function, Style};
-use super::number::Num;
-use super::value::{NumberBase, Type, Value, literal};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::value::{NumberBase, Type, Value, literal};
 
 /// An expression with its type.
 #[derive(Clone)]

@@ -1,9 +1,9 @@
 //! GLSL's functions and operators as a table: the name, what it takes and gives, and how it is evaluated.
 
-use super::number::Num;
-use super::scalars as s;
-use super::value::{NumberBase, Type, Value, unknown};
-use super::vectors::{self as v, Arguments};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::scalars as s;
+use crate::conformance::model::value::{NumberBase, Type, Value, unknown};
+use crate::conformance::model::vectors::{self as v, Arguments};
 
 /// Place of a function's name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

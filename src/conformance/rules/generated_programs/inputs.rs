@@ -2,11 +2,11 @@
 
 use super::code::{Program, Variable};
 use super::make::Ranges;
-use super::number::Num;
 use super::run::Variables;
-use super::scalars::wrapped;
-use super::value::{NumberBase, Type, Value};
 use crate::conformance::bench::GlUniform;
+use crate::conformance::model::number::Num;
+use crate::conformance::model::scalars::wrapped;
+use crate::conformance::model::value::{NumberBase, Type, Value};
 use crate::conformance::random::Random;
 
 /// Pixels of a draw.

@@ -3,8 +3,8 @@
 use super::code::{Expr, Form};
 use super::functions::{Gives, Range};
 use super::make::{Maker, Ranges, call, constant, variable, whole};
-use super::number::Num;
-use super::value::{NumberBase, Type, Value};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::value::{NumberBase, Type, Value};
 
 impl Maker {
     pub fn swizzled(&mut self, inner: Expr, kind: Type) -> Expr {

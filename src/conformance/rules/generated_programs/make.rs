@@ -2,9 +2,9 @@
 
 use super::code::{Expr, Form, Program};
 use super::functions::{BITS, FUNCTIONS, Function, Gives, Takes};
-use super::number::{Num, SLACK};
 use super::run::{Variables, evaluate};
-use super::value::{NumberBase, Type, Value};
+use crate::conformance::model::number::{Num, SLACK};
+use crate::conformance::model::value::{NumberBase, Type, Value};
 use crate::conformance::random::Random;
 
 /// Inputs that functions of a narrow range take.

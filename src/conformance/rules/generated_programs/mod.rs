@@ -7,17 +7,13 @@ mod functions;
 mod inputs;
 mod leaves;
 mod make;
-pub mod number;
 mod run;
-pub mod scalars;
 mod statements;
-mod value;
-pub mod vectors;
 
 use self::assemble::{Assembled, DueNumber, RESULTS, Stage, Uses, assemble};
 use self::inputs::{GivenUniforms, PIXELS, VECTORS};
-use self::number::{Num, SLACK};
 use crate::conformance::bench::{Error, GlFormat, GlPoints, Sampling, Surface};
+use crate::conformance::model::number::{Num, SLACK};
 use crate::conformance::random::Random;
 use crate::conformance::{DriverUnderTest, Findings, RuleVerdict};
 

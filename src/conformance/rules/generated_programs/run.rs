@@ -2,8 +2,8 @@
 
 use super::code::{Argument, Case, Direction, Expr, Form, Loop, Place, Program, Statement};
 use super::functions::{CONSTRUCT, Function, SELECT};
-use super::number::Num;
-use super::value::{Type, Value, unknown};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::value::{Type, Value, unknown};
 
 /// Variables of one pixel.
 pub type Variables = Vec<Value>;

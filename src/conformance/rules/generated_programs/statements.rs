@@ -3,9 +3,9 @@
 use super::code::{Case, Expr, Form, Loop, Place, Statement, Variable};
 use super::functions::{FUNCTIONS, Function, Gives};
 use super::make::{Maker, call, function, variable, whole};
-use super::number::Num;
 use super::run::run;
-use super::value::{NumberBase, Type, Value};
+use crate::conformance::model::number::Num;
+use crate::conformance::model::value::{NumberBase, Type, Value};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, Default)]

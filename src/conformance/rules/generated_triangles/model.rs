@@ -1,9 +1,10 @@
-//! A triangle as the model draws it, in homogeneous coordinates of the window in f64 [GL 4.6, 13.7, 13.8.1, 14.6.1, 14.6.5].
-//!
-//! Weights b of the corners at a pixel solve sum b (x, y, w) = (X, Y, 1). Each is linear in the window, and so is what
-//! clips: no polygon has to be cut. sum b is 1/w of the fragment.
+//! A triangle as the model draws it, by functions that are linear in the [window](crate::conformance::model::window)
+//! [GL 4.6, 13.7, 13.8.1, 14.6.1, 14.6.5].
 
 use super::pipeline::Pipeline;
+use crate::conformance::model::window::{
+    BAND, Covered, EPSILON, Linear, Weights, covers, covers_unknown, is_inside, rounding_factor,
+};
 
 /// A vertex as the vertex shader puts it out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,40 +24,6 @@ impl Corner {
         floats[4..8].copy_from_slice(&self.value);
         floats[8..].copy_from_slice(&self.distances);
         floats
-    }
-}
-
-/// Rounding of a driver's f32 arithmetic: eight roundings.
-const EPSILON: f64 = 1.0 / (1 << 20) as f64;
-/// Width of the strip along an edge where a pixel is not judged, in pixels: vertices are snapped to 2^-8.
-const BAND: f64 = 3.0 / 256.0;
-
-/// A function that is linear in the window, and the sum of the sizes of its terms.
-#[derive(Clone, Copy, Debug, Default)]
-struct Linear {
-    terms: [f64; 3],
-    sizes: [f64; 3],
-}
-
-impl Linear {
-    fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        self.terms[0] * x + self.terms[1] * y + self.terms[2]
-    }
-
-    fn size_at(&self, [x, y]: [f64; 2]) -> f64 {
-        self.sizes[0] * x.abs() + self.sizes[1] * y.abs() + self.sizes[2]
-    }
-
-    /// A sum of three with factors.
-    fn sum(weights: &[Self; 3], factors: [f64; 3]) -> Self {
-        let mut sum = Self::default();
-        for (weight, factor) in weights.iter().zip(factors) {
-            for part in 0..3 {
-                sum.terms[part] += weight.terms[part] * factor;
-                sum.sizes[part] += weight.sizes[part] * factor.abs();
-            }
-        }
-        sum
     }
 }
 
@@ -108,14 +75,6 @@ pub struct Triangle {
     is_whole: bool,
 }
 
-/// Answer whether a pixel has a fragment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Covered {
-    Yes,
-    No,
-    Unsure,
-}
-
 impl Triangle {
     pub fn new(corners: [Corner; 3], provoking: usize, pipeline: &Pipeline, writes_distances: bool) -> Self {
         let [x, y, width, height] = pipeline.viewport.map(f64::from);
@@ -123,38 +82,14 @@ impl Triangle {
             let [cx, cy, _, w] = corner.clip.map(f64::from);
             [cx * width / 2.0 + w * (x + width / 2.0), cy * height / 2.0 + w * (y + height / 2.0), w]
         });
-        let cross = |a: [f64; 3], b: [f64; 3]| {
-            let pairs = [[1, 2], [2, 0], [0, 1]];
-            let terms = pairs.map(|[i, j]| a[i] * b[j] - a[j] * b[i]);
-            let sizes = pairs.map(|[i, j]| (a[i] * b[j]).abs() + (a[j] * b[i]).abs());
-            Linear { terms, sizes }
-        };
-        let edges = [0, 1, 2].map(|index: usize| cross(window[(index + 1) % 3], window[(index + 2) % 3]));
-        let dot = |terms: [f64; 3], with: [f64; 3]| terms.iter().zip(with).map(|(a, b)| a * b).sum::<f64>();
-        let area = dot(edges[0].terms, window[0]);
-        let area_size = dot(edges[0].sizes, window[0].map(f64::abs));
-        let weights = edges.map(|edge| Linear {
-            terms: edge.terms.map(|term| term / area),
-            sizes: edge.sizes.map(|size| size / area.abs()),
-        });
-        let part = |index: usize| corners.map(|corner| f64::from(corner.clip[index]));
-        let mut planes = weights.to_vec();
-        let (z, w) = (part(2), part(3));
-        if !pipeline.depth_clamp {
-            for side in [1.0, -1.0] {
-                planes.push(Linear::sum(&weights, [0, 1, 2].map(|corner| w[corner] + side * z[corner])));
-            }
-        }
+        let edges = Weights::new(window);
+        let Weights { of: weights, area, area_size } = edges;
+        let clip = corners.map(|corner| corner.clip.map(f64::from));
+        let mut planes = edges.planes(&clip, pipeline.depth_clamp);
         for index in (0..8).filter(|index| writes_distances && pipeline.clips >> index & 1 == 1) {
             planes.push(Linear::sum(&weights, corners.map(|corner| f64::from(corner.distances[index]))));
         }
-        let sizes = corners.map(|corner| corner.clip.map(|part| f64::from(part.abs())).into_iter().fold(0.0, f64::max));
-        let ratio = sizes.into_iter().fold(0.0, f64::max) / sizes.into_iter().fold(f64::MAX, f64::min);
-        let inside = corners.iter().all(|corner| {
-            let [x, y, z, w] = corner.clip;
-            w > 0.0 && [x, y, z].iter().all(|part| part.abs() <= w)
-        });
-        let before_eye = w.iter().all(|w| *w > 0.0);
+        let before_eye = clip.iter().all(|corner| corner[3] > 0.0);
         let same = (0..3).any(|index| corners[index].clip == corners[(index + 1) % 3].clip);
         let mut triangle = Self {
             corners,
@@ -162,11 +97,11 @@ impl Triangle {
             front: (area > 0.0) != pipeline.clockwise,
             weights,
             planes,
-            rounding: EPSILON * if inside { 1.0 } else { 2.0 + ratio.min(1e6) },
+            rounding: EPSILON * rounding_factor(&clip),
             before_eye,
             unknown: None,
             empty: same,
-            is_whole: inside && pipeline.clips == 0,
+            is_whole: is_inside(&clip) && pipeline.clips == 0,
         };
         if !same && area.abs() < 4.0 * triangle.rounding * area_size {
             let places = window.map(|[x, y, w]| [x / w, y / w]);
@@ -193,22 +128,10 @@ impl Triangle {
                 return Covered::No;
             }
         }
-        if let Some([low, high]) = self.unknown {
-            let within = (0..2).all(|part| (low[part]..=high[part]).contains(&at[part]));
-            return if within { Covered::Unsure } else { Covered::No };
+        match self.unknown {
+            Some(area) => covers_unknown(area, at),
+            None => covers(&self.planes, at, BAND, self.rounding),
         }
-        let mut covered = Covered::Yes;
-        for plane in &self.planes {
-            let value = plane.at(at);
-            let slack = BAND * plane.terms[0].hypot(plane.terms[1]) + self.rounding * plane.size_at(at);
-            if value < -slack {
-                return Covered::No;
-            }
-            if value <= slack || !value.is_finite() {
-                covered = Covered::Unsure;
-            }
-        }
-        covered
     }
 
     /// 1/w of the fragment.

@@ -2,11 +2,12 @@
 
 use std::cmp::Ordering;
 
-use super::model::{Corner, Covered, Interpolation, Known, Triangle};
+use super::model::{Corner, Interpolation, Known, Triangle};
 use super::pipeline::Pipeline;
 use super::programs::{Component, SHOWN, Text};
 use super::shapes::Shapes;
 use crate::conformance::bench::{Encoding, GlCompare, GlPolygonMode};
+use crate::conformance::model::window::Covered;
 use crate::conformance::random::Random;
 
 /// Colour that no draw puts out.
