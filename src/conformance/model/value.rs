@@ -94,14 +94,14 @@ impl Type {
 
 /// Scalars in GLSL's order: matrices by columns. Up to four lie in the value itself.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Value {
+pub struct GlslValue {
     few: [Num; 4],
     count: usize,
     /// All of them, if there are more.
     many: Vec<Num>,
 }
 
-impl Value {
+impl GlslValue {
     pub const NONE: Self = Self { few: [Num::UNKNOWN; 4], count: 0, many: Vec::new() };
 
     pub fn filled(x: Num, count: usize) -> Self {
@@ -121,7 +121,7 @@ impl Value {
     }
 }
 
-impl FromIterator<Num> for Value {
+impl FromIterator<Num> for GlslValue {
     fn from_iter<T: IntoIterator<Item = Num>>(list: T) -> Self {
         let mut value = Self::NONE;
         list.into_iter().for_each(|x| value.push(x));
@@ -129,19 +129,19 @@ impl FromIterator<Num> for Value {
     }
 }
 
-impl From<Num> for Value {
+impl From<Num> for GlslValue {
     fn from(x: Num) -> Self {
         Self { few: [x, Num::UNKNOWN, Num::UNKNOWN, Num::UNKNOWN], count: 1, many: Vec::new() }
     }
 }
 
-impl From<&[Num]> for Value {
+impl From<&[Num]> for GlslValue {
     fn from(list: &[Num]) -> Self {
         list.iter().copied().collect()
     }
 }
 
-impl std::ops::Deref for Value {
+impl std::ops::Deref for GlslValue {
     type Target = [Num];
 
     fn deref(&self) -> &[Num] {
@@ -149,14 +149,14 @@ impl std::ops::Deref for Value {
     }
 }
 
-impl std::ops::DerefMut for Value {
+impl std::ops::DerefMut for GlslValue {
     fn deref_mut(&mut self) -> &mut [Num] {
         if self.count > 4 { &mut self.many } else { &mut self.few[..self.count] }
     }
 }
 
-pub fn unknown(kind: Type) -> Value {
-    Value::filled(Num::UNKNOWN, kind.scalars())
+pub fn unknown(kind: Type) -> GlslValue {
+    GlslValue::filled(Num::UNKNOWN, kind.scalars())
 }
 
 /// A scalar as the text of a literal: floats are dyadic and of few digits.

@@ -2,12 +2,12 @@
 
 use super::number::{Num, ROUNDING, dot, sum};
 use super::scalars::{converted, inversesqrt, sqrt};
-use super::value::{Type, Value, unknown};
+use super::value::{GlslValue, Type, unknown};
 
 /// Arguments of a function: each with its type.
-pub type Arguments<'a> = &'a [(Value, Type)];
+pub type Arguments<'a> = &'a [(GlslValue, Type)];
 
-pub fn dot_of(a: Arguments, _: Type) -> Value {
+pub fn dot_of(a: Arguments, _: Type) -> GlslValue {
     dot(&a[0].0, &a[1].0).into()
 }
 
@@ -19,43 +19,43 @@ fn length(v: &[Num]) -> Num {
     sqrt(dot(v, v))
 }
 
-pub fn length_of(a: Arguments, _: Type) -> Value {
+pub fn length_of(a: Arguments, _: Type) -> GlslValue {
     length(&a[0].0).into()
 }
 
-fn difference(a: &[Num], b: &[Num]) -> Value {
+fn difference(a: &[Num], b: &[Num]) -> GlslValue {
     a.iter().zip(b).map(|(a, b)| a.minus(*b)).collect()
 }
 
-pub fn distance(a: Arguments, _: Type) -> Value {
+pub fn distance(a: Arguments, _: Type) -> GlslValue {
     length(&difference(&a[0].0, &a[1].0)).into()
 }
 
-pub fn normalize(a: Arguments, _: Type) -> Value {
+pub fn normalize(a: Arguments, _: Type) -> GlslValue {
     let scale = inversesqrt(dot(&a[0].0, &a[0].0));
     // A division by the length instead.
     a[0].0.iter().map(|x| x.times(scale)).map(|x| Num::off(x.value, x.error + 8.0 * ROUNDING * x.value.abs())).collect()
 }
 
-pub fn cross(a: Arguments, _: Type) -> Value {
+pub fn cross(a: Arguments, _: Type) -> GlslValue {
     let (a, b) = (&a[0].0, &a[1].0);
     let part = |i: usize, j: usize| sum(&[a[i].times(b[j]), a[j].times(b[i]).negative()]);
     [part(1, 2), part(2, 0), part(0, 1)].into_iter().collect()
 }
 
-pub fn reflect(a: Arguments, _: Type) -> Value {
+pub fn reflect(a: Arguments, _: Type) -> GlslValue {
     let (incident, normal) = (&a[0].0, &a[1].0);
     let twice = dot(normal, incident).times(Num::exact(2.0));
     incident.iter().zip(normal.iter()).map(|(i, n)| sum(&[*i, twice.times(*n).negative()])).collect()
 }
 
-pub fn refract(a: Arguments, kind: Type) -> Value {
+pub fn refract(a: Arguments, kind: Type) -> GlslValue {
     let (incident, normal, eta) = (&a[0].0, &a[1].0, a[2].0[0]);
     let along = dot(normal, incident);
     let one = Num::exact(1.0);
     let k = sum(&[one, eta.times(eta).times(sum(&[one, along.times(along).negative()])).negative()]);
     match k.below(Num::exact(0.0)) {
-        Some(true) => Value::filled(Num::exact(0.0), kind.rows),
+        Some(true) => GlslValue::filled(Num::exact(0.0), kind.rows),
         Some(false) => {
             let by = sum(&[eta.times(along), sqrt(k)]);
             incident.iter().zip(normal.iter()).map(|(i, n)| sum(&[eta.times(*i), by.times(*n).negative()])).collect()
@@ -64,7 +64,7 @@ pub fn refract(a: Arguments, kind: Type) -> Value {
     }
 }
 
-pub fn faceforward(a: Arguments, kind: Type) -> Value {
+pub fn faceforward(a: Arguments, kind: Type) -> GlslValue {
     match dot(&a[2].0, &a[1].0).below(Num::exact(0.0)) {
         Some(true) => a[0].0.clone(),
         Some(false) => a[0].0.iter().map(|x| x.negative()).collect(),
@@ -76,12 +76,12 @@ fn column(m: &[Num], rows: usize, index: usize) -> &[Num] {
     &m[index * rows..(index + 1) * rows]
 }
 
-fn row(m: &[Num], rows: usize, index: usize) -> Value {
+fn row(m: &[Num], rows: usize, index: usize) -> GlslValue {
     m.iter().skip(index).step_by(rows).copied().collect()
 }
 
 /// Products with a matrix on either side or on both.
-pub fn product(a: Arguments, _: Type) -> Value {
+pub fn product(a: Arguments, _: Type) -> GlslValue {
     let ((left, left_type), (right, right_type)) = (&a[0], &a[1]);
     if !left_type.is_matrix() {
         let columns = 0..right_type.columns;
@@ -93,17 +93,17 @@ pub fn product(a: Arguments, _: Type) -> Value {
     (0..rows * count).map(entry).collect()
 }
 
-pub fn transpose(a: Arguments, _: Type) -> Value {
+pub fn transpose(a: Arguments, _: Type) -> GlslValue {
     let (rows, columns) = (a[0].1.rows, a[0].1.columns);
     (0..rows * columns).map(|index| a[0].0[index % columns * rows + index / columns]).collect()
 }
 
-pub fn outer_product(a: Arguments, _: Type) -> Value {
+pub fn outer_product(a: Arguments, _: Type) -> GlslValue {
     a[1].0.iter().flat_map(|y| a[0].0.iter().map(|x| x.times(*y))).collect()
 }
 
 /// The matrix without a column and a row.
-fn minor(m: &[Num], side: usize, column: usize, row: usize) -> Value {
+fn minor(m: &[Num], side: usize, column: usize, row: usize) -> GlslValue {
     let is_kept = |index: &usize| index / side != column && index % side != row;
     (0..side * side).filter(is_kept).map(|index| m[index]).collect()
 }
@@ -131,12 +131,12 @@ fn products(m: &[Num], side: usize) -> f64 {
     (0..side).map(|index| m[index * side].value.abs() * products(&minor(m, side, index, 0), side - 1)).sum()
 }
 
-pub fn determinant_of(a: Arguments, _: Type) -> Value {
+pub fn determinant_of(a: Arguments, _: Type) -> GlslValue {
     determinant(&a[0].0, a[0].1.rows).into()
 }
 
 /// Cofactors over the determinant.
-pub fn inverse(a: Arguments, kind: Type) -> Value {
+pub fn inverse(a: Arguments, kind: Type) -> GlslValue {
     let (m, side) = (&a[0].0, kind.rows);
     let whole = determinant(m, side);
     let cofactor = |column: usize, row: usize| {
@@ -147,8 +147,8 @@ pub fn inverse(a: Arguments, kind: Type) -> Value {
 }
 
 /// A constructor [GLSL 4.60, 5.4]: from scalars, vectors, or one matrix.
-pub fn construct(a: Arguments, kind: Type) -> Value {
-    let whole = |(value, from): &(Value, Type)| -> Value {
+pub fn construct(a: Arguments, kind: Type) -> GlslValue {
+    let whole = |(value, from): &(GlslValue, Type)| -> GlslValue {
         value.iter().map(|x| converted(*x, from.base, kind.base)).collect()
     };
     if kind.is_matrix() && a.len() == 1 {
@@ -163,14 +163,14 @@ pub fn construct(a: Arguments, kind: Type) -> Value {
     if let [one] = a
         && one.0.len() == 1
     {
-        return Value::filled(whole(one)[0], kind.scalars());
+        return GlslValue::filled(whole(one)[0], kind.scalars());
     }
-    let parts: Vec<Value> = a.iter().map(whole).collect();
+    let parts: Vec<GlslValue> = a.iter().map(whole).collect();
     parts.iter().flat_map(|part| part.iter()).copied().take(kind.scalars()).collect()
 }
 
 /// Tests for equality of all components, or of matrices.
-pub fn equal(a: Arguments, _: Type) -> Value {
+pub fn equal(a: Arguments, _: Type) -> GlslValue {
     let each = || a[0].0.iter().zip(a[1].0.iter()).map(|(a, b)| a.equals(*b));
     let result = match () {
         () if each().any(|equal| equal == Some(false)) => Some(false),
@@ -180,15 +180,15 @@ pub fn equal(a: Arguments, _: Type) -> Value {
     Num::boolean(result).into()
 }
 
-pub fn unequal(a: Arguments, kind: Type) -> Value {
+pub fn unequal(a: Arguments, kind: Type) -> GlslValue {
     equal(a, kind).iter().map(|equal| Num::boolean(equal.truth().map(|equal| !equal))).collect()
 }
 
-pub fn any(a: Arguments, _: Type) -> Value {
+pub fn any(a: Arguments, _: Type) -> GlslValue {
     a[0].0.iter().fold(Num::exact(0.0), |all, x| either(all, *x)).into()
 }
 
-pub fn all(a: Arguments, _: Type) -> Value {
+pub fn all(a: Arguments, _: Type) -> GlslValue {
     a[0].0.iter().fold(Num::exact(1.0), |all, x| both(all, *x)).into()
 }
 

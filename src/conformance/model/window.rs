@@ -48,7 +48,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Of corners (x w, y w, w), x and y in pixels.
+    /// Weights of corners (x w, y w, w), x and y in pixels.
     pub fn new(window: [[f64; 3]; 3]) -> Self {
         let cross = |a: [f64; 3], b: [f64; 3]| {
             let pairs = [[1, 2], [2, 0], [0, 1]];

@@ -2,7 +2,7 @@
 
 use super::functions::{Function, Style};
 use crate::conformance::model::number::Num;
-use crate::conformance::model::value::{NumberBase, Type, Value, literal};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type, literal};
 
 /// An expression with its type.
 #[derive(Clone)]
@@ -13,7 +13,7 @@ pub struct Expr {
 
 #[derive(Clone)]
 pub enum Form {
-    Literal(Value),
+    Literal(GlslValue),
     /// A variable, by its number.
     Variable(usize),
     Call(&'static Function, Vec<Expr>),

@@ -2,7 +2,7 @@
 
 use crate::conformance::model::number::Num;
 use crate::conformance::model::scalars as s;
-use crate::conformance::model::value::{NumberBase, Type, Value, unknown};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type, unknown};
 use crate::conformance::model::vectors::{self as v, Arguments};
 
 /// Place of a function's name in an expression.
@@ -87,7 +87,7 @@ pub enum Evaluate {
     Three(fn(Num, Num, Num) -> Num),
     /// A function of integers, by the result's base type.
     Integers(fn(i64, i64) -> Option<i64>),
-    Whole(fn(Arguments, Type) -> Value),
+    Whole(fn(Arguments, Type) -> GlslValue),
 }
 
 pub struct Function {
@@ -102,7 +102,7 @@ pub struct Function {
 
 impl Function {
     /// The result for arguments with their types.
-    pub fn of(&self, a: Arguments, kind: Type) -> Value {
+    pub fn of(&self, a: Arguments, kind: Type) -> GlslValue {
         let part = |which: usize, index: usize| -> Num {
             let value = &a[which].0;
             if value.len() == 1 { value[0] } else { value[index] }
@@ -279,7 +279,7 @@ pub const FUNCTIONS: &[Function] = &[
     ),
 ];
 
-fn mix_by_bool(a: Arguments, kind: Type) -> Value {
+fn mix_by_bool(a: Arguments, kind: Type) -> GlslValue {
     (0..kind.scalars()).map(|i| a[2].0[i].truth().map_or(Num::UNKNOWN, |second| a[usize::from(second)].0[i])).collect()
 }
 
@@ -289,7 +289,7 @@ pub static CONSTRUCT: Function = named("", G::Floats, &[], Whole(v::construct));
 /// The choice by ?:.
 pub static SELECT: Function = named("?", G::Floats, &[], Whole(select));
 
-fn select(a: Arguments, kind: Type) -> Value {
+fn select(a: Arguments, kind: Type) -> GlslValue {
     a[0].0[0].truth().map_or_else(|| unknown(kind), |first| a[if first { 1 } else { 2 }].0.clone())
 }
 

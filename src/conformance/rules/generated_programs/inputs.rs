@@ -6,7 +6,7 @@ use super::run::Variables;
 use crate::conformance::bench::GlUniform;
 use crate::conformance::model::number::Num;
 use crate::conformance::model::scalars::wrapped;
-use crate::conformance::model::value::{NumberBase, Type, Value};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type};
 use crate::conformance::random::Random;
 
 /// Pixels of a draw.
@@ -105,12 +105,12 @@ impl GivenUniforms {
         ]
     }
 
-    fn values(&self) -> Vec<Value> {
-        let part = |first: usize, count: usize| -> Value {
+    fn values(&self) -> Vec<GlslValue> {
+        let part = |first: usize, count: usize| -> GlslValue {
             self.numbers[first..first + count].iter().map(|x| Num::exact(f64::from(*x))).collect()
         };
         let parts = [(0, 1), (1, 4), (5, 3), (8, 9), (17, 16), (33, 32)].map(|(first, count)| part(first, count));
-        let turns = Value::from(Num::exact(f64::from(self.turns)));
+        let turns = GlslValue::from(Num::exact(f64::from(self.turns)));
         parts.into_iter().chain([turns]).collect()
     }
 }
@@ -179,7 +179,7 @@ pub fn values(vectors: &[Vec<[f32; 4]>], uniforms: &GivenUniforms) -> Vec<Variab
             (0..FLOATS.len()).map(|vector| vectors[vector][pixel].map(float).into_iter().collect()).collect();
         let [small, high, low] = [8, 9, 10].map(|vector: usize| vectors[vector][pixel].map(|x| x as i64));
         let wide: [i64; 4] = std::array::from_fn(|part| high[part] * 65536 + low[part]);
-        let integers = |numbers: [i64; 4]| numbers.map(|x| Num::exact(x as f64)).into_iter().collect::<Value>();
+        let integers = |numbers: [i64; 4]| numbers.map(|x| Num::exact(x as f64)).into_iter().collect::<GlslValue>();
         list.push(integers(small));
         list.push(integers(wide));
         list.push(integers(std::array::from_fn(|part| wrapped(wide[part] ^ small[part], NumberBase::Uint))));

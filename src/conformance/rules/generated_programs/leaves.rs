@@ -4,7 +4,7 @@ use super::code::{Expr, Form};
 use super::functions::{Gives, Range};
 use super::make::{Maker, Ranges, call, constant, variable, whole};
 use crate::conformance::model::number::Num;
-use crate::conformance::model::value::{NumberBase, Type, Value};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type};
 
 impl Maker {
     pub fn swizzled(&mut self, inner: Expr, kind: Type) -> Expr {
@@ -67,7 +67,7 @@ impl Maker {
         match range {
             Range::Positive if is_float => {
                 let magnitude = call("abs", Gives::Floats, vec![inner], kind);
-                let more = constant(Value::filled(Num::exact(0.125), kind.scalars()), kind);
+                let more = constant(GlslValue::filled(Num::exact(0.125), kind.scalars()), kind);
                 if direct { magnitude } else { call("+", Gives::Floats, vec![magnitude, more], kind) }
             }
             Range::Positive => {

@@ -4,7 +4,7 @@ use super::code::{Expr, Form, Program};
 use super::functions::{BITS, FUNCTIONS, Function, Gives, Takes};
 use super::run::{Variables, evaluate};
 use crate::conformance::model::number::{Num, SLACK};
-use crate::conformance::model::value::{NumberBase, Type, Value};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type};
 use crate::conformance::random::Random;
 
 /// Inputs that functions of a narrow range take.
@@ -63,12 +63,12 @@ pub fn variable(index: usize, kind: Type) -> Expr {
     Expr { kind, form: Form::Variable(index) }
 }
 
-pub fn constant(value: Value, kind: Type) -> Expr {
+pub fn constant(value: GlslValue, kind: Type) -> Expr {
     Expr { kind, form: Form::Literal(value) }
 }
 
 pub fn whole(value: i64, kind: Type) -> Expr {
-    constant(Value::filled(Num::exact(value as f64), kind.scalars()), kind)
+    constant(GlslValue::filled(Num::exact(value as f64), kind.scalars()), kind)
 }
 
 /// A function by its name and style.
@@ -101,7 +101,7 @@ impl Maker {
     /// Tests whether most pixels know an expression's value, and not all the same.
     fn is_good(&mut self, expr: &Expr) -> bool {
         let (program, pixels) = (&self.program, &mut self.pixels);
-        let values: Vec<Value> = pixels.iter_mut().map(|variables| evaluate(program, expr, variables)).collect();
+        let values: Vec<GlslValue> = pixels.iter_mut().map(|variables| evaluate(program, expr, variables)).collect();
         let may_be_constant = self.random.unit() < 0.1;
         is_good(values.iter(), may_be_constant)
     }
@@ -352,9 +352,9 @@ pub fn functions(version: u32) -> Vec<&'static Function> {
 }
 
 /// Tests whether most values are known to a fiftieth, and not all the same.
-pub fn is_good<'a>(values: impl Iterator<Item = &'a Value>, may_be_constant: bool) -> bool {
+pub fn is_good<'a>(values: impl Iterator<Item = &'a GlslValue>, may_be_constant: bool) -> bool {
     let (mut bad, mut count, mut differs) = (0, 0, may_be_constant);
-    let mut first: Option<&Value> = None;
+    let mut first: Option<&GlslValue> = None;
     for value in values {
         count += 1;
         let is_bad = |x: &Num| !x.is_known() || SLACK * x.error > 0.02 * (x.value.abs() + 1.0);

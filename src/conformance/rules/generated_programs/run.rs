@@ -3,10 +3,10 @@
 use super::code::{Argument, Case, Direction, Expr, Form, Loop, Place, Program, Statement};
 use super::functions::{CONSTRUCT, Function, SELECT};
 use crate::conformance::model::number::Num;
-use crate::conformance::model::value::{Type, Value, unknown};
+use crate::conformance::model::value::{GlslValue, Type, unknown};
 
 /// Variables of one pixel.
-pub type Variables = Vec<Value>;
+pub type Variables = Vec<GlslValue>;
 
 /// Statements that one pixel may run before a program counts as too long.
 const MOST_STEPS: usize = 6000;
@@ -17,7 +17,7 @@ enum Flow {
     Next,
     Break,
     Continue,
-    Return(Option<Value>),
+    Return(Option<GlslValue>),
     Discard,
     /// The way taken depends on what is open.
     Lost,
@@ -40,7 +40,7 @@ struct Run<'a> {
 
 /// Runs statements on a pixel's variables.
 pub fn run(program: &Program, list: &[Statement], variables: &mut Variables) -> Ended {
-    variables.resize(program.variables.len(), Value::NONE);
+    variables.resize(program.variables.len(), GlslValue::NONE);
     let mut run = Run { program, variables, steps: 0 };
     match run.list(list) {
         Flow::Discard => Ended::Discarded,
@@ -50,13 +50,13 @@ pub fn run(program: &Program, list: &[Statement], variables: &mut Variables) -> 
 }
 
 /// Finds an expression's value. Functions of the program write their own variables alone.
-pub fn evaluate(program: &Program, expr: &Expr, variables: &mut Variables) -> Value {
-    variables.resize(program.variables.len(), Value::NONE);
+pub fn evaluate(program: &Program, expr: &Expr, variables: &mut Variables) -> GlslValue {
+    variables.resize(program.variables.len(), GlslValue::NONE);
     Run { program, variables, steps: 0 }.value(expr)
 }
 
 impl Run<'_> {
-    fn value(&mut self, expr: &Expr) -> Value {
+    fn value(&mut self, expr: &Expr) -> GlslValue {
         match &expr.form {
             Form::Literal(value) => value.clone(),
             Form::Variable(variable) => self.read(*variable),
@@ -71,10 +71,10 @@ impl Run<'_> {
                 let (value, index) = (self.value(&parts[0]), self.value(&parts[1])[0].whole());
                 let size = expr.kind.scalars();
                 let at = index.and_then(|index| usize::try_from(index).ok()).map(|index| index * size);
-                at.and_then(|at| value.get(at..at + size)).map_or_else(|| unknown(expr.kind), Value::from)
+                at.and_then(|at| value.get(at..at + size)).map_or_else(|| unknown(expr.kind), GlslValue::from)
             }
             Form::Own(function, arguments) => {
-                let arguments: Vec<Value> = arguments.iter().map(|argument| self.value(argument)).collect();
+                let arguments: Vec<GlslValue> = arguments.iter().map(|argument| self.value(argument)).collect();
                 let parameters = &self.program.functions[*function].parameters;
                 for ((parameter, _), value) in parameters.iter().zip(arguments) {
                     self.variables[*parameter] = value;
@@ -87,15 +87,15 @@ impl Run<'_> {
         }
     }
 
-    fn read(&self, variable: usize) -> Value {
+    fn read(&self, variable: usize) -> GlslValue {
         match &self.variables[variable] {
             value if value.is_empty() => unknown(self.program.variables[variable].kind),
             value => value.clone(),
         }
     }
 
-    fn applied(&mut self, function: &Function, arguments: &[Expr], kind: Type) -> Value {
-        let arguments: Vec<(Value, Type)> =
+    fn applied(&mut self, function: &Function, arguments: &[Expr], kind: Type) -> GlslValue {
+        let arguments: Vec<(GlslValue, Type)> =
             arguments.iter().map(|argument| (self.value(argument), argument.kind)).collect();
         function.of(&arguments, kind)
     }
@@ -170,7 +170,7 @@ impl Run<'_> {
         (0..place.kind.scalars()).map(move |index| start + if whole { index } else { place.swizzle[index] })
     }
 
-    fn part(&mut self, place: &Place) -> Value {
+    fn part(&mut self, place: &Place) -> GlslValue {
         let Some(start) = self.start(place) else { return unknown(place.kind) };
         let value = self.read(place.variable);
         Self::scalars(place, start).map(|at| value[at]).collect()

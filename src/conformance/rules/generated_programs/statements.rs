@@ -5,7 +5,7 @@ use super::functions::{FUNCTIONS, Function, Gives};
 use super::make::{Maker, call, function, variable, whole};
 use super::run::run;
 use crate::conformance::model::number::Num;
-use crate::conformance::model::value::{NumberBase, Type, Value};
+use crate::conformance::model::value::{GlslValue, NumberBase, Type};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, Default)]
@@ -216,7 +216,7 @@ impl Maker {
             _ => variable(self.ranges.turns, Type::INT),
         };
         for (index, variables) in self.pixels.iter_mut().enumerate() {
-            variables.resize(self.program.variables.len(), Value::NONE);
+            variables.resize(self.program.variables.len(), GlslValue::NONE);
             variables[counter] = Num::exact((index % 5) as f64).into();
         }
         self.scope.push(counter);
