@@ -22,7 +22,7 @@ pub fn of(fault: &Fault, id: &str) -> Outcome {
     let Some(rule) = rule(id) else { return Outcome::Wrong(format!("no rule {id}")) };
     let reduced = match reduce(&|| Ok(context(Some(fault))), rule, &mut |_| {}) {
         Ok(reduced) => reduced,
-        Err(error @ (ReduceError::NoNumber { .. } | ReduceError::NotAgain { .. })) => {
+        Err(error @ (ReduceError::NoNumber { .. } | ReduceError::GivenUp { .. } | ReduceError::NotAgain { .. })) => {
             return Outcome::Refused(error.to_string());
         }
         Err(error) => return Outcome::Wrong(error.to_string()),

@@ -50,7 +50,7 @@ pub struct Asked<'a> {
 
 /// Questions at most about a finding, and seconds: a rule that is asked runs without its draws.
 pub const MOST_QUESTIONS: usize = 3000;
-pub const MOST_SECONDS: u64 = 15;
+pub const MOST_SECONDS: u64 = 60;
 
 /// Answer of a rule: how many values are wrong, and the first of them.
 #[derive(Clone, Copy, Debug, PartialEq)]

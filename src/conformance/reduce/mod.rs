@@ -53,6 +53,11 @@ pub enum ReduceError {
          moves: --reduce cannot say that in a program"
     )]
     NoNumber { rule: &'static str, finding: String },
+    /// The limit of time or of questions was met before a number was found.
+    #[error(
+        "{rule}: \"{finding}\" fails, but which number is wrong was not found within {seconds} s or {questions} runs of the rule"
+    )]
+    GivenUp { rule: &'static str, finding: String, seconds: u64, questions: usize },
     /// The driver does not err when the calls are made again.
     #[error("{rule}: \"{finding}\" fails, but not when the same calls are made again in a new context")]
     NotAgain { rule: &'static str, finding: String },
@@ -195,6 +200,7 @@ fn note(
         return Err(ReduceError::Unknown { rule: rule.id, function });
     }
     let reads = Rc::new(log.reads[skipped..].to_vec());
+    let mut given_up = None;
     for finding in &failing {
         let of_name = findings.iter().filter(|other| other.what == finding.what);
         let before = of_name.take_while(|other| !std::ptr::eq(*other, *finding)).count();
@@ -211,7 +217,11 @@ fn note(
             left: ask::MOST_QUESTIONS,
             until: Instant::now() + Duration::from_secs(ask::MOST_SECONDS),
         };
-        if let Some(judgement) = asked.judge() {
+        let judged = asked.judge();
+        if judged.is_none() && asked.left == 0 {
+            given_up.get_or_insert_with(|| finding.message());
+        }
+        if let Some(judgement) = judged {
             let read = skipped + judgement.read;
             let end = log.calls.iter().position(|call| call.read == Some(read)).map_or(0, |index| index + 1);
             if let Some(function) = slice::unknown(&log.calls[..end]) {
@@ -222,7 +232,12 @@ fn note(
             return Ok(Noted { judgement, finding, calls, info });
         }
     }
-    Err(ReduceError::NoNumber { rule: rule.id, finding: failing[0].message() })
+    Err(match given_up {
+        Some(finding) => {
+            ReduceError::GivenUp { rule: rule.id, finding, seconds: ask::MOST_SECONDS, questions: ask::MOST_QUESTIONS }
+        }
+        None => ReduceError::NoNumber { rule: rule.id, finding: failing[0].message() },
+    })
 }
 
 fn numbers(values: &[f64]) -> String {
