@@ -171,13 +171,7 @@ pub fn construct(a: Arguments, kind: Type) -> GlslValue {
 
 /// Tests for equality of all components, or of matrices.
 pub fn equal(a: Arguments, _: Type) -> GlslValue {
-    let each = || a[0].0.iter().zip(a[1].0.iter()).map(|(a, b)| a.equals(*b));
-    let result = match () {
-        () if each().any(|equal| equal == Some(false)) => Some(false),
-        () if each().all(|equal| equal == Some(true)) => Some(true),
-        () => None,
-    };
-    Num::boolean(result).into()
+    a[0].0.iter().zip(a[1].0.iter()).fold(Num::exact(1.0), |all, (a, b)| both(all, Num::boolean(a.equals(*b)))).into()
 }
 
 pub fn unequal(a: Arguments, kind: Type) -> GlslValue {
@@ -192,18 +186,13 @@ pub fn all(a: Arguments, _: Type) -> GlslValue {
     a[0].0.iter().fold(Num::exact(1.0), |all, x| both(all, *x)).into()
 }
 
+/// Not known if one side is not, whatever the other: a comparison with a NaN may be folded into its neighbour, as
+/// `a < c || b < c` into `min(a, b) < c`, and what min makes of a NaN is open [GLSL 4.60, 4.7.1].
 pub fn either(a: Num, b: Num) -> Num {
-    match (a.truth(), b.truth()) {
-        (Some(true), _) | (_, Some(true)) => Num::exact(1.0),
-        (Some(false), Some(false)) => Num::exact(0.0),
-        _ => Num::UNKNOWN,
-    }
+    Num::boolean(a.truth().zip(b.truth()).map(|(a, b)| a || b))
 }
 
+/// Not known if one side is not, as for `either`.
 pub fn both(a: Num, b: Num) -> Num {
-    match (a.truth(), b.truth()) {
-        (Some(false), _) | (_, Some(false)) => Num::exact(0.0),
-        (Some(true), Some(true)) => Num::exact(1.0),
-        _ => Num::UNKNOWN,
-    }
+    Num::boolean(a.truth().zip(b.truth()).map(|(a, b)| a && b))
 }

@@ -13,6 +13,9 @@ use crate::conformance::random::Random;
 /// Scalars that a program gives: four of each of eight targets.
 pub const RESULTS: usize = 32;
 
+/// Attempts at a statement that must be there.
+const TRIES: usize = 12;
+
 /// Where a program runs, and where its inputs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -63,6 +66,7 @@ pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variable
         ranges,
         globals,
         block_start: None,
+        leaves_early: false,
         pure: Vec::new(),
         uses: std::mem::take(&mut uses.0),
         functions,
@@ -95,6 +99,9 @@ impl Assembled {
                 };
                 self.take(statement, false);
             }
+            let changed = self.seldom_made(turn);
+            written.retain(|variable| !changed.contains(variable));
+            written.extend(changed);
             let kept = (self.maker.scope.clone(), self.maker.writable.clone());
             let statement = self.maker.statement(Inside::default());
             match self.take(statement, false) {
@@ -139,6 +146,24 @@ impl Assembled {
             }
         }
         written
+    }
+
+    /// Statements that chance makes too seldom, each in every program: a variable that is assigned a function of its own
+    /// components, and a function without a result that some pixels leave early. The variables that they change.
+    fn seldom_made(&mut self, turn: usize) -> Vec<usize> {
+        for _ in 0..TRIES {
+            let kept = (self.maker.scope.clone(), self.maker.writable.clone());
+            let statement = match turn {
+                2 | 5 => self.maker.own_components(),
+                4 => Some(self.maker.call_left_early()),
+                _ => return Vec::new(),
+            };
+            if let Some(changed) = statement.and_then(|statement| self.take(statement, false)) {
+                return changed;
+            }
+            (self.maker.scope, self.maker.writable) = kept;
+        }
+        Vec::new()
     }
 
     /// Accepts a statement, unless it leaves too much open: the variables that it changes.

@@ -10,7 +10,7 @@ impl Maker {
     /// A call of a new function, or of one that is there, with arguments that it writes.
     pub fn call(&mut self) -> Statement {
         let writing: Vec<usize> = (0..self.program.functions.len()).filter(|own| !self.pure.contains(own)).collect();
-        let own = match writing.is_empty() || self.random.chance(0.7) {
+        let own = match writing.is_empty() || self.leaves_early || self.random.chance(0.7) {
             true => None,
             false => Some(self.random.pick(&writing)),
         };
@@ -20,8 +20,11 @@ impl Maker {
         let mut written: Vec<usize> = Vec::new();
         for index in 0..count {
             let wanted = known.as_ref().map(|known| (known[index].1, self.program.variables[known[index].0].kind));
-            let direction =
-                wanted.map_or_else(|| self.random.pick(&[Direction::In, Direction::InOut, Direction::Out]), |w| w.0);
+            let direction = match wanted {
+                Some((direction, _)) => direction,
+                None if self.leaves_early => Direction::InOut,
+                None => self.random.pick(&[Direction::In, Direction::InOut, Direction::Out]),
+            };
             let place = (direction != Direction::In).then(|| self.argument(wanted.map(|w| w.1), &written)).flatten();
             match place {
                 Some(place) => {
@@ -44,6 +47,14 @@ impl Maker {
             index
         });
         Statement::Call(result, own, arguments.into_iter().map(|(argument, ..)| argument).collect())
+    }
+
+    /// A call of a new function without a result, which some pixels leave before it has written all.
+    pub fn call_left_early(&mut self) -> Statement {
+        self.leaves_early = true;
+        let statement = self.call();
+        self.leaves_early = false;
+        statement
     }
 
     /// A call of a new function without a result, whose one statement is made of its parameter.
@@ -99,7 +110,8 @@ impl Maker {
         self.scope.extend(parameters.iter().map(|(index, _)| *index));
         self.writable.extend(parameters.iter().map(|(index, _)| *index));
         let written = arguments.iter().any(|(_, direction, _)| *direction != Direction::In);
-        let result = (!written || self.random.chance(0.5)).then(|| self.kind());
+        let has_result = !written || (self.random.chance(0.5) && !self.leaves_early);
+        let result = has_result.then(|| self.kind());
         let mut body: Vec<Statement> = Vec::new();
         for index in head {
             let kind = self.program.variables[index].kind;
@@ -108,7 +120,11 @@ impl Maker {
             body.push(Statement::Assign(place, None, value));
         }
         let count = 1 + self.random.below(3);
-        body.extend(self.list(count, Inside { depth: 1, a_loop: false, a_function: true, result }, None));
+        let inside = Inside { depth: 1, a_loop: false, a_function: true, result };
+        if self.leaves_early {
+            body.push(self.early(inside));
+        }
+        body.extend(self.list(count, inside, None));
         if let Some(kind) = result {
             let value = self.expr(kind, 2);
             body.push(Statement::Return(Some(value)));

@@ -66,6 +66,8 @@ pub enum Takes {
 pub enum Range {
     Any,
     Positive,
+    /// 0, or below it.
+    Low,
     /// From -1 to 1.
     Unit,
     /// Exponents of exp and pow.
@@ -150,6 +152,8 @@ use Takes as T;
 
 const SAME: (Takes, Range) = (T::Same, R::Any);
 const EITHER: (Takes, Range) = (T::SameOrOne, R::Any);
+const LOW: (Takes, Range) = (T::SameOrOne, R::Low);
+const HIGH: (Takes, Range) = (T::SameOrOne, R::Positive);
 const FREE: (Takes, Range) = (T::Floats, R::Any);
 const DIRECTION: (Takes, Range) = (T::Same, R::Direction);
 const ALIKE: (Takes, Range) = (T::FloatsAlike, R::Any);
@@ -180,11 +184,11 @@ pub const FUNCTIONS: &[Function] = &[
     named("mod", G::Floats, &[SAME, (T::SameOrOne, R::NotZero)], Two(s::modulus)),
     named("min", G::Floats, &[SAME, EITHER], Two(Num::least)),
     named("max", G::Floats, &[SAME, EITHER], Two(Num::most)),
-    named("clamp", G::Floats, &[SAME, EITHER, EITHER], Three(s::clamp)),
+    named("clamp", G::Floats, &[SAME, LOW, HIGH], Three(s::clamp)),
     named("mix", G::Floats, &[SAME, SAME, (T::SameOrOne, R::Share)], Three(s::mix)),
     named("mix", G::Floats, &[SAME, SAME, (T::Choices, R::Any)], Whole(mix_by_bool)),
     named("step", G::Floats, &[EITHER, SAME], Two(s::step)),
-    named("smoothstep", G::Floats, &[EITHER, EITHER, SAME], Three(s::smoothstep)),
+    named("smoothstep", G::Floats, &[LOW, HIGH, SAME], Three(s::smoothstep)),
     named("sqrt", G::Floats, &[(T::Same, R::Positive)], One(s::sqrt)),
     named("inversesqrt", G::Floats, &[(T::Same, R::Positive)], One(s::inversesqrt)),
     named("pow", G::Floats, &[(T::Same, R::Positive), (T::Same, R::Small)], Two(s::pow)),

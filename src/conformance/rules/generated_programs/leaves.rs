@@ -62,6 +62,10 @@ impl Maker {
         if let (true, true, Some(input)) = (is_float, direct, input) {
             return self.input(input, kind);
         }
+        if range == Range::Low && direct {
+            let least = self.random.pick(&[0.0, 0.0, 0.0, -1.0, -0.5]);
+            return constant(GlslValue::filled(Num::exact(least), kind.scalars()), kind);
+        }
         let inner = self.expr(kind, depth);
         let integers = |name, by: i64| call(name, Gives::Integers, vec![inner.clone(), whole(by, kind)], kind);
         match range {
@@ -69,6 +73,10 @@ impl Maker {
                 let magnitude = call("abs", Gives::Floats, vec![inner], kind);
                 let more = constant(GlslValue::filled(Num::exact(0.125), kind.scalars()), kind);
                 if direct { magnitude } else { call("+", Gives::Floats, vec![magnitude, more], kind) }
+            }
+            Range::Low => {
+                let magnitude = call("abs", Gives::Floats, vec![inner], kind);
+                call("-", Gives::Floats, vec![whole(0, kind), magnitude], kind)
             }
             Range::Positive => {
                 let low = integers("&", 255);
@@ -135,6 +143,17 @@ impl Maker {
             }
             () => self.literal(kind),
         }
+    }
+
+    /// Neutral numbers of operators and functions, in all components.
+    pub fn simple(&mut self, kind: Type) -> Expr {
+        let number = match kind.base {
+            NumberBase::Float => self.random.pick(&[0.0, 0.0, 1.0, 1.0, -1.0, 0.5, 2.0]),
+            NumberBase::Int => self.random.pick(&[0.0, 1.0, 2.0, -1.0, 8.0]),
+            NumberBase::Uint => self.random.pick(&[0.0, 1.0, 2.0, 8.0]),
+            NumberBase::Bool => self.random.pick(&[0.0, 1.0]),
+        };
+        constant(GlslValue::filled(Num::exact(number), kind.scalars()), kind)
     }
 
     pub fn literal(&mut self, kind: Type) -> Expr {

@@ -1,7 +1,7 @@
 //! Random expressions. Each is run at once, and made again if too few pixels know its value.
 
 use super::code::{Expr, Form, Program};
-use super::functions::{BITS, FUNCTIONS, Function, Gives, Takes};
+use super::functions::{BITS, FUNCTIONS, Function, Gives, Range, Takes};
 use super::run::{Variables, evaluate};
 use crate::conformance::model::number::{Num, SLACK};
 use crate::conformance::model::value::{GlslValue, NumberBase, Type};
@@ -39,6 +39,8 @@ pub struct Maker {
     pub globals: Vec<usize>,
     /// The first variable of the innermost block, if there is one.
     pub block_start: Option<usize>,
+    /// True while a function is made that some pixels leave early.
+    pub leaves_early: bool,
     /// Functions of the program that write nothing.
     pub pure: Vec<usize>,
     pub functions: Vec<&'static Function>,
@@ -309,7 +311,12 @@ impl Maker {
                 Takes::Columns => Type::vector(NumberBase::Float, kind.columns),
             };
             let is_compared = matches!(takes, Takes::Numbers | Takes::Anything) && kind.is_vector();
-            list.push(if is_compared && few { self.few(kind) } else { self.ranged(kind, *range, depth) });
+            list.push(match () {
+                () if is_compared && few => self.few(kind),
+                // Compilers have rules of their own for these.
+                () if kind.is_vector() && *range == Range::Any && self.random.chance(0.1) => self.simple(kind),
+                () => self.ranged(kind, *range, depth),
+            });
         }
         Some(list)
     }

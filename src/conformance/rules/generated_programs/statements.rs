@@ -59,8 +59,15 @@ impl Maker {
         }
     }
 
+    /// An assignment of a function of a variable's components to these components.
+    pub fn own_components(&mut self) -> Option<Statement> {
+        let place = self.place().filter(|place| !place.swizzle.is_empty())?;
+        let value = self.of_itself(&place)?;
+        Some(Statement::Assign(place, None, value))
+    }
+
     /// A return that some pixels take.
-    fn early(&mut self, inside: Inside) -> Statement {
+    pub fn early(&mut self, inside: Inside) -> Statement {
         let result = inside.result.map(|kind| self.expr(kind, 1));
         Statement::If(self.expr(Type::BOOL, 1), vec![Statement::Return(result)], Vec::new())
     }
