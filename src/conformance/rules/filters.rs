@@ -155,19 +155,23 @@ fn border(format: GlFormat, color: [f32; 4]) -> ([f32; 4], [f64; 4]) {
     (color, due.map(f64::from))
 }
 
-/// The same of 1D textures: GL_R32F and GL_RGBA8, of one row.
+/// 1D textures, and how many texels they have: long ones are tables of a falloff or of the depths of a side map.
+const LINES: [(GlFormat, u32); 4] =
+    [(GlFormat::Rgba8, 6), (GlFormat::R32F, 6), (GlFormat::R32F, 300), (GlFormat::R32F, 1500)];
+
+/// The same of 1D textures.
 fn lines(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
-    let size = [6, 1];
     let mut random = Random::new(126);
-    for format in [GlFormat::Rgba8, GlFormat::R32F] {
-        let (bytes, values) = texels(&mut random, format, 6);
+    for (format, length) in LINES {
+        let size = [length, 1];
+        let (bytes, values) = texels(&mut random, format, length as usize);
         let desc = GlImageDesc { shape: GlShape::Line, ..GlImageDesc::flat(format, size) };
         let image = subject.bench.filled(desc, |_, _| bytes.clone())?;
         let inputs: Vec<_> = (0..256).map(|_| [random.between(-2.5, 3.5), 0.5, 0.0, 0.0]).collect();
         let (border, border_due) = border(format, [0.25, 0.75, 0.5, 0.125]);
         for linear in [false, true] {
             let mut tally = GradeTally::default();
-            let few = format == GlFormat::Rgba8;
+            let few = format == GlFormat::Rgba8 || length > 6;
             for (s, wrapping) in wraps(subject).into_iter().step_by(if few { 3 } else { 1 }) {
                 let sampling =
                     Sampling { linear, wrap: [s, GlWrap::Repeat, GlWrap::Repeat], border, ..Sampling::NEAREST };
@@ -179,7 +183,8 @@ fn lines(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error
                 }
             }
             let filter = if linear { "LINEAR" } else { "NEAREST" };
-            findings.tally(format!("1D {}, {filter}", format.name()), tally, "");
+            let long = if length > 6 { format!(" of {length}") } else { String::new() };
+            findings.tally(format!("1D {}{long}, {filter}", format.name()), tally, "");
         }
     }
     Ok(())
