@@ -62,7 +62,7 @@ fn outcome(what: &str, verdict: RuleVerdict, measured: &str) -> RuleOutcome {
 fn waiver(finding: &str) -> Vec<Waiver> {
     let [renderer, version, rule, reason] = ["llvmpipe", "Mesa ", "GL-O1", "known"].map(str::to_owned);
     let [from, until] = ["22.3", "25.1"].map(|number| Number::try_from(number.to_owned()).ok());
-    vec![Waiver { renderer, version, from, until, rule, finding: Some(finding.to_owned()), reason }]
+    vec![Waiver { renderer, version, from, until, rule, finding: Some(finding.to_owned()), on: None, reason }]
 }
 
 #[test]
@@ -101,6 +101,9 @@ fn a_waiver_that_nothing_needs_is_stale() {
     let mut outcomes = [outcome("r", RuleVerdict::Pass, "is 4")];
     let stale = apply(&waiver("r"), &context("llvmpipe"), &mut outcomes);
     assert!(stale[0].contains("a waiver of GL-O1 no longer applies to llvmpipe 4.5 Mesa 22.3.6"), "{stale:?}");
+    let mut of_some = waiver("r");
+    of_some[0].on = Some(String::from("CPUs with AVX2"));
+    assert!(apply(&of_some, &context("llvmpipe"), &mut outcomes).is_empty());
 }
 
 #[test]

@@ -215,8 +215,7 @@ fn link_by_vertex_stage(call: &mut Call) {
 
 faults! {
     // A clamp that begins at 0 is taken for the modifier by which the hardware saturates.
-    "clamps-from-0-end-at-1" [clamp] "clamp from 0 to a bound ends at 1."
-    (hole: "not seen yet: a draft of the frames had a map of floats whose reference is clamped to w, these have none") { text saturated }
+    "clamps-from-0-end-at-1" [clamp] "clamp from 0 to a bound ends at 1." { text saturated }
     // The constructor is made of moves row by row, as the registers of matrices lie in other drivers.
     "matrices-of-vectors-by-rows" [mat3 mat4] "A matrix that is made of vectors has them for rows." { text of_rows }
     // Registers of varyings have no bit for a sign, and the compiler folds the negation into the operand.

@@ -1,5 +1,6 @@
 //! GL-G2: GLSL's functions on numbers, vectors and matrices, held against f64 [GLSL 4.60, 4.7.1, 8.1 to 8.7].
 
+use super::chosen_functions;
 use crate::conformance::bench::{Error, Shader};
 use crate::conformance::random::Random;
 use crate::conformance::verify::{Grade, GradeTally};
@@ -245,6 +246,7 @@ pub fn functions(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
     }
     findings.part(|findings| loops(subject, findings));
     findings.part(|findings| structures(subject, findings));
+    findings.part(|findings| chosen_functions::chosen(subject, findings));
     Ok(())
 }
 

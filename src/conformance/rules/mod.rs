@@ -5,6 +5,7 @@ mod alpha_test;
 pub mod attachments;
 pub mod blending;
 pub mod centroid;
+pub mod chosen_functions;
 pub mod clip_distances;
 pub mod clipped;
 pub mod compare;

@@ -55,7 +55,7 @@ pub struct Uses(Vec<Use>);
 /// Makes a program for pixels with these values.
 pub fn assemble(random: Random, version: u32, stage: Stage, pixels: Vec<Variables>, uses: &mut Uses) -> Assembled {
     let Given { program, ranges, globals, members } = given();
-    let functions = make::functions(version);
+    let functions = make::functions(version, stage == Stage::Vertex);
     uses.0.resize(functions.len().max(uses.0.len()), Use::default());
     let maker = Maker {
         random,
@@ -227,7 +227,7 @@ impl Assembled {
     pub fn sources(&self) -> [String; 2] {
         let version = format!("#version {}\n", self.version);
         let program = &self.maker.program;
-        let functions = make::functions(self.version);
+        let functions = make::functions(self.version, self.stage == Stage::Vertex);
         let own: String = functions
             .iter()
             .map(|function| function.text)

@@ -352,10 +352,14 @@ fn gives(gives: Gives, kind: Type) -> bool {
     }
 }
 
-/// Functions of a version of GLSL.
-pub fn functions(version: u32) -> Vec<&'static Function> {
+/// Functions of a version of GLSL. In vertex shaders atan of two arguments stands in the place of atan of one, which a
+/// driver has wrong under a condition: GL-G2 says so, and would not be heard beside this rule.
+pub fn functions(version: u32, is_vertex: bool) -> Vec<&'static Function> {
     let bits = if version >= 330 { BITS } else { &[] };
-    FUNCTIONS.iter().chain(bits).collect()
+    let of = |count: usize| move |function: &&Function| function.name == "atan" && function.takes.len() == count;
+    let other = FUNCTIONS.iter().find(of(2)).filter(|_| is_vertex);
+    let stands = |function: &'static Function| other.filter(|_| of(1)(&function)).unwrap_or(function);
+    FUNCTIONS.iter().chain(bits).map(stands).collect()
 }
 
 /// Tests whether most values are known to a fiftieth, and not all the same.
