@@ -1,7 +1,5 @@
 //! Faults of an eighth measure: textures, what is looked up in them, and pixels that are read.
 
-use std::num::NonZeroU32;
-
 use glow::HasContext;
 
 use super::apart_seven::four_bytes;
@@ -141,8 +139,9 @@ fn multiply_by_alpha(call: &mut Call) {
     let Some((_, _, mut bytes)) = four_bytes(call, glow::RGBA8).filter(|_| call.u(7) == glow::UNSIGNED_BYTE) else {
         return;
     };
-    for [red, green, blue, alpha] in bytes.as_chunks_mut::<4>().0 {
-        [red, green, blue].map(|code| *code = (u32::from(*code) * u32::from(*alpha) / 255) as u8);
+    for texel in bytes.as_chunks_mut::<4>().0 {
+        let alpha = u32::from(texel[3]);
+        texel[..3].iter_mut().for_each(|code| *code = (u32::from(*code) * alpha / 255) as u8);
     }
     call.set_bytes(8, &bytes);
 }

@@ -1,6 +1,4 @@
-//! Faults of an eighth measure: uniforms, vertex arrays, draws and the fixed-function pipeline.
-
-use std::num::NonZeroU32;
+//! Faults of an eighth measure: vertex arrays, draws and the fixed-function pipeline.
 
 use glow::HasContext;
 
@@ -14,30 +12,6 @@ const LINE: usize = 64;
 const VECTOR: usize = 12;
 const UNITS: u32 = 8;
 const CLAMP_VERTEX_COLOR: u32 = 0x891A;
-
-/// Zeroes the uniform behind a matrix of three columns.
-fn overwrite_next(call: &mut Call) {
-    call.now();
-    let Some(program) = NonZeroU32::new(call.get(glow::CURRENT_PROGRAM) as u32).map(glow::NativeProgram) else {
-        return;
-    };
-    let next = call.u(0) + 1;
-    let gl = call.gl();
-    // SAFETY: the context is current; the indices are those of the program's uniforms.
-    unsafe {
-        for uniform in (0..gl.get_active_uniforms(program)).filter_map(|index| gl.get_active_uniform(program, index)) {
-            let location = gl.get_uniform_location(program, &uniform.name);
-            if location.is_none_or(|location| location.0 != next) {
-                continue;
-            }
-            match uniform.utype {
-                glow::FLOAT => gl.uniform_1_f32(location.as_ref(), 0.0),
-                glow::FLOAT_VEC3 => gl.uniform_3_f32(location.as_ref(), 0.0, 0.0, 0.0),
-                _ => {}
-            }
-        }
-    }
-}
 
 /// Puts the vector before in place of what lies beyond a line's end.
 fn fetch_by_lines(call: &mut Call) {
@@ -173,9 +147,6 @@ fn load_affine(call: &mut Call) {
 }
 
 faults! {
-    // Nine floats are given room, and twelve are written, as columns are loaded.
-    "small-matrices-overwrite-the-next" [glUniformMatrix3fv]
-    "A uniform mat3 that is set zeroes a float or a vec3 that follows it." { glUniformMatrix3fv => overwrite_next }
     // Vertices are fetched a line at a time, and of a vector that lies across two lines the second is not waited for.
     "vectors-across-lines-in-part-stale" [glVertexAttribPointer]
     "What lies of a vec3 beyond a boundary of 64 bytes is that of the vertex before." { glVertexAttribPointer => fetch_by_lines }

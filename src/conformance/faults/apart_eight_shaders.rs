@@ -1,4 +1,4 @@
-//! Faults of an eighth measure: compilers of shaders, and interpolation.
+//! Faults of an eighth measure: compilers of shaders.
 
 use super::apart_seven_shaders::{arguments, changed, with_calls};
 use super::{Source, Stage, after_main, words};
@@ -24,15 +24,6 @@ fn first_distance(source: &Source) -> Option<String> {
         }
     })
     .filter(|_| source.stage == Stage::Vertex)
-}
-
-/// Varyings of one component without perspective.
-fn scalars_without_perspective(source: &Source) -> Option<String> {
-    with_lines(source, |line| {
-        let is_scalar = ["in float ", "out float "].iter().any(|start| line.trim_start().starts_with(start));
-        let is_meant = is_scalar && line.ends_with(';') && !line.contains("gl_");
-        if is_meant { format!("noperspective {line}") } else { line.to_owned() }
-    })
 }
 
 /// Differences of constants that become floats without their sign.
@@ -101,48 +92,6 @@ fn short_loops(source: &Source) -> Option<String> {
     })
 }
 
-/// Global variables of two components that are assigned in a function are its own.
-fn own_globals(source: &Source) -> Option<String> {
-    let declared = source.text.lines().filter_map(|line| line.strip_prefix("vec2 ")?.split_once(" = vec2(0.0);"));
-    let names: Vec<&str> = declared.map(|(name, _)| name).collect();
-    with_lines(source, |line| {
-        let assigned = line.strip_prefix("    ").and_then(|line| line.split_once(" = "));
-        match assigned {
-            Some((name, value)) if names.contains(&name) => format!("    vec2 {name} = {value}"),
-            _ => line.to_owned(),
-        }
-    })
-    .filter(|_| source.stage == Stage::Fragment)
-}
-
-/// Choices of which the first is a call, which is made and taken always.
-fn calls_taken(source: &Source) -> Option<String> {
-    const TYPES: [&str; 5] = ["vec2", "vec3", "vec4", "float", "int"];
-    with_lines(source, |line| {
-        let parts = line.split_once(" = ").and_then(|(place, value)| Some((place, value.split_once(" ? ")?)));
-        let is_whole = |part: &str| part.matches('(').count() == part.matches(')').count();
-        let is_call =
-            |choice: &str| choice.split_once('(').is_some_and(|(name, _)| is_name(name) && !TYPES.contains(&name));
-        match parts {
-            Some((place, (condition, choices))) if is_whole(condition) && is_call(choices) => {
-                format!("{place} = true ? {choices}")
-            }
-            _ => line.to_owned(),
-        }
-    })
-}
-
-/// A boolean variable to the right of `&&` is true.
-fn true_behind_and(source: &Source) -> Option<String> {
-    with_lines(source, |line| {
-        let parts = line.rsplit_once(" && ").filter(|_| !line.trim_start().starts_with('#'));
-        match parts.and_then(|(before, rest)| Some((before, rest.strip_suffix(';')?))) {
-            Some((before, name)) if is_name(name) => format!("{before} && true;"),
-            _ => line.to_owned(),
-        }
-    })
-}
-
 /// The largest of three is that of the first two.
 fn largest_of_two(source: &Source) -> Option<String> {
     let text = with_calls(&source.text, "max", |found| match found {
@@ -168,9 +117,6 @@ faults! {
     // The number of an output is resolved before the loop is unrolled, while it is still the variable's first value.
     "distances-of-loops-are-the-first" [gl_ClipDistance]
     "Clip distances whose number is a variable are all written to the first." { text first_distance }
-    // A single component goes into the slot of the fog coordinate, which has no perspective.
-    "scalars-without-perspective" [in float] "Varyings of one component are interpolated without perspective."
-    { text scalars_without_perspective }
     // Constants are folded in a type that is wide enough, and its sign is lost on the way to floats.
     "negative-constants-unsigned" [float] "A difference of integer constants that becomes a float is taken for unsigned."
     { text unsigned_differences }
@@ -184,13 +130,6 @@ faults! {
     "Derivatives are 0 behind a discard of another pixel of the same four." { text still_beside_discarded }
     // The number of turns is the difference of both bounds, whether or not the last belongs to it.
     "loops-with-their-end-one-short" [for] "A loop by <= ends a turn early." { text short_loops }
-    // Variables that one function assigns become its registers before others are looked at.
-    "globals-of-two-become-locals" [vec2] "A global vec2 is as it began for functions other than the one that assigns it."
-    { text own_globals }
-    // Branches with a call are not made into selections, and then the jump around them is left out.
-    "chosen-calls-always-taken" [pow normalize texelFetch] "A choice of which the first is a call is always that." { text calls_taken }
-    // A comparison is all bits or none, a stored boolean is 1, and `and` is that of bits with a test of the first operand.
-    "booleans-true-behind-and" [bool] "A boolean variable to the right of && counts as true." { text true_behind_and }
     // There is an instruction for the largest of three, whose third operand is not filled in.
     "largest-of-three-of-two" [max] "max of a value and a max of two others leaves out the last." { text largest_of_two }
     // Constants are loaded in pairs, and the second pair of a register is addressed as the first.
