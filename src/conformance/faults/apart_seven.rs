@@ -17,7 +17,7 @@ const BLOCK: usize = 8;
 const TABLE: usize = 256;
 
 /// Width, height and bytes of texels of four bytes that are uploaded; `None`: there are none.
-fn four_bytes(call: &Call, internal: u32) -> Option<(usize, usize, Vec<u8>)> {
+pub(super) fn four_bytes(call: &Call, internal: u32) -> Option<(usize, usize, Vec<u8>)> {
     let (width, height) = (call.u(3) as usize, call.u(4) as usize);
     let is_meant = call.u(0) == glow::TEXTURE_2D && call.u(2) == internal && call.u(6) == glow::RGBA;
     let is_bytes = [glow::BYTE, glow::UNSIGNED_BYTE].contains(&call.u(7));

@@ -11,7 +11,7 @@ const TILE: i32 = 64;
 const OWN_DISTANCE: u32 = 6;
 
 /// Tests whether a framebuffer object without colour is drawn into.
-fn is_bare(call: &Call) -> bool {
+pub(super) fn is_bare(call: &Call) -> bool {
     let kind = glow::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE;
     call.get(glow::DRAW_FRAMEBUFFER_BINDING) != 0 && call.attached(glow::COLOR_ATTACHMENT0, kind) == 0
 }

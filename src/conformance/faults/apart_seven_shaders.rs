@@ -8,12 +8,12 @@ use super::fourth_shaders::{set_state, with_state};
 use super::{Call, Source, Stage, after_main, text, words};
 
 /// Another text of a shader from version 130, if it is another.
-fn changed(source: &Source, text: String) -> Option<String> {
+pub(super) fn changed(source: &Source, text: String) -> Option<String> {
     (source.version >= 130 && text != source.text).then_some(text)
 }
 
 /// A text in which each call or constructor `name(...)` is what `change` makes of its arguments; `None`: as it is.
-fn with_calls(text: &str, name: &str, change: impl Fn(&[&str]) -> Option<String>) -> String {
+pub(super) fn with_calls(text: &str, name: &str, change: impl Fn(&[&str]) -> Option<String>) -> String {
     let is_letter = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
     let (start, mut other, mut rest) = (format!("{name}("), String::new(), text);
     while let Some(at) = rest.find(&start) {
@@ -35,7 +35,7 @@ fn with_calls(text: &str, name: &str, change: impl Fn(&[&str]) -> Option<String>
 }
 
 /// Arguments up to a closing parenthesis, and what is behind it.
-fn arguments(text: &str) -> Option<(Vec<&str>, &str)> {
+pub(super) fn arguments(text: &str) -> Option<(Vec<&str>, &str)> {
     let (mut depth, mut from, mut found) = (0, 0, Vec::new());
     for (index, letter) in text.char_indices() {
         match letter {

@@ -28,6 +28,10 @@ macro_rules! faults {
 
 mod apart;
 mod apart_again;
+mod apart_eight;
+mod apart_eight_inputs;
+mod apart_eight_raster;
+mod apart_eight_shaders;
 mod apart_inputs;
 mod apart_seven;
 mod apart_seven_inputs;
@@ -143,6 +147,10 @@ const KINDS: &[&[Fault]] = &[
     apart_seven_raster::FAULTS,
     apart_seven_shaders::FAULTS,
     apart_seven_inputs::FAULTS,
+    apart_eight::FAULTS,
+    apart_eight_raster::FAULTS,
+    apart_eight_shaders::FAULTS,
+    apart_eight_inputs::FAULTS,
 ];
 
 /// Every fault.
