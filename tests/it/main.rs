@@ -37,6 +37,7 @@ mod guards;
 mod hw_shadowmaps_simple;
 mod hw_woo_shadowmaps;
 mod independent;
+mod instances;
 mod judge;
 mod kernels;
 mod layers;
