@@ -34,7 +34,9 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Option<Vec<Instance>>, Err
             None => return Ok(None),
         },
         Some(Value::Array(_)) => reader.tables(KEY)?.into_iter().map(instance).collect::<Result<_, _>>()?,
-        Some(_) => return Err(reader.error(KEY, "must be an array of tables, or a file with a JSON object a line").into()),
+        Some(_) => {
+            return Err(reader.error(KEY, "must be an array of tables, or a file with a JSON object a line").into());
+        }
     };
     if instances.is_empty() {
         return Err(reader.error(KEY, "has none: leave the object out, or `instances`").into());
