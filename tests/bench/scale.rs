@@ -20,6 +20,7 @@ struct Ladder {
     point: fn(usize) -> Point,
 }
 
+/// From 256 volumes on planning looks for counts that eight bits cannot hold: their exponents are those above that step.
 const LADDERS: [Ladder; 7] = [
     Ladder {
         name: "triangles",
@@ -60,13 +61,13 @@ const LADDERS: [Ladder; 7] = [
         name: "casters of volumes",
         unit: "volumes (floor: casters in a map)",
         sizes: &[100, 300, 1_000, 3_000, 10_000],
-        quick: &[30, 100, 300, 1_000],
+        quick: &[100, 300, 1_000, 3_000],
         point: |size| Point { objects: size, triangles: 48, volumes: true, ..Point::default() },
     },
     Ladder {
         name: "nesting",
         unit: "volumes in one another (floor: casters in a map)",
-        sizes: &[1, 4, 16, 64, 256],
+        sizes: &[1, 4, 16, 64, 256, 512, 1024],
         quick: &[1, 4, 16, 64],
         point: |size| Point { objects: size, triangles: 200, nested: true, volumes: true, ..Point::default() },
     },

@@ -52,7 +52,6 @@ fn plot(area: &Area<'_>, measured: &Measured, column: usize, quantity: &Quantity
         .x_label_area_size(34)
         .y_label_area_size(56)
         .build_cartesian_2d(x.log_scale(), y.log_scale())?;
-    let label = |value: &f64| if (0.01..1e4).contains(value) { format!("{value}") } else { format!("{value:.0e}") };
     chart
         .configure_mesh()
         .x_desc(measured.unit)
@@ -79,4 +78,14 @@ fn plot(area: &Area<'_>, measured: &Measured, column: usize, quantity: &Quantity
         .background_style(WHITE.mix(0.8))
         .draw()?;
     Ok(())
+}
+
+/// A number at a line of the grid: 1, 2 or 5 and zeros; others would overlap.
+fn label(value: &f64) -> String {
+    let digit = (value / 10_f64.powf(value.log10().floor())).round();
+    match [1.0, 2.0, 5.0].contains(&digit) {
+        true if (0.01..1e4).contains(value) => format!("{value}"),
+        true => format!("{value:.0e}"),
+        false => String::new(),
+    }
 }

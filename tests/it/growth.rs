@@ -61,8 +61,8 @@ struct Ladder {
 /// Steps that come once are below or above a ladder: from 256 volumes on planning looks for counts that eight bits cannot hold.
 const LADDERS: &[Ladder] = &[
     Ladder { name: "objects", sizes: &[512, 1024, 2048], text: objects, drawn: false },
-    Ladder { name: "objects drawn", sizes: &[16, 64, 256], text: objects, drawn: true },
-    Ladder { name: "materials", sizes: &[16, 64, 256], text: materials, drawn: true },
+    Ladder { name: "objects drawn", sizes: &[16, 64, 240], text: objects, drawn: true },
+    Ladder { name: "materials", sizes: &[16, 64, 240], text: materials, drawn: true },
     Ladder { name: "triangles", sizes: &[1 << 8, 1 << 10, 1 << 12, 1 << 14], text: triangles, drawn: true },
     Ladder { name: "lights", sizes: &[1, 4, 16, 64], text: lights, drawn: false },
     Ladder { name: "lights drawn", sizes: &[1, 2, 4, 8], text: lights, drawn: true },

@@ -11,6 +11,7 @@ use glumbra::frame::Renderer;
 use glumbra::plan::Request;
 use glumbra::scene::Scene;
 use glumbra::truth;
+use proptest::prelude::*;
 
 /// A place as keys of TOML and as a line of JSON.
 struct Place {
@@ -183,4 +184,31 @@ fn errors_in_a_file_name_the_line() {
     fs::write(folder.path().join("places.jsonl"), b"{}\n\xff\n").unwrap();
     let error = load(folder.path(), &text).map(drop).unwrap_err();
     assert!(error.contains("places.jsonl:2: is not UTF-8 text"), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Bytes changed, cut and put in at random: an error or a scene of no more objects than lines, never a panic.
+    #[test]
+    fn mutated_files_never_panic(changes in prop::collection::vec((0usize..3, any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+        let folder = tempfile::tempdir().unwrap();
+        let lines: Vec<&str> = PLACES.iter().map(|place| place.json).collect();
+        let mut bytes = lines.join("\n").into_bytes();
+        for (kind, at, byte) in changes {
+            let at = at.index(bytes.len());
+            match kind {
+                0 => bytes[at] = b"0123456789.-e[]{}\":,\n"[usize::from(byte) % 21],
+                1 => { bytes.remove(at); }
+                _ => bytes.insert(at, byte),
+            }
+        }
+        fs::write(folder.path().join("places.jsonl"), &bytes).unwrap();
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, "[[object]]\nmesh = \"box\"\ninstances = \"places.jsonl\"\n").unwrap();
+        if let Ok(loaded) = glumbra::load(&path, &[]) {
+            let lines = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
+            assert!((1..=lines).contains(&loaded.scene.objects.len()));
+        }
+    }
 }
