@@ -38,7 +38,7 @@ const LADDERS: [Ladder; 7] = [
     },
     Ladder {
         name: "lights",
-        unit: "lights with a map",
+        unit: "lights with a map (floor: one map, drawn for each)",
         sizes: &[1, 2, 4, 8, 16, 32, 64],
         quick: &[1, 2, 4, 8],
         point: |size| Point { lights: size, map: 512, ..Point::default() },
