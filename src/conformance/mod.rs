@@ -20,7 +20,7 @@ mod findings;
 #[cfg(feature = "check")]
 mod frames;
 #[cfg(feature = "check")]
-mod layer;
+pub mod layer;
 #[cfg(feature = "check")]
 mod model;
 #[cfg(feature = "check")]

@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::derived::{Derived, Most};
 use super::mesh::Mesh;
 use super::rays::{Ray, Triangles};
+use crate::process::work;
 
 /// A range of a mesh's triangles in a box hierarchy.
 pub struct SampledMesh(Arc<Triangles>);
@@ -35,6 +36,7 @@ impl SampledMesh {
         Self(derived.get(mesh, most, indices.clone(), || {
             let range = mesh.indices.get(indices.start as usize..indices.end as usize).unwrap_or_default();
             let corners = |corners: &[u32]| [0, 1, 2].map(|k| position(mesh, corners[k]));
+            work::count_triangles(range.len());
             Arc::new(Triangles::new(range.chunks_exact(3).map(corners).collect()))
         }))
     }

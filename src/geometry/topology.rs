@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::Mesh;
+use crate::process::work;
 
 /// The place of each vertex, and the number of places: vertices whose positions are equal (0 = -0) share one. Places are
 /// numbered as they are first met.
@@ -77,6 +78,7 @@ pub fn inspect(mesh: &Mesh) -> Topology {
     let mut used = vec![false; count];
     // Each edge as the smaller place, the larger place, and in the last bit whether it runs from small to large.
     let mut edges: Vec<u64> = Vec::with_capacity(mesh.indices.len());
+    work::count_triangles(mesh.indices.len());
     for triangle in mesh.indices.as_chunks::<3>().0 {
         let [a, b, c] = triangle.map(|index| places[index as usize]);
         if a == b || b == c || c == a {

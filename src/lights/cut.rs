@@ -18,6 +18,7 @@ use super::{Drawable, Viewer};
 use crate::geometry::{Derived, Mesh, MeshTangents, Most, Part};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
+use crate::process::work;
 use crate::scene::{LightKind, Scene};
 
 /// Roundings of 2^-24 of the greatest clip coordinate in a vertex that GL makes where it clips: one in each end's
@@ -189,6 +190,7 @@ impl<'d> Cutter<'d> {
         let mesh = &item.mesh;
         let range = item.indices.start as usize..item.indices.end as usize;
         let (mut whole, mut polygons) = (Vec::new(), Vec::new());
+        work::count_triangles(range.len());
         for triangle in mesh.indices[range].chunks_exact(3) {
             let triangle = [0, 1, 2].map(|k| Corner::of(mesh, triangle[k] as usize, clip_from_model));
             match self.cut_triangle(&triangle) {

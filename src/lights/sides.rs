@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 
 use super::Drawable;
+use crate::process::work;
 
 /// Most triangles of an item that is tested: the test must cost less than it saves.
 const MOST_TRIANGLES: usize = 64;
@@ -30,6 +31,7 @@ pub fn normals_face_eye(item: &Drawable, eye_from_model: &DMat4) -> bool {
     if indices.len() > 3 * MOST_TRIANGLES || item.wave.is_some() {
         return false;
     }
+    work::count_triangles(indices.len());
     let normal_matrix = eye_from_model.inverse().transpose();
     let vector =
         |list: &[[f32; 3]], index: u32| list.get(index as usize).map(|vector| DVec3::from_array(vector.map(f64::from)));

@@ -2,6 +2,8 @@
 
 use glam::{DMat4, DVec3};
 
+use crate::process::work;
+
 /// An axis-aligned box; empty when any `min` component exceeds its `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
@@ -49,6 +51,7 @@ impl Aabb {
 
     /// The eight corners.
     pub fn corners(&self) -> [DVec3; 8] {
+        work::count_box();
         std::array::from_fn(|i| {
             DVec3::new(
                 if i & 1 == 0 { self.min.x } else { self.max.x },

@@ -1,6 +1,6 @@
 //! A plan in words: for `glumbra plan`, and as values for `--json`.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fmt::{self, Display, Write};
 
 use super::{ImageSummary, PassSummary, Plan, Summary, image_bytes};
@@ -289,18 +289,45 @@ impl Display for Summary {
         if !self.chosen.is_empty() {
             writeln!(f, "\nChosen:")?;
         }
-        for chosen in &self.chosen {
-            writeln!(f, "   {}: {}: {}", chosen.of, chosen.choice, chosen.why)?;
-        }
+        let chosen = self.chosen.iter().map(|chosen| format!("{}: {}: {}", chosen.of, chosen.choice, chosen.why));
+        instances_joined(chosen).iter().try_for_each(|line| writeln!(f, "   {line}"))?;
         writeln!(f, "\nLeft out:")?;
-        for left_out in &self.left_out {
-            writeln!(f, "   {}: {}", left_out.what, left_out.why)?;
-        }
+        let left_out = self.left_out.iter().map(|left_out| format!("{}: {}", left_out.what, left_out.why));
+        instances_joined(left_out).iter().try_for_each(|line| writeln!(f, "   {line}"))?;
         for warning in &self.warnings {
             writeln!(f, "\nwarning: {warning}")?;
         }
         Ok(())
     }
+}
+
+/// The lines, where those of an object's instances that say the same are one: the first, and how many more there are.
+fn instances_joined(lines: impl Iterator<Item = String>) -> Vec<String> {
+    let mut first: HashMap<String, usize> = HashMap::new();
+    let mut joined: Vec<(String, usize)> = Vec::new();
+    for line in lines {
+        let place = match of_any_instance(&line) {
+            None => joined.len(),
+            Some(key) => *first.entry(key).or_insert(joined.len()),
+        };
+        match joined.get_mut(place) {
+            Some((_, more)) => *more += 1,
+            None => joined.push((line, 0)),
+        }
+    }
+    let words = |(line, more): (String, usize)| match more {
+        0 => line,
+        _ => format!("{line} (and {more} more of its instances)"),
+    };
+    joined.into_iter().map(words).collect()
+}
+
+/// The line without the number of its instance, `name[17]`; `None`: it is of none.
+fn of_any_instance(line: &str) -> Option<String> {
+    let (name, rest) = line.split_once('[')?;
+    let (number, rest) = rest.split_once(']')?;
+    let is_number = !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit());
+    is_number.then(|| format!("{name}[]{rest}"))
 }
 
 /// The first few of a long list, and how many more there are.

@@ -11,6 +11,8 @@ mod memory;
 #[cfg(unix)]
 mod signals;
 mod unfinished;
+#[doc(hidden)]
+pub mod work;
 
 pub(crate) use commands::start;
 pub(crate) use doing::doing;

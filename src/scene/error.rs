@@ -20,8 +20,8 @@ pub enum Error {
     #[error("{path}: is a folder; name a scene (.toml) or a model (.obj, .md2)", path = .path.display())]
     Folder { path: PathBuf },
 
-    /// The file is longer than any scene.
-    #[error("{path}: has {bytes} bytes; a scene file may have {limit}", path = .path.display())]
+    /// The file is longer than any of its kind.
+    #[error("{path}: has {bytes} bytes; a file of its kind may have {limit}", path = .path.display())]
     TooLong { path: PathBuf, bytes: u64, limit: u64 },
 
     /// The file's name has none of the known endings.
@@ -32,7 +32,7 @@ pub enum Error {
     #[error("{path}:{line}: is not UTF-8 text", path = .path.display())]
     NotUtf8 { path: PathBuf, line: usize },
 
-    /// TOML's grammar, with the offending line as written.
+    /// The grammar of TOML, or of JSON in a file of instances, with the offending line as written.
     #[error("{origin}: {message}\n  {text}")]
     Syntax { origin: Origin, message: String, text: String },
 

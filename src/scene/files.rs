@@ -8,9 +8,10 @@ use super::{Error, Origin};
 use crate::geometry;
 
 /// The keys that name files, by the tables that have them.
-const KEYS: [(&str, &str); 10] = [
+const KEYS: [(&str, &str); 11] = [
     ("light", "image"),
     ("light.beam", "shield"),
+    ("object", "instances"),
     ("object", "mesh"),
     ("object.material", "decal"),
     ("object.material", "alpha"),

@@ -8,6 +8,7 @@ mod camera_framing;
 mod default_scene;
 mod error;
 mod files;
+mod json;
 mod model;
 mod overrides;
 mod parse;
@@ -161,7 +162,7 @@ pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
 /// A file that cannot be read, is too long, or is no TOML.
 #[doc(hidden)]
 pub fn table(path: &Path) -> Result<Settings, Error> {
-    parse::document(path, &read_text(path)?)
+    parse::document(path, &read_text(path, LONGEST_FILE)?)
 }
 
 /// The scene as [`settings`] has it, but with absolute paths to its files: to be saved in any folder.
@@ -194,7 +195,7 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
     if !has_extension(path, "toml") {
         return Err(Error::UnknownKind { path: path.to_owned() });
     }
-    let mut root = parse::document(path, &read_text(path)?)?;
+    let mut root = parse::document(path, &read_text(path, LONGEST_FILE)?)?;
     overrides::apply(&mut root, overrides)?;
     Ok(root)
 }
@@ -221,19 +222,19 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
         .first()
         .map(|object| resolve::object::read(object, &Shading::default(), assets))
         .transpose()?;
-    let object = object.map(|(object, _)| object);
-    let bounds = object.as_ref().map_or(bounds, Object::world_bounds);
+    let objects = object.map(|(objects, _)| objects).unwrap_or_default();
+    let bounds = objects.iter().map(Object::world_bounds).reduce(Aabb::union).unwrap_or(bounds);
     check_size(path, &bounds)?;
-    let floor = match &object {
-        _ if !is_floor_wanted => Floor::Absent,
-        Some(object) if default_scene::has_floor(object) => {
+    let floor = match () {
+        () if !is_floor_wanted => Floor::Absent,
+        () if objects.iter().any(default_scene::has_floor) => {
             let hair = default_scene::hair(&bounds);
             let below = Plain(format!("{hair:.1e}").parse().unwrap_or(hair));
             let what = "has a floor of its own: the supplied one lies";
             assets.warn(format!("{}: {what} {below} below it; --no-floor leaves it out", path.display()));
             Floor::Below
         }
-        _ => Floor::Touching,
+        () => Floor::Touching,
     };
     let mut root = framing(&name, &bounds, aspect, floor);
     overrides::apply(&mut root, overrides)?;
@@ -252,11 +253,12 @@ fn check_size(path: &Path, bounds: &Aabb) -> Result<(), Error> {
     Err(Error::Size { path: path.to_owned(), size: 2.0 * radius, least: 2.0 * least, most: 2.0 * most, scale })
 }
 
-fn read_text(path: &Path) -> Result<String, Error> {
+/// The text of a file of at most `limit` bytes.
+fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
     let unreadable = |reason| Error::Read { path: path.to_owned(), reason };
     let bytes = fs::metadata(path).map_err(unreadable)?.len();
-    if bytes > LONGEST_FILE {
-        return Err(Error::TooLong { path: path.to_owned(), bytes, limit: LONGEST_FILE });
+    if bytes > limit {
+        return Err(Error::TooLong { path: path.to_owned(), bytes, limit });
     }
     String::from_utf8(fs::read(path).map_err(unreadable)?).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];

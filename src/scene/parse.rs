@@ -91,9 +91,13 @@ impl<'t> Lines<'t> {
         let span = error.span().unwrap_or(0..0);
         let line = self.line(span.start);
         let text = self.text.lines().nth(line - 1).unwrap_or_default();
-        let text: String = text.trim().chars().take(200).flat_map(visible).collect();
-        Error::Syntax { origin: self.origin(span), message: error.message().to_owned(), text }
+        Error::Syntax { origin: self.origin(span), message: error.message().to_owned(), text: shown(text) }
     }
+}
+
+/// A line as messages show it: its beginning, without control characters.
+pub(super) fn shown(line: &str) -> String {
+    line.trim().chars().take(200).flat_map(visible).collect()
 }
 
 /// Control characters by their escapes, so that a message stays on its line.

@@ -7,6 +7,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use super::{Camera, Frustum, Object};
 use crate::math::frustum::{clip_polygon, faces};
 use crate::math::{Aabb, spaces};
+use crate::process::work;
 
 /// Area in pixels below which a piece does not count.
 pub(super) const LEAST_PIECE: f64 = 0.5;
@@ -154,6 +155,7 @@ impl Pyramid {
                 continue;
             }
             let indices = &mesh.indices[part.indices.start as usize..part.indices.end as usize];
+            work::count_triangles(indices.len());
             for triangle in indices.as_chunks::<3>().0 {
                 let corners = triangle.map(|index| {
                     let place = DVec3::from_array(positions[index as usize].map(f64::from));

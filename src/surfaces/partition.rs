@@ -10,6 +10,7 @@ use crate::lights::Drawable;
 use crate::lights::guard::{ModelPlane, Side};
 use crate::math::Aabb;
 use crate::pass::MeshRef;
+use crate::process::work;
 
 /// The item's triangles before, across and behind the plane; `None` for a part without any. `None` for an item whose
 /// vertices the vertex stage moves.
@@ -43,6 +44,7 @@ fn part(item: &Drawable, plane: &ModelPlane) -> Parts {
     let mut lists: [Vec<u32>; 3] = Default::default();
     let range = item.mesh.indices.get(item.indices.start as usize..item.indices.end as usize).unwrap_or_default();
     let point = |index: &u32| item.mesh.positions.get(*index as usize).map(|at| DVec3::from_array(at.map(f64::from)));
+    work::count_triangles(range.len());
     for triangle in range.chunks_exact(3) {
         let points: Vec<DVec3> = triangle.iter().filter_map(point).collect();
         let list = match plane.of(&points) {

@@ -18,6 +18,10 @@ mod numbers;
 mod pairs;
 mod pictures;
 mod rounds;
+mod scale;
+mod scale_child;
+mod scale_plot;
+mod scale_scene;
 mod table;
 mod techniques;
 mod volumes;
@@ -67,8 +71,14 @@ pub struct Arguments {
     /// Each technique against the floor's shadow map, instead
     #[arg(long)]
     techniques: bool,
-    /// Only those whose names contain this text
-    #[arg(long, value_name = "TEXT", requires = "techniques")]
+    /// Growth with the size of a scene, instead: time, planning, start-up and memory; `-o FILE.svg` plots them
+    #[arg(long)]
+    scale: bool,
+    /// The child draws the scene of that in this folder
+    #[arg(long, hide = true, value_name = "FOLDER")]
+    scale_scene: Option<std::path::PathBuf>,
+    /// Only those whose names contain this text: of techniques, or of what grows
+    #[arg(long, value_name = "TEXT")]
     only: Option<String>,
     /// glumbra against itself, instead: multiples, and what is saved by what is left out
     #[arg(long)]
@@ -82,7 +92,7 @@ pub struct Arguments {
     /// The child's overrides of the scene, as `glumbra render` takes them
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Where the child writes its picture
+    /// Where the child writes its picture, and `--scale` its plots
     #[arg(short, long)]
     output: Option<std::path::PathBuf>,
     /// Cargo passes it to every bench
@@ -131,7 +141,11 @@ fn main() -> ExitCode {
             arguments.bumps_floor.map_or(Ok(()), |passes| bumps::floor(passes, &arguments))
         }
         None if arguments.bumps => bumps::run(&arguments),
-        Some(who) => child::run(who, &arguments),
+        None if arguments.scale => scale::run(&arguments),
+        Some(who) => match &arguments.scale_scene {
+            Some(folder) => scale_child::run(who, folder, &arguments),
+            None => child::run(who, &arguments),
+        },
         None if arguments.volumes => volumes::run(&arguments),
         None if arguments.animation => animation::run(&arguments),
         None if arguments.pairs => pairs::run(&arguments),

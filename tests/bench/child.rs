@@ -13,6 +13,7 @@ use glumbra::views::View;
 use serde::{Deserialize, Serialize};
 
 use super::floor::Floor;
+use super::numbers::numbers;
 use super::{Arguments, Redraw, Result, Scene, Who};
 
 /// Output of a child.
@@ -65,7 +66,7 @@ pub fn run(who: Who, arguments: &Arguments) -> Result<()> {
 }
 
 fn floor(scene: Scene, tuned: bool, arguments: &Arguments) -> Result<Sample> {
-    let mut floor = Floor::new(scene, arguments.floor, &model_file(arguments), tuned)?;
+    let mut floor = Floor::new(numbers(scene), arguments.floor, &model_file(arguments), tuned)?;
     let mut cpu = processor_ms();
     let mut times = Vec::new();
     for frame in 0..arguments.frames {
@@ -225,7 +226,8 @@ pub fn model_file(arguments: &Arguments) -> PathBuf {
     arguments.model.clone().unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("data/meshes/dense.obj"))
 }
 
-fn ms(start: Instant) -> f64 {
+/// Time since `start`, in milliseconds.
+pub fn ms(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
@@ -243,7 +245,8 @@ pub fn processor_ms() -> f64 {
     1e3 * time.tv_sec as f64 + 1e-6 * time.tv_nsec as f64
 }
 
-fn peak_kib() -> Result<u64> {
+/// VmHWM of this process.
+pub fn peak_kib() -> Result<u64> {
     let status = std::fs::read_to_string("/proc/self/status")?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).ok_or("no VmHWM in /proc/self/status")?;
     Ok(line.trim().trim_end_matches(" kB").parse()?)

@@ -10,14 +10,14 @@ use glow::HasContext;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
+use super::Result;
 use super::floor_dust::Dust;
 use super::floor_gl::{self, Program};
 use super::floor_lens::Lens;
 use super::floor_maps::{self, MapPass};
 use super::floor_passes::{self, PicturePass};
 use super::kinds::{self, Kind};
-use super::numbers::{Numbers, numbers};
-use super::{Result, Scene};
+use super::numbers::Numbers;
 
 const BACKGROUND: [f32; 4] = [0.30, 0.40, 0.60, 1.0];
 
@@ -48,8 +48,7 @@ impl Floor {
     /// Loads the model, opens a context and uploads.
     ///
     /// `tuned`: the triangles in vertex-cache order, and the heap kept.
-    pub fn new(scene: Scene, kind: Kind, model: &Path, tuned: bool) -> Result<Self> {
-        let numbers = numbers(scene);
+    pub fn new(numbers: Numbers, kind: Kind, model: &Path, tuned: bool) -> Result<Self> {
         let (mut mesh, _) = glumbra::geometry::load_obj(model)?;
         if tuned {
             mesh = mesh.cache_optimized();

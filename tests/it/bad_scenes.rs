@@ -251,7 +251,7 @@ fn files_that_are_no_scenes() {
         ("latin.toml", "latin.toml:2: is not UTF-8 text"),
         ("scene.json", "a scene ends in .toml, a model in .obj"),
         ("plain", "a scene ends in .toml, a model in .obj"),
-        ("long.toml", "a scene file may have 4194304"),
+        ("long.toml", "a file of its kind may have 4194304"),
         ("none.toml", "none.toml: cannot be read: "),
         ("none.obj", "none.obj: cannot be read: "),
     ] {

@@ -10,6 +10,7 @@ use super::edges::{OtherEdges, PlainEdges, find_edges, renumber, uses};
 use super::planes::Planes;
 use crate::geometry::Mesh;
 use crate::geometry::topology::weld;
+use crate::process::work;
 
 /// The triangles of some ranges of a mesh, welded by exact position, with their edges, planes and shells.
 ///
@@ -55,6 +56,7 @@ impl Caster {
     /// Triangles of places, three indices into `positions` each, for vertices that move: two of them are one place if they are
     /// so in every pose.
     pub fn of_places(positions: Vec<[f32; 3]>, mut triangles: Vec<[u32; 3]>) -> Self {
+        work::count_triangles(3 * triangles.len());
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
         let mut uses = uses(&triangles);
         let order = components::sorted_by_shell(triangles.len(), uses.chunk_by(|a, b| a.places == b.places));

@@ -3,6 +3,7 @@
 
 use super::loops::{self, OutlineEdge};
 use super::{Caster, CountedFaces, KeyPlanes, LightSource, PlaneBlend};
+use crate::process::work;
 
 /// Triangles of a caster that count under one light, and the boundary of their sum.
 ///
@@ -60,6 +61,7 @@ impl Outline {
     }
 
     fn begin(&mut self, caster: &Caster, source: LightSource) {
+        work::count_triangles(3 * caster.triangles.len());
         self.source = Some(source);
         self.weights.clear();
         self.weights.resize(caster.triangles.len(), 0);

@@ -2,6 +2,8 @@
 //! with the contents of every mesh, material and picture that it names, and of the grid. A stamp is a hash of the program,
 //! the driver and the machine, on which errors and times depend, too. FNV-1a, 64 bits.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt::{self, Write};
 use std::sync::Arc;
 
@@ -80,8 +82,17 @@ impl Mark {
             }
             self.debug(&rest);
         }
+        // A mesh that objects share, a hundred thousand instances, is hashed once; then its number stands for it.
+        let mut known: HashMap<*const Mesh, usize> = HashMap::new();
         for object in &scene.objects {
-            self.mesh(&object.mesh);
+            let number = known.len();
+            match known.entry(Arc::as_ptr(&object.mesh)) {
+                Entry::Occupied(known) => self.debug(known.get()),
+                Entry::Vacant(new) => {
+                    new.insert(number);
+                    self.mesh(&object.mesh);
+                }
+            }
             let mut rest = object.clone();
             rest.mesh = Arc::default();
             let material = rest.material.take();

@@ -4,10 +4,12 @@ mod beam;
 mod bump;
 mod camera;
 mod falloff;
+mod instances;
 mod light;
 mod material;
 pub(super) mod object;
 mod photo;
+mod placement;
 pub(super) mod pose;
 
 use super::assets::Assets;
@@ -41,9 +43,14 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
 
     let lights =
         lights.iter().enumerate().map(|(i, table)| light::read(table, i, assets)).collect::<Result<Vec<_>, _>>()?;
-    let objects = objects.iter().map(|table| object::read(table, &shading, assets)).collect::<Result<Vec<_>, _>>()?;
-    let (mut objects, photos): (Vec<_>, Vec<_>) = objects.into_iter().unzip();
-    photo::complete(photos, &mut objects, shadows)?;
+    let (mut all, mut photos) = (Vec::with_capacity(objects.len()), Vec::with_capacity(objects.len()));
+    for table in objects {
+        let (instances, photo) = object::read(table, &shading, assets)?;
+        photos.push((photo, instances.len()));
+        all.extend(instances);
+    }
+    let mut objects = all;
+    photo::complete(&photos, &mut objects, shadows)?;
     if lights.is_empty() && objects.iter().any(|object| object.photo.is_none()) {
         assets.warnings.push(format!("{}: the scene has no [[light]]: only ambient light is drawn", root.origin));
     }

@@ -4,29 +4,31 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
-use super::material;
+use super::instances::{self, Instance};
 use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
+use super::{material, placement};
 use crate::geometry::tangents::BasisCounts;
 use crate::geometry::{Gloss, Material, Mesh, Texture, Wave};
 use crate::scene::assets::Assets;
-use crate::scene::ranges::{LARGEST, SMALLEST};
-use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
+use crate::scene::ranges::LARGEST;
+use crate::scene::settings::{Origin, Plain, Settings, SettingsError};
 use crate::scene::{Error, ModelSkin, Object, Shading};
 
-/// Resolves one object, and reads its photograph.
+/// Resolves one object, each of its instances as an object of its own, and reads its photograph.
 ///
 /// `shading`: how its surface will be lit.
 pub(in crate::scene) fn read(
     table: &Settings,
     shading: &Shading,
     assets: &mut Assets,
-) -> Result<(Object, Option<PhotoKeys>), Error> {
+) -> Result<(Vec<Object>, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
     let (mesh, mesh_origin) =
         reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh, or an .obj or .md2 file"))?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
-    let world_from_file = placement(&mut reader)?;
+    let world_from_file = placement::read(&mut reader)?;
+    let instances = instances::read(&mut reader)?;
     let pose = WrittenPose::read(&mut reader, table.read())?;
     let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
@@ -64,9 +66,30 @@ pub(in crate::scene) fn read(
         casts_shadow,
         closed,
     };
-    check_reach(&object, table)?;
     warn_of_clear(&object, table, assets);
-    Ok((object, photo))
+    let objects = match instances {
+        None => {
+            check_reach(&object, &table.origin)?;
+            vec![object]
+        }
+        Some(instances) => placed(&object, &world_from_file, &instances)?,
+    };
+    Ok((objects, photo))
+}
+
+/// A copy of `object` at each of the places, with the mesh and the material that it has. `world_from_group`: the object's own
+/// placement, which moves all of them.
+fn placed(object: &Object, world_from_group: &DMat4, instances: &[Instance]) -> Result<Vec<Object>, SettingsError> {
+    let is_moved = *world_from_group != DMat4::IDENTITY;
+    let place = |(number, instance): (usize, &Instance)| {
+        // A product with the identity may change the sign of a zero.
+        let world_from_file = if is_moved { *world_from_group * instance.placement } else { instance.placement };
+        let world_from_model = world_from_file * DMat4::from_translation(object.mesh.origin);
+        let placed = Object { name: format!("{}[{number}]", object.name), world_from_model, ..object.clone() };
+        check_reach(&placed, &instance.origin)?;
+        Ok(placed)
+    };
+    instances.iter().enumerate().map(place).collect()
 }
 
 /// Exponent of specular light that three squarings make.
@@ -171,57 +194,6 @@ fn check_closed(mesh: &Mesh) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// `world_from_model`: scaled, then rotated, then translated.
-fn placement(reader: &mut Reader<'_>) -> Result<DMat4, SettingsError> {
-    let translate = reader.vector("translate")?.unwrap_or(DVec3::ZERO);
-    let rotate = rotations(reader)?;
-    let scale = scale(reader)?;
-    Ok(DMat4::from_translation(translate) * rotate * DMat4::from_scale(scale))
-}
-
-/// A number or one for each axis; negative mirrors.
-fn scale(reader: &mut Reader<'_>) -> Result<DVec3, SettingsError> {
-    let scale = match reader.entry("scale").map(|entry| &entry.value) {
-        None => return Ok(DVec3::ONE),
-        Some(Value::Array(_)) => reader.vector("scale")?,
-        Some(Value::Integer(_) | Value::Float(_)) => reader.number("scale", -LARGEST..=LARGEST)?.map(DVec3::splat),
-        Some(_) => return Err(reader.error("scale", "must be a number or an array of three")),
-    };
-    let scale = scale.unwrap_or(DVec3::ONE);
-    if scale.abs().min_element() < SMALLEST {
-        return Err(reader.error("scale", "must not be zero: a flattened object has no inside"));
-    }
-    Ok(scale)
-}
-
-/// `{ axis, angle }`, or an array of these, the first applied first.
-fn rotations(reader: &mut Reader<'_>) -> Result<DMat4, SettingsError> {
-    match reader.entry("rotate").map(|entry| &entry.value) {
-        None => Ok(DMat4::IDENTITY),
-        Some(Value::Table(table)) => rotation(table),
-        Some(Value::Array(items)) => items.iter().try_fold(DMat4::IDENTITY, |done, item| match &item.value {
-            Value::Table(table) => Ok(rotation(table)? * done),
-            _ => Err(wrong_rotation(reader)),
-        }),
-        Some(_) => Err(wrong_rotation(reader)),
-    }
-}
-
-fn wrong_rotation(reader: &Reader<'_>) -> SettingsError {
-    reader.error("rotate", "must be { axis = [x, y, z], angle = degrees } or an array of these")
-}
-
-fn rotation(table: &Settings) -> Result<DMat4, SettingsError> {
-    let mut reader = table.read();
-    let axis = reader.vector("axis")?.ok_or_else(|| reader.missing("axis", "what to turn about, [x, y, z]"))?;
-    let degrees =
-        reader.number("angle", -LARGEST..=LARGEST)?.ok_or_else(|| reader.missing("angle", "how far, in degrees"))?;
-    reader.finish()?;
-    let axis = axis.try_normalize().ok_or_else(|| reader_error(table, "axis", "must not be of zero length"))?;
-    // Whole turns are taken off in degrees, where that is exact.
-    Ok(DMat4::from_axis_angle(axis, (degrees % 360.0).to_radians()))
-}
-
 /// `{ direction, amplitude, axis, wavelength, phase }`, in model space; `None` where nothing moves.
 fn wave(table: &Settings) -> Result<Option<Wave>, SettingsError> {
     let mut reader = table.read();
@@ -242,12 +214,8 @@ fn wave(table: &Settings) -> Result<Option<Wave>, SettingsError> {
     Ok((amplitude != 0.0).then_some(wave))
 }
 
-fn reader_error(table: &Settings, key: &str, message: &str) -> SettingsError {
-    table.read().error(key, message)
-}
-
 /// Refuses an object with a corner so far out that f32 cannot hold its square.
-fn check_reach(object: &Object, table: &Settings) -> Result<(), SettingsError> {
+fn check_reach(object: &Object, origin: &Origin) -> Result<(), SettingsError> {
     let bounds = object.world_bounds();
     let reach = bounds.min.abs().max(bounds.max.abs()).max_element();
     if bounds.is_empty() || reach <= LARGEST {
@@ -259,5 +227,5 @@ fn check_reach(object: &Object, table: &Settings) -> Result<(), SettingsError> {
         Plain(reach),
         Plain(LARGEST)
     );
-    Err(SettingsError::new(&table.origin, message))
+    Err(SettingsError::new(origin, message))
 }

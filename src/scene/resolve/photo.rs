@@ -1,5 +1,6 @@
 //! `material.photo = { … }`: a photograph that is projected back onto an object [Segal 1992, 3.1].
 
+use std::iter::repeat_n;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -56,17 +57,18 @@ pub(super) fn read(table: &Settings, assets: &mut Assets) -> Result<PhotoKeys, E
     Ok(PhotoKeys { settings: table.clone(), image, filter, frustum, planes, hidden, map })
 }
 
-/// Gives each of `objects` its photograph. Objects with the same keys share one, and so its depth map.
+/// Gives each of `objects` its photograph. Objects with the same keys share one, and so its depth map. `keys`: of each
+/// `[[object]]`, with the number of its instances.
 pub(super) fn complete(
-    keys: Vec<Option<PhotoKeys>>,
+    keys: &[(Option<PhotoKeys>, usize)],
     objects: &mut [Object],
     shadows: &dyn ReadShadow,
 ) -> Result<(), SettingsError> {
     let mut known: Vec<(&PhotoKeys, Arc<Photo>)> = Vec::new();
-    let mut photos = Vec::with_capacity(keys.len());
-    for keys in &keys {
+    let mut photos = Vec::with_capacity(objects.len());
+    for (keys, instances) in keys {
         let Some(keys) = keys else {
-            photos.push(None);
+            photos.extend(repeat_n(None, *instances));
             continue;
         };
         let photo = match known.iter().find(|(other, _)| keys.equals(other)) {
@@ -77,7 +79,7 @@ pub(super) fn complete(
                 photo
             }
         };
-        photos.push(Some(photo));
+        photos.extend(repeat_n(Some(photo), *instances));
     }
     objects.iter_mut().zip(photos).for_each(|(object, photo)| object.photo = photo);
     Ok(())
