@@ -91,7 +91,9 @@ const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 fn warn_of_reach(view: &LightView<'_>, casting: &[CastingObject], ways: &[CountMethod], notes: &mut Notes) {
     let camera = &view.scene.camera;
     let most_moved = |item: &Drawable| {
-        let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
+        // Casters come in the order of the objects.
+        let place = casting.binary_search_by_key(&item.object, |caster| caster.object);
+        let way = place.ok().and_then(|place| ways.get(place)).copied();
         match way {
             _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
             Some(CountMethod::ZFail | CountMethod::ZFailClamped | CountMethod::ZFailTruncated) => {
