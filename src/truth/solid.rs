@@ -42,7 +42,8 @@ impl<'a> Solid<'a> {
             Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
         };
         let part = parts(mesh, corners.len());
-        let (bvh, (welded, across, seam)) = rayon::join(hierarchy, || join_edges(mesh, &corners, &part));
+        let (bvh, joined) = rayon::join(hierarchy, || join_edges(mesh, &corners, &part));
+        let JoinedEdges { welded, across, seam } = joined;
         Ok(Self { mesh, positions, bvh, welded, across, seam, part })
     }
 
@@ -74,8 +75,14 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// Each triangle's corners by place, and by edge what lies across it: [`Solid::welded`], [`Solid::across`], [`Solid::seam`].
-fn join_edges(mesh: &Mesh, corners: &[[u32; 3]], part: &[u32]) -> (Vec<[u32; 3]>, Vec<[u32; 3]>, Vec<[bool; 3]>) {
+/// Each triangle's corners by place, and by edge what lies across it, as in [`Solid`].
+struct JoinedEdges {
+    welded: Vec<[u32; 3]>,
+    across: Vec<[u32; 3]>,
+    seam: Vec<[bool; 3]>,
+}
+
+fn join_edges(mesh: &Mesh, corners: &[[u32; 3]], part: &[u32]) -> JoinedEdges {
     let welded = weld(mesh, corners);
     let beside = find_beside(&welded);
     let across = (0u32..).zip(&beside).map(|(triangle, beside)| {
@@ -90,7 +97,7 @@ fn join_edges(mesh: &Mesh, corners: &[[u32; 3]], part: &[u32]) -> (Vec<[u32; 3]>
     let seam =
         seam.map(|(triangle, beside)| [0, 1, 2].map(|k| beside[k].is_some_and(|other| is_seam(triangle, k, other))));
     let seam = seam.collect();
-    (welded, across, seam)
+    JoinedEdges { welded, across, seam }
 }
 
 fn check(mesh: &Mesh) -> Result<(), Error> {

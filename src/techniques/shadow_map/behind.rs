@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn bounds_are_those_of_a_look_at_each_box() {
         let mut random = fastrand::Rng::with_seed(3);
-        for count in [0, 1, 2, 40] {
+        for count in [0_usize, 1, 2, 40] {
             // Few different numbers, so that many are equal.
             let mut place = || DVec3::from_array([(); 3].map(|()| f64::from(random.i32(-4..4))));
             let boxes: Vec<Aabb> = (0..count).map(|_| Aabb::from_points([place(), place()])).collect();
