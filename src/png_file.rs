@@ -125,6 +125,6 @@ pub fn of_rgb(picture: &image::RgbImage, texts: &PngTexts) -> io::Result<Vec<u8>
     let size = [picture.width(), picture.height()];
     let picture = PngPicture { size, color: PngColor::Rgb, is_deep: false, bytes: picture.as_raw() };
     let mut file = Vec::new();
-    write(&mut file, &picture, PngEffort::High, texts.as_slice())?;
+    write(&mut file, &picture, PngEffort::Balanced, texts.as_slice())?;
     Ok(file)
 }

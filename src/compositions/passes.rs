@@ -1,6 +1,7 @@
 //! The pass list that compositions extend, and the passes that draw surfaces.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 use super::Error;
 use super::projection::CameraProjection;
@@ -36,7 +37,7 @@ pub struct Passes<'a> {
     /// Facts that earlier plans found from meshes.
     pub derived: &'a Derived,
     /// Indices of objects whose surfaces volumes' caps meet: their meshes are not cut.
-    pub kept: Vec<usize>,
+    pub kept: HashSet<usize>,
     /// True if volumes are counted in the picture.
     pub counted: bool,
     pub list: &'a mut PassList,

@@ -11,12 +11,25 @@ pub struct Triangles {
     boxes: Boxes,
 }
 
-/// Boxes in one space, in a hierarchy.
+/// Boxes in one space, in hierarchies.
 pub struct Boxes {
     /// The greatest coordinate of any corner.
     reach: f64,
-    bvh: Bvh,
+    parts: Vec<Part>,
 }
+
+/// Some of the boxes in a hierarchy.
+struct Part {
+    bvh: Bvh,
+    /// The boxes' indices, in the order of the hierarchy's leaves.
+    indices: Vec<u32>,
+}
+
+/// Number of boxes above which a hierarchy is built in parts, on all cores.
+const MOST_IN_PART: usize = 1 << 14;
+
+/// Times that boxes are halved for that, at most: each ray looks into each part.
+const MOST_HALVED: u32 = 3;
 
 impl Boxes {
     /// Builds the tree from each box's least and greatest corner.
@@ -28,7 +41,8 @@ impl Boxes {
                 Aabb::new(Vector::from_array(min.to_array()), Vector::from_array(max.to_array()))
             })
             .collect();
-        Self { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), reach }
+        let indices = (0..boxes.len() as u32).collect();
+        Self { parts: parts(&boxes, indices, MOST_HALVED), reach }
     }
 
     /// Calls `found` with each box that the ray may meet, in no particular order; returns the number of nodes that were
@@ -36,18 +50,43 @@ impl Boxes {
     pub fn met(&self, ray: &Ray, mut found: impl FnMut(u32)) -> usize {
         let slab = Slab::new(ray, self.reach);
         let mut looked_at = 0;
-        self.bvh.traverse(|node| {
-            looked_at += 1;
-            if !slab.meets(node) {
-                return TraversalAction::Prune;
-            }
-            if let Some(index) = node.leaf_data() {
-                found(index);
-            }
-            TraversalAction::Continue
-        });
+        for Part { bvh, indices } in &self.parts {
+            bvh.traverse(|node| {
+                looked_at += 1;
+                if !slab.meets(node) {
+                    return TraversalAction::Prune;
+                }
+                if let Some(leaf) = node.leaf_data() {
+                    found(indices[leaf as usize]);
+                }
+                TraversalAction::Continue
+            });
+        }
         looked_at
     }
+}
+
+/// Hierarchies of the boxes `indices`, which are halved along their longest axis up to `halved` times.
+fn parts(boxes: &[Aabb], mut indices: Vec<u32>, halved: u32) -> Vec<Part> {
+    if indices.len() <= MOST_IN_PART || halved == 0 {
+        let leaves: Vec<Aabb> = indices.iter().map(|index| boxes[*index as usize]).collect();
+        return vec![Part { bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves), indices }];
+    }
+    let middle = |index: &u32| {
+        let own = &boxes[*index as usize];
+        DVec3::from_array(own.mins.to_array()) + DVec3::from_array(own.maxs.to_array())
+    };
+    let (least, most) = indices
+        .iter()
+        .map(middle)
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)));
+    let axis = (most - least).max_position();
+    let half = indices.len() / 2;
+    indices.select_nth_unstable_by(half, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
+    let other = indices.split_off(half);
+    let (mut all, others) = rayon::join(|| parts(boxes, indices, halved - 1), || parts(boxes, other, halved - 1));
+    all.extend(others);
+    all
 }
 
 /// The points `origin + t * way` with `start <= t <= end`.
@@ -159,6 +198,29 @@ mod tests {
             fan.crossings(&ray(9.0), |_, t| met.push(t));
             assert_eq!(met, vec![4.0; expected], "{x} {y}");
             fan.crossings(&ray(3.9), |_, _| panic!("before its end"));
+        }
+    }
+
+    #[test]
+    fn boxes_in_parts_are_met_as_they_are_in_one() {
+        let mut random = fastrand::Rng::with_seed(2);
+        let mut place = || DVec3::from_array([(); 3].map(|()| random.f64()));
+        let boxes: Vec<[DVec3; 2]> = (0..3 * MOST_IN_PART).map(|_| place()).map(|at| [at, at + 0.01]).collect();
+        let all = Boxes::new(boxes.iter().copied());
+        assert_eq!(all.parts.len(), 4);
+        for _ in 0..4 {
+            let (origin, way) = (2.0 * place() - 0.5, place() - 0.5);
+            let ray = Ray { origin, way, start: -9.0, end: 9.0 };
+            let mut met = Vec::new();
+            let looked_at = all.met(&ray, |index| met.push(index as usize));
+            met.sort_unstable();
+            let alone = |index: &usize| {
+                let mut is_met = false;
+                Boxes::new(boxes[*index..=*index].iter().copied()).met(&ray, |_| is_met = true);
+                is_met
+            };
+            assert_eq!(met, (0..boxes.len()).filter(alone).collect::<Vec<_>>());
+            assert!(looked_at < 100 + 60 * met.len(), "{looked_at} for {}", met.len());
         }
     }
 

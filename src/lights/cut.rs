@@ -9,6 +9,7 @@
 //! so that depths agree to the bit.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4, Vec2, Vec3};
@@ -53,6 +54,9 @@ const ORDINARY_FOR_CAMERA: f64 = 400.0;
 
 /// Texels a side of the map that [`ordinary_for_camera`] assumes.
 const MAP_SIZE: f64 = 1024.0;
+
+/// Share of a clip coordinate that is more than f64 rounds in it.
+const SURE: f64 = 1e-12;
 
 /// Meshes of more triangles are not cut: their triangles are small.
 const MOST_TRIANGLES: u32 = 1 << 16;
@@ -133,14 +137,17 @@ impl<'d> Cutter<'d> {
     }
 
     /// All of `items`. Those that reach too far are cut, except those of the objects `kept`.
-    pub fn cut_all<'a>(&self, items: &'a [Drawable], kept: &[usize]) -> Cow<'a, [Drawable]> {
-        let may_cut = |item: &Drawable| !kept.contains(&item.object);
-        let cut_one = |item| if may_cut(item) { self.cut(item) } else { vec![Cow::Borrowed(item)] };
-        let cut: Vec<Cow<'a, Drawable>> = items.iter().flat_map(cut_one).collect();
-        match cut.iter().any(|item| matches!(item, Cow::Owned(_))) {
-            true => Cow::Owned(cut.into_iter().map(Cow::into_owned).collect()),
-            false => Cow::Borrowed(items),
+    pub fn cut_all<'a>(&self, items: &'a [Drawable], kept: &HashSet<usize>) -> Cow<'a, [Drawable]> {
+        let mut cut: Option<Vec<Drawable>> = None;
+        for (index, item) in items.iter().enumerate() {
+            let pieces = if kept.contains(&item.object) { None } else { self.pieces(item) };
+            match (pieces, &mut cut) {
+                (None, None) => {}
+                (None, Some(cut)) => cut.push(item.clone()),
+                (Some(pieces), cut) => cut.get_or_insert_with(|| items[..index].to_vec()).extend(pieces),
+            }
         }
+        cut.map_or(Cow::Borrowed(items), Cow::Owned)
     }
 
     /// The greatest clip coordinate of a triangle that GL may clip where w is at least this.
@@ -149,29 +156,46 @@ impl<'d> Cutter<'d> {
         most.max(ORDINARY * w)
     }
 
-    /// `item`, or its visible pieces if it reaches too far, nearest first. Waves are not cut: the vertex stage moves them.
-    pub fn cut<'a>(&self, item: &'a Drawable) -> Vec<Cow<'a, Drawable>> {
+    /// `items`, each as it is or in the visible pieces of it.
+    pub fn cut<'a>(&self, items: impl IntoIterator<Item = &'a Drawable>) -> Vec<Cow<'a, Drawable>> {
+        let mut cut = Vec::new();
+        for item in items {
+            match self.pieces(item) {
+                None => cut.push(Cow::Borrowed(item)),
+                Some(pieces) => cut.extend(pieces.into_iter().map(Cow::Owned)),
+            }
+        }
+        cut
+    }
+
+    /// The visible pieces of an item that reaches too far, nearest first; `None`: it is drawn as it is. Waves are not cut: the
+    /// vertex stage moves them.
+    fn pieces(&self, item: &Drawable) -> Option<Vec<Drawable>> {
         let clip_from_model = self.clip_from_world * item.world_from_model;
-        let most = self.most(self.nearest);
-        let reaches = |corner: DVec3| (clip_from_model * corner.extend(1.0)).abs().max_element() > most;
         let triangles = (item.indices.end - item.indices.start) / 3;
-        if item.wave.is_some() || triangles > MOST_TRIANGLES || !item.bounds.corners().into_iter().any(reaches) {
-            return vec![Cow::Borrowed(item)];
+        if item.wave.is_some() || triangles > MOST_TRIANGLES || !self.may_cut(&item.bounds, &clip_from_model) {
+            return None;
         }
-        let cut = self.cut_once(item, &clip_from_model);
-        if cut.is_empty() {
-            return vec![Cow::Borrowed(item)];
-        }
-        let part = |(mesh, origin): (Arc<Mesh>, DVec3)| {
-            Cow::Owned(Drawable {
-                indices: 0..mesh.indices.len() as u32,
-                bounds: mesh.bounds,
-                world_from_model: item.world_from_model * DMat4::from_translation(origin),
-                mesh: MeshRef(mesh),
-                ..item.clone()
-            })
+        let part = |(mesh, origin): (Arc<Mesh>, DVec3)| Drawable {
+            indices: 0..mesh.indices.len() as u32,
+            bounds: mesh.bounds,
+            world_from_model: item.world_from_model * DMat4::from_translation(origin),
+            mesh: MeshRef(mesh),
+            ..item.clone()
         };
-        cut.into_iter().map(part).collect()
+        let cut = self.cut_once(item, &clip_from_model);
+        (!cut.is_empty()).then(|| cut.into_iter().map(part).collect())
+    }
+
+    /// Tests whether some triangle in a box may be cut: one whose greatest clip coordinate is too large for its least w, and
+    /// that is not within all planes. Both are at their worst at corners of the box.
+    fn may_cut(&self, bounds: &Aabb, clip_from_model: &DMat4) -> bool {
+        let corners = bounds.corners().map(|corner| *clip_from_model * corner.extend(1.0));
+        let reach = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+        let least = corners.iter().map(|corner| corner.w).fold(f64::INFINITY, f64::min).max(self.nearest);
+        let is_inside = |corner: &DVec4| self.planes.iter().all(|plane| plane.dot(*corner) > SURE * reach);
+        // A NaN is no proof.
+        !(reach < self.most(least) * (1.0 - SURE) || corners.iter().all(is_inside))
     }
 
     /// The meshes of [`Cutter::cut_mesh`], found once.

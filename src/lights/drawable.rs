@@ -6,7 +6,9 @@ use std::sync::Arc;
 use glam::{DMat4, Vec4};
 
 use super::Notes;
-use crate::geometry::{Bump, Derived, Gloss, Material, Placement, Texture, Wave};
+use super::appearance::Appearance;
+use super::joined_batches::JoinedBatches;
+use crate::geometry::{Derived, Gloss, Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
     AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
@@ -168,34 +170,30 @@ impl Drawable {
         }
     }
 
+    /// All that decides how its fragments look, wherever it is placed.
+    pub fn appearance(&self) -> Appearance<'_> {
+        let mesh_has = [self.mesh.texcoords.is_some(), self.mesh.tangents.is_some()];
+        Appearance { material: &self.material, lit: self.lit, waves: self.wave.is_some(), mesh_has }
+    }
+
     /// Tests whether fragments of it may fail the alpha test.
     pub fn needs_alpha_test(&self) -> bool {
-        let material = &self.material;
-        material.alpha.is_some() || self.decal_alpha()
+        self.appearance().needs_alpha_test()
     }
 
     /// Tests whether its mesh has, or its material makes, texture coordinates.
     pub fn has_texcoords(&self) -> bool {
-        self.mesh.texcoords.is_some() || self.material.texgen.is_some()
+        self.appearance().has_texcoords()
     }
 
     /// The decal, where there are coordinates for it.
     pub fn decal(&self) -> Option<&Arc<Texture>> {
-        self.material.decal.as_ref().filter(|_| self.has_texcoords())
-    }
-
-    /// The bump map, where it has coordinates and bases.
-    pub fn bump(&self) -> Option<&Arc<Bump>> {
-        self.material.bump.as_ref().filter(|_| self.has_texcoords() && self.mesh.tangents.is_some())
+        self.appearance().decal()
     }
 
     /// The gloss, where there are coordinates for it.
     pub fn gloss(&self) -> Option<&Gloss> {
-        self.material.gloss.as_ref().filter(|_| self.has_texcoords())
-    }
-
-    fn decal_alpha(&self) -> bool {
-        self.decal().is_some() && self.material.decal_joins_alpha_test()
+        self.appearance().gloss()
     }
 }
 
@@ -230,8 +228,8 @@ fn placed_by(placement: &Placement, sampler: Sampler) -> Sampler {
 
 /// The alpha test of `item`, and texture coordinates for it and for what the pass looks up: the decal where `decal` is
 /// true, other textures where `others` is.
-pub fn cutout(item: &Drawable, [decal, others]: [bool; 2], list: &mut PassList) -> Cutout {
-    let material = &item.material;
+pub fn cutout(item: &Appearance<'_>, [decal, others]: [bool; 2], list: &mut PassList) -> Cutout {
+    let material = item.material;
     let mut out = Cutout::default();
     let alpha_map = material.alpha.as_ref().filter(|_| item.has_texcoords());
     let tested = item.needs_alpha_test() && item.has_texcoords();
@@ -290,40 +288,43 @@ pub fn cutout(item: &Drawable, [decal, others]: [bool; 2], list: &mut PassList) 
 
 /// The batches that draw the depth of `items` alone, with holes where the alpha test makes them.
 pub fn depth_batches(items: &[&Drawable], clip_from_world: &DMat4, list: &mut PassList) -> Vec<Batch> {
-    let mut batches: Vec<Batch> = Vec::new();
+    let mut joined = JoinedBatches::default();
+    // Without an alpha test, all that waves is alike, and all that does not.
+    let mut known: HashMap<(bool, Option<Appearance<'_>>), usize> = HashMap::new();
     for item in items {
-        let test = if item.needs_alpha_test() { cutout(item, [false; 2], list) } else { Default::default() };
-        let mut vertex = vec![glsl!("common/position.vert")];
-        vertex.extend(test.vertex);
-        vertex.push(glsl!("common/depth.vert"));
-        let mut fragment = test.fragment;
-        fragment.push(glsl!("common/depth.frag"));
-        let mut attributes = vec![Attribute::Position];
-        attributes.extend(test.attributes);
-        let mut defines = test.defines;
-        if item.wave.is_some() {
-            defines.push(Define::flag("WAVE"));
-        }
-        let program = Program { label: String::from("depth"), defines, vertex, fragment, attributes };
         let draw = item.draw(clip_from_world, Vec::new());
-        match batches
-            .iter_mut()
-            .find(|b| b.program == program && b.uniforms == test.uniforms && b.inputs == test.inputs)
-        {
-            Some(batch) => batch.draws.push(draw),
-            None => batches.push(Batch {
-                program,
-                meaning: if item.wave.is_some() { WAVES } else { FixedFunctionDesc::Depth(test.meaning) },
-                uniforms: test.uniforms,
-                inputs: test.inputs,
-                cull: None,
-                scissor: None,
-                clip_planes: 0,
-                draws: vec![draw],
-            }),
-        }
+        let tested = Some(item.appearance()).filter(Appearance::needs_alpha_test);
+        let mut add = || joined.place(depth_batch(item.wave.is_some(), tested.as_ref(), list));
+        let place = *known.entry((item.wave.is_some(), tested)).or_insert_with(&mut add);
+        joined.batches[place].draws.push(draw);
     }
-    batches
+    joined.batches
+}
+
+/// The batch of surfaces that wave or do not, and whose fragments `tested` tests, without draws.
+fn depth_batch(waves: bool, tested: Option<&Appearance<'_>>, list: &mut PassList) -> Batch {
+    let test = tested.map(|tested| cutout(tested, [false; 2], list)).unwrap_or_default();
+    let mut vertex = vec![glsl!("common/position.vert")];
+    vertex.extend(test.vertex);
+    vertex.push(glsl!("common/depth.vert"));
+    let mut fragment = test.fragment;
+    fragment.push(glsl!("common/depth.frag"));
+    let mut attributes = vec![Attribute::Position];
+    attributes.extend(test.attributes);
+    let mut defines = test.defines;
+    if waves {
+        defines.push(Define::flag("WAVE"));
+    }
+    Batch {
+        program: Program { label: String::from("depth"), defines, vertex, fragment, attributes },
+        meaning: if waves { WAVES } else { FixedFunctionDesc::Depth(test.meaning) },
+        uniforms: test.uniforms,
+        inputs: test.inputs,
+        cull: None,
+        scissor: None,
+        clip_planes: 0,
+        draws: Vec::new(),
+    }
 }
 
 /// Binds the texture of two texels for a spotlight's sides: 0 behind it, 1 before [LEC, "Careful about Back Projecting

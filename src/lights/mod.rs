@@ -2,6 +2,8 @@
 //! it, the light term, guards, and the visible part of the scene. Knows no technique and no GL.
 
 pub mod alpha;
+pub mod appearance;
+pub mod box_raster;
 pub mod bumps;
 pub mod camera_visibility;
 pub mod caster_culling;
@@ -11,6 +13,7 @@ pub mod cut;
 pub mod drawable;
 pub mod ending;
 pub mod guard;
+pub mod joined_batches;
 pub mod light;
 pub mod map;
 mod notes;

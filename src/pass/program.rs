@@ -129,6 +129,21 @@ macro_rules! from_value {
 }
 from_value!(f32 => Float, Vec2 => Vec2, Vec3 => Vec3, Vec4 => Vec4, Vec<Vec4> => Vec4Array, Mat3 => Mat3, Mat4 => Mat4);
 
+impl UniformValue {
+    /// All numbers in it, in order.
+    pub fn floats(&self) -> Vec<f32> {
+        match self {
+            Self::Float(value) => vec![*value],
+            Self::Vec2(value) => value.to_array().into(),
+            Self::Vec3(value) => value.to_array().into(),
+            Self::Vec4(value) => value.to_array().into(),
+            Self::Vec4Array(values) => values.iter().flat_map(|value| value.to_array()).collect(),
+            Self::Mat3(value) => value.to_cols_array().into(),
+            Self::Mat4(value) => value.to_cols_array().into(),
+        }
+    }
+}
+
 impl Uniform {
     /// The uniform `name` with this value.
     pub fn new(name: impl Into<Cow<'static, str>>, value: impl Into<UniformValue>) -> Self {

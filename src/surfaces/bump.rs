@@ -7,9 +7,10 @@ use super::lights::LightParts;
 use crate::combiners::{self, CombinerProgram, Precision, Register};
 use crate::geometry::bump::{Bump, Gloss, NormalFormat, TexelLevels};
 use crate::geometry::normal_map::HeightWrap;
+use crate::lights::Ending;
+use crate::lights::appearance::Appearance;
 use crate::lights::drawable::upload;
 use crate::lights::ending::FormulaPart;
-use crate::lights::{Drawable, Ending};
 use crate::pass::{
     BumpMap, Chunk, Define, Filter, Format, GlossSource, ImageDesc, ImageId, Input, PassList, Sampler, Storage,
     Uniform, UniformValue, Wrap, glsl,
@@ -29,7 +30,7 @@ pub enum Bumps {
 
 impl Bumps {
     /// The bumps of `item` where `lights` light it by its normals.
-    pub fn of(item: &Drawable, lights: &[&LightParts], shading: &BumpShading, ending: &Ending) -> Self {
+    pub fn of(item: &Appearance<'_>, lights: &[&LightParts], shading: &BumpShading, ending: &Ending) -> Self {
         if item.bump().is_none() {
             return Self::None;
         }
@@ -184,7 +185,7 @@ fn unit_vectors(size: u32, list: &mut PassList) -> Input {
 }
 
 /// Source of an item's gloss in the terms of fixed function.
-pub fn gloss_source(item: &Drawable) -> GlossSource {
+pub fn gloss_source(item: &Appearance<'_>) -> GlossSource {
     match item.gloss() {
         None => GlossSource::One,
         Some(Gloss::DecalAlpha) => GlossSource::DecalAlpha,
@@ -193,7 +194,7 @@ pub fn gloss_source(item: &Drawable) -> GlossSource {
 }
 
 /// Defines and textures of an item's gloss; none where all of it shines.
-pub fn gloss(item: &Drawable, list: &mut PassList) -> (Vec<Define>, Vec<Input>) {
+pub fn gloss(item: &Appearance<'_>, list: &mut PassList) -> (Vec<Define>, Vec<Input>) {
     match item.gloss() {
         None => (Vec::new(), Vec::new()),
         Some(Gloss::DecalAlpha) => (vec![Define::flag("GLOSS_DECAL")], Vec::new()),

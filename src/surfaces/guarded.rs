@@ -10,7 +10,7 @@ use crate::lights::guard::{Guard, LightPlane, Side};
 use crate::lights::{Drawable, LightTerm, Viewer};
 
 /// Part of a light that an item is drawn with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reach {
     /// All of it: no drawn part of the item lies behind the light.
     Free,

@@ -4,9 +4,10 @@ use glam::Vec3;
 
 use super::bump;
 use super::lights::{ADDED, LightParts};
+use crate::lights::appearance::Appearance;
 use crate::lights::drawable::Cutout;
 use crate::lights::ending::FormulaPart;
-use crate::lights::{Drawable, Ending, Viewer};
+use crate::lights::{Ending, Viewer};
 use crate::pass::{BumpMap, Decal, FixedFunctionDesc, FixedFunctionLight, Lit, ShadeView};
 use crate::scene::Scene;
 
@@ -24,7 +25,7 @@ pub struct ShownColors {
 /// The variant in the terms of fixed function.
 pub fn of(
     scene: &Scene,
-    item: &Drawable,
+    item: &Appearance<'_>,
     lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
@@ -33,7 +34,7 @@ pub fn of(
 ) -> FixedFunctionDesc {
     let clip_from_eye = viewer.clip_from_eye;
     let texturing = cut.meaning.clone();
-    let material = &item.material;
+    let material = item.material;
     let shines_alone = *ending == Ending::Part(FormulaPart::Specular);
     match (ending, lights.first()) {
         (Ending::Lit | Ending::Part(FormulaPart::Diffuse | FormulaPart::Specular), _) => {

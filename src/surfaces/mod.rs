@@ -12,16 +12,20 @@ mod property;
 mod variant;
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::Mat3;
 
 use self::lights::{LightParts, Variants};
 use crate::geometry::{Derived, Material};
+use crate::lights::appearance::Appearance;
+use crate::lights::joined_batches::JoinedBatches;
 use crate::lights::light::Addition;
 use crate::lights::photo::PhotoTerm;
 use crate::lights::{Drawable, Ending, LightTerm, Viewer, sides};
-use crate::pass::{Attribute, Batch, Face, PassList, Program, Uniform};
+use crate::math::frustum::{self, Overlap};
+use crate::pass::{Attribute, Batch, Face, PassList, Uniform};
 use crate::scene::Scene;
 pub use explain::explain_guards;
 pub use guarded::MOST_CLIP_PLANES;
@@ -51,9 +55,11 @@ pub fn batches(
             variants.make(viewer, *reach, ending, list)?;
         }
     }
-    let mut batches: Vec<Batch> = Vec::new();
+    let mut joined = JoinedBatches::default();
+    let mut known: HashMap<Kind<'_>, Known> = HashMap::new();
     for piece in &pieces {
         let item = &piece.item;
+        let clip_from_model = clip_from_world * item.world_from_model;
         let lights = lights.iter().zip(&piece.reaches).filter_map(|(variants, reach)| variants.of(*reach));
         let photo = photo::parts(photos, item, viewer, ending, adds, list)?;
         let covered = photo.as_ref().is_some_and(|photo| photo.covers);
@@ -62,42 +68,61 @@ pub fn batches(
         if adds && lights.is_empty() {
             continue;
         }
-        let culls = sides::shows_no_back_face(item, &(clip_from_world * item.world_from_model));
+        let culls = sides::shows_no_back_face(item, &clip_from_model);
         let one_sided = culls || sides::normals_face_eye(item, &(viewer.eye_from_world * item.world_from_model));
-        let own = if covered { without_decal(item) } else { Cow::Borrowed(item) };
-        let surface = match property::of(&own, one_sided, &lights, viewer, ending, list) {
-            Some(view) => view,
-            None => variant::of(scene, &own, [one_sided, ambient], &lights, viewer, ending, list),
+        let in_view = frustum::overlap(&clip_from_model, &item.bounds) == Overlap::Inside;
+        let appearance = item.appearance();
+        let is_plain = photo.is_none() && piece.clip_planes.is_empty();
+        let make = || {
+            let own = if covered { without_decal(item) } else { Cow::Borrowed(item) };
+            let own = own.appearance();
+            let surface = match property::of(&own, one_sided, &lights, viewer, ending, list) {
+                Some(view) => view,
+                None => variant::of(scene, &own, [one_sided, ambient, in_view], &lights, viewer, ending, list),
+            };
+            let surface = match photo {
+                Some(photo) => photo.on(surface),
+                None => surface,
+            };
+            let clip_planes = piece.clip_planes.len() as u8;
+            let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
+            let reads =
+                [program.defines.contains(&variant::EYE_SPACE), program.attributes.contains(&Attribute::Normal)];
+            let cull = culls.then_some(Face::Back);
+            let batch =
+                Batch { program, meaning, uniforms, inputs, cull, scissor: None, clip_planes, draws: Vec::new() };
+            Known { place: joined.place(batch), reads }
         };
-        let surface = match photo {
-            Some(photo) => photo.on(surface),
-            None => surface,
-        };
-        let clip_planes = piece.clip_planes.len() as u8;
-        let variant::Variant { program, meaning, uniforms, inputs } = surface.cut(&piece.clip_planes);
-        let cull = culls.then_some(Face::Back);
-        let mut draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, &program));
-        draw.eye_from_model = Some(viewer.eye_from_world * item.world_from_model);
-        let joins =
-            |b: &&mut Batch| b.cull == cull && b.inputs == inputs && b.uniforms == uniforms && b.program == program;
-        match batches.iter_mut().find(joins) {
-            Some(batch) => {
-                debug_assert_eq!(batch.meaning, meaning, "the meaning follows from program, uniforms and inputs");
-                batch.draws.push(draw);
+        let Known { place, reads } = match is_plain {
+            true => {
+                let kind = Kind { appearance, sides: [one_sided, culls], in_view, reaches: &piece.reaches };
+                *known.entry(kind).or_insert_with(make)
             }
-            None => batches.push(Batch {
-                program,
-                meaning,
-                uniforms,
-                inputs,
-                cull,
-                scissor: None,
-                clip_planes,
-                draws: vec![draw],
-            }),
-        }
+            false => make(),
+        };
+        let mut draw = item.draw(&clip_from_world, draw_uniforms(viewer, item, reads));
+        draw.eye_from_model = Some(viewer.eye_from_world * item.world_from_model);
+        joined.batches[place].draws.push(draw);
     }
-    Some(batches)
+    Some(joined.batches)
+}
+
+/// All that decides the batch of a piece without a photograph and clip planes.
+#[derive(PartialEq, Eq, Hash)]
+struct Kind<'p> {
+    appearance: Appearance<'p>,
+    /// True if no normal is seen from behind, and if back faces are not drawn.
+    sides: [bool; 2],
+    in_view: bool,
+    reaches: &'p [guarded::Reach],
+}
+
+/// A batch.
+#[derive(Clone, Copy)]
+struct Known {
+    place: usize,
+    /// True if its draws need the matrix into eye space, and that of normals.
+    reads: [bool; 2],
 }
 
 /// The item without a decal that nothing shows: one without holes.
@@ -109,13 +134,13 @@ fn without_decal(item: &Drawable) -> Cow<'_, Drawable> {
     Cow::Owned(Drawable { material, ..item.clone() })
 }
 
-fn draw_uniforms(viewer: &Viewer, item: &Drawable, program: &Program) -> Vec<Uniform> {
+fn draw_uniforms(viewer: &Viewer, item: &Drawable, [eye_space, normals]: [bool; 2]) -> Vec<Uniform> {
     let eye_from_model = viewer.eye_from_world * item.world_from_model;
     let mut uniforms = Vec::new();
-    if program.defines.contains(&variant::EYE_SPACE) {
+    if eye_space {
         uniforms.push(Uniform::new("eye_from_model", eye_from_model.as_mat4()));
     }
-    if program.attributes.contains(&Attribute::Normal) {
+    if normals {
         let normal = Mat3::from_mat4(eye_from_model.inverse().transpose().as_mat4());
         uniforms.push(Uniform::new("eye_from_model_normal", normal));
     }

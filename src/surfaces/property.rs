@@ -6,9 +6,10 @@ use super::bump::{self, normal_map};
 use super::lights::LightParts;
 use super::variant::{EYE_POSITION, EYE_SPACE, Variant};
 use crate::geometry::bump::NormalFormat;
+use crate::lights::appearance::Appearance;
 use crate::lights::drawable::{Cutout, cutout};
 use crate::lights::ending::SurfaceProperty;
-use crate::lights::{Drawable, Ending, Viewer};
+use crate::lights::{Ending, Viewer};
 use crate::pass::{Attribute, Chunk, Define, FixedFunctionDesc, Input, PassList, Program, Uniform, glsl};
 
 const MEANING: FixedFunctionDesc = FixedFunctionDesc::Shader("a view of a surface's property");
@@ -28,7 +29,7 @@ struct Parts {
 
 /// The variant of `item` in such a view; `None`: the view is another. `one_sided`: no normal is seen from behind.
 pub fn of(
-    item: &Drawable,
+    item: &Appearance<'_>,
     one_sided: bool,
     lights: &[&LightParts],
     viewer: &Viewer,
@@ -43,7 +44,13 @@ pub fn of(
 }
 
 /// A property of the surface, without light.
-fn property(item: &Drawable, shown: SurfaceProperty, one_sided: bool, viewer: &Viewer, list: &mut PassList) -> Parts {
+fn property(
+    item: &Appearance<'_>,
+    shown: SurfaceProperty,
+    one_sided: bool,
+    viewer: &Viewer,
+    list: &mut PassList,
+) -> Parts {
     let bump = item.bump();
     let (gloss_defines, gloss_inputs) =
         if shown == SurfaceProperty::Gloss { bump::gloss(item, list) } else { Default::default() };
@@ -76,12 +83,12 @@ fn property(item: &Drawable, shown: SurfaceProperty, one_sided: bool, viewer: &V
 }
 
 /// A vector to one light, of an item with bases; others stay black.
-fn vector(item: &Drawable, half: bool, lights: &[&LightParts], chunk: &Chunk, list: &mut PassList) -> Variant {
+fn vector(item: &Appearance<'_>, half: bool, lights: &[&LightParts], chunk: &Chunk, list: &mut PassList) -> Variant {
     let mut parts = Parts::default();
     if item.needs_alpha_test() {
         parts.cut = cutout(item, [false; 2], list);
     }
-    let Some(light) = lights.first().filter(|_| item.mesh.tangents.is_some()) else {
+    let Some(light) = lights.first().filter(|_| item.has_bases()) else {
         parts.flags.push("NO_BASES");
         return parts.ended(item, chunk);
     };
@@ -122,12 +129,12 @@ impl Parts {
     }
 
     /// The variant, with the chunk that ends its fragment stage.
-    fn ended(self, item: &Drawable, chunk: &Chunk) -> Variant {
+    fn ended(self, item: &Appearance<'_>, chunk: &Chunk) -> Variant {
         let Self { cut, flags, mut defines, attributes: others, vertex: own, fragment: inner, uniforms, inputs } = self;
         let Cutout { defines: cut_defines, vertex: cut_vertex, fragment: cut_fragment, .. } = cut;
         defines.extend(cut_defines);
         defines.extend(flags.into_iter().map(Define::flag));
-        if item.wave.is_some() {
+        if item.waves {
             defines.push(Define::flag("WAVE"));
         }
         if !cut_vertex.is_empty() {

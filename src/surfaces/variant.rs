@@ -6,10 +6,10 @@ use super::bump::{self, Bumps};
 use super::lights::{self, LightParts};
 use super::meaning::{self, ShownColors};
 use crate::geometry::Material;
+use crate::lights::appearance::Appearance;
 use crate::lights::drawable::{Cutout, WAVES, cutout};
 use crate::lights::ending::FormulaPart;
-use crate::lights::{Drawable, Ending, Factors, Viewer};
-use crate::math::frustum::{self, Overlap};
+use crate::lights::{Ending, Factors, Viewer};
 use crate::pass::{Attribute, Chunk, Define, FixedFunctionDesc, Input, PassList, Program, Uniform, glsl};
 use crate::scene::Scene;
 
@@ -66,11 +66,12 @@ impl Variant {
     }
 }
 
-/// The variant of `item`. `one_sided`: no normal is seen from behind. `has_ambient`: with the scene's ambient light.
+/// The variant of items of this appearance. `one_sided`: no normal is seen from behind. `has_ambient`: with the scene's
+/// ambient light. `in_view`: all of it lies in the eye's view, so that no vertex is made by clipping.
 pub fn of(
     scene: &Scene,
-    item: &Drawable,
-    [one_sided, has_ambient]: [bool; 2],
+    item: &Appearance<'_>,
+    [one_sided, has_ambient, in_view]: [bool; 3],
     lights: &[&LightParts],
     viewer: &Viewer,
     ending: &Ending,
@@ -127,9 +128,9 @@ pub fn of(
     }
     match ending {
         Ending::Lit | Ending::Part(FormulaPart::Diffuse | FormulaPart::Specular) => {
-            uniforms.extend(material_uniforms(&item.material, needs, !lights.is_empty()))
+            uniforms.extend(material_uniforms(item.material, needs, !lights.is_empty()))
         }
-        Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, &item.material, factors)),
+        Ending::Factors(factors) => uniforms.extend(factor_uniforms(scene, item.material, factors)),
         _ => {}
     }
     let mut attributes = vec![Attribute::Position];
@@ -140,7 +141,7 @@ pub fn of(
     if bumps.any() {
         attributes.extend([Attribute::Tangent, Attribute::Bitangent]);
     }
-    let mut defines = defines(item, lights, ending, needs, &cut, viewer);
+    let mut defines = defines(item, lights, ending, needs, &cut, in_view);
     defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
     defines.extend(gloss_defines);
     if bumps.are_combined() && bump::are_in_range(&uniforms, lights) {
@@ -156,12 +157,9 @@ pub fn of(
         fragment: fragment(scene, lights, ending, needs, &bumps, &cut),
         attributes,
     };
-    let shown = ShownColors {
-        specular,
-        ambient: needs.ambient,
-        scene_ambient: scene_ambient(needs, &item.material).to_array(),
-    };
-    let meaning = if item.wave.is_some() {
+    let shown =
+        ShownColors { specular, ambient: needs.ambient, scene_ambient: scene_ambient(needs, item.material).to_array() };
+    let meaning = if item.waves {
         WAVES
     } else if let Some(map) = bump_map.filter(|_| bumps.any()) {
         match bumps.meaning(map, &scene.shading.bumps, ending, [two_sided, specular]) {
@@ -218,12 +216,12 @@ fn shows_decal(ending: &Ending) -> bool {
 }
 
 fn defines(
-    item: &Drawable,
+    item: &Appearance<'_>,
     lights: &[&LightParts],
     ending: &Ending,
     needs: Needs,
     cut: &Cutout,
-    viewer: &Viewer,
+    in_view: bool,
 ) -> Vec<Define> {
     let (lit, shows_light) = (ending.is_lit(), ending.shows_light());
     let decal = shows_decal(ending) && item.decal().is_some();
@@ -232,7 +230,7 @@ fn defines(
     let combined = needs.combined;
     let per_fragment = needs.normals && !needs.per_vertex;
     let flags = [
-        (Define::flag("WAVE"), item.wave.is_some()),
+        (Define::flag("WAVE"), item.waves),
         (Define::flag("ANY_LIGHT"), shows_light && !lights.is_empty()),
         (EYE_SPACE, needs.per_vertex || needs.position || combined || lights.iter().any(|light| light.has_coordinates)),
         (EYE_POSITION, needs.position),
@@ -251,9 +249,10 @@ fn defines(
     ];
     let mut defines: Vec<Define> = cut.defines.clone();
     defines.extend(flags.into_iter().filter(|(_, set)| *set).map(|(define, _)| define));
-    let divides = is_in_view(item, viewer);
+    // Not every driver clips what is interpolated without perspective as GL has it, and what is divided by w has no meaning
+    // at vertices behind the eye.
     let of_light = lights.iter().flat_map(|light| light.defines.iter().cloned());
-    defines.extend(of_light.filter(|define| divides || define.name() != lights::OVER_W));
+    defines.extend(of_light.filter(|define| in_view || define.name() != lights::OVER_W));
     let call_of = |light: &LightParts, call: &str| call.replace('@', &light.index.to_string());
     let calls = |call: &str| lights.iter().map(|light| call_of(light, call)).collect::<String>();
     let generated = lights.iter().filter(|light| light.has_coordinates).map(|light| {
@@ -268,12 +267,6 @@ fn defines(
         defines.push(Define::calls("ILLUMINATE", "surface, lit", calls("illuminate_@(surface, lit);")));
     }
     defines
-}
-
-/// Tests whether all of an item lies in the eye's view: no vertex is then made by clipping. Not every driver clips what is
-/// interpolated without perspective as GL has it, and what is divided by w has no meaning at vertices behind the eye.
-fn is_in_view(item: &Drawable, viewer: &Viewer) -> bool {
-    frustum::overlap(&(viewer.clip_from_world() * item.world_from_model), &item.bounds) == Overlap::Inside
 }
 
 fn vertex(lights: &[&LightParts], needs: Needs, bumps: &Bumps, cut: &Cutout) -> Vec<Chunk> {

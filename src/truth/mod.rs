@@ -31,6 +31,7 @@ mod dust;
 mod lens;
 mod light;
 mod middle;
+mod portions;
 mod primary;
 mod shadow;
 mod shells;
@@ -136,10 +137,6 @@ pub enum Error {
 pub fn trace(scene: &Scene, light: usize, options: &Options) -> Result<Truth, Error> {
     Tracer::new(scene, light, options)?.trace(scene, options)
 }
-
-/// A picture's pixels are answered in so many portions, each spread over all of it: after each there is a check whether too
-/// many are ambiguous already. If so, the rest is skipped.
-const PORTIONS: usize = 64;
 
 /// Undecided pixels among those answered so far.
 #[derive(Default)]
@@ -256,8 +253,8 @@ impl<'a> Tracer<'a> {
         let count = width as usize * height as usize;
         let mut tally = Doubts::default();
         let mut found: Vec<Option<Pixel>> = vec![None; count];
-        for first in 0..PORTIONS {
-            let places: Vec<usize> = (first..count).step_by(PORTIONS).collect();
+        for first in 0..portions::COUNT {
+            let places = portions::pixels(first, [width, height]);
             let at = |index: &usize| answer(((index % width as usize) as u32, (index / width as usize) as u32));
             let pixels: Vec<Pixel> = places.par_iter().map(at).collect();
             pixels.iter().for_each(|pixel| tally.add(pixel, scene));

@@ -37,23 +37,13 @@ impl<'a> Solid<'a> {
         let places = mesh.positions.iter().map(|position| DVec3::from_array(position.map(f64::from)));
         let positions: Vec<DVec3> = places.map(|place| wave.map_or(place, |wave| wave::moved(place, wave))).collect();
         let corners: Vec<[u32; 3]> = mesh.indices.as_chunks::<3>().0.to_vec();
-        let welded = weld(mesh, &corners);
-        let part = parts(mesh, corners.len());
-        let beside = find_beside(&welded);
-        let across = (0u32..).zip(&beside).map(|(triangle, beside)| {
-            [0, 1, 2].map(|k| beside[k].map_or(OPEN, |other| opposite(&corners, &welded, triangle, k, other)))
-        });
-        let across = across.collect();
-        let is_seam = |triangle: usize, k: usize, other: u32| {
-            let edge = [corners[triangle][k], corners[triangle][(k + 1) % 3]];
-            part[triangle] != part[other as usize] || !edge.iter().all(|end| corners[other as usize].contains(end))
+        let hierarchy = || {
+            let boxes: Vec<Aabb> = corners.iter().map(|triangle| bound(&positions, triangle)).collect();
+            Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
         };
-        let seam = beside.iter().enumerate();
-        let seam = seam
-            .map(|(triangle, beside)| [0, 1, 2].map(|k| beside[k].is_some_and(|other| is_seam(triangle, k, other))));
-        let seam = seam.collect();
-        let boxes: Vec<Aabb> = corners.iter().map(|triangle| bound(&positions, triangle)).collect();
-        let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let part = parts(mesh, corners.len());
+        let (bvh, joined) = rayon::join(hierarchy, || join_edges(mesh, &corners, &part));
+        let JoinedEdges { welded, across, seam } = joined;
         Ok(Self { mesh, positions, bvh, welded, across, seam, part })
     }
 
@@ -83,6 +73,31 @@ impl<'a> Solid<'a> {
         let other = self.welded[other as usize];
         self.welded[one as usize].iter().any(|corner| other.contains(corner))
     }
+}
+
+/// Each triangle's corners by place, and by edge what lies across it, as in [`Solid`].
+struct JoinedEdges {
+    welded: Vec<[u32; 3]>,
+    across: Vec<[u32; 3]>,
+    seam: Vec<[bool; 3]>,
+}
+
+fn join_edges(mesh: &Mesh, corners: &[[u32; 3]], part: &[u32]) -> JoinedEdges {
+    let welded = weld(mesh, corners);
+    let beside = find_beside(&welded);
+    let across = (0u32..).zip(&beside).map(|(triangle, beside)| {
+        [0, 1, 2].map(|k| beside[k].map_or(OPEN, |other| opposite(corners, &welded, triangle, k, other)))
+    });
+    let across = across.collect();
+    let is_seam = |triangle: usize, k: usize, other: u32| {
+        let edge = [corners[triangle][k], corners[triangle][(k + 1) % 3]];
+        part[triangle] != part[other as usize] || !edge.iter().all(|end| corners[other as usize].contains(end))
+    };
+    let seam = beside.iter().enumerate();
+    let seam =
+        seam.map(|(triangle, beside)| [0, 1, 2].map(|k| beside[k].is_some_and(|other| is_seam(triangle, k, other))));
+    let seam = seam.collect();
+    JoinedEdges { welded, across, seam }
 }
 
 fn check(mesh: &Mesh) -> Result<(), Error> {

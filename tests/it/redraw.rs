@@ -2,8 +2,9 @@
 //! not.
 
 use glumbra::context::{self, ContextRequest};
+use glumbra::device::Measure;
 use glumbra::frame::{Renderer, draw_shade};
-use glumbra::pass::{MeshRef, Work};
+use glumbra::pass::{MeshRef, Redraw, Work};
 use glumbra::plan::{self, Plan, Request};
 use glumbra::scene::Scene;
 
@@ -87,5 +88,44 @@ fn the_next_plan_draws_the_same_derived_meshes() {
         assert!(!first.is_empty() && first == second, "{what}: the second plan draws other meshes");
         let own = meshes(&plan::make(&scene, &request).unwrap(), pass);
         assert!(first != own && first.len() == own.len(), "{what}: nothing is derived");
+    }
+}
+
+/// The second frame of a still scene draws only what every frame draws, whether it is planned again or not. Volumes are
+/// extruded again by each plan.
+#[test]
+fn the_second_frame_of_a_still_scene_draws_no_map() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    for (shadow, planned_again) in [
+        ("technique = \"shadow-map\", size = 64", true),
+        ("technique = \"shadow-map\", size = 64, transfer = \"copy\"", true),
+        ("technique = \"midpoint\", size = 64", true),
+        ("technique = \"second-depth\", size = 64, closed = \"assume\"", true),
+        ("technique = \"shadow-volume\"", false),
+    ] {
+        let (scene, request) = (scene(shadow), Request { frames: 3, ..Request::default() });
+        let mut renderer = Renderer::new(&context);
+        let mut plan = renderer.plan(&scene, &request).unwrap();
+        let mut drawn = |plan: &Plan| -> Vec<String> {
+            let passes = renderer.device().run(&plan.list, Measure::Fragments).unwrap();
+            passes.into_iter().map(|pass| pass.label).collect()
+        };
+        let labels = |always: bool| -> Vec<String> {
+            let passes = plan.list.passes.iter().filter(|pass| !always || pass.redraw == Redraw::Always);
+            passes.map(|pass| pass.label.clone()).collect()
+        };
+        let (all, always) = (labels(false), labels(true));
+        assert!(always.len() < all.len(), "{shadow}: nothing is kept of {all:?}");
+        assert_eq!(drawn(&plan), all, "{shadow}: the first frame");
+        assert_eq!(drawn(&plan), always, "{shadow}: the second frame");
+        if planned_again {
+            plan = renderer.plan(&scene, &request).unwrap();
+            let passes = renderer.device().run(&plan.list, Measure::Fragments).unwrap();
+            assert_eq!(
+                passes.into_iter().map(|pass| pass.label).collect::<Vec<_>>(),
+                always,
+                "{shadow}: planned again"
+            );
+        }
     }
 }

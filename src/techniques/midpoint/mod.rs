@@ -20,6 +20,7 @@
 mod second;
 mod settings;
 mod single;
+mod texels;
 
 use self::second::Layers;
 use self::settings::{Average, Peel, Settings, Single};

@@ -1,7 +1,11 @@
 //! Items drawn into both layers of the map or only into the second, and the texels that may have a second layer, to which
 //! the passes are scissored. From bounding boxes.
 
+use std::collections::HashSet;
+
 use glam::{DMat4, DVec3};
+
+use super::texels::{Cells, Rectangle};
 
 use crate::geometry::volume;
 use crate::lights::caster_culling::Unseen;
@@ -11,35 +15,6 @@ use crate::math::{Aabb, frustum};
 use crate::techniques::shadow_map::casters::{in_the_map, is_before_near, may_cast, reach};
 use crate::techniques::shadow_map::depth::{self, InParts};
 use crate::techniques::shadow_map::settings::Settings;
-
-/// Left, bottom, right and top, in texels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Rectangle([u32; 4]);
-
-impl Rectangle {
-    const NOTHING: Self = Self([u32::MAX, u32::MAX, 0, 0]);
-
-    fn with(self, Self(other): Self) -> Self {
-        let [left, bottom, right, top] = self.0;
-        Self([left.min(other[0]), bottom.min(other[1]), right.max(other[2]), top.max(other[3])])
-    }
-
-    fn within(self, Self(other): Self) -> Self {
-        let [left, bottom, right, top] = self.0;
-        let both = [left.max(other[0]), bottom.max(other[1]), right.min(other[2]), top.min(other[3])];
-        if both[0] < both[2] && both[1] < both[3] { Self(both) } else { Self::NOTHING }
-    }
-
-    fn scissor(&self) -> [u32; 4] {
-        let [left, bottom, right, top] = self.0;
-        if self.area() == 0 { [0; 4] } else { [left, bottom, right - left, top - bottom] }
-    }
-
-    fn area(&self) -> u64 {
-        let [left, bottom, right, top] = self.0;
-        u64::from(right.saturating_sub(left)) * u64::from(top.saturating_sub(bottom))
-    }
-}
 
 /// Texels that two layers may share.
 pub struct Shared<'a> {
@@ -113,30 +88,29 @@ pub fn needed<'a>(
     let clip_from_world = depth::map_clip_from_world(view, settings);
     let unseen = Unseen::new(view, settings.size, reach(settings));
     let (unseen, seen): (Vec<&Drawable>, Vec<&Drawable>) = casters.iter().partition(|item| unseen.shadow_of(item));
-    let seen: Vec<(&Drawable, Rectangle)> =
-        seen.into_iter().map(|item| (item, covered(view, item, &clip_from_world, settings))).collect();
+    let places: Vec<Rectangle> = seen.iter().map(|item| covered(view, item, &clip_from_world, settings)).collect();
+    let cells = Cells::new(&places, settings.size);
     let is_idle = |item: &Drawable| {
         let own = covered(view, item, &clip_from_world, settings);
-        let may_follow = |(first, covered): &(&Drawable, Rectangle)| {
-            own.within(*covered).area() > 0 && !lies_before(item, first, &view.projector.rays)
-        };
-        !seen.iter().any(may_follow)
+        let rays = &view.projector.rays;
+        !cells.meeting(&own).into_iter().any(|first| !lies_before(item, seen[first], rays))
     };
     let idle: Vec<&Drawable> = unseen.into_iter().filter(|item| is_idle(item)).collect();
     for item in &idle {
         let why = "the camera sees nothing that it shadows, and it is no second layer of what it sees the shadow of";
         notes.left_out(in_the_map(item, view), why);
     }
-    casters.into_iter().filter(|item| !idle.iter().any(|other| std::ptr::eq(*other, *item))).collect()
+    let idle: HashSet<*const Drawable> = idle.into_iter().map(std::ptr::from_ref).collect();
+    casters.into_iter().filter(|item| !idle.contains(&std::ptr::from_ref(*item))).collect()
 }
 
 fn covered(view: &FrustumView<'_>, item: &Drawable, clip_from_world: &DMat4, settings: &Settings) -> Rectangle {
     // Near the light, a small thing is wide.
     if is_before_near(view, item) {
-        return Rectangle([0, 0, settings.size, settings.size]);
+        return Rectangle::new([0, 0, settings.size, settings.size]);
     }
     let scissor = volume::scissor(&corners(item), clip_from_world, [settings.size; 2]);
-    scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle([x, y, x + width, y + height]))
+    scissor.map_or(Rectangle::NOTHING, |[x, y, width, height]| Rectangle::new([x, y, x + width, y + height]))
 }
 
 fn corners(item: &Drawable) -> [DVec3; 8] {
@@ -184,6 +158,7 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
         items.iter().map(|item| covered(view, item, &clip_from_world, settings)).collect()
     };
     let (of_casters, of_receivers) = (covered(&layers.casters), covered(&layers.receivers));
+    let [cells, receiving] = [&of_casters, &of_receivers].map(|places| Cells::new(places, settings.size));
     let (mut casters, mut receivers) = (Drawn::default(), Drawn::default());
     let mut all = Rectangle::NOTHING;
     for (index, (item, own)) in layers.casters.iter().zip(&of_casters).enumerate() {
@@ -191,12 +166,14 @@ pub fn shared_texels<'a>(view: &FrustumView<'_>, layers: &Layers<'a>, settings: 
             all = all.with(*own);
             casters.whole.push(item);
         } else {
-            let others = of_casters.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
-            all = all.with(casters.share(item, own, others.chain(&of_receivers)));
+            let others = cells.meeting(own).into_iter().filter(|other| *other != index).map(|other| &of_casters[other]);
+            let received = receiving.meeting(own).into_iter().map(|other| &of_receivers[other]);
+            all = all.with(casters.share(item, own, others.chain(received)));
         }
     }
     for (item, own) in layers.receivers.iter().zip(&of_receivers) {
-        all = all.with(receivers.share(item, own, of_casters.iter()));
+        let others = cells.meeting(own).into_iter().map(|other| &of_casters[other]);
+        all = all.with(receivers.share(item, own, others));
     }
     Shared { scissor: all.scissor(), casters, receivers }
 }

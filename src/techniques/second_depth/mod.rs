@@ -6,6 +6,7 @@
 //! open caster is refused. With `closed = "assume"` its back faces alone are drawn: parts that face the light then cast no
 //! shadow, and a warning names the caster if that makes pixels wrong.
 
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::change::{Change, of_shade};
@@ -146,10 +147,10 @@ impl ShadowSettings for SecondDepthSettings {
         }
         let items = items_of(objects, None);
         let mut is_closed = closed_test();
-        let mut open: Vec<&str> = Vec::new();
+        let (mut open, mut named) = (Vec::new(), HashSet::new());
         for item in self.casters(&items, kind) {
-            if !is_closed(item) && !open.contains(&item.label.as_str()) {
-                open.push(&item.label);
+            if !is_closed(item) && named.insert(item.label.as_str()) {
+                open.push(item.label.as_str());
             }
         }
         if open.is_empty() {
@@ -196,17 +197,13 @@ fn read(keys: &mut Reader<'_>) -> Result<SecondDepthSettings, SettingsError> {
 
 /// Tests whether an item has a far side all over: each mesh is examined once.
 fn closed_test() -> impl FnMut(&Drawable) -> bool {
-    let mut known: Vec<(*const crate::geometry::Mesh, bool)> = Vec::new();
+    let mut known: HashMap<*const crate::geometry::Mesh, bool> = HashMap::new();
     move |item| {
         if item.needs_alpha_test() || item.wave.is_some_and(|wave| wave.folds()) {
             return false;
         }
         let mesh = Arc::as_ptr(&item.mesh.0);
-        if let Some((_, is_closed)) = known.iter().find(|(other, _)| *other == mesh) {
-            return item.closed || *is_closed;
-        }
-        let is_closed = item.closed || (item.mesh.is_closed() && item.mesh.signed_volume() > 0.0);
-        known.push((mesh, is_closed));
-        is_closed
+        let is_closed = || item.mesh.is_closed() && item.mesh.signed_volume() > 0.0;
+        item.closed || *known.entry(mesh).or_insert_with(is_closed)
     }
 }

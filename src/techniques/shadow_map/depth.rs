@@ -230,11 +230,11 @@ pub fn batches(view: &FrustumView<'_>, layer: &DepthLayer<'_>, settings: &Settin
     let texel = bias::texel_at_one(&view.projector, settings);
     let clamped = layer.clamped || clamps_near(view, layer).is_some();
     let cutter = Cutter::for_map(&view.projector, &clip_from_world, texel, settings.size, clamped, view.derived);
-    let cut: Vec<_> = layer.casters.iter().flat_map(|item| cutter.cut(item)).collect();
+    let cut = cutter.cut(layer.casters.iter().copied());
     let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
     let mut batches = depth_batches(&cut, &clip_from_world, list);
     for InParts { item, scissors } in layer.in_parts {
-        let cut = cutter.cut(item);
+        let cut = cutter.cut([*item]);
         let cut: Vec<&Drawable> = cut.iter().map(AsRef::as_ref).collect();
         let whole = depth_batches(&cut, &clip_from_world, list);
         for scissor in scissors {

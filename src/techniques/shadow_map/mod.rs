@@ -1,6 +1,7 @@
 //! Shadow maps by the depth comparison of the texture unit [Williams 1978; HSM, "How To Do It"]. Every technique with a map
 //! uses its parts.
 
+mod behind;
 pub(super) mod bias;
 pub(super) mod casters;
 mod changes;

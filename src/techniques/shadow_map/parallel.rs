@@ -11,6 +11,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
+use super::behind::Behind;
 use super::fit::rim_texels;
 use super::settings::{Mipmaps, Settings};
 use crate::lights::projector::{Projector, Rays};
@@ -79,14 +80,10 @@ pub fn around(items: &[Drawable], direction: DVec3, settings: &Settings) -> Opti
 /// bounds of these casters as a whole; z falls along the rays.
 fn needed(items: &[Drawable], boxes: &[Aabb]) -> Option<Aabb> {
     let mut needed = Aabb::EMPTY;
+    let behind = Behind::new(boxes);
     for (index, caster) in items.iter().enumerate().filter(|(_, item)| item.casts_shadow) {
         let own = boxes[index];
-        let is_flat = caster.bounds.flat_axis().is_some();
-        let behind = boxes
-            .iter()
-            .enumerate()
-            .filter(|(other, bounds)| (*other != index || !is_flat) && bounds.min.z <= own.max.z);
-        let behind = behind.fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
+        let behind = behind.of(own.max.z, caster.bounds.flat_axis().is_some().then_some(index));
         let mut shadowed = Aabb { min: own.min.max(behind.min), max: own.max.min(behind.max) };
         (shadowed.min.z, shadowed.max.z) = (own.min.z, own.max.z);
         if !shadowed.is_empty() {

@@ -1,6 +1,8 @@
 //! Choice of the way in which each caster is counted, and of casters that need not be: z-pass costs fewer fragments and no
 //! caps, z-fail is right for any eye [GDC, "Alternative to Near Plane Capping: Carmack's Reverse"].
 
+use rayon::prelude::*;
+
 use super::casters::CastingObject;
 use super::settings::{Method, Settings};
 use super::{extent, source};
@@ -29,28 +31,58 @@ pub fn ways(
     notes: &mut Notes,
 ) -> Vec<CountMethod> {
     let viewer = CameraHulls::new(&view.camera.clip_from_world);
-    let one = |caster: &CastingObject| {
-        let volume = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source(view));
-        if let Some(why) = why_unneeded(view, caster, &volume, &viewer).filter(|_| !view.keep_all) {
-            notes.left_out(format!("the volume of {} for light {}", caster.label, view.index), why);
-            return CountMethod::LeftOut;
+    let ways = casting.par_iter().with_min_len(FEWEST_IN_PARALLEL).map(|caster| way(view, caster, settings, &viewer));
+    let ways: Vec<Way> = ways.collect();
+    for (caster, way) in casting.iter().zip(&ways) {
+        let of = |caster: &CastingObject| format!("{} for light {}", caster.label, view.index);
+        match *way {
+            Way::Unneeded(why) => notes.left_out(format!("the volume of {}", of(caster)), why),
+            Way::Chosen(_, name, why) => notes.chosen(of(caster), name, why),
+            Way::Given(_) => {}
         }
-        match settings.method {
-            Method::Auto => {
-                let (way, name, why) = choose(caster, &volume, &viewer);
-                notes.chosen(format!("{} for light {}", caster.label, view.index), name, why);
-                way
-            }
-            Method::Parity => CountMethod::Parity,
-            Method::ZPass => CountMethod::ZPass,
-            Method::ZPassTwoSided => CountMethod::ZPassTwoSided,
-            Method::ZPassCapped => CountMethod::ZPassCapped,
-            Method::ZFail => CountMethod::ZFail,
-            Method::ZFailClamped => CountMethod::ZFailClamped,
-            Method::ZFailTruncated => CountMethod::ZFailTruncated,
+    }
+    ways.iter().map(Way::method).collect()
+}
+
+/// Casters that are not worth another core.
+pub const FEWEST_IN_PARALLEL: usize = 32;
+
+/// A caster's method, and why.
+enum Way {
+    Unneeded(&'static str),
+    /// Method, its name, and why it was chosen.
+    Chosen(CountMethod, &'static str, &'static str),
+    /// By the scene.
+    Given(CountMethod),
+}
+
+impl Way {
+    fn method(&self) -> CountMethod {
+        match *self {
+            Self::Unneeded(_) => CountMethod::LeftOut,
+            Self::Chosen(method, ..) | Self::Given(method) => method,
         }
-    };
-    casting.iter().map(one).collect()
+    }
+}
+
+fn way(view: &LightView<'_>, caster: &CastingObject, settings: &Settings, viewer: &CameraHulls) -> Way {
+    let volume = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source(view));
+    if let Some(why) = why_unneeded(view, caster, &volume, viewer).filter(|_| !view.keep_all) {
+        return Way::Unneeded(why);
+    }
+    Way::Given(match settings.method {
+        Method::Auto => {
+            let (method, name, why) = choose(caster, &volume, viewer);
+            return Way::Chosen(method, name, why);
+        }
+        Method::Parity => CountMethod::Parity,
+        Method::ZPass => CountMethod::ZPass,
+        Method::ZPassTwoSided => CountMethod::ZPassTwoSided,
+        Method::ZPassCapped => CountMethod::ZPassCapped,
+        Method::ZFail => CountMethod::ZFail,
+        Method::ZFailClamped => CountMethod::ZFailClamped,
+        Method::ZFailTruncated => CountMethod::ZFailTruncated,
+    })
 }
 
 fn why_unneeded(

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use super::casters::CastingObject;
 use super::choice::CountMethod;
+use super::layers;
 use super::points::{CountedPoint, CountedWorld};
 use super::settings::{Method, Settings};
-use super::shapes::model_distance;
-use crate::geometry::volume::SurfaceKind;
+use super::shapes;
 use crate::lights::{Drawable, LightView, Notes};
 
 /// Rays of the camera: one a pixel up to 160 x 120, and as many of a larger picture.
@@ -39,11 +39,12 @@ pub fn warn(
     let drawn: Vec<&CastingObject> =
         casting.iter().zip(ways).filter(|(_, way)| **way != CountMethod::LeftOut).map(|(caster, _)| caster).collect();
     warn_of_reach(view, casting, ways, notes);
-    if !may_be_wrong(&drawn, settings.method) {
+    if !may_be_wrong(view, &drawn, settings.method) {
         return;
     }
-    let distance = |caster: &CastingObject| model_distance(view, caster, settings);
     let ends = settings.method == Method::ZFailTruncated;
+    let world_distance = if ends { shapes::distance(view, settings) } else { 0.0 };
+    let distance = |caster: &CastingObject| shapes::model_distance(caster, world_distance);
     let world = CountedWorld::new(view, &drawn, if ends { Some(&distance) } else { None });
     let [width, height] = view.scene.image.size;
     let step = (f64::from(width) * f64::from(height) / f64::from(MOST_SAMPLES)).sqrt().max(1.0);
@@ -91,7 +92,9 @@ const MOST_MOVED_WHOLE: f64 = 1.0 / 64.0;
 fn warn_of_reach(view: &LightView<'_>, casting: &[CastingObject], ways: &[CountMethod], notes: &mut Notes) {
     let camera = &view.scene.camera;
     let most_moved = |item: &Drawable| {
-        let way = casting.iter().zip(ways).find(|(caster, _)| caster.object == item.object).map(|(_, way)| *way);
+        // Casters come in the order of the objects.
+        let place = casting.binary_search_by_key(&item.object, |caster| caster.object);
+        let way = place.ok().and_then(|place| ways.get(place)).copied();
         match way {
             _ if view.scene.shading.per_vertex => Some(MOST_MOVED_WHOLE),
             Some(CountMethod::ZFail | CountMethod::ZFailClamped | CountMethod::ZFailTruncated) => {
@@ -119,15 +122,12 @@ fn warn_of_reach(view: &LightView<'_>, casting: &[CastingObject], ways: &[CountM
     ));
 }
 
-fn may_be_wrong(drawn: &[&CastingObject], method: Method) -> bool {
+fn may_be_wrong(view: &LightView<'_>, drawn: &[&CastingObject], method: Method) -> bool {
     let is_partial = matches!(method, Method::Parity | Method::ZPass | Method::ZPassTwoSided | Method::ZFailTruncated);
-    is_partial || drawn.iter().any(|caster| caster.has_holes) || most_layers(drawn) >= LAYERS as usize
-}
-
-/// Greatest number of volumes that may hold one point: one for each triangle of an open shell, two for a closed one.
-fn most_layers(drawn: &[&CastingObject]) -> usize {
-    let shells = drawn.iter().flat_map(|caster| caster.caster.shells());
-    shells.map(|shell| if shell.kind == SurfaceKind::Closed { 2 } else { shell.triangles.len() }).sum()
+    let most = LAYERS as usize;
+    is_partial
+        || drawn.iter().any(|caster| caster.has_holes)
+        || (layers::in_all(drawn) >= most && layers::on_a_ray(view, drawn) >= most)
 }
 
 /// Tests whether the count may be a multiple of 256, which looks like none. The point is then surely in shadow.
@@ -196,7 +196,7 @@ fn describe(
         }
         Fault::Ended => {
             let behind = points.iter().map(|point| point.behind).fold(0.0, f64::max);
-            let distance = settings.distance.unwrap_or_else(|| super::shapes::default_distance(view));
+            let distance = shapes::distance(view, settings);
             format!(
                 "volumes that end after {distance:.3} units end before what they shadow, up to {behind:.3} behind its caster"
             )

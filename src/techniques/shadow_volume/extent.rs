@@ -68,6 +68,10 @@ pub fn is_flat_before_all(view: &LightView<'_>, caster: &CastingObject, source: 
         .visible
         .iter()
         .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
-    light_is_clear && clear(view.scene.camera.eye) && view.camera.near.into_iter().all(clear) && { others }
-        .all(is_before)
+    // The box around all that is seen tells it at once where it lies on the lit side: a floor of many tiles is under it.
+    let are_before = || {
+        let is_above = |corner: DVec3| side * height(corner) >= 0.0;
+        view.camera.seen_bounds.corners().into_iter().all(is_above) || { others }.all(is_before)
+    };
+    light_is_clear && clear(view.scene.camera.eye) && view.camera.near.into_iter().all(clear) && are_before()
 }

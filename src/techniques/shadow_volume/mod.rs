@@ -6,6 +6,7 @@ mod choice;
 mod counts;
 mod doubt;
 mod extent;
+mod layers;
 mod points;
 mod settings;
 mod shapes;

@@ -5,9 +5,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
+use rayon::prelude::*;
 
 use super::casters::CastingObject;
-use super::choice::CountMethod;
+use super::choice::{CountMethod, FEWEST_IN_PARALLEL};
 use super::extent;
 use super::settings::Settings;
 use crate::geometry::Mesh;
@@ -47,43 +48,70 @@ pub fn shapes(
     settings: &Settings,
     notes: &mut Notes,
 ) -> Vec<Shape> {
-    let camera = &view.scene.camera;
     let viewer = CameraHulls::new(&view.camera.clip_from_world);
-    let (mut outline, mut volume, mut capped) = (Outline::default(), Volume::default(), CappedVolume::default());
-    let mut shapes = Vec::new();
-    for (caster, way) in casting.iter().zip(ways).filter(|(_, way)| **way != CountMethod::LeftOut) {
-        outline.find(&caster.caster, source.transformed(&caster.world_from_model.inverse()));
-        if outline.edges().is_empty() && outline.weights().iter().all(|weight| *weight == 0) {
-            continue;
-        }
-        let name = Name { caster, light: view.index };
-        let silhouette = name.silhouette(&outline);
-        let touches = *way == CountMethod::ZPassCapped && volume::light_touches(&caster.caster, &outline);
-        let way = if touches { CountMethod::ZFailClamped } else { *way };
-        if touches {
+    let drawn: Vec<(&CastingObject, CountMethod)> =
+        casting.iter().zip(ways.iter().copied()).filter(|(_, way)| *way != CountMethod::LeftOut).collect();
+    let is_truncated = drawn.iter().any(|(_, way)| *way == CountMethod::ZFailTruncated);
+    let truncated = if is_truncated { distance(view, settings) } else { 0.0 };
+    let found = drawn
+        .par_iter()
+        .with_min_len(FEWEST_IN_PARALLEL)
+        .map_init(Room::default, |room, (caster, way)| shape(view, caster, *way, (source, &viewer), truncated, room));
+    let found: Vec<Option<Shape>> = found.collect();
+    for ((caster, way), shape) in drawn.iter().zip(&found) {
+        let is_touched = |shape: &Shape| shape.way == CountMethod::ZFailClamped && *way == CountMethod::ZPassCapped;
+        if shape.as_ref().is_some_and(is_touched) {
             let why = "the light touches its surface, whose cap on the near plane has no area";
             notes.chosen(format!("{} for light {}", caster.label, view.index), "z-fail-clamped", why);
         }
-        shapes.push(if way == CountMethod::ZPassCapped {
-            let view_from_model = view.camera.viewer.eye_from_world * caster.world_from_model;
-            let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
-            let end = beyond.map(|plane| in_view(&view.camera.viewer.eye_from_world, plane));
-            capped.cut_before(&caster.caster, &outline, &view_from_model, camera.near, end);
-            name.capped(&capped, silhouette)
-        } else {
-            let seen = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source);
-            let touches = || volume::light_touches(&caster.caster, &outline);
-            let extent = match way {
-                CountMethod::ZFailTruncated => Extent::Truncated(model_distance(view, caster, settings)),
-                CountMethod::ZFail | CountMethod::ZFailClamped if touches() => Extent::Infinite,
-                _ => end(view, caster, source),
-            };
-            let caps = caps(way, &seen, &viewer, view.keep_all, extent);
-            volume.extrude(&caster.caster, &outline, extent, caps);
-            name.volume(way, &volume, silhouette)
-        });
     }
-    shapes
+    found.into_iter().flatten().collect()
+}
+
+/// Room for volumes in the making, which casters share one after another.
+#[derive(Default)]
+struct Room {
+    outline: Outline,
+    volume: Volume,
+    capped: CappedVolume,
+}
+
+/// The shape of one caster; `None`: it casts nothing. A cap on the near plane is replaced where the light touches the caster.
+/// `truncated`: the length of volumes that are truncated, in world units.
+fn shape(
+    view: &LightView<'_>,
+    caster: &CastingObject,
+    way: CountMethod,
+    (source, viewer): (LightSource, &CameraHulls),
+    truncated: f64,
+    Room { outline, volume, capped }: &mut Room,
+) -> Option<Shape> {
+    outline.find(&caster.caster, source.transformed(&caster.world_from_model.inverse()));
+    if outline.edges().is_empty() && outline.weights().iter().all(|weight| *weight == 0) {
+        return None;
+    }
+    let name = Name { caster, light: view.index };
+    let silhouette = name.silhouette(outline);
+    let touches = way == CountMethod::ZPassCapped && volume::light_touches(&caster.caster, outline);
+    let way = if touches { CountMethod::ZFailClamped } else { way };
+    Some(if way == CountMethod::ZPassCapped {
+        let view_from_model = view.camera.viewer.eye_from_world * caster.world_from_model;
+        let beyond = extent::beyond_all(view, caster, source).filter(|_| !view.keep_all);
+        let end = beyond.map(|plane| in_view(&view.camera.viewer.eye_from_world, plane));
+        capped.cut_before(&caster.caster, outline, &view_from_model, view.scene.camera.near, end);
+        name.capped(capped, silhouette)
+    } else {
+        let seen = volume::VolumeHulls::new(&caster.bounds, &caster.world_from_model, source);
+        let touches = || volume::light_touches(&caster.caster, outline);
+        let extent = match way {
+            CountMethod::ZFailTruncated => Extent::Truncated(model_distance(caster, truncated)),
+            CountMethod::ZFail | CountMethod::ZFailClamped if touches() => Extent::Infinite,
+            _ => end(view, caster, source),
+        };
+        let caps = caps(way, &seen, viewer, view.keep_all, extent);
+        volume.extrude(&caster.caster, outline, extent, caps);
+        name.volume(way, volume, silhouette)
+    })
 }
 
 /// Caps that can be seen, if the way of counting needs them.
@@ -116,15 +144,19 @@ fn in_view(view_from_world: &DMat4, plane: extent::Plane) -> (DVec3, f64) {
     (normal, plane.distance + normal.dot(view_from_world.w_axis.truncate()))
 }
 
-/// The distance that truncated volumes reach, in the caster's model units.
-pub fn model_distance(view: &LightView<'_>, caster: &CastingObject, settings: &Settings) -> f64 {
-    let world = settings.distance.unwrap_or_else(|| default_distance(view));
+/// The distance that truncated volumes reach, in world units.
+pub fn distance(view: &LightView<'_>, settings: &Settings) -> f64 {
+    settings.distance.unwrap_or_else(|| default_distance(view))
+}
+
+/// That distance, `world`, in the caster's model units.
+pub fn model_distance(caster: &CastingObject, world: f64) -> f64 {
     let scale = caster.world_from_model.determinant().abs().cbrt();
     world / scale
 }
 
 /// Default length of truncated volumes, in world units.
-pub fn default_distance(view: &LightView<'_>) -> f64 {
+fn default_distance(view: &LightView<'_>) -> f64 {
     2.0 * view.scene.world_bounds().radius()
 }
 

@@ -1,6 +1,7 @@
 //! Pictures that are projected: GL's filters in f64, with bounds over the texels that a sample may meet.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3};
@@ -73,18 +74,7 @@ pub(super) fn window(picture: &Picture<'_>, wrap: Wrapped, place: &Place, mipmap
     if !reach.is_finite() || reach.max_element() * 2.0 >= MOST_TEXELS {
         return picture.any(value);
     }
-    let (low, high) = ((at - reach).floor(), (at + reach).ceil());
-    let mut bounds = value.to_array().map(Bounds::exactly);
-    let mut y = low.y;
-    while y <= high.y {
-        let mut x = low.x;
-        while x <= high.x {
-            let color = texel(texture, wrap, x, y);
-            bounds = widened(bounds, color);
-            x += 1.0;
-        }
-        y += 1.0;
-    }
+    let bounds = around(value, texture, wrap, [(at - reach).floor(), (at + reach).ceil()]);
     if averages { bounds.map(Bounds::jumping) } else { bounds }
 }
 
@@ -97,27 +87,61 @@ pub(super) fn nearest(picture: &Picture<'_>, place: &Place) -> [Bounds; 3] {
     if (sides[1] - sides[0]).max_element() > MOST_TEXELS {
         return picture.any(value);
     }
-    let mut bounds = value.to_array().map(Bounds::exactly);
-    let mut y = sides[0].y;
-    while y <= sides[1].y {
-        let mut x = sides[0].x;
-        while x <= sides[1].x {
-            let color = texel(texture, Wrapped::Clamped, x, y);
-            bounds = widened(bounds, color);
-            x += 1.0;
-        }
-        y += 1.0;
-    }
+    let bounds = around(value, texture, Wrapped::Clamped, sides);
     if sides[0] == sides[1] { bounds } else { bounds.map(Bounds::jumping) }
 }
 
-/// The bounds, with a colour in them.
-fn widened(bounds: [Bounds; 3], color: DVec3) -> [Bounds; 3] {
-    let color = color.to_array();
-    [0, 1, 2].map(|k: usize| {
-        let Bounds { least, value, most, .. } = bounds[k];
-        Bounds::around(value, [least, most, color[k]])
+/// A value, with bounds that hold it and the texels from the first to the last, both included.
+fn around(value: DVec3, texture: &Texture, wrap: Wrapped, ends: [DVec2; 2]) -> [Bounds; 3] {
+    let codes = code_ranges(texture, wrap, ends);
+    [0, 1, 2].map(|k| match codes {
+        Some([least, most]) => Bounds::around(value[k], [least[k], most[k]].map(|code| f64::from(code) / 255.0)),
+        None => Bounds::exactly(value[k]),
     })
+}
+
+/// The least and the greatest codes of the texels from the first to the last, both included, by channel. `None`: there are
+/// none.
+fn code_ranges(texture: &Texture, wrap: Wrapped, [first, last]: [DVec2; 2]) -> Option<[[u8; 4]; 2]> {
+    if !(first.is_finite() && last.cmpge(first).all()) {
+        return None;
+    }
+    let width = texture.width as usize;
+    let [columns, rows] = [(first.x, last.x, texture.width), (first.y, last.y, texture.height)]
+        .map(|(first, last, count)| runs(wrap, [first, last], count));
+    let (mut least, mut most) = ([u8::MAX; 16], [u8::MIN; 16]);
+    let mut add = |texels: &[u8]| {
+        for ((code, least), most) in texels.iter().zip(&mut least).zip(&mut most) {
+            (*least, *most) = ((*least).min(*code), (*most).max(*code));
+        }
+    };
+    for row in rows.into_iter().flatten() {
+        for run in columns.clone() {
+            let texels = texture.rgba.get(4 * (row * width + run.start)..4 * (row * width + run.end));
+            // A picture that is cut off is black there.
+            let (fours, rest) = texels.unwrap_or(&[0; 4]).as_chunks::<16>();
+            fours.iter().for_each(|four| add(four));
+            add(rest);
+        }
+    }
+    let of_channel = |codes: [u8; 16], pick: fn(u8, u8) -> u8| {
+        [0, 1, 2, 3].map(|k: usize| [4, 8, 12].into_iter().fold(codes[k], |code, four| pick(code, codes[four + k])))
+    };
+    Some([of_channel(least, u8::min), of_channel(most, u8::max)])
+}
+
+/// The one or two runs of `count` texels that those from the first to the last lie in.
+fn runs(wrap: Wrapped, [first, last]: [f64; 2], count: u32) -> [Range<usize>; 2] {
+    let end = count as usize;
+    if wrap == Wrapped::Clamped {
+        let [first, last] = [first, last].map(|at| at.clamp(0.0, f64::from(count - 1)) as usize);
+        return [first..last + 1, 0..0];
+    }
+    let (start, length) = (first.rem_euclid(f64::from(count)) as usize, (last - first) as usize + 1);
+    if length >= end {
+        return [0..end, 0..0];
+    }
+    [start..(start + length).min(end), 0..(start + length).saturating_sub(end)]
 }
 
 /// GL's linear filter [GL 4.6, 8.14.2]; `at` in texels, texel 0 at 0.
@@ -145,4 +169,38 @@ fn extremes(picture: &Texture) -> (DVec3, DVec3) {
     let colors =
         picture.rgba.chunks_exact(4).map(|texel| DVec3::from_array([0, 1, 2].map(|k| f64::from(texel[k]) / 255.0)));
     colors.fold((DVec3::ONE, DVec3::ZERO), |(least, most), color| (least.min(color), most.max(color)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ranges of whole runs of texels are those of a look at each, beyond the picture too.
+    #[test]
+    fn ranges_are_those_of_each_texel() {
+        let mut random = fastrand::Rng::with_seed(11);
+        for (width, height) in [(1, 1), (3, 2), (16, 7), (33, 40)] {
+            let rgba = (0..4 * width * height).map(|_| random.u8(..)).collect();
+            let texture = Texture { name: String::new(), width, height, rgba, has_alpha: false };
+            for wrap in [Wrapped::Repeated, Wrapped::Clamped] {
+                for _ in 0..200 {
+                    let first = DVec2::new(f64::from(random.i32(-50..50)), f64::from(random.i32(-50..50)));
+                    let size = [(); 2].map(|()| random.i32(0..40));
+                    let last = first + DVec2::new(f64::from(size[0]), f64::from(size[1]));
+                    let (mut least, mut most) = (DVec3::ONE, DVec3::ZERO);
+                    for (x, y) in (0..=size[1]).flat_map(|y| (0..=size[0]).map(move |x| (x, y))) {
+                        let color = texel(&texture, wrap, first.x + f64::from(x), first.y + f64::from(y));
+                        (least, most) = (least.min(color), most.max(color));
+                    }
+                    let found = code_ranges(&texture, wrap, [first, last]).unwrap();
+                    let found = found.map(|codes| DVec3::from_array([0, 1, 2].map(|k| f64::from(codes[k]) / 255.0)));
+                    assert_eq!(found, [least, most], "{first} to {last} of {width} x {height}");
+                }
+            }
+        }
+        let texture = Texture { name: String::new(), width: 1, height: 1, rgba: vec![9; 4], has_alpha: false };
+        let far = DVec2::splat(1e300);
+        assert_eq!(code_ranges(&texture, Wrapped::Repeated, [far, far]), Some([[9; 4]; 2]));
+        assert_eq!(code_ranges(&texture, Wrapped::Repeated, [DVec2::NAN, far]), None);
+    }
 }
