@@ -1,5 +1,4 @@
-//! Appearance of items: all that decides how their fragments look, wherever they are placed. Items of one appearance share
-//! their shaders.
+//! What decides how the fragments of an item look, wherever it is placed: items of one appearance share their shaders.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
