@@ -1,4 +1,5 @@
-//! What decides how the fragments of an item look, wherever it is placed: items of one appearance share their shaders.
+//! Appearance of items: all that decides how their fragments look, wherever they are placed. Items of one appearance share
+//! their shaders.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;

@@ -170,7 +170,7 @@ impl Drawable {
         }
     }
 
-    /// What its fragments look like, wherever it is placed.
+    /// All that decides how its fragments look, wherever it is placed.
     pub fn appearance(&self) -> Appearance<'_> {
         let mesh_has = [self.mesh.texcoords.is_some(), self.mesh.tangents.is_some()];
         Appearance { material: &self.material, lit: self.lit, waves: self.wave.is_some(), mesh_has }

@@ -3,6 +3,7 @@
 
 pub mod alpha;
 pub mod appearance;
+pub mod box_raster;
 pub mod bumps;
 pub mod camera_visibility;
 pub mod caster_culling;

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::lookup::Receiver;
 use super::points::Seen;
-use super::raster::Sighting;
 use super::texels::Texels;
 use crate::lights::LightView;
+use crate::lights::box_raster::Sighting;
 use crate::lights::projector::{Projector, Rays};
 use crate::pass::DepthFormat;
 

@@ -2,9 +2,9 @@
 
 use glam::{DMat4, DVec3};
 
-use super::raster::{At, Raster, Sighting};
 use crate::geometry::rays::{Boxes, Ray};
 use crate::geometry::sampled::{Crossing, SampledMesh};
+use crate::lights::box_raster::{At, BoxRaster, Sighting};
 use crate::lights::projector::Rays;
 use crate::lights::{Drawable, LightView, alpha};
 use crate::math::Aabb;
@@ -75,11 +75,11 @@ impl<'a> Items<'a> {
     }
 
     /// The items by their places, which `see` finds for points in world space.
-    pub fn raster(&self, see: impl Fn(DVec3) -> Sighting) -> Raster {
+    pub fn raster(&self, see: impl Fn(DVec3) -> Sighting) -> BoxRaster {
         let corners = |placed: &Placed<'_>| {
             placed.item.bounds.corners().map(|corner| placed.item.world_from_model.transform_point3(corner))
         };
-        Raster::new(self.placed.iter().map(corners), see)
+        BoxRaster::new(self.placed.iter().map(corners), see)
     }
 }
 

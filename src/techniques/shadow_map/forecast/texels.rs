@@ -8,9 +8,9 @@ use glam::{DMat4, DVec2, DVec3};
 
 use super::Map;
 use super::points::{Items, Placed};
-use super::raster::{At, Raster, Sighting};
 use crate::geometry::rays::Ray;
 use crate::lights::Drawable;
+use crate::lights::box_raster::{At, BoxRaster, Sighting};
 use crate::lights::projector::{Projector, Rays};
 use crate::pass::{DepthFormat, Face, PolygonOffset};
 use crate::techniques::shadow_map::bias;
@@ -50,7 +50,7 @@ pub struct Texels<'a> {
     map_from_light: DMat4,
     clip_from_raster: DMat4,
     /// The items by their places in the map.
-    raster: Arc<Raster>,
+    raster: Arc<BoxRaster>,
     /// Depths by level and place, as one number each.
     known: HashMap<u64, f64>,
     /// The last of these, by the last bits of their places: a kernel's texels are looked up again and again.

@@ -1,4 +1,4 @@
-//! Items by their places in a picture or a map: all rays through one place meet the same few items.
+//! Boxes by their places in a picture or a map: all rays through one place meet the same few boxes.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -13,7 +13,7 @@ const LEAST_DEPTH: f64 = 1e-6;
 
 /// Boxes in a square of cells.
 #[derive(Default)]
-pub struct Raster {
+pub struct BoxRaster {
     /// Number of cells a side.
     side: usize,
     /// Boxes that cover some of each cell, row by row.
@@ -57,11 +57,11 @@ impl Sighting {
 /// A raster, and a place in it.
 #[derive(Clone, Copy)]
 pub struct At<'r> {
-    pub raster: &'r Raster,
+    pub raster: &'r BoxRaster,
     pub place: DVec2,
 }
 
-impl Raster {
+impl BoxRaster {
     /// Sorts boxes, each by its corners, by where `see` finds their corners.
     pub fn new(boxes: impl ExactSizeIterator<Item = [DVec3; 8]>, see: impl Fn(DVec3) -> Sighting) -> Self {
         let side = (2.0 * (boxes.len() as f64).sqrt()).ceil().clamp(1.0, MOST_CELLS as f64) as usize;
@@ -113,6 +113,13 @@ impl Raster {
         Some(())
     }
 
+    /// The greatest sum of what `weight` says of the boxes that a ray through one place may meet.
+    pub fn most(&self, weight: impl Fn(u32) -> usize) -> usize {
+        let sum = |boxes: &mut dyn Iterator<Item = u32>| boxes.map(&weight).sum::<usize>();
+        let cells = self.cells.iter().map(|cell| sum(&mut cell.iter().map(|own| own.index)));
+        cells.max().unwrap_or(0) + sum(&mut self.everywhere.iter().copied())
+    }
+
     fn cell(&self, place: DVec2) -> [usize; 2] {
         // A cast takes numbers below 0 to 0.
         (place * self.side as f64).to_array().map(|at| (at as usize).min(self.side - 1))
@@ -156,7 +163,7 @@ mod tests {
             let clip = clip_from_view * point.extend(1.0);
             Sighting::new(clip, point.abs().max_element())
         };
-        let raster = Raster::new(boxes.iter().map(Aabb::corners), see);
+        let raster = BoxRaster::new(boxes.iter().map(Aabb::corners), see);
         let exact = Boxes::new(boxes.iter().map(|bounds| [bounds.min, bounds.max]));
         let (mut met, mut looked_at) = (0, 0);
         for _ in 0..5000 {
@@ -174,5 +181,9 @@ mod tests {
         // Boxes across the eye's plane, one in twenty; none of the hundred behind it.
         assert!(raster.everywhere.len() < 40, "{}", raster.everywhere.len());
         assert_eq!(raster.met(DVec2::new(1.1, 0.5), |_| {}), None);
+        // No cell has fewer than what a place in it meets, and few have more.
+        let most = raster.most(|_| 1);
+        assert!((8..60).contains(&(most - raster.everywhere.len())), "{most}");
+        assert_eq!(raster.most(|_| 2), 2 * most);
     }
 }
