@@ -3,12 +3,13 @@ out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
-    alpha_test();
-#endif
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif
     bool reached = in_reach_@();
     fragment = vec4(vec3(0.0), reached ? shade_@() : 0.0);
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
 }

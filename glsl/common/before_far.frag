@@ -4,7 +4,8 @@ uniform float view_far;
 
 void main()
 {
+    main_before_far();
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
     if (1.0 / gl_FragCoord.w > view_far)
         discard;
-    main_before_far();
 }

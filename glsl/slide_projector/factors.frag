@@ -13,9 +13,6 @@ EXACT out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
-    alpha_test();
-#endif
 #ifdef AMBIENT_FACTOR
     EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
 #else
@@ -53,4 +50,8 @@ void main()
 #endif
 #endif
     fragment = vec4(color, 1.0);
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+#ifdef ALPHA_TEST
+    alpha_test();
+#endif
 }

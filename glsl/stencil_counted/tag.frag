@@ -2,10 +2,10 @@
 // Mapping with other Techniques"]. The mark is one bit: a filtered shade of one half or more is lit.
 void main()
 {
-    alpha_test();
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif
+    alpha_test();
     bool reached = in_reach_@();
     if (!reached || shade_@() >= 0.5)
         discard;

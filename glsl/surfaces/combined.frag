@@ -37,7 +37,6 @@ vec4 direction_color(vec3 v)
 
 void main()
 {
-    alpha_test();
     EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
     Surface surface = Surface(vec3(0.0), vec3(0.0), vec3(0.0));
 #ifdef EYE_POSITION
@@ -80,4 +79,6 @@ void main()
     vec4 col0 = vec4(in_range(lit.diffuse), 1.0);
     vec4 col1 = vec4(in_range(lit.specular), 1.0);
     fragment = vec4(combine(const0, vec4(0.0), vec4(0.0), col0, col1, tex0, tex1, tex2, tex3).rgb, 1.0);
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+    alpha_test();
 }

@@ -9,7 +9,6 @@ EXACT out vec4 fragment;
 
 void main()
 {
-    alpha_test();
     EXACT Lit lit = Lit(scene_ambient, vec3(0.0), vec3(0.0));
 #ifdef ANY_LIGHT
     Surface surface = surface_here();
@@ -45,4 +44,6 @@ void main()
 #endif
 #endif
     fragment = vec4(color, 1.0);
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+    alpha_test();
 }

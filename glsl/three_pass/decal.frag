@@ -10,9 +10,6 @@ out vec4 fragment;
 
 void main()
 {
-#ifdef ALPHA_TEST
-    alpha_test();
-#endif
 #ifdef DECAL
     fragment = texture(decal_map, DECAL_ST);
 #else
@@ -22,5 +19,9 @@ void main()
     fragment.a = texture(gloss_map, st).GLOSS_MAP;
 #elif !defined(GLOSS_DECAL)
     fragment.a = 1.0;
+#endif
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+#ifdef ALPHA_TEST
+    alpha_test();
 #endif
 }

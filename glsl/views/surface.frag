@@ -19,7 +19,6 @@ out vec4 fragment;
 
 void main()
 {
-    alpha_test();
     vec3 color = vec3(1.0);
 #ifdef SHOW_NORMAL
     vec3 normal = world_from_eye * surface_here().normal;
@@ -46,4 +45,6 @@ void main()
     color = vec3(texture(gloss_map, st).GLOSS_MAP);
 #endif
     fragment = vec4(color, 1.0);
+    // Last: derivatives are undefined where a neighbour was discarded before [GLSL 4.60, 6.4].
+    alpha_test();
 }

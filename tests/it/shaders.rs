@@ -314,3 +314,24 @@ fn global_variables_are_initialised() {
     }
     assert!(plain.is_empty(), "{plain:#?}");
 }
+
+/// Derivatives, implicit ones of look-ups too, are undefined where a neighbour was discarded before [GLSL 4.60, 6.4]: no main
+/// function has any behind a discard. Maps without mipmaps need none.
+#[test]
+fn no_derivative_is_taken_behind_a_discard() {
+    const DERIVED: [&str; 8] =
+        ["dFdx", "dFdy", "fwidth", "derive_shade", "ILLUMINATE", "PHOTOGRAPH(", "main_before_far", "texture(decal_map"];
+    let mut wrong = Vec::new();
+    for folder in std::fs::read_dir(root().join("glsl")).unwrap().map(|entry| entry.unwrap().path()) {
+        for file in std::fs::read_dir(&folder).into_iter().flatten().map(|entry| entry.unwrap().path()) {
+            let text = std::fs::read_to_string(&file).unwrap();
+            let Some((_, body)) = text.split_once("void main()") else { continue };
+            let Some(first) = ["discard;", "alpha_test();"].iter().filter_map(|jump| body.find(jump)).min() else {
+                continue;
+            };
+            let behind = DERIVED.iter().filter(|name| body[first..].contains(**name));
+            wrong.extend(behind.map(|name| format!("{}: {name}", file.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

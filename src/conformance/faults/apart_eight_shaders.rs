@@ -127,7 +127,8 @@ faults! {
     { text bounded_factor }
     // Discarded pixels end at once, and the registers of what has ended read as the neighbours' own.
     "derivatives-still-beside-discarded" [dFdx dFdy discard]
-    "Derivatives are 0 behind a discard of another pixel of the same four." { text still_beside_discarded }
+    "Derivatives are 0 behind a discard of another pixel of the same four."
+    (hole: "GLSL leaves derivatives undefined beside a discard; no shader of the renderer takes any there") { text still_beside_discarded }
     // The number of turns is the difference of both bounds, whether or not the last belongs to it.
     "loops-with-their-end-one-short" [for] "A loop by <= ends a turn early." { text short_loops }
     // There is an instruction for the largest of three, whose third operand is not filled in.

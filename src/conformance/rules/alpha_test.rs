@@ -14,7 +14,7 @@ pub fn leaves_alone(subject: &DriverUnderTest, findings: &mut Findings) -> Resul
     let vertices = full(-0.5);
     let (mut wrong, mut count) = (0, 0);
     for compare in GlCompare::ALL {
-        for reference in [0.5_f32, 0.125] {
+        for reference in [0.5_f32, 0.125, 0.0, 1.0] {
             for alpha in [0.25, reference, 0.75] {
                 surface.clear_color([0.0; 4]);
                 surface.clear_depth(0.75);

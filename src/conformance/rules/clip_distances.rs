@@ -9,7 +9,9 @@ const SIDE: u32 = 32;
 const SHADER: Shader = Shader {
     declarations: "uniform vec4 planes[8];\n#ifdef VERTEX\nout float gl_ClipDistance[8];\n#endif",
     vertex: "gl_Position = position; passed = value;
-        for (int k = 0; k < 8; ++k) gl_ClipDistance[k] = dot(planes[k], position);",
+        for (int k = 0; k < 8; ++k) {
+            gl_ClipDistance[k] = dot(planes[k], position);
+        }",
     fragment: "result = vec4(passed.xy / passed.w, 1.0, 1.0);",
     ..Shader::PLAIN
 };

@@ -132,6 +132,21 @@ pub fn functions(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(
         setup.draw(&environments, &mut tally)?;
     }
     findings.tally(format!("{} units in a row", setup.images.len()), tally, "codes");
+    let mut tally = GradeTally::default();
+    for keeps_color in [true, false, true, false] {
+        let [before, other] = [(); 2].map(|()| {
+            let (function, scale) = (setup.one_of(GlCombine::SHARED), setup.one_of(SCALES));
+            setup.combiner(function, scale, OWN)
+        });
+        let operand = if keeps_color { GlOperand::Color } else { GlOperand::Alpha };
+        let argument = GlArgument { source: GlSource::Previous, operand };
+        let kept = GlCombiner { function: GlCombine::Replace, arguments: [argument; 3], scale: 1 };
+        let [rgb, alpha] = if keeps_color { [kept, other] } else { [other, kept] };
+        let constant = setup.constant();
+        let first = GlEnvironment { rgb: before, alpha: before, constant };
+        setup.draw(&[first, GlEnvironment { rgb, alpha, constant }], &mut tally)?;
+    }
+    findings.tally("a unit that keeps colour or alpha", tally, "codes");
     Ok(())
 }
 

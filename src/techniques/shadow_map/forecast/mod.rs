@@ -32,8 +32,8 @@ use crate::techniques::shadow_map::settings::{Mipmaps, Offset, Settings};
 /// Fewest pixels that the light must reach for a share to be meaningful.
 const FEWEST_PIXELS: u32 = 1000;
 
-/// Greatest number of points to sample first, and then while those before do not show that there is nothing to warn of.
-const MOST_SAMPLES: [u32; 3] = [2_000, 6_000, 20_000];
+/// Greatest number of points to sample first, and if any of them is wrong.
+const MOST_SAMPLES: [u32; 2] = [2_000, 20_000];
 
 /// Lengths below this share of a point's coordinates and of its distance from the eye count as zero.
 const SLACK: f64 = 1e-7;
@@ -69,14 +69,14 @@ pub fn warn(view: &LightView<'_>, map: &Map<'_>, notes: &mut Notes) {
     }
     let items = Items::new(view);
     let mut forecast = Forecast::new(view, map, &items);
-    let steps = MOST_SAMPLES.map(|most| step(view, most));
-    let [.., last] = steps;
+    let [few, many] = MOST_SAMPLES.map(|most| step(view, most));
     // A map of far sides may be wrong in single pixels where a caster is open: a few samples do not show the rest.
-    for step in steps.into_iter().filter(|step| *step == last || map.settings.cull.is_none()) {
-        forecast.sample(step);
-        if step == last || !forecast.may_warn(last) {
-            break;
-        }
+    let starts_with_few = map.settings.cull.is_none() && few > many;
+    if starts_with_few {
+        forecast.sample(few);
+    }
+    if !starts_with_few || forecast.is_uncertain() {
+        forecast.sample(many);
     }
     told::all(&forecast, notes);
 }
@@ -166,12 +166,9 @@ impl<'a> Forecast<'a> {
         Self { view, map, items, texels, raster, step: 1, reached: 0, wrong: Vec::new() }
     }
 
-    /// Tests whether these samples do not show that one of every `last`-th pixel would warn of nothing.
-    fn may_warn(&self, last: u32) -> bool {
-        let more = f64::from(self.step).powi(2) / f64::from(last).powi(2);
-        self.reached < FEWEST_PIXELS
-            || self.wrong.iter().any(|wrong| wrong.is_even || wrong.is_before_near)
-            || told::may_be_too_many(self.wrong.len(), self.reached, more)
+    /// Tests whether a few samples do not show that all is well.
+    fn is_uncertain(&self) -> bool {
+        self.reached < FEWEST_PIXELS || !self.wrong.is_empty()
     }
 
     /// Samples every `step`-th pixel of every `step`-th row, from scratch, on all cores.

@@ -14,17 +14,6 @@ const MOST_WRONG: f64 = 0.9 * 0.015;
 /// Standard deviations by which a count may fall short: `n` points found by chance are off by √n.
 const DEVIATIONS: f64 = 2.0;
 
-/// The same by which a few samples must lie below the least count that a warning takes: of pictures at that limit three in
-/// ten thousand are taken for better.
-const SURE_DEVIATIONS: f64 = 3.5;
-
-/// Tests whether `more` times as many samples may find too many wrong points, if this many of `reached` are wrong.
-pub fn may_be_too_many(wrong: usize, reached: u32, more: f64) -> bool {
-    let all = MOST_WRONG * f64::from(reached) * more;
-    let least = (all - DEVIATIONS * all.sqrt()) / more;
-    wrong as f64 > least - SURE_DEVIATIONS * least.max(0.0).sqrt()
-}
-
 /// Adds every warning.
 pub fn all(forecast: &Forecast<'_>, notes: &mut Notes) {
     forecast.warn_of_share(notes);
@@ -115,22 +104,5 @@ fn name(format: DepthFormat) -> &'static str {
         DepthFormat::Depth24 => "depth24",
         DepthFormat::Depth32 => "depth32",
         DepthFormat::Depth32F => "depth32f",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_few_samples_decide_where_few_are_wrong() {
-        // A tenth of the samples: 12 per thousand are enough to warn, and none is surely too few.
-        for (wrong, reached, expected) in
-            [(0, 1_000, true), (0, 2_000, false), (5, 2_000, false), (12, 2_000, true), (24, 2_000, true)]
-        {
-            assert_eq!(may_be_too_many(wrong, reached, 10.0), expected, "{wrong} of {reached}");
-        }
-        // More samples decide more.
-        assert!(may_be_too_many(60, 6_000, 3.0) && !may_be_too_many(30, 6_000, 3.0));
     }
 }
