@@ -3,10 +3,10 @@ out vec4 fragment;
 
 void main()
 {
-    alpha_test();
 #ifdef DERIVATIVES_@
     derive_shade_@();
 #endif
+    alpha_test();
     bool reached = in_reach_@();
     fragment = reached ? vec4(vec3(shade_@()), 1.0) : vec4(0.0);
 }
