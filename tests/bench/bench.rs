@@ -2,6 +2,7 @@
 //! Prints medians of same-round ratios; absolute times hold on no other machine. `ci/bench` builds and runs it.
 
 mod animation;
+mod ball;
 mod bumps;
 mod child;
 mod floor;

@@ -8,6 +8,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::Result;
+use super::ball::ball;
 use super::numbers::Numbers;
 
 /// Numbers of a scene.
@@ -148,37 +149,4 @@ pub fn read_places(folder: &Path) -> Result<Vec<Vec3>> {
 fn light(index: usize) -> Vec3 {
     let angle = index as f32;
     Vec3::new(14.0 * angle.cos(), 34.0, 14.0 * angle.sin())
-}
-
-/// A closed ball of about `triangles`, as the text of an OBJ file. It stands on the plane y = 0.
-fn ball(triangles: usize, radius: f32) -> String {
-    let columns = ((triangles as f64).sqrt().round() as usize).max(4);
-    let rows = (triangles / (2 * columns) + 1).max(3);
-    let mut text = format!("v 0 {} 0\n", 2.0 * radius);
-    for row in 1..rows {
-        let up = std::f32::consts::PI * row as f32 / rows as f32;
-        for column in 0..columns {
-            let around = std::f32::consts::TAU * column as f32 / columns as f32;
-            let [x, y, z] = [up.sin() * around.cos(), 1.0 + up.cos(), up.sin() * around.sin()].map(|at| radius * at);
-            let _ = writeln!(text, "v {x} {y} {z}");
-        }
-    }
-    let _ = writeln!(text, "v 0 0 0");
-    let place = |row: usize, column: usize| match row {
-        0 => 1,
-        row if row == rows => (rows - 1) * columns + 2,
-        row => 2 + (row - 1) * columns + column % columns,
-    };
-    for row in 0..rows {
-        for column in 0..columns {
-            let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(down, aside)| place(row + down, column + aside));
-            if row + 1 < rows {
-                let _ = writeln!(text, "f {a} {d} {c}");
-            }
-            if row > 0 {
-                let _ = writeln!(text, "f {a} {b} {d}");
-            }
-        }
-    }
-    text
 }

@@ -14,6 +14,11 @@ use glumbra::process::work;
 use glumbra::scene::Scene;
 use glumbra::techniques;
 
+#[path = "../bench/ball.rs"]
+mod ball;
+
+use ball::ball;
+
 /// Greatest exponent of a curve: linear, and a tenth for what a fit over a few points of a curve with a constant part, a sort or
 /// a grid's rounded sides may add. Four times the size with an exponent of 2 is sixteen times the work: no noise hides it.
 const MOST: f64 = 1.1;
@@ -129,44 +134,9 @@ fn materials(count: usize, technique: &str) -> String {
     text
 }
 
-/// A wavy sheet of so many triangles, as the text of an OBJ file in the scene's folder: see [`load`].
+/// A closed ball of so many triangles, which volumes count by its outline; its file is in the scene's folder: see [`load`].
 fn triangles(_: usize, technique: &str) -> String {
-    start(48, 1, technique, &map_keys(technique, 64)) + "[[object]]\nmesh = \"sheet.obj\"\n"
-}
-
-/// An OBJ file of `count` triangles: a ball, closed, so that volumes count it by its outline.
-fn ball(count: usize) -> String {
-    let columns = (count as f64).sqrt().round() as usize;
-    let rows = count / (2 * columns) + 1;
-    let mut text = String::from("v 0 3 0\n");
-    for row in 1..rows {
-        for column in 0..columns {
-            let (up, around) = (
-                std::f64::consts::PI * row as f64 / rows as f64,
-                std::f64::consts::TAU * column as f64 / columns as f64,
-            );
-            let _ = writeln!(text, "v {} {} {}", up.sin() * around.cos(), 2.0 + up.cos(), up.sin() * around.sin());
-        }
-    }
-    let _ = writeln!(text, "v 0 1 0");
-    let place = |row: usize, column: usize| match row {
-        0 => 1,
-        row if row == rows => (rows - 1) * columns + 2,
-        row => 2 + (row - 1) * columns + column % columns,
-    };
-    for row in 0..rows {
-        for column in 0..columns {
-            let [a, b] = [place(row, column), place(row, column + 1)];
-            let [c, d] = [place(row + 1, column), place(row + 1, column + 1)];
-            if row + 1 < rows {
-                let _ = writeln!(text, "f {a} {d} {c}");
-            }
-            if row > 0 {
-                let _ = writeln!(text, "f {a} {b} {d}");
-            }
-        }
-    }
-    text
+    start(48, 1, technique, &map_keys(technique, 64)) + "[[object]]\nmesh = \"ball.obj\"\ntranslate = [0, 1, 0]\n"
 }
 
 fn lights(count: usize, technique: &str) -> String {
@@ -195,8 +165,8 @@ fn load(text: &str, size: usize) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, text).unwrap();
-    if text.contains("sheet.obj") {
-        std::fs::write(folder.path().join("sheet.obj"), ball(size)).unwrap();
+    if text.contains("ball.obj") {
+        std::fs::write(folder.path().join("ball.obj"), ball(size, 1.0)).unwrap();
     }
     glumbra::load(&path, &[]).unwrap().scene
 }
