@@ -1,7 +1,7 @@
 //! The fixed-function side of the [bench](crate::conformance::bench): single draws by glTexGen, texture matrix, glTexEnv and
 //! DEPTH_TEXTURE_MODE, or by a shader of GLSL 1.20 that reads the same state. Knows no pass and no scene.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -9,6 +9,7 @@ use glam::{DMat4, DVec4};
 use glow::HasContext;
 
 use super::environment::{GlCoordinates, GlUnit, set};
+use super::fixed_arrays::{ArraysColors, ArraysFigure};
 use super::texgen::GlTexgen;
 use super::{Bench, Error, GlCompare, GlImage, GlProgram, GlState, Mutation, Sampling, Surface, Vertex, build};
 use crate::context::Context;
@@ -80,6 +81,8 @@ pub struct FixedBench {
     binding: Binding,
     programs: RefCell<HashMap<[&'static str; 2], GlProgram>>,
     mutation: Option<Mutation>,
+    /// Draws so far.
+    drawn: Cell<u32>,
 }
 
 const COORDINATES: [(u32, u32); 4] = [
@@ -97,7 +100,7 @@ impl FixedBench {
     /// A context without the fixed-function pipeline.
     pub fn new(context: &dyn Context, mutation: Option<Mutation>) -> Result<Self, BindingError> {
         let binding = Binding::load(context)?;
-        Ok(Self { gl: context.gl().clone(), binding, programs: RefCell::default(), mutation })
+        Ok(Self { gl: context.gl().clone(), binding, programs: RefCell::default(), mutation, drawn: Cell::new(0) })
     }
 
     pub(super) fn gl(&self) -> &glow::Context {
@@ -201,7 +204,7 @@ impl FixedBench {
             if let Some(program) = program {
                 self.gl.uniform_1_i32(self.gl.get_uniform_location(program, "map").as_ref(), 0);
             }
-            self.submit(draw);
+            self.submit(bench, draw)?;
             self.gl.use_program(None);
             self.gl.disable(glow::TEXTURE_2D);
             self.gl.disable(raw::ALPHA_TEST);
@@ -209,21 +212,23 @@ impl FixedBench {
         bench.check("a fixed-function draw")
     }
 
-    /// # Safety
-    ///
-    /// The context is current.
-    unsafe fn submit(&self, draw: &FixedDraw) {
-        // SAFETY: as the caller promises; each call reads four numbers.
-        unsafe {
-            self.binding.Begin(glow::TRIANGLES);
-            let [red, green, blue, alpha] = draw.color;
-            self.binding.Color4f(red, green, blue, alpha);
-            for vertex in draw.vertices {
-                self.binding.TexCoord4fv(vertex.value.as_ptr());
-                self.binding.Vertex4fv(vertex.position.as_ptr());
-            }
-            self.binding.End();
-        }
+    fn submit(&self, bench: &Bench, draw: &FixedDraw) -> Result<(), Error> {
+        let FixedDraw { vertices, color, .. } = *draw;
+        let coordinates = vec![vertices.iter().map(|vertex| vertex.value).collect()];
+        self.draw_figure(bench, vertices, ArraysColors::Current(color), coordinates)
+    }
+
+    fn draw_figure(
+        &self,
+        bench: &Bench,
+        vertices: &[Vertex],
+        colors: ArraysColors,
+        coordinates: Vec<Vec<[f32; 4]>>,
+    ) -> Result<(), Error> {
+        let positions = vertices.iter().map(|vertex| vertex.position).collect();
+        let place = self.drawn.get();
+        self.drawn.set(place.wrapping_add(1));
+        ArraysFigure { positions, colors, coordinates, fixed: &self.binding }.draw(bench, place)
     }
 
     /// DEPTH_SCALE and DEPTH_BIAS of uploads, copies and read-backs.
@@ -272,7 +277,7 @@ impl FixedBench {
             }
             self.load_matrix(raw::PROJECTION, DMat4::IDENTITY);
             self.load_matrix(raw::MODELVIEW, DMat4::IDENTITY);
-            self.submit_units(draw, &units);
+            self.submit_units(bench, draw, &units)?;
             for (index, unit) in (0..).zip(&units) {
                 self.gl.active_texture(glow::TEXTURE0 + index);
                 COORDINATES.iter().for_each(|(_, coordinate)| self.gl.disable(*coordinate));
@@ -284,25 +289,18 @@ impl FixedBench {
         bench.check("a draw through texture units")
     }
 
-    /// # Safety
-    ///
-    /// The context is current.
-    unsafe fn submit_units(&self, draw: &UnitsDraw, units: &[GlUnit]) {
-        // SAFETY: as the caller promises; each call reads four numbers.
-        unsafe {
-            self.binding.Begin(glow::TRIANGLES);
-            for vertex in draw.vertices {
-                self.binding.Color4fv(draw.color.unwrap_or(vertex.value).as_ptr());
-                let [x, y, _, w] = vertex.position;
-                let square = [0.5 * (x / w) + 0.5, 0.5 * (y / w) + 0.5, 0.0, 1.0];
-                for (index, unit) in (0..).zip(units) {
-                    let at = if unit.coordinates == GlCoordinates::Square { square } else { vertex.value };
-                    self.binding.MultiTexCoord4fv(glow::TEXTURE0 + index, at.as_ptr());
-                }
-                self.binding.Vertex4fv(vertex.position.as_ptr());
-            }
-            self.binding.End();
-        }
+    fn submit_units(&self, bench: &Bench, draw: &UnitsDraw, units: &[GlUnit]) -> Result<(), Error> {
+        let square = |vertex: &Vertex| {
+            let [x, y, _, w] = vertex.position;
+            [0.5 * (x / w) + 0.5, 0.5 * (y / w) + 0.5, 0.0, 1.0]
+        };
+        let coordinates = units.iter().map(|unit| {
+            let is_square = unit.coordinates == GlCoordinates::Square;
+            draw.vertices.iter().map(|vertex| if is_square { square(vertex) } else { vertex.value }).collect()
+        });
+        let each = || ArraysColors::Each(draw.vertices.iter().map(|vertex| vertex.value).collect());
+        let colors = draw.color.map_or_else(each, ArraysColors::Current);
+        self.draw_figure(bench, draw.vertices, colors, coordinates.collect())
     }
 
     fn program(&self, shaders: [&'static str; 2]) -> Result<glow::Program, Error> {

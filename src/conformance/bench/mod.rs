@@ -21,6 +21,8 @@ pub mod environment;
 #[cfg(feature = "check")]
 mod feed;
 #[cfg(feature = "check")]
+mod fixed_arrays;
+#[cfg(feature = "check")]
 pub mod fixed_commands;
 #[cfg(feature = "check")]
 pub mod fixed_function;
