@@ -21,17 +21,23 @@ pub struct SceneChanges {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 
+    /// Draws through the camera of this name, where the scene has several [[camera]]; absent: the first
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
+
     /// Supplies no floor under a model
     #[arg(long)]
     no_floor: bool,
 }
 
 impl SceneChanges {
-    /// The overrides in order, those of options of their own first.
+    /// The overrides in order: size and floor first, the choice of a camera last.
     pub fn overrides(&self) -> Vec<String> {
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
         let floor = self.no_floor.then(|| String::from("floor=false"));
-        size.into_iter().chain(floor).chain(self.set.iter().cloned()).collect()
+        let camera =
+            self.camera.as_ref().map(|name| format!("camera={}", scene::Value::String(name.clone()).to_toml()));
+        size.into_iter().chain(floor).chain(self.set.iter().cloned()).chain(camera).collect()
     }
 
     /// Loads the file `scene` with these changes, and prints its warnings.

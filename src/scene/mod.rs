@@ -8,6 +8,7 @@ mod camera_framing;
 mod default_scene;
 mod error;
 mod files;
+mod include;
 mod json;
 mod model;
 mod overrides;
@@ -143,7 +144,8 @@ pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Resu
 #[doc(hidden)]
 pub fn load_str(text: &str, folder: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::default();
-    let mut root = parse::document(&folder.join("<text>"), text)?;
+    let path = folder.join("<text>");
+    let mut root = include::complete(parse::document(&path, text)?, &path)?;
     overrides::apply(&mut root, overrides)?;
     let scene = resolve::scene(&root, &mut assets, shadows)?;
     Ok(Loaded { scene, warnings: assets.warnings })
@@ -195,7 +197,7 @@ fn settings_of(path: &Path, overrides: &[String], assets: &mut Assets) -> Result
     if !has_extension(path, "toml") {
         return Err(Error::UnknownKind { path: path.to_owned() });
     }
-    let mut root = parse::document(path, &read_text(path, LONGEST_FILE)?)?;
+    let mut root = include::document(path)?;
     overrides::apply(&mut root, overrides)?;
     Ok(root)
 }

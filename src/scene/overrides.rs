@@ -1,17 +1,20 @@
 //! `--set a.b.c=value`: changes to a scene's [`Settings`] from the command line.
 //!
 //! A segment that meets an array of tables applies to each of them; `light.0.cone` and `light[0].cone` name one. Missing
-//! tables are made. The value is TOML; a bare word is a string.
+//! tables are made. The value is TOML; a bare word is a string. `camera=NAME` chooses the camera of that name.
 
 use std::sync::Arc;
 
 use super::parse;
-use super::settings::{Entry, Origin, Settings, SettingsError, Value};
+use super::settings::{Entry, Origin, Settings, SettingsError, Value, suggest};
 
 type Result<T> = std::result::Result<T, SettingsError>;
 
 /// Arrays of tables at a scene's root; an override cannot make their first element.
 const ARRAYS: [&str; 2] = ["light", "object"];
+
+/// The key of cameras.
+const CAMERA: &str = "camera";
 
 /// Greatest depth of nesting.
 const MAX_SEGMENTS: usize = 16;
@@ -60,11 +63,40 @@ impl Override {
 
     fn apply(&self, root: &mut Settings) -> Result<()> {
         let first = &self.segments[0];
+        if let ([_], CAMERA, Value::String(name)) = (&self.segments[..], first.as_str(), &self.entry.value) {
+            return self.choose_camera(root, name);
+        }
         let deeper = self.segments.len() > 1;
         if deeper && ARRAYS.contains(&first.as_str()) && root.get(first).is_none() {
             return Err(self.refuse(format!("the scene has no [[{first}]]")));
         }
         self.set_in_table(root, &self.segments)
+    }
+
+    /// Puts the camera of a name in place of all.
+    fn choose_camera(&self, root: &mut Settings, wanted: &str) -> Result<()> {
+        let tables: Vec<&Settings> = match root.get(CAMERA).map(|entry| &entry.value) {
+            Some(Value::Table(table)) => vec![table],
+            Some(Value::Array(items)) => items
+                .iter()
+                .filter_map(|item| if let Value::Table(table) = &item.value { Some(table) } else { None })
+                .collect(),
+            _ => Vec::new(),
+        };
+        let name = |table: &Settings| match table.get("name").map(|entry| &entry.value) {
+            Some(Value::String(name)) => Some(name.clone()),
+            _ => None,
+        };
+        if let Some(chosen) = tables.iter().find(|table| name(table).as_deref() == Some(wanted)) {
+            let entry = Entry { value: Value::Table((*chosen).clone()), origin: chosen.origin.clone() };
+            root.set(CAMERA, entry);
+            return Ok(());
+        }
+        let names: Vec<String> = tables.into_iter().filter_map(name).collect();
+        Err(self.refuse(match names.is_empty() {
+            true => String::from("no camera of the scene has a `name`"),
+            false => format!("no camera is called \"{wanted}\": {}", suggest(wanted, names.iter().map(String::as_str))),
+        }))
     }
 
     fn set_in_table(&self, table: &mut Settings, segments: &[String]) -> Result<()> {

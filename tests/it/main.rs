@@ -37,6 +37,7 @@ mod growth;
 mod guards;
 mod hw_shadowmaps_simple;
 mod hw_woo_shadowmaps;
+mod includes;
 mod independent;
 mod instances;
 mod judge;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::math::Aabb;
-use crate::scene::settings::{Plain, Settings, SettingsError};
+use crate::scene::settings::{Plain, Reader, Settings, SettingsError, Value};
 use crate::scene::sight::{Cut, LEAST_PIECE, Pyramid, Span};
 use crate::scene::{Camera, Image, Object, camera_framing};
 
@@ -17,11 +17,35 @@ pub(super) struct CameraKeys {
     far: Option<f64>,
 }
 
+/// Reads `[camera]`, or each `[[camera]]`, and returns the first.
+pub(super) fn read_first(root: &mut Reader<'_>) -> Result<CameraKeys, SettingsError> {
+    let tables = match root.entry("camera").map(|entry| &entry.value) {
+        Some(Value::Array(items)) if items.is_empty() => {
+            return Err(root.error("camera", "is an empty array: leave it out, and one is framed"));
+        }
+        Some(Value::Array(_)) => root.tables("camera")?,
+        _ => return read(root.table("camera")?),
+    };
+    let mut names: Vec<&str> = Vec::with_capacity(tables.len());
+    for table in &tables {
+        let mut reader = table.read();
+        let name = reader.string("name")?;
+        let name = name.ok_or_else(|| reader.missing("name", "`--camera NAME` chooses one of several cameras"))?;
+        if names.contains(&name) {
+            return Err(reader.error("name", format_args!("\"{name}\" is the name of another camera, too")));
+        }
+        names.push(name);
+    }
+    let mut cameras = tables.into_iter().map(|table| read(Some(table))).collect::<Result<Vec<_>, _>>()?;
+    Ok(cameras.swap_remove(0))
+}
+
 /// Reads the keys, and checks them as far as that is possible without the objects.
-pub(super) fn read(table: Option<&Settings>) -> Result<CameraKeys, SettingsError> {
+fn read(table: Option<&Settings>) -> Result<CameraKeys, SettingsError> {
     let absent = || Settings { path: String::from("camera"), ..Settings::default() };
     let settings = table.cloned().unwrap_or_else(absent);
     let mut reader = settings.read();
+    reader.string("name")?;
     let (eye, target) = (reader.vector("eye")?, reader.vector("target")?);
     match (eye, target) {
         (Some(eye), Some(target)) => reader.up(["eye", "target"], eye, target).map(drop)?,

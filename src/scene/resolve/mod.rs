@@ -13,6 +13,7 @@ mod placement;
 pub(super) mod pose;
 
 use super::assets::Assets;
+use super::include;
 use super::settings::{Plain, Reader, Settings, SettingsError};
 use super::{Background, BumpMethod, BumpShading, Error, Image, PicturePasses, ReadShadow, Scene, Shading};
 
@@ -35,10 +36,13 @@ pub(super) fn scene(root: &Settings, assets: &mut Assets, shadows: &dyn ReadShad
     let mut reader = root.read();
     let image = image(reader.table("image")?)?;
     let shading = shading(reader.table("shading")?)?;
-    let camera = camera::read(reader.table("camera")?)?;
+    let camera = camera::read_first(&mut reader)?;
     let lights = reader.tables("light")?;
     let objects = reader.tables("object")?;
     check_counts(&reader, objects.len())?;
+    if reader.entry(include::KEY).is_some() {
+        return Err(reader.error(include::KEY, "can stand in a scene file alone").into());
+    }
     reader.finish()?;
 
     let lights =
