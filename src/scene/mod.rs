@@ -19,10 +19,12 @@ mod print;
 mod projected;
 mod ranges;
 mod read_shadow;
+mod record;
 mod resolve;
 mod settings;
 mod shadow;
 mod sight;
+mod suggest;
 mod views;
 
 use std::fs;
@@ -48,6 +50,8 @@ pub use projected::{Falloff, FalloffLaw, ImageFilter, Interpolation, LightBeam};
 pub use ranges::{LARGEST, SMALLEST};
 #[doc(hidden)]
 pub use read_shadow::ReadShadow;
+#[doc(hidden)]
+pub use record::{ValueForm, record};
 #[doc(hidden)]
 pub use resolve::MAX_IMAGE_SIDE;
 #[doc(hidden)]

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::record::ValueForm;
 use super::settings::{Origin, Plain, Reader, SettingsError};
 
 /// Greatest length or coordinate of a scene: its square is still a finite f32.
@@ -23,6 +24,7 @@ impl<'a> Reader<'a> {
 
     /// A length above zero.
     pub fn length(&mut self, key: &'static str) -> Result<Option<f64>> {
+        self.note(key, || ValueForm::Length);
         let Some(value) = self.number(key, f64::MIN..=f64::MAX)? else {
             return Ok(None);
         };
@@ -38,6 +40,7 @@ impl<'a> Reader<'a> {
 
     /// An angle in degrees, strictly between the ends; radians out.
     pub fn angle_between(&mut self, key: &'static str, low: f64, high: f64) -> Result<Option<f64>> {
+        self.note(key, || ValueForm::Angle([low, high]));
         let Some(value) = self.number(key, f64::MIN..=f64::MAX)? else {
             return Ok(None);
         };
@@ -50,6 +53,7 @@ impl<'a> Reader<'a> {
 
     /// A file's name with the place that names it; not empty.
     pub fn file(&mut self, key: &'static str) -> Result<Option<(&'a str, &'a Origin)>> {
+        self.note(key, || ValueForm::File);
         let Some(name) = self.string(key)? else {
             return Ok(None);
         };

@@ -6,6 +6,9 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::record::{ValueForm, note};
+pub use super::suggest::suggest;
+
 /// Place of a value in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -172,6 +175,7 @@ impl<'a> Reader<'a> {
     /// The entry of `key` as written.
     pub fn entry(&mut self, key: &'static str) -> Option<&'a Entry> {
         self.known.push(key);
+        self.note(key, || ValueForm::Any);
         self.settings.get(key)
     }
 
@@ -183,6 +187,11 @@ impl<'a> Reader<'a> {
     /// Place of the table.
     pub fn origin(&self) -> &'a Origin {
         &self.settings.origin
+    }
+
+    /// Notes the values that `key` may have, if keys are recorded.
+    pub(super) fn note(&self, key: &str, form: impl FnOnce() -> ValueForm) {
+        note(self.settings, key, form);
     }
 
     /// An error at `key`, or at the table where the key is absent.
@@ -214,6 +223,7 @@ impl<'a> Reader<'a> {
 
     /// A string; `None`: the key is not written.
     pub fn string(&mut self, key: &'static str) -> Result<Option<&'a str>> {
+        self.note(key, || ValueForm::Text);
         match self.entry(key).map(|entry| &entry.value) {
             None => Ok(None),
             Some(Value::String(text)) => Ok(Some(text)),
@@ -223,6 +233,7 @@ impl<'a> Reader<'a> {
 
     /// `true` or `false`; `None`: the key is not written.
     pub fn boolean(&mut self, key: &'static str) -> Result<Option<bool>> {
+        self.note(key, || ValueForm::Boolean);
         match self.entry(key).map(|entry| &entry.value) {
             None => Ok(None),
             Some(Value::Boolean(value)) => Ok(Some(*value)),
@@ -232,6 +243,7 @@ impl<'a> Reader<'a> {
 
     /// An integer in `range`; `None`: the key is not written.
     pub fn integer(&mut self, key: &'static str, range: RangeInclusive<i64>) -> Result<Option<i64>> {
+        self.note(key, || ValueForm::Integer(range.clone()));
         let value = match self.entry(key).map(|entry| &entry.value) {
             None => return Ok(None),
             Some(Value::Integer(value)) => *value,
@@ -245,6 +257,7 @@ impl<'a> Reader<'a> {
 
     /// A finite number in `range`; integers count as numbers.
     pub fn number(&mut self, key: &'static str, range: RangeInclusive<f64>) -> Result<Option<f64>> {
+        self.note(key, || ValueForm::Number(range.clone()));
         let Some(entry) = self.entry(key) else {
             return Ok(None);
         };
@@ -257,6 +270,7 @@ impl<'a> Reader<'a> {
         key: &'static str,
         range: RangeInclusive<f64>,
     ) -> Result<Option<[f64; N]>> {
+        self.note(key, || ValueForm::Numbers(N, range.clone()));
         let Some(entry) = self.entry(key) else {
             return Ok(None);
         };
@@ -275,6 +289,7 @@ impl<'a> Reader<'a> {
 
     /// One of the named choices.
     pub fn choice<T: Copy>(&mut self, key: &'static str, choices: &[(&str, T)]) -> Result<Option<T>> {
+        self.note(key, || ValueForm::Choice(choices.iter().map(|(name, _)| (*name).to_owned()).collect()));
         let Some(text) = self.string(key)? else {
             return Ok(None);
         };
@@ -287,6 +302,7 @@ impl<'a> Reader<'a> {
 
     /// A sub-table.
     pub fn table(&mut self, key: &'static str) -> Result<Option<&'a Settings>> {
+        self.note(key, || ValueForm::Table);
         match self.entry(key).map(|entry| &entry.value) {
             None => Ok(None),
             Some(Value::Table(table)) => Ok(Some(table)),
@@ -296,6 +312,7 @@ impl<'a> Reader<'a> {
 
     /// An array of tables (`[[key]]`); empty where absent.
     pub fn tables(&mut self, key: &'static str) -> Result<Vec<&'a Settings>> {
+        self.note(key, || ValueForm::Tables);
         let items = match self.entry(key).map(|entry| &entry.value) {
             None => return Ok(Vec::new()),
             Some(Value::Array(items)) => items,
@@ -346,7 +363,7 @@ impl<'a> Reader<'a> {
 }
 
 /// A range as a person would write it; f64's limits are no bounds.
-fn words(range: &RangeInclusive<f64>) -> String {
+pub(super) fn words(range: &RangeInclusive<f64>) -> String {
     let (low, high) = (*range.start(), *range.end());
     let least = match low {
         low if low <= f64::MIN => None,
@@ -365,25 +382,6 @@ impl fmt::Display for Plain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
         if size != 0.0 && !(1e-4..1e7).contains(&size) { write!(f, "{:e}", self.0) } else { write!(f, "{}", self.0) }
-    }
-}
-
-/// "did you mean …" for a near miss, and the whole list where it is short.
-pub fn suggest<'n>(wrong: &str, names: impl Iterator<Item = &'n str>) -> String {
-    let mut names: Vec<&str> = names.collect();
-    names.sort_unstable();
-    names.dedup();
-    // A name cut short, or one with too much, is nearer than any misspelling.
-    let begins = |name: &str| wrong.len() > 1 && (name.starts_with(wrong) || wrong.starts_with(name));
-    let nearest = names
-        .iter()
-        .map(|name| (if begins(name) { 0 } else { strsim::damerau_levenshtein(wrong, name) }, *name))
-        .min()
-        .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
-    let all = names.join(", ");
-    match nearest {
-        Some((_, name)) => format!("did you mean `{name}`? (known: {all})"),
-        None => format!("known: {all}"),
     }
 }
 
