@@ -133,6 +133,9 @@ pub mod frame;
 #[doc(hidden)]
 pub mod geometry;
 pub mod judge;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod keys;
 #[doc(hidden)]
 pub mod lights;
 #[doc(hidden)]

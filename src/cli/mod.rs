@@ -8,9 +8,11 @@ mod context_args;
 mod figures;
 mod generate;
 mod info;
+mod init;
 mod json;
 mod judge;
 mod judge_report;
+mod keys;
 mod path_text;
 mod pipeline;
 mod plan;
@@ -65,7 +67,9 @@ enum Command {
     Figures(figures::FiguresArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
+    Init(init::InitArgs),
     Judge(judge::JudgeArgs),
+    Keys(keys::KeysArgs),
     Plan(plan::PlanArgs),
     Render(render::RenderArgs),
     Repack(repack::RepackArgs),
@@ -90,6 +94,10 @@ pub enum Error {
     Probe(#[from] probe::Error),
     #[error(transparent)]
     Scene(#[from] crate::scene::Error),
+    #[error(transparent)]
+    Keys(#[from] crate::keys::Error),
+    #[error(transparent)]
+    NoSuchKey(#[from] crate::keys::NoSuchKey),
     #[error(transparent)]
     Plan(#[from] crate::plan::Error),
     #[error(transparent)]
@@ -180,6 +188,8 @@ pub enum Error {
     IsRead { path: std::path::PathBuf },
     #[error("JSON: {0}")]
     Json(#[from] serde_json::Error),
+    #[error("{path}: is there already; name another folder, or move the file away", path = .path.display())]
+    Stands { path: std::path::PathBuf },
     #[error("{folder}: the folder cannot be made: {error}", folder = .folder.display())]
     MakeFolder { folder: std::path::PathBuf, error: std::io::Error },
     #[error("{file}: {first} and {second} would both be written there; render them one by one, with -o", file = .file.display(), first = .first.display(), second = .second.display())]
@@ -210,7 +220,9 @@ pub fn run() -> ExitCode {
         Command::Compare(arguments) => return compare::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments, screen),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments, screen),
         Command::Judge(arguments) => return judge::run(&arguments, screen),
+        Command::Keys(arguments) => keys::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Render(arguments) => render::run(&arguments, screen),
         Command::Repack(arguments) => repack::run(&arguments),

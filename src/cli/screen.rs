@@ -76,6 +76,13 @@ impl Screen {
         }
     }
 
+    /// Says what to do next.
+    pub fn hint(self, line: impl Display) {
+        if !self.quiet {
+            super::say(line);
+        }
+    }
+
     /// Says something that `--verbose` asks for.
     pub fn detail(self, line: impl Display) {
         if self.verbose {

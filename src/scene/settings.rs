@@ -190,7 +190,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Notes the values that `key` may have, if keys are recorded.
-    pub(super) fn note(&self, key: &str, form: impl FnOnce() -> ValueForm) {
+    pub fn note(&self, key: &str, form: impl FnOnce() -> ValueForm) {
         note(self.settings, key, form);
     }
 

@@ -11,7 +11,7 @@ use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;
 use crate::scene::{
     self, Embedded, Entry, LightKind, Loaded, Object, ReadShadow, Reader, Scene, Settings, SettingsError, Shadow,
-    Value, suggest,
+    Value, ValueForm, suggest,
 };
 
 /// A light's technique, and the keys that it has read.
@@ -219,6 +219,7 @@ pub fn keys(technique: &dyn Technique) -> Vec<&'static str> {
 
 /// The technique that `[light.shadow]` of a light of this `kind` names.
 fn chosen(kind: &LightKind, settings: &mut Reader<'_>) -> Result<&'static dyn Technique, SettingsError> {
+    settings.note("technique", || ValueForm::Choice(TABLE.iter().map(|row| row.name().to_owned()).collect()));
     let name = settings.string("technique")?.unwrap_or("none");
     let Some(technique) = TABLE.iter().find(|row| row.name() == name) else {
         let names = TABLE.iter().map(|row| row.name());

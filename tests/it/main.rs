@@ -42,6 +42,7 @@ mod independent;
 mod instances;
 mod judge;
 mod kernels;
+mod keys;
 mod layers;
 mod left_out;
 mod licences;
