@@ -160,7 +160,7 @@ fn judge(arguments: &JudgeArgs, screen: Screen) -> Result<bool, Error> {
     if let Some(path) = &arguments.output {
         answers::check_png(path, &[&arguments.scene.scene, &arguments.picture])?;
     }
-    let loaded = arguments.scene.load()?;
+    let loaded = arguments.scene.load(screen)?;
     let scene = &loaded.scene;
     let count = scene.lights.len();
     if arguments.light >= count {

@@ -17,6 +17,7 @@ mod path_text;
 mod pipeline;
 mod plan;
 mod png_texts;
+mod reading_bar;
 mod render;
 mod repack;
 mod repack_report;
@@ -223,7 +224,7 @@ pub fn run() -> ExitCode {
         Command::Init(arguments) => init::run(&arguments, screen),
         Command::Judge(arguments) => return judge::run(&arguments, screen),
         Command::Keys(arguments) => keys::run(&arguments),
-        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments, screen),
         Command::Render(arguments) => render::run(&arguments, screen),
         Command::Repack(arguments) => repack::run(&arguments),
         Command::Report(arguments) => report::run(&arguments, screen),

@@ -5,6 +5,7 @@ use clap::Args;
 use super::Error;
 use super::json::{JsonArgs, is_standard_stream};
 use super::scene_args::{SceneArgs, parse_view};
+use super::screen::Screen;
 use crate::plan::{self, Request, ViewRequest};
 use crate::scene;
 
@@ -47,8 +48,8 @@ pub struct PlanArgs {
 }
 
 /// Plans and prints.
-pub fn run(arguments: &PlanArgs) -> Result<(), Error> {
-    let loaded = arguments.scene.load()?;
+pub fn run(arguments: &PlanArgs, screen: Screen) -> Result<(), Error> {
+    let loaded = arguments.scene.load(screen)?;
     let request = Request {
         views: arguments.aov.clone(),
         frames: arguments.frames,

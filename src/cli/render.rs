@@ -164,7 +164,7 @@ struct Job {
 /// Every scene is read and planned before the first is drawn: a scene that cannot be drawn leaves no picture.
 pub fn run(arguments: &RenderArgs, screen: Screen) -> Result<(), Error> {
     let views = each_once(&arguments.aov);
-    let jobs = jobs(arguments, &views)?;
+    let jobs = jobs(arguments, &views, screen)?;
     let context = arguments.pipeline.open(&arguments.context)?;
     if let Some(folder) = arguments.folder() {
         std::fs::create_dir_all(folder).map_err(|error| Error::MakeFolder { folder: folder.to_owned(), error })?;
@@ -187,7 +187,7 @@ pub fn run(arguments: &RenderArgs, screen: Screen) -> Result<(), Error> {
 }
 
 /// Reads and plans all scenes, and finds a name for every file.
-fn jobs(arguments: &RenderArgs, views: &[Aov]) -> Result<Vec<Job>, Error> {
+fn jobs(arguments: &RenderArgs, views: &[Aov], screen: Screen) -> Result<Vec<Job>, Error> {
     if arguments.output.as_deref().is_some_and(is_standard_stream) {
         let others = [
             (arguments.scenes.len() > 1, "the other scenes"),
@@ -199,7 +199,7 @@ fn jobs(arguments: &RenderArgs, views: &[Aov]) -> Result<Vec<Job>, Error> {
         }
     }
     let pictures = pictures(arguments)?;
-    arguments.scenes.iter().zip(pictures).map(|(path, picture)| job(arguments, views, path, picture)).collect()
+    arguments.scenes.iter().zip(pictures).map(|(path, picture)| job(arguments, views, path, picture, screen)).collect()
 }
 
 /// The picture's file of each scene.
@@ -220,13 +220,13 @@ fn pictures(arguments: &RenderArgs) -> Result<Vec<PathBuf>, Error> {
     Ok(files)
 }
 
-fn job(arguments: &RenderArgs, views: &[Aov], path: &Path, picture: PathBuf) -> Result<Job, Error> {
+fn job(arguments: &RenderArgs, views: &[Aov], path: &Path, picture: PathBuf, screen: Screen) -> Result<Job, Error> {
     let is_png = arguments.folder().is_some() || is_standard_stream(&picture);
     let format = if is_png { FileFormat::Png } else { output::check_path(&picture)? };
     let names = views.iter().map(|wanted| output::beside(&picture, &wanted.file_name()));
     let files: Vec<PathBuf> = [picture.clone()].into_iter().chain(names).collect();
     let start = Instant::now();
-    let loaded = arguments.changes.load(path)?;
+    let loaded = arguments.changes.load(path, screen)?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
     if !is_standard_stream(&picture) {
         refuse_to_overwrite(&files, path, &loaded.scene)?;

@@ -6,6 +6,8 @@ use clap::Args;
 
 use super::Error;
 use super::json::is_standard_stream;
+use super::reading_bar::ReadingBar;
+use super::screen::Screen;
 use crate::plan::ViewRequest;
 use crate::scene::{self, Loaded};
 use crate::views::VIEWS;
@@ -40,13 +42,14 @@ impl SceneChanges {
         size.into_iter().chain(floor).chain(self.set.iter().cloned()).chain(camera).collect()
     }
 
-    /// Loads the file `scene` with these changes, and prints its warnings.
+    /// Loads the file `scene` with these changes, and prints its warnings; where that takes long, a bar shows how far it is.
     ///
     /// # Errors
     ///
     /// Those of the file, and of options that do not apply to it.
-    pub fn load(&self, scene: &Path) -> Result<Loaded, Error> {
+    pub fn load(&self, scene: &Path, screen: Screen) -> Result<Loaded, Error> {
         self.check(scene)?;
+        let bar = ReadingBar::start(screen);
         let loaded = match is_standard_stream(scene) {
             true => crate::load_str(
                 &std::io::read_to_string(std::io::stdin()).map_err(Error::Input)?,
@@ -55,6 +58,7 @@ impl SceneChanges {
             )?,
             false => crate::load(scene, &self.overrides())?,
         };
+        drop(bar);
         for warning in &loaded.warnings {
             super::say(format_args!("warning: {warning}"));
         }
@@ -81,8 +85,8 @@ pub struct SceneArgs {
 
 impl SceneArgs {
     /// Loads the scene and prints its warnings.
-    pub fn load(&self) -> Result<Loaded, Error> {
-        self.changes.load(&self.scene)
+    pub fn load(&self, screen: Screen) -> Result<Loaded, Error> {
+        self.changes.load(&self.scene, screen)
     }
 }
 

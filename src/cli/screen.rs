@@ -1,6 +1,7 @@
 //! `--color`, `--quiet` and `--verbose`, the same in every command: what a command shows beside its results.
 
 use std::fmt::Display;
+use std::io::IsTerminal;
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
@@ -50,6 +51,11 @@ impl Screen {
     /// `--verbose` was given.
     pub fn is_verbose(self) -> bool {
         self.verbose
+    }
+
+    /// Tests whether progress is shown: on a terminal, without `--quiet`.
+    pub fn shows_progress(self) -> bool {
+        !self.quiet && std::io::stderr().is_terminal()
     }
 
     /// A progress bar of `length` steps; the template is indicatif's.

@@ -55,7 +55,7 @@ pub struct TuneArgs {
 
 /// Tunes and prints.
 pub fn run(arguments: &TuneArgs, screen: Screen) -> Result<(), Error> {
-    let scene = arguments.scene.load()?.scene;
+    let scene = arguments.scene.load(screen)?.scene;
     let mut sizes = arguments.sizes.clone();
     sizes.sort_unstable();
     sizes.dedup();

@@ -64,6 +64,11 @@ pub(super) struct LogicalLine<'a> {
     pub text: Cow<'a, str>,
 }
 
+/// The last part of a path, for a progress bar.
+pub(super) fn name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
 /// The lines of `text`, continued lines joined by a space.
 pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = LogicalLine<'_>> {
     let mut lines = text.lines().zip(1..);

@@ -8,6 +8,7 @@
 mod commands;
 mod doing;
 mod memory;
+mod reading;
 #[cfg(unix)]
 mod signals;
 mod unfinished;
@@ -17,6 +18,8 @@ pub mod work;
 pub(crate) use commands::start;
 pub(crate) use doing::doing;
 pub use memory::Memory;
+pub use reading::{Progress, progress};
+pub(crate) use reading::{Reading, reading};
 #[cfg(unix)]
 pub(crate) use signals::uninstall;
 pub(crate) use unfinished::{Unfinished, unfinished};

@@ -11,11 +11,13 @@ pub(super) mod scan;
 
 use std::cell::Cell;
 use std::collections::HashSet;
+use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 use super::mtl::{self, Library};
 use super::{Error, Mesh, Part, Warning, normals, text};
 use crate::math::Aabb;
+use crate::process::{self, Reading};
 use scan::{Scan, scan};
 
 /// The angle in degrees between two triangles beyond which their common edge stays sharp, where normals are missing.
@@ -36,7 +38,8 @@ pub fn load_obj(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
 /// The same for the `bytes` of an OBJ file, which is called `path` in messages and next to which its material libraries lie.
 pub fn decode_obj(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Warning>), Error> {
     let text = text::decode(bytes, path)?;
-    let scan = scan(&text, path)?;
+    let reading = process::reading(text::name(path), 2 * text.len() as u64);
+    let scan = scan(&text, path, &reading)?;
     if u32::try_from(scan.places.count().max(text.len())).is_err() {
         return Err(Error::TooLarge { path: path.to_owned(), what: "bytes" });
     }
@@ -45,7 +48,7 @@ pub fn decode_obj(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Warning>), Err
         warnings.push(Warning { path: path.to_owned(), line, message });
     }
     let library = load_libraries(&scan, path, &mut warnings)?;
-    let models = parse(&text, &scan, &library).map_err(|error| {
+    let models = parse(&text, &scan, &library, &reading).map_err(|error| {
         // The scan has refused everything that tobj refuses; if not, the error still names the file.
         Error::malformed(path, 0, error.to_string())
     })?;
@@ -97,11 +100,11 @@ fn load_libraries(scan: &Scan, path: &Path, warnings: &mut Vec<Warning>) -> Resu
 }
 
 /// The text's models as tobj reads them: single-indexed, polygons kept.
-fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>, tobj::LoadError> {
+fn parse(text: &str, scan: &Scan, library: &Library, reading: &Reading) -> Result<Vec<tobj::Model>, tobj::LoadError> {
     let options =
         tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
-    let mut reader = rewritten.as_deref().unwrap_or(text).as_bytes();
+    let mut reader = Counted { rest: rewritten.as_deref().unwrap_or(text).as_bytes(), reading };
     // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
@@ -109,6 +112,31 @@ fn parse(text: &str, scan: &Scan, library: &Library) -> Result<Vec<tobj::Model>,
         true => tobj::load_mtl_buf(&mut &b""[..]),
     };
     tobj::load_obj_buf(&mut reader, &options, materials).map(|(models, _)| models)
+}
+
+/// Text whose bytes are counted as they are read.
+struct Counted<'a> {
+    rest: &'a [u8],
+    reading: &'a Reading,
+}
+
+impl Read for Counted<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.rest.read(buffer)?;
+        self.reading.advance(count as u64);
+        Ok(count)
+    }
+}
+
+impl BufRead for Counted<'_> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        Ok(self.rest)
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.rest.consume(amount);
+        self.reading.advance(amount as u64);
+    }
 }
 
 /// One mesh of all models, each a part, whose normals may be missing or wrong; and the number of polygons that are too large to

@@ -10,6 +10,10 @@ use super::super::tally::WarningTally;
 use super::super::text::logical_lines;
 use super::corner::{Corner, Counts, Wrong, read_corner, shorten};
 use super::place::Places;
+use crate::process::Reading;
+
+/// Bytes after which a count goes to the progress bar: other threads then seldom wait for this one.
+const COUNTED_AT_ONCE: u64 = 1 << 16;
 
 /// Contents of the text.
 #[derive(Debug, Default)]
@@ -49,8 +53,8 @@ struct Scanner<'a> {
     corners_with_normal: usize,
 }
 
-/// Reads `text`, the file at `path`.
-pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
+/// Reads `text`, the file at `path`, and counts its bytes in `reading`.
+pub(super) fn scan(text: &str, path: &Path, reading: &Reading) -> Result<Scan, Error> {
     let mut scanner = Scanner {
         path,
         scan: Scan::default(),
@@ -61,10 +65,16 @@ pub(super) fn scan(text: &str, path: &Path) -> Result<Scan, Error> {
         corners_with_texcoord: 0,
         corners_with_normal: 0,
     };
+    let mut bytes = 0;
     for line in logical_lines(text) {
+        bytes += line.text.len() as u64 + 1;
+        if bytes >= COUNTED_AT_ONCE {
+            reading.advance(std::mem::take(&mut bytes));
+        }
         scanner.scan.needs_rewrite |= matches!(line.text, std::borrow::Cow::Owned(_));
         scanner.read_line(line.number, &line.text).map_err(|what| Error::malformed(path, line.number, what))?;
     }
+    reading.advance(bytes);
     scanner.finish()
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DMat4;
 
 use super::placement;
+use crate::process;
 use crate::scene::settings::{Origin, Reader, Settings, SettingsError, Value};
 use crate::scene::{Error, assets, json, read_text};
 
@@ -51,7 +52,10 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Option<Vec<Instance>>, Err
 fn lines(path: &Path) -> Result<Vec<Instance>, Error> {
     let text = read_text(path, LONGEST_FILE)?;
     let shared: Arc<Path> = path.into();
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let reading = process::reading(name, text.len() as u64);
+    let counted = text.lines().inspect(|line| reading.advance(line.len() as u64 + 1));
+    let lines = counted.enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(index, line): (usize, &str)| {
         let origin = Origin::File { path: shared.clone(), line: index + 1 };
         Ok(instance(&json::table("object.instances", line, &origin)?)?)
