@@ -1,0 +1,222 @@
+//! Draws an entry's pictures and finds its numbers.
+
+use std::io;
+
+use image::RgbImage;
+
+use super::entry::{Entry, Measure, WrittenSide};
+use super::{Error, scenes};
+use crate::device::Pixels;
+use crate::frame::{Renderer, ShadeImage};
+use crate::judge::colors::{self, ColorErrors, DrawnColors};
+use crate::judge::difference::difference_picture;
+use crate::judge::metrics::{self, Band};
+use crate::output;
+use crate::plan::{Plan, Request, ViewRequest};
+use crate::png_file::{self, PngTexts};
+use crate::scene::Scene;
+use crate::truth::{self, ColorTruth, Truth};
+use crate::views::View;
+
+/// One of an entry's two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Failure,
+    Cure,
+}
+
+/// An entry with its pictures and numbers.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    pub failure: Drawn,
+    pub cure: Drawn,
+    /// The scene of the cure by ray casting.
+    pub truth: RgbImage,
+    /// Errors of the failure over the truth.
+    pub difference: RgbImage,
+}
+
+/// One side as it was drawn.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    pub scene: Scene,
+    pub picture: RgbImage,
+    pub plan: Plan,
+    pub numbers: Numbers,
+}
+
+/// Shares in percent of what was compared, and errors of colours; `None`: not measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Numbers {
+    pub false_shadow: Option<f64>,
+    pub leak: Option<f64>,
+    pub colors: Option<ColorErrors>,
+}
+
+impl Numbers {
+    /// A measure's number.
+    pub fn get(&self, measure: Measure) -> Option<f64> {
+        match measure {
+            Measure::FalseShadow => self.false_shadow,
+            Measure::Leak => self.leak,
+            Measure::Wrong => Some(self.false_shadow? + self.leak?),
+            Measure::Colors => Some(self.colors?.beyond_percent),
+            Measure::Rmse => Some(self.colors?.rmse_codes),
+        }
+    }
+}
+
+impl Entry {
+    /// The side as written.
+    pub fn side(&self, side: Side) -> &WrittenSide {
+        match side {
+            Side::Failure => &self.failure,
+            Side::Cure => &self.cure,
+        }
+    }
+
+    /// Overrides of a side in their order, as `--set` takes them.
+    pub fn overrides(&self, side: Side) -> Vec<String> {
+        self.set.iter().chain(&self.side(side).set).cloned().collect()
+    }
+
+    /// Scene of a side. `quick`: half as many pixels a side.
+    ///
+    /// # Errors
+    ///
+    /// A scene that is not compiled in, or an override that does not fit it.
+    pub fn scene_of(&self, side: Side, quick: bool) -> Result<Scene, Error> {
+        let embedded = scenes::find(&self.scene)
+            .ok_or_else(|| Error::NoScene { id: self.id.clone(), scene: self.scene.clone() })?;
+        let mut overrides = self.overrides(side);
+        let load = |overrides: &[String]| {
+            let loaded = crate::techniques::load_embedded(embedded, overrides);
+            loaded.map(|loaded| loaded.scene).map_err(|reason| Error::Scene { id: self.id.clone(), reason })
+        };
+        let scene = load(&overrides)?;
+        if !quick {
+            return Ok(scene);
+        }
+        let [width, height] = quick_size(scene.image.size);
+        overrides.insert(0, format!("image.size=[{width}, {height}]"));
+        load(&overrides)
+    }
+}
+
+/// Size of a quick picture.
+pub fn quick_size(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| (side / 2).max(1))
+}
+
+/// Truth that both sides are compared with.
+enum Compared {
+    Shade(Truth),
+    Colors(ColorTruth),
+}
+
+/// Draws and measures an entry.
+///
+/// # Errors
+///
+/// A scene that cannot be loaded, planned, drawn or traced.
+pub fn show(entry: &Entry, quick: bool, renderer: &mut Renderer) -> Result<Shown, Error> {
+    let [failing, cured] = [entry.scene_of(Side::Failure, quick)?, entry.scene_of(Side::Cure, quick)?];
+    let traced = |reason| Error::Truth { id: entry.id.clone(), reason };
+    let true_colors = colors::true_colors(&cured, entry.light);
+    let compared = if entry.measure.is_of_colors() {
+        Compared::Colors(true_colors.as_ref().map_err(|_| Error::NothingKnown { id: entry.id.clone() })?.clone())
+    } else {
+        let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
+        Compared::Shade(truth::trace(&cured, entry.light, &options).map_err(traced)?)
+    };
+    let (failure, difference) = draw(entry, failing, &compared, renderer)?;
+    let (cure, _) = draw(entry, cured, &compared, renderer)?;
+    let truth = match (&true_colors, &compared) {
+        (Ok(truth), _) | (Err(_), Compared::Colors(truth)) => {
+            colors::known_or_drawn(truth, &drawn_colors(&cure.picture))
+        }
+        (Err(_), Compared::Shade(truth)) => crate::judge::difference::truth_picture(truth),
+    };
+    Ok(Shown { failure, cure, truth, difference })
+}
+
+/// A side, and its differences from the truth as a picture.
+fn draw(entry: &Entry, scene: Scene, compared: &Compared, renderer: &mut Renderer) -> Result<(Drawn, RgbImage), Error> {
+    let failed = |reason| Error::Frame { id: entry.id.clone(), reason };
+    let plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
+    renderer.draw(&plan).map_err(failed)?;
+    let picture = to_rgb(&renderer.read(&plan).map_err(failed)?.picture);
+    let (numbers, difference) = match compared {
+        Compared::Colors(truth) => {
+            let drawn = drawn_colors(&picture);
+            let errors = colors::errors_of(truth, &drawn).map(|(errors, _)| errors);
+            let errors = errors.ok_or_else(|| Error::NothingKnown { id: entry.id.clone() })?;
+            (Numbers { colors: Some(errors), ..Numbers::default() }, color_difference(truth, &picture))
+        }
+        Compared::Shade(truth) => {
+            let judged = |reason| Error::Judge { id: entry.id.clone(), reason };
+            let shade = shade(&scene, entry.light, renderer).map_err(failed)?;
+            // Shares are wanted, not where they lie: no band.
+            let band = Band { texels: 0.0, map_size: [1, 1] };
+            let facing = metrics::compare(truth, &shade, &band).map_err(judged)?.facing;
+            let numbers = Numbers {
+                false_shadow: Some(facing.false_shadow_percent),
+                leak: Some(facing.leak_percent),
+                colors: None,
+            };
+            (numbers, difference_picture(truth, &shade).map_err(judged)?)
+        }
+    };
+    Ok((Drawn { scene, picture, plan, numbers }, difference))
+}
+
+/// The shade of a light.
+fn shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, crate::frame::Error> {
+    let views = vec![ViewRequest { view: View::Shade, light }];
+    let plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
+    renderer.draw(&plan)?;
+    let texels = match renderer.read(&plan)?.views.pop() {
+        Some(Pixels::RgbaF32 { data, .. }) => data,
+        _ => Vec::new(),
+    };
+    Ok(ShadeImage::of_view(scene.image.size, &texels))
+}
+
+fn to_rgb(pixels: &Pixels) -> RgbImage {
+    let canvas = output::to_canvas(pixels, None);
+    let [width, height] = canvas.size();
+    RgbImage::from_raw(width, height, canvas.into_bytes()).unwrap_or_default()
+}
+
+fn drawn_colors(picture: &RgbImage) -> DrawnColors {
+    let codes = picture.pixels().map(|pixel| pixel.0.map(f64::from));
+    DrawnColors { size: [picture.width(), picture.height()], codes: codes.collect() }
+}
+
+/// Factor of differences of colours, so that a small one is seen.
+pub const LOUDER: f64 = 8.0;
+
+/// Differences from the true colours, [`LOUDER`] times as large; grey where a colour is not known.
+fn color_difference(truth: &ColorTruth, picture: &RgbImage) -> RgbImage {
+    let mut difference = picture.clone();
+    for (pixel, due) in difference.pixels_mut().zip(&truth.pixels) {
+        pixel.0 = match due.is_known {
+            false => crate::judge::difference::AMBIGUOUS,
+            true => std::array::from_fn(|k| {
+                let code = f64::from(pixel.0[k]);
+                let off = (255.0 * due.rgb[k].least - code).max(code - 255.0 * due.rgb[k].most).max(0.0);
+                (LOUDER * off).min(255.0) as u8
+            }),
+        };
+    }
+    difference
+}
+
+/// A picture as a PNG file.
+///
+/// # Errors
+///
+/// A picture that cannot be encoded.
+pub fn to_png(picture: &RgbImage) -> io::Result<Vec<u8>> {
+    png_file::of_rgb(picture, &PngTexts::titled("glumbra gallery"))
+}

@@ -1,0 +1,22 @@
+//! Commands that draw a picture of the gallery again, quoted for a shell.
+
+use crate::gallery::draw::{Side, quick_size};
+use crate::gallery::entry::Entry;
+
+/// The command that draws one side again; `full`: the scene's own size, which `--quick` halves.
+pub fn render_command(entry: &Entry, side: Side, quick: bool, full: [u32; 2]) -> String {
+    let mut words = vec![String::from("glumbra render"), entry.scene.clone()];
+    if quick {
+        let [width, height] = quick_size(full);
+        words.push(format!("--size {width}x{height}"));
+    }
+    words.extend(entry.overrides(side).iter().map(|set| format!("--set {}", quoted(set))));
+    words.push(format!("-o {}-{}.png", entry.id, if side == Side::Failure { "failure" } else { "cure" }));
+    words.join(" ")
+}
+
+/// A word as a shell reads it. The entries' own words have no single quotes.
+fn quoted(word: &str) -> String {
+    let is_plain = word.chars().all(|letter| letter.is_ascii_alphanumeric() || "._-=,/".contains(letter));
+    if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "\"")) }
+}
