@@ -5,6 +5,7 @@ use std::io;
 use image::RgbImage;
 
 use super::entry::{Entry, Measure, WrittenSide};
+use super::faults::Fault;
 use super::{Error, scenes};
 use crate::device::Pixels;
 use crate::frame::{Renderer, ShadeImage};
@@ -129,8 +130,8 @@ pub fn show(entry: &Entry, quick: bool, renderer: &mut Renderer) -> Result<Shown
         let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         Compared::Shade(truth::trace(&cured, entry.light, &options).map_err(traced)?)
     };
-    let (failure, difference) = draw(entry, failing, &compared, renderer)?;
-    let (cure, _) = draw(entry, cured, &compared, renderer)?;
+    let (failure, difference) = draw(entry, entry.fault, failing, &compared, renderer)?;
+    let (cure, _) = draw(entry, None, cured, &compared, renderer)?;
     let truth = match (&true_colors, &compared) {
         (Ok(truth), _) | (Err(_), Compared::Colors(truth)) => {
             colors::known_or_drawn(truth, &drawn_colors(&cure.picture))
@@ -141,9 +142,19 @@ pub fn show(entry: &Entry, quick: bool, renderer: &mut Renderer) -> Result<Shown
 }
 
 /// A side, and its differences from the truth as a picture.
-fn draw(entry: &Entry, scene: Scene, compared: &Compared, renderer: &mut Renderer) -> Result<(Drawn, RgbImage), Error> {
+fn draw(
+    entry: &Entry,
+    fault: Option<Fault>,
+    mut scene: Scene,
+    compared: &Compared,
+    renderer: &mut Renderer,
+) -> Result<(Drawn, RgbImage), Error> {
     let failed = |reason| Error::Frame { id: entry.id.clone(), reason };
-    let plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
+    if let Some(change) = fault.and_then(Fault::change) {
+        change.apply(&mut scene).map_err(|reason| Error::Skin { id: entry.id.clone(), reason })?;
+    }
+    let mut plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
+    make(fault, &mut plan, &scene).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
     renderer.draw(&plan).map_err(failed)?;
     let picture = to_rgb(&renderer.read(&plan).map_err(failed)?.picture);
     let (numbers, difference) = match compared {
@@ -155,7 +166,7 @@ fn draw(entry: &Entry, scene: Scene, compared: &Compared, renderer: &mut Rendere
         }
         Compared::Shade(truth) => {
             let judged = |reason| Error::Judge { id: entry.id.clone(), reason };
-            let shade = shade(&scene, entry.light, renderer).map_err(failed)?;
+            let mut shade = shade(&scene, entry.light, fault, renderer).map_err(failed)?;
             // Shares are wanted, not where they lie: no band.
             let band = Band { texels: 0.0, map_size: [1, 1] };
             let facing = metrics::compare(truth, &shade, &band).map_err(judged)?.facing;
@@ -164,16 +175,36 @@ fn draw(entry: &Entry, scene: Scene, compared: &Compared, renderer: &mut Rendere
                 leak: Some(facing.leak_percent),
                 colors: None,
             };
+            // On the other surfaces shading leaves no light: no error is seen.
+            for (value, pixel) in shade.shade.iter_mut().zip(&truth.pixels) {
+                if pixel.hit.is_some_and(|hit| !hit.faces_light()) {
+                    *value = f32::NAN;
+                }
+            }
             (numbers, difference_picture(truth, &shade).map_err(judged)?)
         }
     };
     Ok((Drawn { scene, picture, plan, numbers }, difference))
 }
 
+/// Makes a mistake in the passes; `None`: they have nothing that it changes.
+fn make(fault: Option<Fault>, plan: &mut Plan, scene: &Scene) -> Option<()> {
+    match fault {
+        Some(fault) if fault.change().is_none() => (fault.apply(plan, scene) > 0).then_some(()),
+        _ => Some(()),
+    }
+}
+
 /// The shade of a light.
-fn shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, crate::frame::Error> {
+fn shade(
+    scene: &Scene,
+    light: usize,
+    fault: Option<Fault>,
+    renderer: &mut Renderer,
+) -> Result<ShadeImage, crate::frame::Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
-    let plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
+    let mut plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
+    make(fault, &mut plan, scene);
     renderer.draw(&plan)?;
     let texels = match renderer.read(&plan)?.views.pop() {
         Some(Pixels::RgbaF32 { data, .. }) => data,

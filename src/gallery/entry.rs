@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::Error;
 use super::diagrams::DiagramKind;
+use super::faults::Fault;
 use crate::scene;
 
 /// A failure and its cure.
@@ -31,6 +32,9 @@ pub struct Entry {
     /// Number of the judged light.
     #[serde(default)]
     pub light: usize,
+    /// Mistake of the failure that no override makes.
+    #[serde(default)]
+    pub fault: Option<Fault>,
     pub failure: WrittenSide,
     pub cure: WrittenSide,
     /// Number that tells the failure from the cure.

@@ -8,11 +8,13 @@
 mod diagrams;
 mod draw;
 mod entry;
+mod faults;
 mod page;
 mod scenes;
 
 pub use draw::{Drawn, Shown, Side, show};
 pub use entry::{Entry, Measure, chosen, entries};
+pub use faults::Fault;
 pub use page::{PageFacts, to_html};
 pub use scenes::find as scene;
 
@@ -36,6 +38,10 @@ pub enum Error {
     Truth { id: String, reason: truth::Error },
     #[error("entry {id}: {reason}")]
     Judge { id: String, reason: metrics::Error },
+    #[error("entry {id}: {reason}")]
+    Skin { id: String, reason: crate::geometry::skin::Error },
+    #[error("entry {id}: its fault changes nothing in the passes of its scene")]
+    NoFault { id: String },
     #[error("entry {id}: no pixel's colour is known, so that there is nothing to compare")]
     NothingKnown { id: String },
     #[error("entry {id}: a picture cannot be encoded: {reason}")]

@@ -3,7 +3,7 @@
 use crate::figures::embedded;
 use crate::scene::Embedded;
 
-static SCENES: [Embedded; 9] = [
+static SCENES: [Embedded; 19] = [
     embedded!("offset.toml"),
     embedded!("layers.toml"),
     embedded!("boxes.toml"),
@@ -13,6 +13,16 @@ static SCENES: [Embedded; 9] = [
     embedded!("dusty_room.toml"),
     embedded!("boards.toml"),
     embedded!("plate.toml"),
+    embedded!("lantern.toml"),
+    embedded!("columns.toml"),
+    embedded!("spotlight.toml"),
+    embedded!("mirrored.toml"),
+    embedded!("far-torus.toml"),
+    embedded!("facade.toml"),
+    embedded!("workshop.toml"),
+    embedded!("stretched.toml"),
+    embedded!("gallery/", "fence.toml"),
+    embedded!("gallery/", "far_plane.toml"),
 ];
 
 /// The scene of this path in the repository; `None`: it is not compiled in.

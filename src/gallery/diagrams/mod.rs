@@ -1,7 +1,11 @@
-//! Diagrams as SVG, each drawn from the numbers of an entry's scenes. A file a family; `svg.rs` writes elements.
+//! Diagrams as SVG, each drawn from the numbers of an entry's scenes. A file a family; `svg.rs` writes elements, `section.rs`
+//! cuts the scene by a plane.
 
+mod section;
 mod svg;
 mod texels;
+mod transforms;
+mod volumes;
 
 use serde::Deserialize;
 
@@ -13,6 +17,10 @@ use super::draw::Shown;
 pub enum DiagramKind {
     /// A shadow map's texels as a stair against the surface [HSM, Figure 3].
     Texels,
+    /// The chain of matrices, with the numbers of a point [HSM, Figures 7 and 8].
+    Transforms,
+    /// A cut through shadow volumes with their counts.
+    Volumes,
 }
 
 /// An SVG element, and a sentence below it.
@@ -26,5 +34,7 @@ pub struct Diagram {
 pub fn draw(kind: DiagramKind, shown: &Shown) -> Vec<Diagram> {
     match kind {
         DiagramKind::Texels => [&shown.failure, &shown.cure].into_iter().filter_map(texels::draw).collect(),
+        DiagramKind::Transforms => transforms::draw(&shown.cure).into_iter().collect(),
+        DiagramKind::Volumes => volumes::draw(&shown.cure).into_iter().collect(),
     }
 }

@@ -5,6 +5,10 @@ use crate::gallery::entry::Entry;
 
 /// The command that draws one side again; `full`: the scene's own size, which `--quick` halves.
 pub fn render_command(entry: &Entry, side: Side, quick: bool, full: [u32; 2]) -> String {
+    if entry.fault.is_some() && side == Side::Failure {
+        let quick = if quick { " --quick" } else { "" };
+        return format!("glumbra gallery{quick} --entry {0} --picture failure -o {0}-failure.png", entry.id);
+    }
     let mut words = vec![String::from("glumbra render"), entry.scene.clone()];
     if quick {
         let [width, height] = quick_size(full);

@@ -12,8 +12,6 @@ use super::entry::Entry;
 use crate::judge::difference;
 use crate::report::show::html::tags::escape;
 
-pub use command::render_command;
-
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 

@@ -106,13 +106,17 @@ fn numbers(entry: &Entry, shown: &Shown) -> String {
 
 fn commands(entry: &Entry, shown: &Shown, facts: &PageFacts) -> String {
     let full = entry.scene_of(Side::Cure, false).map_or(shown.cure.scene.image.size, |scene| scene.image.size);
+    let failing = match entry.fault {
+        Some(_) => "Draw the failure: no key of a scene makes this mistake, so the gallery makes it in the passes",
+        None => "Draw the failure",
+    };
     let line = |side, class: &str, name: &str| {
         let command = render_command(entry, side, facts.quick, full);
         format!("<dt>{name}</dt><dd><pre class=\"command {class}\">{}</pre></dd>\n", escape(&command))
     };
     format!(
         "<dl class=\"commands\">\n{}{}</dl>\n",
-        line(Side::Failure, "failure", "Draw the failure"),
+        line(Side::Failure, "failure", failing),
         line(Side::Cure, "cure", "Draw the cure")
     )
 }
