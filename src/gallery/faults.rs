@@ -115,7 +115,7 @@ fn average_depths(batch: &mut Batch) -> bool {
 /// Number of draws that are left out.
 fn without_caps(batch: &mut Batch) -> usize {
     let before = batch.draws.len();
-    batch.draws.retain(|draw| !draw.label.starts_with("far cap") && !draw.label.starts_with("near cap"));
+    batch.draws.retain(|draw| !["far cap", "light cap", "near cap"].iter().any(|cap| draw.label.starts_with(cap)));
     before - batch.draws.len()
 }
 

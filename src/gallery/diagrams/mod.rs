@@ -1,6 +1,9 @@
 //! Diagrams as SVG, each drawn from the numbers of an entry's scenes. A file a family; `svg.rs` writes elements, `section.rs`
 //! cuts the scene by a plane.
 
+mod frustum;
+mod ledge;
+mod perspective;
 mod section;
 mod svg;
 mod texels;
@@ -21,6 +24,14 @@ pub enum DiagramKind {
     Transforms,
     /// A cut through shadow volumes with their counts.
     Volumes,
+    /// The light's frustum along its axis [HSM, Figure 1].
+    Frustum,
+    /// The same with the mirrored frustum behind the light.
+    BackProjection,
+    /// Equal steps on the screen, and on a surface [Segal 1992, Figures 1 and 2].
+    Perspective,
+    /// The two depth ranges of the ledge.
+    Ledge,
 }
 
 /// An SVG element, and a sentence below it.
@@ -35,6 +46,12 @@ pub fn draw(kind: DiagramKind, shown: &Shown) -> Vec<Diagram> {
     match kind {
         DiagramKind::Texels => [&shown.failure, &shown.cure].into_iter().filter_map(texels::draw).collect(),
         DiagramKind::Transforms => transforms::draw(&shown.cure).into_iter().collect(),
+        DiagramKind::Frustum => {
+            [&shown.failure, &shown.cure].into_iter().filter_map(|side| frustum::draw(side, false)).collect()
+        }
+        DiagramKind::BackProjection => frustum::draw(&shown.cure, true).into_iter().collect(),
+        DiagramKind::Perspective => perspective::draw(&shown.cure).into_iter().collect(),
+        DiagramKind::Ledge => ledge::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Volumes => volumes::draw(&shown.cure).into_iter().collect(),
     }
 }
